@@ -1,0 +1,15 @@
+#ifndef PETRICHOR_CLI_COMMANDS_H
+#define PETRICHOR_CLI_COMMANDS_H
+
+namespace CLI {
+class App;
+}
+
+namespace petrichor::cli {
+
+// One function a command, in cmd_NAME.cpp: declares its options on `app` and sets a callback that
+// does the work. A callback throws petrichor::Error for what the user can mend.
+
+}  // namespace petrichor::cli
+
+#endif

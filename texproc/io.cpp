@@ -1,0 +1,1 @@
+#include "texproc/io.h"

@@ -1,0 +1,1 @@
+#include "weather/artist.h"
