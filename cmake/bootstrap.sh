@@ -105,19 +105,19 @@ build_target() {
         # shellcheck disable=SC2086  # lists of names
         install_packages $packages || return 1
         : >"$build/.building-$name"  # edits made while it builds count for the next run
-        # shellcheck disable=SC2086
+        local configure=(ninja -C "$build" build.ninja) first=
         if [ ! -e "$build/build.ninja" ] || [ -n "$options" ]; then
-            say "petrichor: configuring"
-            if ! (cd "$root" && cmake --preset release $options) >"$build/configure.log" 2>&1; then
-                cat "$build/configure.log" >&2
-                say "petrichor: configuring failed; the log is $build/configure.log"
-                return 1
-            fi
+            # shellcheck disable=SC2206  # a list of options
+            configure=(cmake --preset release $options)
         fi
-        if ninja -C "$build" -n "$target" 2>/dev/null | grep -q 'no work to do'; then
-            :
-        else
-            say "petrichor: building (the first time takes some minutes)"
+        if ! (cd "$root" && "${configure[@]}") >"$build/configure.log" 2>&1; then
+            cat "$build/configure.log" >&2
+            say "petrichor: configuring failed; this log is in $build/configure.log"
+            return 1
+        fi
+        [ -x "$program" ] || first=" (the first time takes some minutes)"
+        if ! ninja -C "$build" -n "$target" 2>/dev/null | grep -q 'no work to do'; then
+            say "petrichor: building$first"
             if ! cmake --build "$build" --target "$target" >&2; then
                 say "petrichor: the build failed; see above."
                 return 1
