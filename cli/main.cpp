@@ -11,6 +11,7 @@ int main(int argc, char** argv)
 {
     CLI::App app{"Weather for physically based surfaces."};
     app.require_subcommand(1);
+    petrichor::cli::add_texture(app);
     try {
         app.parse(argc, argv);
         return 0;

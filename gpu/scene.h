@@ -97,7 +97,7 @@ struct Primitive {
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;       ///< COLOR_0, linear; multiplies the base colour
-    std::vector<glm::vec4> weather;      ///< _WEATHER: r mix, g puddle mask, b snow mask; else ones
+    std::vector<glm::vec4> weather;      ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
 };
