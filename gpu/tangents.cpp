@@ -128,6 +128,7 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive,
             duplicate(primitive.uv0);
             duplicate(primitive.uv1);
             duplicate(primitive.colors);
+            duplicate(primitive.weather);
         }
         index = vertex_of_copy[copy];
     }

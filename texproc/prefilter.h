@@ -13,7 +13,11 @@ struct PrefilterOptions {
     bool wrap_u = true;            ///< tileable along u
     bool wrap_v = true;
     bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
+    int threads = 0;          ///< 0: all cores
 };
+
+/// The names that PrefilterOptions::rule accepts.
+const std::vector<std::string>& prefilter_rules();
 
 /// Mip chains that agree: level k of normal and of roughness belong together.
 struct Prefiltered {

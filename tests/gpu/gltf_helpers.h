@@ -85,6 +85,7 @@ inline void expect_sound(const Scene& scene)
             ASSERT_EQ(primitive.uv0.size(), count);
             EXPECT_TRUE(primitive.uv1.empty() || primitive.uv1.size() == count);
             EXPECT_TRUE(primitive.colors.empty() || primitive.colors.size() == count);
+            EXPECT_TRUE(primitive.weather.empty() || primitive.weather.size() == count);
             ASSERT_GT(primitive.indices.size(), 0u);
             ASSERT_EQ(primitive.indices.size() % 3, 0u);
             ASSERT_LT(*std::max_element(primitive.indices.begin(), primitive.indices.end()), count);

@@ -317,6 +317,20 @@ TEST(Gltf, ReadsQuantizedMeshes)
                   "5122"));
 }
 
+TEST(Gltf, ReadsTheWeatherMasksOfVertices)
+{
+    json document = scene_json();
+    json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["_WEATHER"] = 5;
+    attributes.erase("COLOR_0");
+    const Primitive quad = load(document).meshes[0].primitives[0];
+    EXPECT_TRUE(quad.colors.empty());
+    EXPECT_THAT(quad.weather, ElementsAre(glm::vec4(1, 0, 128.0f / 255.0f, 1), glm::vec4(1),
+                                          glm::vec4(0), glm::vec4(4, 3, 2, 1) / 255.0f));
+    attributes["_WEATHER"] = 0;
+    EXPECT_THAT(refusal(glb(document.dump())), HasSubstr("attributes._WEATHER: accessor 0 has 3"));
+}
+
 TEST(Gltf, ChoosesTheSceneToShow)
 {
     json document = scene_json();

@@ -1,0 +1,134 @@
+#include "gpu/passes/surface.h"
+
+#include <array>
+
+#include "gpu/passes/draw.h"
+#include "gpu/shaders/interface/frame.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+VkRenderingAttachmentInfo attachment(const GpuImage& image, VkImageLayout layout)
+{
+    VkRenderingAttachmentInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    info.imageView = image.view.get();
+    info.imageLayout = layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+}
+
+shared::DrawConstants draw_constants(const Draw& draw)
+{
+    shared::DrawConstants c{};
+    const glm::mat4& m = draw.to_world;
+    const glm::mat3 linear(m);
+    // Cofactors: the inverse transpose times the determinant; keeps normals right under any scale.
+    glm::mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                       glm::cross(linear[0], linear[1]));
+    if (draw.mirrored) cofactor = -cofactor;
+    for (int row = 0; row < 3; ++row) {
+        c.to_world[row] = glm::vec4(m[0][row], m[1][row], m[2][row], m[3][row]);
+        c.normal_to_world[row] = glm::vec4(cofactor[0][row], cofactor[1][row], cofactor[2][row], 0.0f);
+    }
+    c.instance_id = draw.instance_id;
+    c.material_id = draw.material;
+    return c;
+}
+
+}  // namespace
+
+Binding frame_binding(const ConstantsRange& constants)
+{
+    return uniform(*constants.buffer, constants.offset, sizeof(shared::FrameConstants));
+}
+
+void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
+                 SurfaceMaps& maps, DepthMaps& depth_maps, const ConstantsRange& constants,
+                 const glm::mat4& world_to_clip, bool weather)
+{
+    GBuffer& g = targets.gbuffer;
+    graph.add({
+        .name = "surface",
+        .uses = {{maps.ripple, Use::Sampled},
+                 {maps.flow, Use::Sampled},
+                 {maps.snow, Use::Sampled},
+                 {depth_maps.shelter, Use::Sampled},
+                 {g.color, Use::ColorTarget},
+                 {g.normals, Use::ColorTarget},
+                 {g.material, Use::ColorTarget},
+                 {g.weather, Use::ColorTarget},
+                 {g.emission, Use::ColorTarget},
+                 {g.depth, Use::DepthTarget}},
+        .record = [=, &targets, &scene, &maps, &depth_maps](PassContext& pass) {
+            GBuffer& out = targets.gbuffer;
+            const std::array<const GpuImage*, 5> colors{out.color.get(), out.normals.get(),
+                                                        out.material.get(), out.weather.get(),
+                                                        out.emission.get()};
+            GraphicsDesc desc;
+            desc.vertex = "surface.vert";
+            desc.fragment = "surface.frag";
+            desc.specialization = {{0, weather ? 1u : 0u}};
+            desc.stride = sizeof(Vertex);
+            desc.attributes = vertex_attributes();
+            std::vector<VkRenderingAttachmentInfo> attachments;
+            for (const GpuImage* image : colors) {
+                desc.colors.push_back(image->format);
+                attachments.push_back(attachment(*image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
+            }
+            const VkRenderingAttachmentInfo depth =
+                attachment(*out.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+            const std::vector<Binding> frame_bindings{
+                frame_binding(constants), sampled(*maps.ripple, maps.trilinear),
+                sampled(*maps.flow, maps.trilinear), sampled(*maps.snow, maps.trilinear),
+                sampled(*depth_maps.shelter, depth_maps.compare)};
+            desc.sets.push_back(types_of(frame_bindings));
+            BindingTypes material_types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+            material_types.resize(1 + TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+            desc.sets.push_back(material_types);
+
+            const VkCommandBuffer commands = pass.commands();
+            VkRenderingInfo rendering{};
+            rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+            rendering.renderArea.extent = {static_cast<std::uint32_t>(targets.width),
+                                           static_cast<std::uint32_t>(targets.height)};
+            rendering.layerCount = 1;
+            rendering.colorAttachmentCount = static_cast<std::uint32_t>(attachments.size());
+            rendering.pColorAttachments = attachments.data();
+            rendering.pDepthAttachment = &depth;
+            vkCmdBeginRendering(commands, &rendering);
+            set_viewport(commands, targets.width, targets.height);
+
+            const Pipeline& pipeline = pass.pipelines().graphics(desc);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline.get());
+            pass.use_layout(pipeline.layout);
+            const VkDescriptorSet frame_set =
+                pass.descriptors().set(pipeline.set_layouts[0], frame_bindings);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
+                                    &frame_set, 0, nullptr);
+            bind_geometry(commands, scene);
+            const Frustum frustum(world_to_clip);
+            std::uint32_t bound_material = UINT32_MAX;
+            for (const Draw& draw : scene.draws()) {
+                if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
+                const GpuMaterial& material = scene.materials()[draw.material];
+                if (draw.material != bound_material) {
+                    const VkDescriptorSet set =
+                        pass.descriptors().set(pipeline.set_layouts[1], material.bindings);
+                    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                            pipeline.layout, 1, 1, &set, 0, nullptr);
+                    bound_material = draw.material;
+                }
+                set_facing(commands, material.double_sided, draw.mirrored);
+                pass.push(draw_constants(draw));
+                vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index,
+                                 draw.vertex_offset, 0);
+            }
+            vkCmdEndRendering(commands);
+        },
+    });
+}
+
+}  // namespace petrichor::gpu
