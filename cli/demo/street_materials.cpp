@@ -142,7 +142,8 @@ std::vector<Baked> bake(const DemoOptions& options, Kit& kit)
 struct Recipe {
     Slot slot;
     const char* name;
-    const char* source;  ///< empty: no textures
+    const char* source;         ///< empty: no textures
+    bool color_texture = true;  ///< false: the vertices carry the colour
     glm::vec4 color{1.0f};
     float metallic = 1.0f;
     float roughness = 1.0f;
@@ -167,7 +168,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         {.slot = Slot::Brick, .name = "brick", .source = "brick", .porosity = 0.75f, .water = kStoneWater},
         {.slot = Slot::Plaster, .name = "plaster", .source = "plaster", .porosity = 0.70f, .water = kDenseWater},
         {.slot = Slot::Timber, .name = "timber", .source = "plank", .porosity = 0.55f, .water = kStoneWater},
-        {.slot = Slot::Painted, .name = "painted wood", .source = "plank", .color = {2.2f, 2.2f, 2.2f, 1.0f}, .roughness = 0.75f, .porosity = 0.05f, .water = kDenseWater},
+        {.slot = Slot::Painted, .name = "painted wood", .source = "plank", .color_texture = false, .roughness = 0.75f, .porosity = 0.05f, .water = kDenseWater},
         {.slot = Slot::RoofTile, .name = "roof tile", .source = "roof_tile", .porosity = 0.65f, .water = kDenseWater},
         {.slot = Slot::Zinc, .name = "galvanised zinc", .source = "zinc", .porosity = 0.0f, .water = kDenseWater},
         {.slot = Slot::Iron, .name = "cast iron", .source = "iron", .porosity = 0.0f, .water = kDenseWater},
@@ -197,7 +198,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
     for (const Recipe& recipe : recipes) {
         gpu::Material material;
         material.name = recipe.name;
-        material.base_color = glm::min(recipe.color, glm::vec4(1.0f));
+        material.base_color = recipe.color;
         material.metallic = recipe.metallic;
         material.roughness = recipe.roughness;
         material.double_sided = recipe.double_sided;
@@ -208,7 +209,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         for (std::size_t k = 0; k < baked.size(); ++k) {
             if (sources()[k].name != recipe.source) continue;
             tile_m = baked[k].tile_m;
-            material.base_color_texture.texture = indices[k].albedo;
+            if (recipe.color_texture) material.base_color_texture.texture = indices[k].albedo;
             material.normal_texture.texture = indices[k].normal;
             material.metallic_roughness_texture.texture = indices[k].orm;
             material.occlusion_texture.texture = indices[k].orm;
