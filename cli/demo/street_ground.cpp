@@ -255,10 +255,10 @@ void add_grating(Kit& kit)
         iron.box({.centre = centre + vec3(0.145f * s, 0.003f, 0.0f), .half = vec3(0.014f, 0.013f, 0.235f), .bevel_m = 0.004f});
         iron.box({.centre = centre + vec3(0.0f, 0.003f, 0.235f * s), .half = vec3(0.155f, 0.013f, 0.014f), .bevel_m = 0.004f});
     }
-    kit[Slot::Soil].color = vec4(0.12f, 0.12f, 0.12f, 1.0f);
-    kit[Slot::Soil].quad(centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
+    kit[Slot::Grass].color = vec4(0.05f, 0.04f, 0.05f, 1.0f);
+    kit[Slot::Grass].quad(centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
                          centre + vec3(0.15f, -0.012f, -0.23f), centre + vec3(-0.15f, -0.012f, -0.23f));
-    kit[Slot::Soil].color = vec4(1.0f);
+    kit[Slot::Grass].color = vec4(1.0f);
 }
 
 }  // namespace
@@ -304,24 +304,23 @@ void add_ground(Kit& kit)
     add_grating(kit);
 
     // Earth under the joints of the gutters.
-    MeshBuilder& soil = kit[Slot::Soil];
-    soil.color = vec4(0.35f, 0.35f, 0.35f, 1.0f);
+    MeshBuilder& grass = kit[Slot::Grass];
+    grass.color = vec4(0.40f, 0.30f, 0.35f, 1.0f);
     for (const float side : {-1.0f, 1.0f}) {
         const float a = side < 0.0f ? -kKerbEnd : kRoadHalf - 0.1f;
         const float b = side < 0.0f ? -kRoadHalf + 0.1f : kKerbEnd;
-        soil.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar), vec3(a, -0.075f, kFar));
+        grass.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar), vec3(a, -0.075f, kFar));
     }
-    soil.color = vec4(1.0f);
+    grass.color = vec4(1.0f);
     // The verge along the garden wall and the garden behind it.
-    soil.grid(8, 40, [&](int i, int j) {
+    grass.grid(8, 40, [&](int i, int j) {
         const float x = kKerbEnd + 0.10f * static_cast<float>(i);
         const float z = kNear + (kGarden + 0.1f - kNear) * static_cast<float>(j) / 40.0f;
         const float mound = 0.02f * std::sin(3.14159265f * static_cast<float>(i) / 8.0f) +
                             0.012f * ground_noise(kit, x, z, 2.5f, 41);
-        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.9f, 0.9f, 0.9f, 1.0f),
+        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.72f, 0.66f, 0.62f, 1.0f),
                                   vec4(1.0f, 0.4f, 1.0f, 1.0f)};
     });
-    MeshBuilder& grass = kit[Slot::Grass];
     grass.grid(16, 24, [&](int i, int j) {
         const float x = kRightWall + 0.3f + 0.5f * static_cast<float>(i);
         const float z = kNear + (kGarden - kNear) * static_cast<float>(j) / 24.0f;

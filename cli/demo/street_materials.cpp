@@ -52,14 +52,32 @@ std::vector<std::byte> encode_color(const Image& image, const std::vector<std::u
     return encode_png(image.width, image.height, image.channels, bytes);
 }
 
+// A multiple of `step`: noise below what can be seen costs a third of a PNG.
+std::uint8_t to_step(float x, int step)
+{
+    const int steps = 255 / step;
+    const int k = static_cast<int>(std::clamp(x, 0.0f, 1.0f) * static_cast<float>(steps) + 0.5f);
+    return static_cast<std::uint8_t>((510 * k + steps) / (2 * steps));
+}
+
+// The third component of a unit normal follows from the others; it is kept in coarser steps.
+std::vector<std::byte> encode_normal(const Image& image)
+{
+    std::vector<std::uint8_t> bytes(image.pixels.size());
+    for (std::size_t k = 0; k < bytes.size(); ++k) {
+        bytes[k] = k % 3 == 2 ? to_step(image.pixels[k], 3) : to_byte(image.pixels[k]);
+    }
+    return encode_png(image.width, image.height, image.channels, bytes);
+}
+
 // Occlusion, roughness and metallic in one picture, as glTF reads them.
 std::vector<std::byte> encode_orm(const MaterialMaps& maps)
 {
     const std::size_t count = maps.roughness.pixels.size();
     std::vector<std::uint8_t> bytes(3 * count);
     for (std::size_t k = 0; k < count; ++k) {
-        bytes[3 * k] = to_byte(maps.occlusion.pixels[k]);
-        bytes[3 * k + 1] = to_byte(maps.roughness.pixels[k]);
+        bytes[3 * k] = to_step(maps.occlusion.pixels[k], 5);
+        bytes[3 * k + 1] = to_step(maps.roughness.pixels[k], 3);
         bytes[3 * k + 2] = to_byte(maps.metallic.pixels[k]);
     }
     return encode_png(maps.roughness.width, maps.roughness.height, 3, bytes);
@@ -69,12 +87,13 @@ struct Source {
     MaterialKind kind;
     std::string name;
     bool height;  ///< the height map goes into the file: water and snow settle in this relief
+    float size = 1.0f;  ///< times DemoOptions::texture_size
 };
 
 const std::vector<Source>& sources()
 {
     static const std::vector<Source> list = {
-        {MaterialKind::Cobble, "cobble", true},
+        {MaterialKind::Cobble, "cobble", true, 2.0f},
         {MaterialKind::Brick, "brick", true},
         {MaterialKind::Paving, "paving", true},
         {MaterialKind::RoofTile, "roof_tile", true},
@@ -84,8 +103,7 @@ const std::vector<Source>& sources()
         {MaterialKind::MetalPlate, "zinc", false},
         {MaterialKind::PaintedIron, "iron", false},
         {MaterialKind::StandingSeam, "seam", true},
-        {MaterialKind::Soil, "soil", true},
-        {MaterialKind::GrassGround, "grass", true},
+        {MaterialKind::GrassGround, "grass", true, 0.5f},
     };
     return list;
 }
@@ -107,13 +125,13 @@ std::vector<Baked> bake(const DemoOptions& options, Kit& kit)
         for (std::size_t k = next++; k < baked.size(); k = next++) {
             try {
                 const bool cobble = sources()[k].kind == MaterialKind::Cobble;
-                const int size = cobble ? 2 * options.texture_size : options.texture_size;
+                const int size = std::max(16, static_cast<int>(sources()[k].size * static_cast<float>(options.texture_size)));
                 MaterialMaps maps = texproc::generate_material(sources()[k].kind, size, options.seed, 1);
                 Baked& out = baked[k];
                 out.tile_m = maps.tile_m;
                 out.height_scale_m = maps.height_scale_m;
                 out.albedo = encode_color(maps.albedo, table);
-                out.normal = encode_data(maps.normal);
+                out.normal = encode_normal(maps.normal);
                 out.orm = encode_orm(maps);
                 if (sources()[k].height) out.height = encode_data(maps.height);
                 if (cobble) {
@@ -173,9 +191,8 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         {.slot = Slot::Zinc, .name = "galvanised zinc", .source = "zinc", .porosity = 0.0f, .water = kDenseWater},
         {.slot = Slot::Iron, .name = "cast iron", .source = "iron", .porosity = 0.0f, .water = kDenseWater},
         {.slot = Slot::Awning, .name = "copper sheet", .source = "seam", .porosity = 0.10f, .water = kDenseWater},
-        {.slot = Slot::Soil, .name = "soil", .source = "soil", .porosity = 0.95f, .water = kStoneWater},
         {.slot = Slot::Grass, .name = "grass ground", .source = "grass", .porosity = 0.80f, .water = kStoneWater},
-        {.slot = Slot::Blades, .name = "plants", .source = "", .metallic = 0.0f, .roughness = 0.55f, .porosity = 0.20f, .water = {0.0f, 0.0f, 0.0f, 0.0f}, .snow_influence = 0.8f, .double_sided = true},
+        {.slot = Slot::Blades, .name = "plants", .source = "", .metallic = 0.0f, .roughness = 0.70f, .porosity = 0.20f, .water = {0.0f, 0.0f, 0.0f, 0.0f}, .snow_influence = 0.8f, .double_sided = true},
         {.slot = Slot::Glass, .name = "window glass", .source = "", .color = {0.016f, 0.020f, 0.024f, 1.0f}, .metallic = 0.0f, .roughness = 0.06f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
         {.slot = Slot::LitGlass, .name = "lit window", .source = "", .color = {0.05f, 0.04f, 0.03f, 1.0f}, .metallic = 0.0f, .roughness = 0.10f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
         {.slot = Slot::LampGlass, .name = "lantern glass", .source = "", .color = {0.45f, 0.42f, 0.36f, 1.0f}, .metallic = 0.0f, .roughness = 0.25f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
