@@ -31,11 +31,10 @@ struct Hollow {
     float x, z, radius_x, radius_z, depth_m;
 };
 constexpr Hollow kHollows[] = {
-    {0.55f, 2.35f, 0.85f, 0.55f, 0.034f},  {-0.55f, 0.55f, 0.95f, 0.62f, 0.036f},
-    {1.15f, -0.75f, 0.60f, 1.05f, 0.032f}, {-0.95f, -2.75f, 0.75f, 1.20f, 0.034f},
-    {0.55f, -4.30f, 0.95f, 1.10f, 0.036f}, {-0.75f, -6.70f, 1.10f, 1.30f, 0.036f},
-    {0.95f, -8.60f, 0.80f, 1.20f, 0.032f}, {-1.35f, 3.10f, 0.45f, 0.95f, 0.028f},
-    {0.25f, 5.60f, 1.10f, 1.10f, 0.034f},
+    {0.30f, 1.50f, 1.20f, 0.58f, 0.040f},   {1.55f, 0.10f, 0.42f, 1.30f, 0.034f},
+    {-1.45f, -0.95f, 0.50f, 1.45f, 0.034f}, {0.60f, -2.55f, 0.85f, 0.80f, 0.036f},
+    {-0.75f, -5.10f, 0.95f, 1.15f, 0.036f}, {1.10f, -7.30f, 0.65f, 1.35f, 0.032f},
+    {0.45f, 3.55f, 0.75f, 0.45f, 0.030f},   {0.25f, 6.20f, 1.10f, 1.00f, 0.034f},
 };
 
 constexpr vec2 kCover{-1.05f, 1.75f};  // the iron cover in the road
@@ -266,8 +265,8 @@ void add_grating(Kit& kit)
 RoadPoint road_at(const Kit& kit, float x, float z)
 {
     const float crown = 0.045f * (1.0f - x * x / (kRoadHalf * kRoadHalf));
-    const float wobble_x = 0.16f * ground_noise(kit, x, z, 1.3f, 1) + 0.05f * ground_noise(kit, x, z, 4.0f, 2);
-    const float wobble_z = 0.16f * ground_noise(kit, x, z, 1.3f, 3) + 0.05f * ground_noise(kit, x, z, 4.0f, 4);
+    const float wobble_x = 0.34f * ground_noise(kit, x, z, 1.1f, 1) + 0.10f * ground_noise(kit, x, z, 3.1f, 2);
+    const float wobble_z = 0.34f * ground_noise(kit, x, z, 1.1f, 3) + 0.10f * ground_noise(kit, x, z, 3.1f, 4);
     float dip = 0.0f;
     for (const Hollow& hollow : kHollows) {
         const float dx = (x + wobble_x - hollow.x) / hollow.radius_x;
@@ -319,13 +318,13 @@ void add_ground(Kit& kit)
         const float mound = 0.02f * std::sin(3.14159265f * static_cast<float>(i) / 8.0f) +
                             0.012f * ground_noise(kit, x, z, 2.5f, 41);
         return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.72f, 0.66f, 0.62f, 1.0f),
-                                  vec4(1.0f, 0.4f, 1.0f, 1.0f)};
+                                  vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
     grass.grid(16, 24, [&](int i, int j) {
         const float x = kRightWall + 0.3f + 0.5f * static_cast<float>(i);
         const float z = kNear + (kGarden - kNear) * static_cast<float>(j) / 24.0f;
         return MeshBuilder::Point{vec3(x, 0.16f + 0.05f * ground_noise(kit, x, z, 0.8f, 42), z), vec3(0, 1, 0), vec2(x, z),
-                                  vec4(1.0f), vec4(1.0f, 0.3f, 1.0f, 1.0f)};
+                                  vec4(1.0f), vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
     // The land around, below everything else.
     constexpr float kLand = 60.0f;

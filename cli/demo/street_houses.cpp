@@ -110,7 +110,7 @@ void add_flower_box(Kit& kit, const Frame& frame, const Opening& o)
     const auto seed = static_cast<std::uint32_t>(std::lround(100.0f * (frame.origin.z + frame.origin.x + 3.0f * o.u0 + 7.0f * o.v0) + 5000.0f));
     MeshBuilder& plants = kit[Slot::Blades];
     plants.weather = vec4(1.0f, 0.0f, 0.6f, 1.0f);
-    const auto count = static_cast<int>(190.0f * (o.u1 - o.u0));
+    const auto count = static_cast<int>(330.0f * (o.u1 - o.u0));
     for (int k = 0; k < count; ++k) {
         const std::uint32_t h = hash_cell(k, static_cast<int>(seed), kit.seed + 90u);
         const float u = o.u0 + 0.03f + (o.u1 - o.u0 - 0.06f) * hash_unit(h, 60);
@@ -119,10 +119,10 @@ void add_flower_box(Kit& kit, const Frame& frame, const Opening& o)
         const float r = 0.15f * mound * std::sqrt(hash_unit(h, 62));
         const vec3 at = frame.at(u, o.v0 + 0.15f + r * std::sin(angle) * 1.1f, 0.09f + r * std::cos(angle));
         const vec3 outward = glm::normalize(frame.out * std::cos(angle) + vec3(0.0f, 0.4f + std::sin(angle), 0.0f));
-        const bool flower = r > 0.07f && hash_unit(h, 63) > 0.66f;
+        const bool flower = r > 0.075f && hash_unit(h, 63) > 0.55f;
         const vec3 green = glm::mix(vec3(0.05f, 0.12f, 0.03f), vec3(0.12f, 0.20f, 0.05f), hash_unit(h, 64));
         const vec3 red = glm::mix(vec3(0.52f, 0.020f, 0.022f), vec3(0.62f, 0.07f, 0.10f), hash_unit(h, 64));
-        add_leaf(plants, at, outward, flower ? 0.045f : 0.055f, h, flower ? red : green * (0.45f + 3.5f * r));
+        add_leaf(plants, at, outward, flower ? 0.062f : 0.070f, h, flower ? red : green * (0.45f + 3.5f * r));
     }
     plants.color = vec4(1.0f);
     plants.weather = vec4(1.0f);
@@ -540,7 +540,7 @@ namespace {
 void add_clock_turret(Kit& kit, const vec3& foot)
 {
     constexpr float kHalf = 0.72f;
-    constexpr float kWall = 1.75f;
+    constexpr float kWall = 1.55f;
     kit[Slot::Plaster].box({.centre = foot + vec3(0.0f, 0.5f * kWall, 0.0f), .half = vec3(kHalf, 0.5f * kWall, kHalf)});
     MeshBuilder& timber = kit[Slot::Timber];
     timber.color = vec4(0.75f, 0.72f, 0.70f, 1.0f);
@@ -554,7 +554,7 @@ void add_clock_turret(Kit& kit, const vec3& foot)
     }
     timber.color = vec4(1.0f);
     // The clock: a white face, an iron ring, marks and two hands at ten past ten.
-    const vec3 face = foot + vec3(0.0f, 1.02f, kHalf + 0.01f);
+    const vec3 face = foot + vec3(0.0f, 0.86f, kHalf + 0.01f);
     const glm::mat3 forward(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
     kit[Slot::Painted].color = vec4(0.80f, 0.77f, 0.68f, 1.0f);
     kit[Slot::Painted].lathe(face, {{0.50f, 0.0f}, {0.50f, 0.03f}, {0.0f, 0.03f}}, 40, forward);
@@ -572,7 +572,7 @@ void add_clock_turret(Kit& kit, const vec3& foot)
 
     MeshBuilder& tiles = kit[Slot::RoofTile];
     constexpr float kEaves = kHalf + 0.22f;
-    const vec3 apex = foot + vec3(0.0f, kWall + 1.35f, 0.0f);
+    const vec3 apex = foot + vec3(0.0f, kWall + 1.25f, 0.0f);
     for (int side = 0; side < 4; ++side) {
         const float angle = 1.5707963f * static_cast<float>(side);
         const vec3 n(std::sin(angle), 0.0f, std::cos(angle));
@@ -662,7 +662,7 @@ void add_gate(Kit& kit)
     // The roof falls to the front and back; its ridge spans the street.
     const Frame roof{vec3(kLeft, 0.0f, kGate), vec3(1, 0, 0), vec3(0, 0, 1)};
     add_roof(kit, roof, {.width = kRight - kLeft, .depth = kDepth, .eave_v = kTop, .rise = 1.05f, .overhang = 0.20f});
-    add_clock_turret(kit, vec3(kCentre, kTop - 0.1f, kGate - 0.55f));
+    add_clock_turret(kit, vec3(kCentre, kTop - 0.15f, kGate - 0.55f));
     for (const float x : {kLeft, kRight}) {
         const vec3 a(x, kTop, kGate), b(x, kTop, kGate - kDepth), top(x, kTop + 1.05f, kGate - 0.5f * kDepth);
         const vec3 a0(x, 0.0f, kGate), b0(x, 0.0f, kGate - kDepth);

@@ -103,7 +103,7 @@ const std::vector<Source>& sources()
         {MaterialKind::MetalPlate, "zinc", false},
         {MaterialKind::PaintedIron, "iron", false},
         {MaterialKind::StandingSeam, "seam", true},
-        {MaterialKind::GrassGround, "grass", true, 0.5f},
+        {MaterialKind::GrassGround, "grass", true},
     };
     return list;
 }
@@ -191,7 +191,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         {.slot = Slot::Zinc, .name = "galvanised zinc", .source = "zinc", .porosity = 0.0f, .water = kDenseWater},
         {.slot = Slot::Iron, .name = "cast iron", .source = "iron", .porosity = 0.0f, .water = kDenseWater},
         {.slot = Slot::Awning, .name = "copper sheet", .source = "seam", .porosity = 0.10f, .water = kDenseWater},
-        {.slot = Slot::Grass, .name = "grass ground", .source = "grass", .porosity = 0.80f, .water = kStoneWater},
+        {.slot = Slot::Grass, .name = "grass ground", .source = "grass", .porosity = 0.90f, .water = {0.0f, 0.15f, 0.0f, 0.3f}},
         {.slot = Slot::Blades, .name = "plants", .source = "", .metallic = 0.0f, .roughness = 0.70f, .porosity = 0.20f, .water = {0.0f, 0.0f, 0.0f, 0.0f}, .snow_influence = 0.8f, .double_sided = true},
         {.slot = Slot::Glass, .name = "window glass", .source = "", .color = {0.016f, 0.020f, 0.024f, 1.0f}, .metallic = 0.0f, .roughness = 0.06f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
         {.slot = Slot::LitGlass, .name = "lit window", .source = "", .color = {0.05f, 0.04f, 0.03f, 1.0f}, .metallic = 0.0f, .roughness = 0.10f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
