@@ -13,14 +13,15 @@
 #include "texproc/noise.h"
 
 namespace petrichor::texproc {
-namespace {
-
-constexpr int kSize = 192;
 
 void PrintTo(const MaterialKindInfo& info, std::ostream* out)
 {
     *out << info.name;
 }
+
+namespace {
+
+constexpr int kSize = 192;
 
 std::vector<std::pair<const char*, const Image*>> images_of(const MaterialMaps& maps)
 {
