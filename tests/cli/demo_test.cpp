@@ -211,8 +211,10 @@ TEST(DemoStreet, ReadsBackAsItWasWritten)
     ASSERT_EQ(scene.textures.size(), street().textures.size());
     // The reader keeps the images in the order of their first use.
     const auto sorted_images = [](const gpu::Scene& from) {
-        std::vector<std::vector<std::byte>> images;
-        for (const gpu::EncodedImage& image : from.textures) images.push_back(image.bytes);
+        std::vector<std::string> images;
+        for (const gpu::EncodedImage& image : from.textures) {
+            images.emplace_back(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size());
+        }
         std::sort(images.begin(), images.end());
         return images;
     };
