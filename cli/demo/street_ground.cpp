@@ -203,7 +203,10 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
     const int columns = std::max(2, static_cast<int>(std::abs(x1 - x0) / 0.15f));
     const int rows = std::max(2, static_cast<int>((z_near - z_far) / 0.2f));
     kit[Slot::Paving].grid(columns, rows, [&](int i, int j) {
-        const float x = x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(columns);
+        // The first column reaches under the bevel of the kerb.
+        const bool hidden = i == 0;
+        const float x = hidden ? x0 - std::copysign(0.03f, x0)
+                               : x0 + (x1 - x0) * static_cast<float>(i - 1) / static_cast<float>(columns - 1);
         const float z = z_near + (z_far - z_near) * static_cast<float>(j) / static_cast<float>(rows);
         const float sunk = smooth_step(0.05f, 0.75f, ground_noise(kit, x, z, 0.8f, 31) +
                                                          0.4f * ground_noise(kit, x, z, 1.9f, 32));
@@ -211,7 +214,7 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
                                                                     std::abs(x - kRightWall)));
         const float slow = ground_noise(kit, x, z, 0.6f, 33);
         const float light = std::clamp(0.90f + 0.10f * slow - 0.22f * dirt, 0.5f, 1.0f);
-        return MeshBuilder::Point{vec3(x, pavement_height(x) - 0.008f * sunk, z), vec3(0, 1, 0), vec2(x, z),
+        return MeshBuilder::Point{vec3(x, pavement_height(x) - 0.008f * sunk - (hidden ? 0.012f : 0.0f), z), vec3(0, 1, 0), vec2(x, z),
                                   vec4(light, light, light * (1.0f - 0.03f * dirt), 1.0f),
                                   vec4(1.0f, 0.85f * sunk, 1.0f, 1.0f)};
     });

@@ -89,6 +89,15 @@ void add_box(Kit& kit, Slot slot, const Frame& frame, vec3 low, vec3 high, float
                    .grain = grain});
 }
 
+// A pane whose texture coordinates run from 0 to 1 over it.
+void add_pane(MeshBuilder& glass, const Frame& frame, const Opening& o, float d)
+{
+    glass.grid(1, 1, [&](int i, int j) {
+        return MeshBuilder::Point{frame.at(i == 0 ? o.u0 : o.u1, j == 0 ? o.v1 : o.v0, d), frame.out,
+                                  vec2(static_cast<float>(i), static_cast<float>(j))};
+    });
+}
+
 struct WindowStyle {
     int panes_u = 2;
     int panes_v = 3;
@@ -132,8 +141,7 @@ void add_window(Kit& kit, Slot wall, const Frame& frame, const Opening& o, const
 {
     add_reveals(kit, wall, frame, o, style.depth_m);
     const float back = -style.depth_m + 0.012f;
-    MeshBuilder& glass = kit[style.lit ? Slot::LitGlass : Slot::Glass];
-    glass.quad(frame.at(o.u0, o.v0, back), frame.at(o.u1, o.v0, back), frame.at(o.u1, o.v1, back), frame.at(o.u0, o.v1, back));
+    add_pane(kit[style.lit ? Slot::LitGlass : Slot::Glass], frame, o, back);
 
     constexpr float kStile = 0.055f;
     MeshBuilder& paint = kit[Slot::Painted];
@@ -184,7 +192,7 @@ void add_door(Kit& kit, Slot wall, const Frame& frame, const Opening& o, const v
     MeshBuilder& paint = kit[Slot::Painted];
     const float split = o.v1 - 0.42f;  // a light above the leaf
     const float back = -kDepth + 0.01f;
-    kit[Slot::LitGlass].quad(frame.at(o.u0, split, back), frame.at(o.u1, split, back), frame.at(o.u1, o.v1, back), frame.at(o.u0, o.v1, back));
+    add_pane(kit[Slot::LitGlass], frame, {o.u0, o.u1, split, o.v1}, back);
     paint.color = vec4(0.80f, 0.78f, 0.70f, 1.0f);
     for (const float u : {o.u0 + 0.04f, o.u1 - 0.04f}) {
         add_box(kit, Slot::Painted, frame, {u - 0.04f, o.v0, back}, {u + 0.04f, o.v1, back + 0.09f}, 0.010f);
@@ -403,7 +411,7 @@ void add_beam(Kit& kit, const Frame& frame, vec2 from, vec2 to, float width, flo
     // Sunk into the plaster so that only `proud` shows.
     const std::uint32_t h = hash_cell(static_cast<int>(std::lround(from.x * 100.0f)), static_cast<int>(std::lround(to.y * 100.0f)), kit.seed + 9u);
     MeshBuilder& timber = kit[Slot::Timber];
-    const float light = 0.62f + 0.3f * hash_unit(h, 1);
+    const float light = 0.36f + 0.22f * hash_unit(h, 1);
     timber.color = vec4(light, light * 0.97f, light * 0.94f, 1.0f);
     timber.uv_offset_m = vec2(0.15f * std::floor(8.0f * hash_unit(h, 2)) + 0.075f, hash_unit(h, 3));
     timber.beam(frame.at(from.x, from.y, proud - 0.06f), frame.at(to.x, to.y, proud - 0.06f), width, 0.12f, 0.010f, frame.out);
@@ -473,8 +481,11 @@ void add_timber_house(Kit& kit)
     // The jetty: joist ends under the upper floor.
     kit[Slot::Timber].quad(upper.at(0.0f, kFloor), ground.at(0.0f, kFloor), ground.at(kWidth, kFloor), upper.at(kWidth, kFloor), vec3(1, 0, 0));
     for (float u = 0.25f; u < kWidth; u += 0.62f) {
+        kit[Slot::Timber].color = vec4(0.50f, 0.48f, 0.46f, 1.0f);
         add_box(kit, Slot::Timber, upper, {u, kFloor - 0.14f, -kJetty - 0.1f}, {u + 0.14f, kFloor + 0.02f, 0.05f}, 0.012f, 2);
     }
+
+    kit[Slot::Timber].color = vec4(1.0f);
 
     // The gable towards the garden.
     const Frame gable{vec3(kRightWall - kJetty, 0.0f, kGarden), vec3(1, 0, 0), vec3(0, 0, 1)};
@@ -543,7 +554,7 @@ void add_clock_turret(Kit& kit, const vec3& foot)
     constexpr float kWall = 1.55f;
     kit[Slot::Plaster].box({.centre = foot + vec3(0.0f, 0.5f * kWall, 0.0f), .half = vec3(kHalf, 0.5f * kWall, kHalf)});
     MeshBuilder& timber = kit[Slot::Timber];
-    timber.color = vec4(0.75f, 0.72f, 0.70f, 1.0f);
+    timber.color = vec4(0.50f, 0.48f, 0.46f, 1.0f);
     for (const float sx : {-1.0f, 1.0f}) {
         for (const float sz : {-1.0f, 1.0f}) {
             timber.box({.centre = foot + vec3(sx * (kHalf - 0.05f), 0.5f * kWall, sz * (kHalf - 0.05f)), .half = vec3(0.085f, 0.5f * kWall, 0.085f), .bevel_m = 0.012f});

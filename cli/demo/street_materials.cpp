@@ -11,6 +11,7 @@
 
 #include "cli/demo/png_encoder.h"
 #include "texproc/generate.h"
+#include "texproc/noise.h"
 
 namespace petrichor::cli {
 
@@ -81,6 +82,40 @@ std::vector<std::byte> encode_orm(const MaterialMaps& maps)
         bytes[3 * k + 2] = to_byte(maps.metallic.pixels[k]);
     }
     return encode_png(maps.roughness.width, maps.roughness.height, 3, bytes);
+}
+
+// What shines out of a window at dusk, u and v from 0 to 1 over it: a warm room, brightest high up,
+// curtains drawn to the sides, a few pots on the sill.
+std::vector<std::byte> encode_window_light(std::uint32_t seed, const std::vector<std::uint8_t>& table)
+{
+    constexpr int kSize = 256;
+    Image image(kSize, kSize, 3, ColorSpace::Linear);
+    for (int j = 0; j < kSize; ++j) {
+        for (int i = 0; i < kSize; ++i) {
+            const float u = (static_cast<float>(i) + 0.5f) / kSize;
+            const float v = (static_cast<float>(j) + 0.5f) / kSize;
+            const float du = u - 0.5f;
+            const float dv = v - 0.25f;
+            float light = 0.16f + 0.84f * std::exp(-5.0f * (du * du + 0.8f * dv * dv));
+            light *= 1.0f + 0.05f * texproc::gradient_noise(6.0f * u, 6.0f * v, 6, 6, seed);
+            glm::vec3 color = light * glm::vec3(1.0f, 0.60f, 0.26f);
+            const float hem = 0.20f + 0.05f * std::sin(2.6f * v) - 0.07f * (1.0f - v) * (1.0f - v);
+            const float from_side = std::min(u, 1.0f - u);
+            const float curtain = texproc::smooth_step(hem + 0.012f, hem - 0.012f, from_side);
+            const float fold = 0.62f + 0.38f * std::sin(150.0f * from_side + 5.0f * v);
+            color = glm::mix(color, color * glm::vec3(0.62f, 0.42f, 0.30f) * fold, curtain);
+            for (int k = 0; k < 4; ++k) {
+                const std::uint32_t h = texproc::hash_cell(k, 3, seed);
+                const float at = 0.28f + 0.15f * static_cast<float>(k) + 0.04f * texproc::hash_signed(h, 1);
+                const float tall = 0.10f + 0.10f * texproc::hash_unit(h, 2);
+                const float wide = 0.025f + 0.02f * texproc::hash_unit(h, 3);
+                const float body = std::abs(u - at) / wide + std::max(0.0f, (1.0f - v) - tall) / 0.03f;
+                color *= 0.18f + 0.82f * texproc::smooth_step(0.85f, 1.1f, body);
+            }
+            for (int c = 0; c < 3; ++c) image.at(i, j, c) = color[c];
+        }
+    }
+    return encode_color(image, table);
 }
 
 struct Source {
@@ -194,7 +229,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         {.slot = Slot::Grass, .name = "grass ground", .source = "grass", .porosity = 0.90f, .water = {0.0f, 0.15f, 0.0f, 0.3f}},
         {.slot = Slot::Blades, .name = "plants", .source = "", .metallic = 0.0f, .roughness = 0.70f, .porosity = 0.20f, .water = {0.0f, 0.0f, 0.0f, 0.0f}, .snow_influence = 0.8f, .double_sided = true},
         {.slot = Slot::Glass, .name = "window glass", .source = "", .color = {0.016f, 0.020f, 0.024f, 1.0f}, .metallic = 0.0f, .roughness = 0.06f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
-        {.slot = Slot::LitGlass, .name = "lit window", .source = "", .color = {0.05f, 0.04f, 0.03f, 1.0f}, .metallic = 0.0f, .roughness = 0.10f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
+        {.slot = Slot::LitGlass, .name = "lit window", .source = "", .color = {0.022f, 0.021f, 0.020f, 1.0f}, .metallic = 0.0f, .roughness = 0.10f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
         {.slot = Slot::LampGlass, .name = "lantern glass", .source = "", .color = {0.45f, 0.42f, 0.36f, 1.0f}, .metallic = 0.0f, .roughness = 0.25f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
     };
 
@@ -212,6 +247,11 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         indices.push_back({add("albedo", baked[k].albedo), add("normal", baked[k].normal),
                            add("orm", baked[k].orm), add("height", baked[k].height)});
     }
+    scene.textures.push_back({.name = "window_light",
+                              .bytes = encode_window_light(options.seed, srgb_table()),
+                              .wrap_u = gpu::Wrap::Clamp,
+                              .wrap_v = gpu::Wrap::Clamp});
+    const auto window_light = static_cast<gpu::TextureIndex>(scene.textures.size() - 1);
     for (const Recipe& recipe : recipes) {
         gpu::Material material;
         material.name = recipe.name;
@@ -233,8 +273,11 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
             material.weather.height.texture = indices[k].height;
             material.weather.height_scale_m = baked[k].height_scale_m;
         }
-        if (recipe.slot == Slot::LitGlass) material.emissive = glm::vec3(150.0f, 88.0f, 38.0f);
-        if (recipe.slot == Slot::LampGlass) material.emissive = glm::vec3(5200.0f, 3300.0f, 1500.0f);
+        if (recipe.slot == Slot::LitGlass) {
+            material.emissive = glm::vec3(60.0f);
+            material.emissive_texture.texture = window_light;
+        }
+        if (recipe.slot == Slot::LampGlass) material.emissive = glm::vec3(1600.0f, 960.0f, 420.0f);
         scene.materials.push_back(std::move(material));
         kit.builders.emplace_back(tile_m);
     }

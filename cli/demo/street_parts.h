@@ -92,7 +92,7 @@ void add_plants(Kit& kit);
 
 /// Where the light of the lamp is, above its foot.
 inline constexpr float kLampLight = 3.12f;
-inline constexpr glm::vec3 kLampFoot{2.82f, 0.11f, -1.7f};
+inline constexpr glm::vec3 kLampFoot{2.82f, 0.11f, -0.95f};
 
 }  // namespace petrichor::cli
 

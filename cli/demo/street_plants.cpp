@@ -81,7 +81,7 @@ void add_plants(Kit& kit)
     plants.weather = vec4(1.0f, 0.0f, 0.6f, 1.0f);
 
     // The verge: clumps, thicker towards the wall.
-    constexpr int kClumps = 330;
+    constexpr int kClumps = 460;
     for (int c = 0; c < kClumps; ++c) {
         const std::uint32_t h = hash_cell(c, 1, kit.seed + 80u);
         const float z = kGarden + 0.2f + (6.4f - kGarden) * hash_unit(h, 1);
@@ -132,11 +132,19 @@ void add_plants(Kit& kit)
         vec3 radii;
         int leaves;
     };
-    const Bush bushes[] = {{{4.25f, 0.85f, -1.1f}, {0.62f, 0.72f, 0.72f}, 1500},
-                           {{4.05f, 0.70f, 0.55f}, {0.50f, 0.55f, 0.60f}, 1000},
-                           {{5.2f, 1.15f, -0.6f}, {0.85f, 1.05f, 0.85f}, 1500}};
+    const Bush bushes[] = {{{4.25f, 0.85f, -1.1f}, {0.62f, 0.72f, 0.72f}, 1900},
+                           {{4.05f, 0.70f, 0.55f}, {0.50f, 0.55f, 0.60f}, 1300},
+                           {{5.2f, 1.15f, -0.6f}, {0.85f, 1.05f, 0.85f}, 2200}};
     int index = 0;
     for (const Bush& bush : bushes) {
+        // A dark core, so that the leaves need not hide what is behind.
+        plants.color = vec4(0.018f, 0.034f, 0.010f, 1.0f);
+        plants.grid(16, 8, [&](int i, int j) {
+            const float angle = 6.2831853f * static_cast<float>(i) / 16.0f;
+            const float polar = 3.14159265f * static_cast<float>(j) / 8.0f;
+            const vec3 n(std::sin(polar) * std::cos(angle), std::cos(polar), std::sin(polar) * std::sin(angle));
+            return MeshBuilder::Point{bush.centre + 0.72f * bush.radii * n, glm::normalize(n / bush.radii), vec2(0.5f), plants.color, plants.weather};
+        });
         for (int k = 0; k < bush.leaves; ++k) {
             const std::uint32_t h = hash_cell(k, index, kit.seed + 84u);
             const float up = hash_signed(h, 30);
