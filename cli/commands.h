@@ -11,6 +11,7 @@ namespace petrichor::cli {
 // does the work. A callback throws petrichor::Error for what the user can mend.
 void add_doctor(CLI::App& app);
 void add_init(CLI::App& app);
+void add_simulate(CLI::App& app);
 void add_texture(CLI::App& app);
 
 }  // namespace petrichor::cli

@@ -38,6 +38,7 @@ int main(int argc, char** argv)
     app.footer("Try: petrichor render            the demo street, into petrichor-demo/\n"
                "     petrichor COMMAND --help    options and an example");
     cli::add_init(app);
+    cli::add_simulate(app);
     cli::add_texture(app);
     try {
         if (argc > 1) check_command(app, argv[1]);
