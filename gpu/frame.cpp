@@ -128,12 +128,12 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                     c.world_to_clip, weather);
         if (i == 0) {
             for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
-                add_aov(graph, *r.targets, r.sky->linear, constants, slot, aov_kinds[slot]);
+                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot]);
             }
         }
-        add_light_lists(graph, *r.targets, *r.lights, r.sky->linear, constants);
+        add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
-            add_ambient_occlusion(graph, *r.targets, r.sky->linear, constants);
+            add_ambient_occlusion(graph, *r.targets, constants);
         }
         add_lighting(graph, *r.targets, *r.lights, *r.sky, *r.depth_maps, constants, variant);
     }

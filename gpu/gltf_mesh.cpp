@@ -173,7 +173,8 @@ private:
         }
         const bool plain_integer = accessor.normalized && (accessor.type == ComponentType::Uint8 ||
                                                            accessor.type == ComponentType::Uint16) &&
-                                   (name.starts_with("TEXCOORD") || name.starts_with("COLOR"));
+                                   (name.starts_with("TEXCOORD") || name.starts_with("COLOR") ||
+                                    name == "_WEATHER");
         const bool quantized_integer = quantized_ && accessor.type != ComponentType::Uint32;
         if (accessor.type != ComponentType::Float && !plain_integer && !quantized_integer) {
             attributes_.fail(name,
@@ -224,6 +225,7 @@ private:
         out.uv0 = read<2>("TEXCOORD_0", attribute("TEXCOORD_0", {2}), count);
         out.uv1 = read<2>("TEXCOORD_1", attribute("TEXCOORD_1", {2}), count);
         out.colors = read<4>("COLOR_0", attribute("COLOR_0", {3, 4}), count);
+        out.weather = read<4>("_WEATHER", attribute("_WEATHER", {4}), count);
         // Without normals the normals become flat, and given tangents would not fit them.
         if (!out.normals.empty()) {
             out.tangents = read<4>("TANGENT", attribute("TANGENT", {4}), count);

@@ -126,7 +126,7 @@ struct Renderer::Impl {
         if (targets.width != s.width || targets.height != s.height || words > target_words) {
             targets = {};
             target_arena = std::make_unique<MemoryArena>(device);
-            targets = make_frame_targets(*target_arena, s.width, s.height, words);
+            targets = make_frame_targets(device, *target_arena, s.width, s.height, words);
             target_words = words;
         }
         const auto pixels = static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);

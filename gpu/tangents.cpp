@@ -124,6 +124,7 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive, std::span<const glm:
             duplicate(primitive.uv0);
             duplicate(primitive.uv1);
             duplicate(primitive.colors);
+            duplicate(primitive.weather);
         }
         index = vertex_of_copy[copy];
     }

@@ -102,9 +102,10 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     const float size_m = glm::length(scene.high - scene.low);
     c.ao_radius_m = std::clamp(0.03f * size_m, 0.01f, 0.7f);
     c.ao_strength = 1.0f;
-    c.ambient_scale = 1.0f;
+    c.ambient_scale = s.image_based_light ? 1.0f : 0.0f;
     c.sky_scale = 1.0f;
-    c.fog_per_m = 3.912f / std::max(w.visibility_m, 1.0f);
+    // Koschmieder: 2 % contrast is left at the visibility. The veil is skylight: none without it.
+    c.fog_per_m = s.image_based_light ? 3.912f / std::max(w.visibility_m, 1.0f) : 0.0f;
     c.emissive_scale = frame.emissive_scale;
     c.exposure = s.exposure;
     c.exposure_bias = std::exp2(s.exposure_bias_stops);

@@ -43,15 +43,18 @@ MemoryArena::Place MemoryArena::place(const VkMemoryRequirements& needs,
                                       VkMemoryPropertyFlags flags, bool image)
 {
     const std::uint32_t type = device_->memory_type(needs.memoryTypeBits, flags);
+    const bool host = (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     for (Block& block : blocks_) {
         const VkDeviceSize offset = align_up(block.used, needs.alignment);
-        if (block.type != type || block.images != image || offset + needs.size > block.size) continue;
+        const bool fits = block.type == type && block.images == image && block.host == host;
+        if (!fits || offset + needs.size > block.size) continue;
         block.used = offset + needs.size;
         return {block.memory.get(), offset, block.mapped ? block.mapped + offset : nullptr};
     }
     Block block;
     block.type = type;
     block.images = image;
+    block.host = host;
     block.size = std::max(kBlockBytes, needs.size);
     // Large things get a block of their own, so that little is wasted.
     if (needs.size > kBlockBytes / 2) block.size = needs.size;
@@ -63,7 +66,7 @@ MemoryArena::Place MemoryArena::place(const VkMemoryRequirements& needs,
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device_->handle(), &info, nullptr, &memory), "allocating device memory");
     block.memory = MemoryHandle(device_->handle(), memory);
-    if (!image && (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) {
+    if (host) {
         void* mapped = nullptr;
         check(vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
         block.mapped = static_cast<std::byte*>(mapped);

@@ -79,7 +79,8 @@ private:
         VkDeviceSize size = 0;
         VkDeviceSize used = 0;
         std::uint32_t type = 0;
-        bool images = false;
+        bool images = false;  // images and buffers never share a block (granularity)
+        bool host = false;
     };
     struct Place {
         VkDeviceMemory memory;

@@ -8,18 +8,18 @@ constexpr int kTile = 8;
 
 }  // namespace
 
-void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets, const SamplerHandle& sampler,
+void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants)
 {
     graph.add({.name = "ambient_occlusion",
                .uses = {{targets.gbuffer.depth, Use::Sampled},
                         {targets.gbuffer.normals, Use::Sampled},
                         {targets.occlusion, Use::StorageWrite}},
-               .record = [=, &targets, &sampler](PassContext& pass) {
+               .record = [=, &targets](PassContext& pass) {
                    pass.bind_compute("ambient_occlusion.comp", {},
                                      {frame_binding(constants),
-                                      sampled(*targets.gbuffer.depth, sampler),
-                                      sampled(*targets.gbuffer.normals, sampler),
+                                      sampled(*targets.gbuffer.depth, targets.nearest),
+                                      sampled(*targets.gbuffer.normals, targets.nearest),
                                       storage(*targets.occlusion)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
@@ -48,7 +48,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                         {targets.accumulated, Use::StorageWrite}},
                .record = [=, &targets, &lights, &sky, &depth_maps](PassContext& pass) {
                    const GBuffer& in = targets.gbuffer;
-                   const SamplerHandle& s = sky.linear;
+                   const SamplerHandle& s = targets.nearest;
                    pass.bind_compute(
                        "lighting.comp",
                        {{0, variant.weather ? 1u : 0u},
@@ -61,8 +61,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                         sampled(*in.weather, s), sampled(*in.emission, s),
                         sampled(*targets.occlusion, s),
                         sampled(*depth_maps.shadow, depth_maps.compare),
-                        sampled(*sky.specular, s), sampled(*sky.env_brdf, s),
-                        sampled(*sky.cube, s), texels(*lights.texels),
+                        sampled(*sky.specular, sky.linear),
+                        sampled(*sky.env_brdf, sky.linear), sampled(*sky.cube, sky.linear), texels(*lights.texels),
                         texels(*targets.light_lists), storage(*targets.accumulated)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
@@ -93,7 +93,7 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                .record = {}});
 }
 
-void add_aov(FrameGraph& graph, FrameTargets& targets, const SamplerHandle& sampler,
+void add_aov(FrameGraph& graph, FrameTargets& targets,
              const ConstantsRange& constants, std::size_t slot, std::uint32_t kind)
 {
     const GBuffer& g = targets.gbuffer;
@@ -105,14 +105,14 @@ void add_aov(FrameGraph& graph, FrameTargets& targets, const SamplerHandle& samp
                         {g.weather, Use::Sampled},
                         {g.emission, Use::Sampled},
                         {targets.aovs[slot], Use::StorageWrite}},
-               .record = [=, &targets, &sampler](PassContext& pass) {
+               .record = [=, &targets](PassContext& pass) {
                    const GBuffer& in = targets.gbuffer;
                    pass.bind_compute(
                        "aov.comp", {},
-                       {frame_binding(constants), sampled(*in.depth, sampler),
-                        sampled(*in.color, sampler), sampled(*in.normals, sampler),
-                        sampled(*in.material, sampler), sampled(*in.weather, sampler),
-                        sampled(*in.emission, sampler), storage_buffer(*targets.aovs[slot])});
+                       {frame_binding(constants), sampled(*in.depth, targets.nearest),
+                        sampled(*in.color, targets.nearest), sampled(*in.normals, targets.nearest),
+                        sampled(*in.material, targets.nearest), sampled(*in.weather, targets.nearest),
+                        sampled(*in.emission, targets.nearest), storage_buffer(*targets.aovs[slot])});
                    pass.push(kind);
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});

@@ -18,7 +18,7 @@ struct LightingVariant {
 //
 //   reads    depth, normals
 //   writes   screen_occlusion
-void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets, const SamplerHandle& sampler,
+void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants);
 
 // Applies weather to the dry material, then light; adds the sample to the sum.
@@ -40,7 +40,7 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
 //
 //   reads    the G-buffer
 //   writes   aovs[slot]
-void add_aov(FrameGraph& graph, FrameTargets& targets, const SamplerHandle& sampler,
+void add_aov(FrameGraph& graph, FrameTargets& targets,
              const ConstantsRange& constants, std::size_t slot, std::uint32_t kind);
 
 }  // namespace petrichor::gpu

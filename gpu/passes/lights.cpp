@@ -47,7 +47,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
 }
 
 void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& lights,
-                     const SamplerHandle& sampler, const ConstantsRange& constants)
+                     const ConstantsRange& constants)
 {
     if (lights.words() > 0) {
         graph.add({.name = "light_coarse",
@@ -66,11 +66,11 @@ void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& light
                         {targets.coarse_lights, Use::TexelRead},
                         {targets.gbuffer.depth, Use::Sampled},
                         {targets.light_lists, Use::StorageWrite}},
-               .record = [=, &targets, &lights, &sampler](PassContext& pass) {
+               .record = [=, &targets, &lights](PassContext& pass) {
                    pass.bind_compute("light_lists.comp", {},
                                      {frame_binding(constants), texels(*lights.texels),
                                       texels(*targets.coarse_lights),
-                                      sampled(*targets.gbuffer.depth, sampler),
+                                      sampled(*targets.gbuffer.depth, targets.nearest),
                                       storage_buffer(*targets.light_lists)});
                    pass.dispatch_over(targets.tiles_x(), targets.tiles_y(), 8);
                }});

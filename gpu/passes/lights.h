@@ -30,7 +30,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
 //   reads    depth, the light table
 //   writes   coarse_lights, light_lists (ordered by light: sums are bit-exact)
 void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& lights,
-                     const SamplerHandle& sampler, const ConstantsRange& constants);
+                     const ConstantsRange& constants);
 
 /// Tiles of the last frame whose list was too short.
 std::uint32_t count_overflows(const FrameTargets& targets);

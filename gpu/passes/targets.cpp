@@ -20,11 +20,14 @@ int FrameTargets::tiles_y() const { return divide_up(height, LIGHT_TILE); }
 int FrameTargets::coarse_x() const { return divide_up(tiles_x(), LIGHT_COARSE); }
 int FrameTargets::coarse_y() const { return divide_up(tiles_y(), LIGHT_COARSE); }
 
-FrameTargets make_frame_targets(MemoryArena& arena, int width, int height, int light_words)
+FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
+                                int light_words)
 {
     FrameTargets targets;
     targets.width = width;
     targets.height = height;
+    targets.nearest = make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
     const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
         return arena.image({.name = name,
                             .format = format,

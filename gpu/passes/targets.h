@@ -22,6 +22,7 @@ struct FrameTargets {
     int width = 0;
     int height = 0;
     GBuffer gbuffer;
+    SamplerHandle nearest;               ///< for texelFetch
     std::unique_ptr<GpuImage> occlusion;    ///< screen-space ambient occlusion, 1 open
     std::unique_ptr<GpuImage> accumulated;  ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuBuffer> coarse_lights;
@@ -37,7 +38,8 @@ struct FrameTargets {
 };
 
 /// light_words: 32-bit words for one bit a light.
-FrameTargets make_frame_targets(MemoryArena& arena, int width, int height, int light_words);
+FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
+                                int light_words);
 
 }  // namespace petrichor::gpu
 
