@@ -125,7 +125,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 
         add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
-                    c.world_to_clip, weather);
+                    c.world_to_clip, c.camera_m, weather);
         if (i == 0) {
             for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
                 add_aov(graph, *r.targets, constants, slot, aov_kinds[slot]);

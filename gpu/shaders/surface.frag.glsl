@@ -11,6 +11,7 @@
 #include "weather/formulas/surface_weather.h"
 
 layout(constant_id = 0) const uint WEATHER = 1u;  // 0: a dry scene skips all of it
+layout(constant_id = 1) const uint HOLES = 1u;    // 0: opaque, so that hidden pixels are never shaded
 
 layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
 layout(set = 0, binding = 1) uniform sampler2D ripple_map;
@@ -247,8 +248,8 @@ void main()
     if (has(TEXTURE_BASE_COLOR)) {
         base *= textureGrad(base_color_map, base_uv.at, base_uv.dx, base_uv.dy);
     }
-    if ((material.flags & MATERIAL_MASK) != 0u && base.a < material.alpha_cutoff) discard;
-    if ((material.flags & MATERIAL_BLEND) != 0u &&
+    if (HOLES != 0u && (material.flags & MATERIAL_MASK) != 0u && base.a < material.alpha_cutoff) discard;
+    if (HOLES != 0u && (material.flags & MATERIAL_BLEND) != 0u &&
         base.a <= dither(ivec2(gl_FragCoord.xy), frame.sample_index + hash_u(draw.instance_id) % 64u)) {
         discard;
     }
