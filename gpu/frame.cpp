@@ -110,13 +110,15 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
-    add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
-    add_flow(graph, *r.surface_maps, time_s);
+    if (weather) {
+        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
+        add_flow(graph, *r.surface_maps, time_s);
+    }
     add_depth_maps(graph, frame, sun, r, weather);
     add_sky(graph, frame, sun, r);
 
     const LightingVariant variant{weather, settings.shadows, settings.image_based_light,
-                                  settings.ambient_occlusion};
+                                  settings.ambient_occlusion, r.scene->emissive()};
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
@@ -125,7 +127,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 
         add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
-                    c.world_to_clip, weather);
+                    c.world_to_clip, c.camera_m, weather);
         if (i == 0) {
             for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
                 add_aov(graph, *r.targets, constants, slot, aov_kinds[slot]);

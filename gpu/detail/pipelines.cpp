@@ -180,8 +180,10 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
 const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
 {
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
-    key += "|" + std::to_string(desc.colors.size()) + "|" + std::to_string(desc.depth) + "|" +
-           std::to_string(desc.depth_bias_constant) + "|" + std::to_string(desc.depth_bias_slope);
+    for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
+    key += "|" + std::to_string(desc.depth) + "|" +
+           std::to_string(desc.depth_bias_constant) + "|" + std::to_string(desc.depth_bias_slope) + "|" +
+           std::to_string(desc.color_write) + std::to_string(desc.depth_equal);
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
@@ -234,11 +236,12 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = VK_TRUE;
-    depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // reversed depth: 1 near, 0 far
+    depth.depthWriteEnable = !desc.depth_equal;
+    // Reversed depth: 1 near, 0 far.
+    depth.depthCompareOp = desc.depth_equal ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
 
     std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colors.size());
-    for (auto& attachment : attachments) attachment.colorWriteMask = 0xf;
+    for (auto& attachment : attachments) attachment.colorWriteMask = desc.color_write ? 0xfu : 0u;
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());

@@ -57,7 +57,8 @@ struct GraphicsDesc {
     std::vector<VertexAttribute> attributes;
     float depth_bias_constant = 0.0f;
     float depth_bias_slope = 0.0f;
-    bool depth_clamp = false;
+    bool color_write = true;   ///< false: fills depth only
+    bool depth_equal = false;  ///< draws where depth is already its own; does not write it
 };
 
 /// Makes pipelines on first use and keeps them, by content.

@@ -12,6 +12,7 @@ struct LightingVariant {
     bool shadows = true;
     bool image_based_light = true;
     bool ambient_occlusion = true;
+    bool emission = true;
 };
 
 // Screen-space ambient occlusion.

@@ -1,6 +1,7 @@
 #include "gpu/passes/surface.h"
 
-#include <array>
+#include <algorithm>
+#include <tuple>
 
 #include "gpu/passes/draw.h"
 #include "gpu/shaders/interface/frame.h"
@@ -38,6 +39,32 @@ shared::DrawConstants draw_constants(const Draw& draw)
     return c;
 }
 
+bool has_holes(const GpuScene& scene, const Draw& draw)
+{
+    const GpuMaterial& material = scene.materials()[draw.material];
+    return material.masked || material.blended;
+}
+
+// Draws inside the view: opaque ones first and near to far, so that early depth tests save shading.
+std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
+                                       const glm::vec3& camera_m)
+{
+    const Frustum frustum(world_to_clip);
+    std::vector<std::tuple<bool, float, const Draw*>> keyed;
+    for (const Draw& draw : scene.draws()) {
+        if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
+        const float nearest = glm::length(draw.centre_m - camera_m) - draw.radius_m;
+        keyed.emplace_back(has_holes(scene, draw), nearest, &draw);
+    }
+    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
+        return std::make_pair(std::get<0>(a), std::get<1>(a)) <
+               std::make_pair(std::get<0>(b), std::get<1>(b));
+    });
+    std::vector<const Draw*> draws;
+    for (const auto& entry : keyed) draws.push_back(std::get<2>(entry));
+    return draws;
+}
+
 }  // namespace
 
 Binding frame_binding(const ConstantsRange& constants)
@@ -47,9 +74,10 @@ Binding frame_binding(const ConstantsRange& constants)
 
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                  SurfaceMaps& maps, DepthMaps& depth_maps, const ConstantsRange& constants,
-                 const glm::mat4& world_to_clip, bool weather)
+                 const glm::mat4& world_to_clip, const glm::vec3& camera_m, bool weather)
 {
     GBuffer& g = targets.gbuffer;
+    const bool emission = scene.emissive();
     graph.add({
         .name = "surface",
         .uses = {{maps.ripple, Use::Sampled},
@@ -64,13 +92,14 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                  {g.depth, Use::DepthTarget}},
         .record = [=, &targets, &scene, &maps, &depth_maps](PassContext& pass) {
             GBuffer& out = targets.gbuffer;
-            const std::array<const GpuImage*, 5> colors{out.color.get(), out.normals.get(),
-                                                        out.material.get(), out.weather.get(),
-                                                        out.emission.get()};
+            std::vector<const GpuImage*> colors{out.color.get(), out.normals.get(),
+                                                out.material.get()};
+            if (weather) colors.push_back(out.weather.get());
+            if (emission) colors.push_back(out.emission.get());
             GraphicsDesc desc;
             desc.vertex = "surface.vert";
-            desc.fragment = "surface.frag";
-            desc.specialization = {{0, weather ? 1u : 0u}};
+            desc.fragment = weather ? (emission ? "surface.frag" : "surface_dark.frag")
+                                    : (emission ? "surface_dry.frag" : "surface_lean.frag");
             desc.stride = sizeof(Vertex);
             desc.attributes = vertex_attributes();
             std::vector<VkRenderingAttachmentInfo> attachments;
@@ -101,22 +130,27 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             vkCmdBeginRendering(commands, &rendering);
             set_viewport(commands, targets.width, targets.height);
 
-            const Pipeline& pipeline = pass.pipelines().graphics(desc);
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline.get());
-            pass.use_layout(pipeline.layout);
-            const VkDescriptorSet frame_set =
-                pass.descriptors().set(pipeline.set_layouts[0], frame_bindings);
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
-                                    &frame_set, 0, nullptr);
+            const VkDescriptorSet frame_set = pass.descriptors().set(
+                pass.pipelines().set_layout(desc.sets[0]), frame_bindings);
+            const VkDescriptorSetLayout material_layout = pass.pipelines().set_layout(desc.sets[1]);
             bind_geometry(commands, scene);
-            const Frustum frustum(world_to_clip);
+            const auto draws = visible_draws(scene, world_to_clip, camera_m);
+            const Pipeline* bound = nullptr;
             std::uint32_t bound_material = UINT32_MAX;
-            for (const Draw& draw : scene.draws()) {
-                if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
+            const auto record = [&](const GraphicsDesc& wanted, const Draw& draw, bool shaded) {
                 const GpuMaterial& material = scene.materials()[draw.material];
-                if (draw.material != bound_material) {
+                const Pipeline& pipeline = pass.pipelines().graphics(wanted);
+                if (&pipeline != bound) {
+                    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                      pipeline.pipeline.get());
+                    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                            pipeline.layout, 0, 1, &frame_set, 0, nullptr);
+                    pass.use_layout(pipeline.layout);
+                    bound = &pipeline;
+                }
+                if (shaded && draw.material != bound_material) {
                     const VkDescriptorSet set =
-                        pass.descriptors().set(pipeline.set_layouts[1], material.bindings);
+                        pass.descriptors().set(material_layout, material.bindings);
                     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                             pipeline.layout, 1, 1, &set, 0, nullptr);
                     bound_material = draw.material;
@@ -125,6 +159,23 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 pass.push(draw_constants(draw));
                 vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index,
                                  draw.vertex_offset, 0);
+            };
+            // Depth of the opaque things first, where shading is dear: then each pixel is shaded once.
+            const bool depth_first = weather;
+            GraphicsDesc depth_only = desc;
+            depth_only.vertex = "surface_depth.vert";
+            depth_only.fragment.clear();
+            depth_only.attributes.resize(1);
+            depth_only.color_write = false;
+            for (const Draw* draw : draws) {
+                if (depth_first && !has_holes(scene, *draw)) record(depth_only, *draw, false);
+            }
+            for (const Draw* draw : draws) {
+                const bool holes = has_holes(scene, *draw);
+                GraphicsDesc shaded = desc;
+                shaded.specialization = {{1, holes ? 1u : 0u}};
+                shaded.depth_equal = depth_first && !holes;
+                record(shaded, *draw, true);
             }
             vkCmdEndRendering(commands);
         },

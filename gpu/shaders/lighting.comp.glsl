@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint WEATHER = 1u;
 layout(constant_id = 1) const uint SHADOWS = 1u;
 layout(constant_id = 2) const uint IMAGE_BASED_LIGHT = 1u;
 layout(constant_id = 3) const uint AMBIENT_OCCLUSION = 1u;
+layout(constant_id = 4) const uint EMISSION = 1u;
 
 layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
@@ -98,7 +99,7 @@ void main()
             decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
                            texelFetch(material_map, texel, 0),
                            WEATHER != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
-        const vec3 emission = texelFetch(emission_map, texel, 0).rgb;
+        const vec3 emission = EMISSION != 0u ? texelFetch(emission_map, texel, 0).rgb : vec3(0.0);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);

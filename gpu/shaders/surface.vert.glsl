@@ -22,6 +22,9 @@ layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_weather;
 
+// The depth pre-pass must find the same depth to the last bit.
+invariant gl_Position;
+
 void main()
 {
     const vec4 p = vec4(in_position, 1.0);
