@@ -1,7 +1,7 @@
 // Wood and metal.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 

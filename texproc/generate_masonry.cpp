@@ -1,7 +1,7 @@
 // Walls and roofs: brick, plaster, clay tiles.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
