@@ -216,7 +216,7 @@ TEST(Plot, PixelsShowEveryCurveAndItsText)
         }
         return found;
     };
-    EXPECT_GT(count(0xc2, 0x41, 0x0c), 200u);  // temperature
+    EXPECT_GT(count(0xd9, 0x54, 0x1e), 200u);  // temperature
     EXPECT_GT(count(0x0e, 0x9f, 0x8e), 200u);  // film
     EXPECT_GT(count(0xd9, 0x77, 0x06), 200u);  // phase
     EXPECT_GT(count(255, 255, 255), pixels.rgb.size() / 3 / 2);
