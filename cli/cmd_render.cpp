@@ -143,6 +143,7 @@ void list_aovs()
 
 void report_on(const RenderReport& report, const RenderRequest& request)
 {
+    for (const std::string& message : report.validation) std::cerr << "error validation: " << message << "\n";
     for (const std::string& note : report.notes) std::cerr << "info render: " << note << "\n";
     std::cerr << "info render: " << report.rendered << " frames rendered";
     if (report.kept > 0) std::cerr << ", " << report.kept << " kept";
@@ -189,7 +190,9 @@ void render(const RenderOptions& options)
     for (const std::string& unmatched : apply_material_overrides(scenario.materials, sequence.scene.materials)) {
         std::cerr << "warn " << unmatched << "\n";
     }
-    report_on(render_sequence(sequence, request), request);
+    const RenderReport report = render_sequence(sequence, request);
+    report_on(report, request);
+    if (!report.validation.empty()) throw ExitCode{kExitOurs};
 }
 
 }  // namespace

@@ -139,9 +139,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request, const std::
         report.notes.push_back("up to " + std::to_string(overflows) +
                                " tiles of a frame see more lights than a list holds; the faintest are left out");
     }
-    for (const std::string& message : renderer.validation_messages()) {
-        report.notes.push_back("validation: " + message);
-    }
+    report.validation = renderer.validation_messages();
 }
 
 long peak_memory_mib()

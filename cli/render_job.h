@@ -29,7 +29,8 @@ struct RenderReport {
     bool film = false;
     double seconds = 0.0;
     long peak_mib = 0;
-    std::vector<std::string> notes;  ///< for the log
+    std::vector<std::string> notes;       ///< for the log
+    std::vector<std::string> validation;  ///< messages of the validation layer
 };
 
 /// Renders the frames of a range into a folder, writing while rendering: frame_0000.exr and .png,
