@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc {
 
@@ -41,7 +41,7 @@ std::optional<MaterialKind> find_material_kind(std::string_view name)
 
 namespace {
 
-void make_surface(MaterialKind kind, Surface& surface)
+void make_surface(MaterialKind kind, MaterialSurface& surface)
 {
     switch (kind) {
         case MaterialKind::Cobble:
@@ -76,7 +76,8 @@ void make_surface(MaterialKind kind, Surface& surface)
 }
 
 // How much of the sky a texel sees, from how far it lies below the mean around it at four radii.
-void add_occlusion(const Surface& surface, const std::vector<float>& height_m, Image& occlusion)
+void add_occlusion(const MaterialSurface& surface, const std::vector<float>& height_m,
+                   Image& occlusion)
 {
     std::fill(occlusion.pixels.begin(), occlusion.pixels.end(), 1.0f);
     for (const float radius_m : {0.0025f, 0.006f, 0.015f, 0.04f}) {
@@ -95,7 +96,7 @@ void add_occlusion(const Surface& surface, const std::vector<float>& height_m, I
     }
 }
 
-void add_normals(const Surface& surface, const std::vector<float>& height_m, Image& normal)
+void add_normals(const MaterialSurface& surface, const std::vector<float>& height_m, Image& normal)
 {
     const int size = surface.size;
     const auto n = static_cast<std::size_t>(size);
@@ -131,7 +132,7 @@ MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, 
         throw Error("material: the size must be 16 to 8192 texels, got " + std::to_string(size),
                     "Choose a size in that range, for example 1024.");
     }
-    Surface surface;
+    MaterialSurface surface;
     surface.size = size;
     surface.threads = threads > 0
                           ? std::min(threads, 256)

@@ -1,7 +1,7 @@
 // Wood and metal.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -11,7 +11,7 @@ namespace {
 
 // Draws straight scratches into a layer, wrapping round the edges. Serial: cheap, and the order of
 // the strokes is part of the result.
-std::vector<float> scratch_layer(const Surface& surface, int count, float longest_m,
+std::vector<float> scratch_layer(const MaterialSurface& surface, int count, float longest_m,
                                  std::uint32_t salt)
 {
     const int size = surface.size;
@@ -45,7 +45,7 @@ std::vector<float> scratch_layer(const Surface& surface, int count, float longes
 
 }  // namespace
 
-void make_plank(Surface& surface)
+void make_plank(MaterialSurface& surface)
 {
     surface.tile_m = 1.2f;
     constexpr int kBoards = 8;
@@ -140,7 +140,7 @@ void make_plank(Surface& surface)
     });
 }
 
-void make_metal_plate(Surface& surface)
+void make_metal_plate(MaterialSurface& surface)
 {
     surface.tile_m = 0.8f;
     const auto waves = noise_layer(surface, {0.20f, 0.20f, 3, 0.4f, 1});
@@ -178,7 +178,7 @@ void make_metal_plate(Surface& surface)
     });
 }
 
-void make_painted_iron(Surface& surface)
+void make_painted_iron(MaterialSurface& surface)
 {
     surface.tile_m = 0.8f;
     const auto cast = noise_layer(surface, {0.012f, 0.012f, 3, 0.55f, 1});
@@ -202,7 +202,7 @@ void make_painted_iron(Surface& surface)
     });
 }
 
-void make_standing_seam(Surface& surface)
+void make_standing_seam(MaterialSurface& surface)
 {
     surface.tile_m = 1.6f;
     constexpr int kSheets = 4;

@@ -1,13 +1,13 @@
 // Ground and cast surfaces: asphalt, concrete, soil, grass.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
 using glm::vec3;
 
-void make_asphalt(Surface& surface)
+void make_asphalt(MaterialSurface& surface)
 {
     surface.tile_m = 1.2f;
     const auto bitumen = noise_layer(surface, {0.010f, 0.010f, 2, 0.6f, 1});
@@ -47,7 +47,7 @@ void make_asphalt(Surface& surface)
     });
 }
 
-void make_concrete(Surface& surface)
+void make_concrete(MaterialSurface& surface)
 {
     surface.tile_m = 2.0f;
     const auto waves = noise_layer(surface, {0.50f, 0.33f, 4, 0.5f, 1});
@@ -95,7 +95,7 @@ struct Earth {
     std::uint32_t seed = 0;
 };
 
-Earth make_earth(const Surface& surface)
+Earth make_earth(const MaterialSurface& surface)
 {
     Earth earth;
     earth.mounds = noise_layer(surface, {0.36f, 0.36f, 4, 0.5f, 61});
@@ -139,7 +139,7 @@ Texel earth_texel(const Earth& earth, float x, float y, std::size_t k)
 
 }  // namespace
 
-void make_soil(Surface& surface)
+void make_soil(MaterialSurface& surface)
 {
     surface.tile_m = 1.5f;
     const Earth earth = make_earth(surface);
@@ -147,7 +147,7 @@ void make_soil(Surface& surface)
                  [&](float x, float y, std::size_t k) { return earth_texel(earth, x, y, k); });
 }
 
-void make_grass_ground(Surface& surface)
+void make_grass_ground(MaterialSurface& surface)
 {
     surface.tile_m = 1.0f;
     const Earth earth = make_earth(surface);

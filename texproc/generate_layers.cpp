@@ -2,7 +2,7 @@
 #include <cassert>
 #include <thread>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -66,7 +66,7 @@ void add_octave(float* row, int size, float y, int cells_x, int cells_y, float a
 
 }  // namespace
 
-std::vector<float> noise_layer(const Surface& surface, const NoiseLayer& layer)
+std::vector<float> noise_layer(const MaterialSurface& surface, const NoiseLayer& layer)
 {
     const int size = surface.size;
     std::vector<float> values(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),

@@ -1,13 +1,13 @@
 // Walls and roofs: brick, plaster, clay tiles.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
 using glm::vec3;
 
-void make_brick(Surface& surface)
+void make_brick(MaterialSurface& surface)
 {
     surface.tile_m = 1.8f;  // 8 bricks of 225 mm, 24 courses of 75 mm, joints of 10 mm
     const Courses courses(surface.tile_m, {.rows = 24, .stone_length_m = 0.225f, .half_bond = true},
@@ -93,7 +93,7 @@ void make_brick(Surface& surface)
     });
 }
 
-void make_plaster(Surface& surface)
+void make_plaster(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const auto waves = noise_layer(surface, {0.48f, 0.34f, 4, 0.5f, 1});
@@ -140,7 +140,7 @@ void make_plaster(Surface& surface)
     });
 }
 
-void make_roof_tile(Surface& surface)
+void make_roof_tile(MaterialSurface& surface)
 {
     surface.tile_m = 1.44f;
     surface.occlusion_strength = 0.6f;

@@ -1,7 +1,7 @@
 // Stone underfoot: setts, slabs, hammered granite.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -50,7 +50,7 @@ Sides sides_of(const CourseStone& stone, float x, float y, float joint_m)
 
 }  // namespace
 
-void make_cobble(Surface& surface)
+void make_cobble(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const Courses courses(surface.tile_m,
@@ -137,7 +137,7 @@ void make_cobble(Surface& surface)
     });
 }
 
-void make_paving(Surface& surface)
+void make_paving(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const Courses courses(surface.tile_m,
@@ -200,7 +200,7 @@ void make_paving(Surface& surface)
     });
 }
 
-void make_granite(Surface& surface)
+void make_granite(MaterialSurface& surface)
 {
     surface.tile_m = 1.0f;
     const auto waves = noise_layer(surface, {0.16f, 0.16f, 4, 0.5f, 1});
