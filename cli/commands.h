@@ -9,6 +9,8 @@ namespace petrichor::cli {
 
 // One function a command, in cmd_NAME.cpp: declares its options on `app` and sets a callback that
 // does the work. A callback throws petrichor::Error for what the user can mend.
+void add_doctor(CLI::App& app);
+void add_init(CLI::App& app);
 void add_texture(CLI::App& app);
 
 }  // namespace petrichor::cli

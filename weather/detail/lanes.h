@@ -1,0 +1,218 @@
+// Eight numbers that move together: the same arithmetic as double, for eight cells at once.
+//
+// A kernel is written once as a template over Real and runs with Real = double (one cell) or Real =
+// Lanes<bytes> (eight cells in registers of 16 or 32 bytes). Every operation is the IEEE one on
+// each element, in the same order, so both give the same bits. Which registers are used is chosen by
+// the file that instantiates the kernel; the type carries the width, so that two instantiations
+// never share a symbol.
+#ifndef PETRICHOR_WEATHER_DETAIL_LANES_H
+#define PETRICHOR_WEATHER_DETAIL_LANES_H
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#define PETRICHOR_INLINE inline __attribute__((always_inline))
+
+namespace petrichor::weather::detail {
+
+inline constexpr int kLaneCount = 8;
+
+template <int kBytes>
+struct Native;
+template <>
+struct Native<16> {
+    typedef double Number __attribute__((vector_size(16)));
+    typedef std::int64_t Bits __attribute__((vector_size(16)));
+};
+template <>
+struct Native<32> {
+    typedef double Number __attribute__((vector_size(32)));
+    typedef std::int64_t Bits __attribute__((vector_size(32)));
+};
+
+template <int kBytes>
+struct LaneMask {
+    static constexpr int kParts = kLaneCount * 8 / kBytes;
+    typename Native<kBytes>::Bits part[kParts];
+};
+
+template <int kBytes>
+struct alignas(64) Lanes {
+    static constexpr int kParts = kLaneCount * 8 / kBytes;
+    static constexpr int kPerPart = kBytes / 8;
+    typename Native<kBytes>::Number part[kParts];
+
+    Lanes() = default;
+    PETRICHOR_INLINE Lanes(double value)  // NOLINT: a plain number is a valid operand
+    {
+        for (int p = 0; p < kParts; ++p) part[p] = value - typename Native<kBytes>::Number{};
+    }
+    PETRICHOR_INLINE double operator[](int lane) const { return part[lane / kPerPart][lane % kPerPart]; }
+    PETRICHOR_INLINE void set(int lane, double value) { part[lane / kPerPart][lane % kPerPart] = value; }
+};
+
+#define PETRICHOR_LANE_OPERATOR(op)                                                    \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
+    {                                                                                  \
+        Lanes<kBytes> r;                                                               \
+        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        return r;                                                                      \
+    }                                                                                  \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, double b)       \
+    {                                                                                  \
+        Lanes<kBytes> r;                                                               \
+        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b;    \
+        return r;                                                                      \
+    }                                                                                  \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE Lanes<kBytes> operator op(double a, const Lanes<kBytes>& b)       \
+    {                                                                                  \
+        Lanes<kBytes> r;                                                               \
+        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a op b.part[p];    \
+        return r;                                                                      \
+    }
+PETRICHOR_LANE_OPERATOR(+)
+PETRICHOR_LANE_OPERATOR(-)
+PETRICHOR_LANE_OPERATOR(*)
+PETRICHOR_LANE_OPERATOR(/)
+#undef PETRICHOR_LANE_OPERATOR
+
+#define PETRICHOR_LANE_COMPARISON(op)                                                  \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
+    {                                                                                  \
+        LaneMask<kBytes> r;                                                            \
+        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        return r;                                                                      \
+    }                                                                                  \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, double b)    \
+    {                                                                                  \
+        LaneMask<kBytes> r;                                                            \
+        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {                              \
+            r.part[p] = a.part[p] op(b - typename Native<kBytes>::Number{});           \
+        }                                                                              \
+        return r;                                                                      \
+    }
+PETRICHOR_LANE_COMPARISON(<)
+PETRICHOR_LANE_COMPARISON(>)
+PETRICHOR_LANE_COMPARISON(<=)
+PETRICHOR_LANE_COMPARISON(>=)
+#undef PETRICHOR_LANE_COMPARISON
+
+#define PETRICHOR_MASK_OPERATOR(op)                                                    \
+    template <int kBytes>                                                              \
+    PETRICHOR_INLINE LaneMask<kBytes> operator op(const LaneMask<kBytes>& a, const LaneMask<kBytes>& b) \
+    {                                                                                  \
+        LaneMask<kBytes> r;                                                            \
+        for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        return r;                                                                      \
+    }
+PETRICHOR_MASK_OPERATOR(&)
+PETRICHOR_MASK_OPERATOR(|)
+#undef PETRICHOR_MASK_OPERATOR
+
+template <int kBytes>
+PETRICHOR_INLINE Lanes<kBytes> operator-(const Lanes<kBytes>& a)
+{
+    return 0.0 - a;
+}
+template <int kBytes>
+PETRICHOR_INLINE Lanes<kBytes>& operator+=(Lanes<kBytes>& a, const Lanes<kBytes>& b)
+{
+    a = a + b;
+    return a;
+}
+template <int kBytes>
+PETRICHOR_INLINE Lanes<kBytes>& operator-=(Lanes<kBytes>& a, const Lanes<kBytes>& b)
+{
+    a = a - b;
+    return a;
+}
+
+// mask ? a : b, element by element, by bits: no rounding, NaN passes through.
+template <int kBytes>
+PETRICHOR_INLINE Lanes<kBytes> select(const LaneMask<kBytes>& mask, const Lanes<kBytes>& a,
+                                      const Lanes<kBytes>& b)
+{
+    using Bits = typename Native<kBytes>::Bits;
+    using Number = typename Native<kBytes>::Number;
+    Lanes<kBytes> r;
+    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+        r.part[p] = (Number)(((Bits)a.part[p] & mask.part[p]) | ((Bits)b.part[p] & ~mask.part[p]));
+    }
+    return r;
+}
+template <int kBytes>
+PETRICHOR_INLINE bool any(const LaneMask<kBytes>& mask)
+{
+    typename Native<kBytes>::Bits all = mask.part[0];
+    for (int p = 1; p < LaneMask<kBytes>::kParts; ++p) all |= mask.part[p];
+    std::int64_t found = 0;
+    for (int i = 0; i < kBytes / 8; ++i) found |= all[i];
+    return found != 0;
+}
+template <int kBytes>
+PETRICHOR_INLINE Lanes<kBytes> square_root(const Lanes<kBytes>& a)
+{
+    Lanes<kBytes> r;
+    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+        for (int i = 0; i < Lanes<kBytes>::kPerPart; ++i) r.part[p][i] = __builtin_sqrt(a.part[p][i]);
+    }
+    return r;
+}
+/// f of each element, one after the other: for look-ups in tables.
+template <int kBytes, class F>
+PETRICHOR_INLINE Lanes<kBytes> each(const Lanes<kBytes>& a, F&& f)
+{
+    Lanes<kBytes> r;
+    for (int lane = 0; lane < kLaneCount; ++lane) r.set(lane, f(a[lane]));
+    return r;
+}
+
+// The same words for one number.
+PETRICHOR_INLINE double select(bool mask, double a, double b)
+{
+    return mask ? a : b;
+}
+PETRICHOR_INLINE bool any(bool mask)
+{
+    return mask;
+}
+PETRICHOR_INLINE double square_root(double a)
+{
+    return std::sqrt(a);
+}
+template <class F>
+PETRICHOR_INLINE double each(double a, F&& f)
+{
+    return f(a);
+}
+
+template <class Real>
+PETRICHOR_INLINE Real smaller(const Real& a, const Real& b)
+{
+    return select(a < b, a, b);
+}
+template <class Real>
+PETRICHOR_INLINE Real larger(const Real& a, const Real& b)
+{
+    return select(a > b, a, b);
+}
+template <class Real>
+PETRICHOR_INLINE Real clamped(const Real& a, const Real& low, const Real& high)
+{
+    return smaller(larger(a, low), high);
+}
+template <class Real>
+PETRICHOR_INLINE Real unit_clamped(const Real& a)
+{
+    return clamped(a, Real(0.0), Real(1.0));
+}
+
+}  // namespace petrichor::weather::detail
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef PETRICHOR_WEATHER_EXCHANGE_H
+#define PETRICHOR_WEATHER_EXCHANGE_H
+
+namespace petrichor::weather {
+
+/// How stable air damps the exchange of heat and vapour.
+enum class Stability {
+    Louis,        ///< Louis 1979 without a floor: exchange nearly stops over cold snow in calm air
+    LouisCapped,  ///< the same with the Richardson number held below `max_richardson`
+    Neutral,      ///< no correction
+};
+
+struct ExchangeParams {
+    Stability stability = Stability::LouisCapped;
+    double max_richardson = 0.2;  ///< cap in stable air, >= 0; Martin & Lejeune 1998
+    double min_wind_m_s = 0.1;    ///< wind is raised to this; > 0
+};
+
+/// Exchange coefficient of heat in neutral air: k^2 / (ln(zU/z0) ln(zT/z0h)), z0h = z0/10.
+double neutral_exchange(double wind_height_m, double temp_height_m, double roughness_m);
+
+/// Bulk Richardson number; positive in stable air.
+double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k, double wind_m_s);
+
+/// Louis 1979 factor on the neutral coefficient: 1 at Ri = 0, below 1 in stable air, continuous.
+double stability_factor(double richardson, double neutral, double wind_height_m, double roughness_m);
+
+}  // namespace petrichor::weather
+
+#endif

@@ -1,0 +1,34 @@
+#ifndef PETRICHOR_WEATHER_SOLAR_H
+#define PETRICHOR_WEATHER_SOLAR_H
+
+#include <cstdint>
+
+namespace petrichor::weather {
+
+/// Where the sun stands. East is +x, north is +y, up is +z.
+struct SunDirection {
+    double east = 0.0, north = 0.0, up = 0.0;  ///< unit vector; `up` is the sine of the elevation
+    double extraterrestrial_w_m2 = 1361.0;     ///< on a plane facing the sun, outside the air
+};
+
+/// Sun for a UTC time (microseconds since 1970) and place. Good to 0.1 degrees from 1950 to 2050.
+///   latitude, longitude  degrees, north and east positive
+///   source               low-precision solar coordinates of the Astronomical Almanac
+SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg);
+
+/// Sine of the solar elevation from the declination and the solar time in hours (12 = noon).
+double sine_of_elevation(double latitude_rad, double declination_rad, double solar_hour);
+
+/// Clear-sky shortwave on flat ground, Haurwitz 1945: 1098 s exp(-0.057/s); 0 at night.
+double clear_sky_w_m2(double sine_elevation);
+/// The same under clouds, Kasten & Czeplak 1980: G0 (1 - 0.75 N^3.4).
+double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
+/// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
+double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
+
+/// Share of shortwave that is diffuse, 0..1, from the clearness index (Erbs et al. 1982).
+double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double extraterrestrial_w_m2);
+
+}  // namespace petrichor::weather
+
+#endif
