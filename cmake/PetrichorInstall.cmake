@@ -1,1 +1,32 @@
-# `cmake --install` comes with the rooms; see base/, weather/, texproc/, gpu/ for the targets.
+# `cmake --install build/release --prefix P`:
+#   P/bin/petrichor                  the program, which finds its data at ../share/petrichor
+#   P/lib/libpetrichor_*.a           one library a room, with lib/cmake/petrichor for find_package
+#   P/include/petrichor/ROOM/*.h     the public headers, formulas and shader interfaces
+#   P/share/petrichor                scenarios and presets
+include(CMakePackageConfigHelpers)
+
+set(rooms base weather texproc gpu)
+set(petrichor_package ${CMAKE_INSTALL_LIBDIR}/cmake/petrichor)
+set(petrichor_headers ${CMAKE_INSTALL_INCLUDEDIR}/petrichor)
+
+# petrichor_warnings is linked privately by static libraries, so the export must know its name.
+install(TARGETS petrichor_options petrichor_warnings EXPORT petrichor)
+target_include_directories(petrichor_options INTERFACE $<INSTALL_INTERFACE:${petrichor_headers}>)
+foreach(room IN LISTS rooms)
+    set_target_properties(petrichor_${room} PROPERTIES EXPORT_NAME ${room})
+    install(TARGETS petrichor_${room} EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(DIRECTORY ${room} DESTINATION ${petrichor_headers}
+        FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE PATTERN "passes" EXCLUDE)
+endforeach()
+install(EXPORT petrichor NAMESPACE petrichor:: DESTINATION ${petrichor_package}
+    FILE petrichorTargets.cmake)
+
+configure_package_config_file(cmake/petrichorConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/petrichorConfig.cmake INSTALL_DESTINATION ${petrichor_package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/petrichorConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/petrichorConfig.cmake
+    ${PROJECT_BINARY_DIR}/petrichorConfigVersion.cmake DESTINATION ${petrichor_package})
+
+install(TARGETS petrichor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/petrichor)

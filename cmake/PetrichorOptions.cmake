@@ -10,6 +10,7 @@ target_compile_options(petrichor_options INTERFACE -ffp-contract=off)
 add_library(petrichor_warnings INTERFACE)
 target_compile_options(petrichor_warnings INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 sees overlaps in std::string that are not there
     $<$<BOOL:${PETRICHOR_WERROR}>:-Werror>)
 
 if(PETRICHOR_SANITIZE)

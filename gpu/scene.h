@@ -88,15 +88,16 @@ struct Material {
     MaterialWeather weather;
 };
 
-/// Triangles of one material. All attribute arrays have positions.size() entries; uv1 and colors may
-/// be empty. Tangents are as MikkTSpace defines them, w the bitangent sign.
+/// Triangles of one material. All attribute arrays have positions.size() entries; uv1, colors and
+/// weather may be empty. Tangents are as MikkTSpace defines them, w the bitangent sign.
 struct Primitive {
     std::vector<glm::vec3> positions;  ///< object space, metres
     std::vector<glm::vec3> normals;    ///< unit
     std::vector<glm::vec4> tangents;   ///< unit xyz, w = -1 or 1
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::vec4> colors;       ///< linear; r mix, g puddle mask, b snow mask for weather
+    std::vector<glm::vec4> colors;       ///< COLOR_0, linear; multiplies the base colour
+    std::vector<glm::vec4> weather;      ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
 };

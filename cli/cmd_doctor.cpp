@@ -1,0 +1,153 @@
+// petrichor doctor: what works on this machine, what is missing, how to get it.
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/exit.h"
+#include "cli/film.h"
+#include "cli/folders.h"
+#include "cli/words.h"
+#include "gpu/renderer.h"
+
+namespace petrichor::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One line of the report.
+struct Finding {
+    std::string name;
+    bool works = false;
+    bool needed = false;  ///< rendering is impossible without it
+    std::string detail;
+    std::string fix;  ///< what to do, when it does not work
+};
+
+Finding check_devices(const std::vector<gpu::DeviceInfo>& devices)
+{
+    Finding finding{"vulkan", false, true, "", ""};
+    for (const gpu::DeviceInfo& device : devices) finding.works = finding.works || device.usable;
+    if (finding.works) {
+        finding.detail = "rendering works";
+        return finding;
+    }
+    finding.detail = devices.empty() ? "no Vulkan driver found" : "no Vulkan device is good enough";
+    finding.fix =
+        "Install a Vulkan 1.3 driver; on any CPU: apt-get install mesa-vulkan-drivers (lavapipe). "
+        "If VK_ICD_FILENAMES or VK_DRIVER_FILES is set, check that it names existing files.";
+    return finding;
+}
+
+Finding check_ffmpeg()
+{
+    const std::string program = find_ffmpeg();
+    if (program.empty()) {
+        return {"ffmpeg", false, false, "not found: no films", "apt-get install ffmpeg"};
+    }
+    return {"ffmpeg", true, false, program, ""};
+}
+
+Finding check_data()
+{
+    const auto folder = find_data_folder();
+    if (!folder) {
+        return {"data", false, true, "data folder not found",
+                "Set PETRICHOR_DATA to the folder that holds scenarios/ and weather/."};
+    }
+    return {"data", true, true, folder->string(), ""};
+}
+
+Finding check_cache()
+{
+    const auto folder = cache_folder();
+    try {
+        require_writable_folder(folder);
+        return {"cache", true, false, folder.string(), ""};
+    } catch (const Error& error) {
+        return {"cache", false, false, error.what(), "Set PETRICHOR_CACHE to a folder you may write to."};
+    }
+}
+
+void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices, bool can_render)
+{
+    Json report;
+    report["version"] = PETRICHOR_VERSION;
+    report["can_render"] = can_render;
+    report["threads"] = std::thread::hardware_concurrency();
+    report["devices"] = Json::array();
+    for (const gpu::DeviceInfo& device : devices) {
+        report["devices"].push_back({{"name", device.name},
+                                     {"driver", device.driver},
+                                     {"kind", device.kind},
+                                     {"api_version", device.api_version},
+                                     {"usable", device.usable},
+                                     {"why_not", device.why_not}});
+    }
+    report["checks"] = Json::array();
+    for (const Finding& one : findings) {
+        report["checks"].push_back({{"name", one.name},
+                                    {"works", one.works},
+                                    {"needed", one.needed},
+                                    {"detail", one.detail},
+                                    {"fix", one.fix}});
+    }
+    report["weather_presets"] = preset_names("weather");
+    report["scenarios"] = preset_names("scenarios");
+    std::cout << report.dump(2) << "\n";
+}
+
+void print_text(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices, bool can_render)
+{
+    std::cout << "petrichor " PETRICHOR_VERSION ", " << std::thread::hardware_concurrency() << " threads\n";
+    int index = 0;
+    for (const gpu::DeviceInfo& device : devices) {
+        std::cout << (device.usable ? "  ok    " : "  no    ") << "device " << index++ << ": " << device.name
+                  << " (" << device.kind << ", Vulkan " << device.api_version << ", " << device.driver << ")";
+        if (!device.usable) std::cout << ": " << device.why_not;
+        std::cout << "\n";
+    }
+    for (const Finding& one : findings) {
+        std::cout << (one.works ? "  ok    " : one.needed ? "  MISSING " : "  no    ") << one.name << ": "
+                  << one.detail << "\n";
+        if (!one.works) std::cout << "        " << one.fix << "\n";
+    }
+    std::cout << "  weather presets: " << join_words(preset_names("weather"))
+              << "\n  scenarios: " << join_words(preset_names("scenarios")) << "\n"
+              << (can_render ? "ready to render\n" : "cannot render: see above\n");
+}
+
+void doctor(bool json)
+{
+    const auto devices = gpu::list_devices();
+    const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(), check_cache()};
+    bool can_render = true;
+    for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
+    if (json) {
+        print_json(findings, devices, can_render);
+    } else {
+        print_text(findings, devices, can_render);
+    }
+    if (!can_render) throw ExitCode{kExitUser};
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app)
+{
+    auto json = std::make_shared<bool>(false);
+    CLI::App* command =
+        app.add_subcommand("doctor", "Tell what works on this machine, what is missing, how to get it.");
+    command->add_flag("--json", *json, "the same for programs");
+    command->footer("Example: petrichor doctor --json\nExit code 2 when rendering is impossible here.");
+    command->callback([json] { doctor(*json); });
+}
+
+}  // namespace petrichor::cli

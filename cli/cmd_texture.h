@@ -1,0 +1,17 @@
+#ifndef PETRICHOR_CLI_CMD_TEXTURE_H
+#define PETRICHOR_CLI_CMD_TEXTURE_H
+
+namespace CLI {
+class App;
+}
+
+namespace petrichor::cli {
+
+// One function for each subcommand of `petrichor texture`.
+void add_texture_prefilter(CLI::App& texture);
+void add_texture_pack(CLI::App& texture);
+void add_texture_score(CLI::App& texture);
+
+}  // namespace petrichor::cli
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef PETRICHOR_CLI_PROGRESS_H
+#define PETRICHOR_CLI_PROGRESS_H
+
+#include <chrono>
+#include <string>
+
+namespace petrichor::cli {
+
+/// "1:02:03", "4:05", "12 s".
+std::string duration_text(double seconds);
+
+/// Tells on stderr how far a row of equal pieces of work is and how long it still takes: a bar that
+/// redraws itself on a terminal, now and then a plain line in a log.
+class Progress {
+public:
+    Progress(std::string what, int total);
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress();  ///< leaves the cursor on a fresh line
+
+    /// `done` pieces are finished.
+    void update(int done);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string what_;
+    int total_;
+    bool terminal_;
+    bool drawn_ = false;
+    Clock::time_point start_;
+    Clock::time_point last_;
+};
+
+}  // namespace petrichor::cli
+
+#endif

@@ -1,0 +1,134 @@
+#include "gpu/detail/frame_constants.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/formulas/atmosphere.h"
+#include "gpu/formulas/brdf.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr float kSunAngularRadius = 0.00465f;
+constexpr float kNightRadiance = 0.05f;  // cd/m2, stars and the glow of a town
+
+glm::vec3 sun_direction(const Sky& sky)
+{
+    const float level = std::cos(sky.sun_elevation_rad);
+    return {level * std::sin(sky.sun_azimuth_rad), std::sin(sky.sun_elevation_rad),
+            -level * std::cos(sky.sun_azimuth_rad)};
+}
+
+glm::vec3 sunlight_at_ground(const Sky& sky)
+{
+    const float up = std::sin(sky.sun_elevation_rad);
+    const float risen = glm::smoothstep(-0.01f, 0.015f, up);
+    return shared::air_transmittance(2.0f, std::max(up, 0.0f), sky.turbidity) *
+           (sky.sun_illuminance * risen);
+}
+
+float cloud_shadow(float cover)
+{
+    return 1.0f - glm::smoothstep(0.25f, 0.95f, cover);
+}
+
+}  // namespace
+
+Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
+{
+    Sun sun;
+    if (sky.analytic_sun) {
+        sun.direction = sun_direction(sky);
+        sun.illuminance = sunlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
+        sun.disc = !has_environment;
+    } else if (scene_sun) {
+        sun.direction = -scene_sun->direction;
+        sun.illuminance = scene_sun->color * scene_sun->intensity;
+    }
+    return sun;
+}
+
+shared::SkyParams sky_params(const Frame& frame)
+{
+    const Sky& sky = frame.sky;
+    shared::SkyParams p{};
+    p.sun_direction = sun_direction(sky);
+    p.turbidity = sky.turbidity;
+    p.sun_illuminance = glm::vec3(sky.sun_illuminance);
+    p.cloud_cover = std::clamp(sky.cloud_cover, 0.0f, 1.0f);
+    p.time_s = static_cast<float>(frame.settings.time_s);
+    p.wind_m_s = frame.weather.wind_m_s;
+    p.night_radiance = kNightRadiance;
+    // Kasten and Czeplak 1980 for the light under clouds; a clear sky adds about 15 % to the sun.
+    const float up = std::max(p.sun_direction.y, 0.0f);
+    const glm::vec3 level = sunlight_at_ground(sky) * up * 1.15f + glm::vec3(0.02f) * sky.sun_illuminance * up;
+    const float through = 1.0f - 0.75f * std::pow(p.cloud_cover, 3.4f);
+    const float white = std::clamp(frame.weather.snow_amount * 1.2f, 0.0f, 1.0f);
+    const glm::vec3 albedo =
+        glm::mix(glm::vec3(1.0f, 0.97f, 0.9f) * sky.ground_albedo, glm::vec3(0.75f), white);
+    p.ground_radiance = level * through * albedo / shared::kPi;
+    return p;
+}
+
+shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
+                                       std::uint32_t sample_index)
+{
+    const FrameSettings& s = frame.settings;
+    const SurfaceWeather& w = frame.weather;
+    shared::FrameConstants c{};
+    set_camera(c, frame.camera, s.width, s.height, sample_offset(sample_index, s.seed), scene);
+    c.time_s = static_cast<float>(s.time_s);
+    c.seed = s.seed;
+    c.sample_index = sample_index;
+    c.sun_direction = sun.direction;
+    c.sun_illuminance = sun.illuminance;
+    c.flood = {w.flood_cracks, w.flood_puddles};
+    c.film = {w.film_albedo, w.film_smoothness};
+    c.rain = w.rain;
+    c.snow_amount = w.snow_amount;
+    c.water_to_snow = w.water_to_snow;
+    c.freeze_exp = w.freeze_exp;
+    c.melt = w.melt;
+    c.melt_exp = w.melt_exp;
+    c.snow_start_m = w.snow_start_height_m;
+    c.snow_blend_m = w.snow_height_blend_m;
+    c.frost = w.frost;
+    c.snow_color = w.snow_color;
+    c.ripple_tiling = 0.8f;
+    c.ripple_refraction = 0.5f;
+    c.snow_tiling = {0.35f, 1.7f, 0.09f, 0.83f};
+    c.wind_m_s = w.wind_m_s;
+    const float size_m = glm::length(scene.high - scene.low);
+    c.ao_radius_m = std::clamp(0.03f * size_m, 0.01f, 0.7f);
+    c.ao_strength = 1.0f;
+    c.ambient_scale = s.image_based_light ? 1.0f : 0.0f;
+    c.sky_scale = 1.0f;
+    // Koschmieder: 2 % contrast is left at the visibility. The veil is skylight: none without it.
+    c.fog_per_m = s.image_based_light ? 3.912f / std::max(w.visibility_m, 1.0f) : 0.0f;
+    c.emissive_scale = frame.emissive_scale;
+    c.bounce = 0.22f + 0.25f * std::clamp(w.snow_amount, 0.0f, 1.0f);
+    c.exposure = s.exposure;
+    c.exposure_bias = std::exp2(s.exposure_bias_stops);
+    c.samples = static_cast<float>(s.samples);
+    c.sun_angular_cos = std::cos(kSunAngularRadius);
+    const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
+    flag(s.shadows, FRAME_SHADOWS);
+    flag(s.ambient_occlusion, FRAME_AMBIENT_OCCLUSION);
+    flag(s.image_based_light, FRAME_IMAGE_BASED_LIGHT);
+    flag(s.draw_sky, FRAME_SKY);
+    flag(s.tone_map, FRAME_TONE_MAP);
+    flag(s.shelter, FRAME_SHELTER);
+    flag(sun.disc, FRAME_SUN_DISC);
+    return c;
+}
+
+bool weather_shows(const Frame& frame, bool scene_has_constant_weather)
+{
+    const SurfaceWeather& w = frame.weather;
+    return scene_has_constant_weather || w.rain > 0.0f || w.flood_cracks > 0.0f ||
+           w.flood_puddles > 0.0f || w.film_albedo > 0.0f || w.film_smoothness > 0.0f ||
+           w.snow_amount > 0.0f || w.frost > 0.0f;
+}
+
+}  // namespace petrichor::gpu

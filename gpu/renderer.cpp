@@ -1,0 +1,281 @@
+#include "gpu/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "gpu/detail/frame.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr int kMaxSamples = 256;
+
+void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
+{
+    const FrameSettings& s = frame.settings;
+    const auto limit = static_cast<int>(limits.maxImageDimension2D);
+    if (s.width < 1 || s.height < 1 || s.width > limit || s.height > limit) {
+        throw Error("render: a picture of " + std::to_string(s.width) + " x " +
+                        std::to_string(s.height) + " is not possible; sides of 1 to " +
+                        std::to_string(limit) + " pixels are",
+                    "Choose another --size.");
+    }
+    const auto pixels = static_cast<double>(s.width) * static_cast<double>(s.height);
+    if (pixels * 16.0 > static_cast<double>(limits.maxStorageBufferRange)) {
+        throw Error("render: a picture of " + std::to_string(s.width) + " x " +
+                        std::to_string(s.height) + " needs more than the " +
+                        std::to_string(limits.maxStorageBufferRange >> 20) +
+                        " MiB that this device reads back at once",
+                    "Choose a smaller --size.");
+    }
+    if (s.samples < 1 || s.samples > kMaxSamples) {
+        throw Error("render: samples must be 1 to " + std::to_string(kMaxSamples) + ", got " +
+                        std::to_string(s.samples),
+                    "Choose another --samples.");
+    }
+    if (!(std::isfinite(frame.sky.sun_elevation_rad) && std::isfinite(frame.sky.sun_azimuth_rad))) {
+        throw Error("render: the sun's direction is not a number", "Give finite angles.");
+    }
+    const Camera& camera = frame.camera;
+    const bool fov = camera.vertical_fov_rad > 0.0f && camera.vertical_fov_rad < 3.14159f;
+    if (!(camera.orthographic_height_m > 0.0f) && !fov) {
+        throw Error("render: the camera's vertical field of view must be in (0, 180) degrees, got " +
+                        std::to_string(camera.vertical_fov_rad * 57.29578f),
+                    "Set another field of view.");
+    }
+    if (!(camera.near_m > 0.0f)) {
+        throw Error("render: the camera's near distance must be above 0, got " +
+                        std::to_string(camera.near_m),
+                    "Set a near distance such as 0.05.");
+    }
+}
+
+bool has_constant_weather(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        const MaterialWeather& w = m.weather;
+        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
+               w.snow_accumulation.x > 0.0f;
+    });
+}
+
+}  // namespace
+
+const std::vector<AovInfo>& aov_table()
+{
+    // The order is that of the cases in aov.comp.glsl.
+    static const std::vector<AovInfo> table{
+        {"depth", "Z", "distance along the view axis, metres; infinity for the sky"},
+        {"position", "XYZ", "world position, metres"},
+        {"normal", "XYZ", "world normal of the dry surface, unit"},
+        {"base_color", "RGB", "dry base colour, linear, 0..1"},
+        {"roughness", "Y", "dry perceptual roughness, 0..1"},
+        {"metallic", "Y", "metallic, 0..1"},
+        {"occlusion", "Y", "baked ambient occlusion, 1 open"},
+        {"emission", "RGB", "emitted radiance, linear"},
+        {"film", "Y", "where a film of water can form: shelter and slope, 0..1"},
+        {"water", "Y", "cover of standing water, 0..1"},
+        {"snow", "Y", "cover of snow, 0..1"},
+        {"frost", "Y", "cover of hoar frost, 0..1"},
+        {"cover_normal", "XYZ", "world normal of the water or snow surface, unit"},
+    };
+    return table;
+}
+
+struct Renderer::Impl {
+    explicit Impl(const RendererOptions& options)
+        : device(options), pipelines(device), descriptors(device), shared_arena(device),
+          surface_maps(device, shared_arena), depth_maps(device, shared_arena),
+          sky(device, shared_arena), target_arena(std::make_unique<MemoryArena>(device)),
+          light_arena(std::make_unique<MemoryArena>(device)),
+          environment_arena(std::make_unique<MemoryArena>(device))
+    {
+        const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
+        constants_stride = (sizeof(shared::FrameConstants) + alignment - 1) / alignment * alignment;
+        constants = shared_arena.buffer({.name = "frame_constants",
+                                         .size = constants_stride * kMaxSamples,
+                                         .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                         .host = true});
+    }
+
+    void prepare_lights(const Frame& frame, const Light* sun)
+    {
+        std::vector<Light> lights;
+        for (const Light& light : scene->lights()) {
+            if (&light == sun || (light.kind == LightKind::Directional && frame.sky.analytic_sun)) {
+                continue;
+            }
+            lights.push_back(light);
+            if (light.kind != LightKind::Directional) {
+                lights.back().intensity *= frame.scene_light_scale;
+            }
+            if (lights.back().intensity <= 0.0f) lights.pop_back();
+        }
+        lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
+        light_table = {};
+        light_arena = std::make_unique<MemoryArena>(device);
+        light_table = make_light_table(device, *light_arena, lights);
+    }
+
+    void prepare_targets(const FrameSettings& s)
+    {
+        const int words = static_cast<int>(light_table.words());
+        if (targets.width != s.width || targets.height != s.height || words > target_words) {
+            targets = {};
+            target_arena = std::make_unique<MemoryArena>(device);
+            targets = make_frame_targets(device, *target_arena, s.width, s.height, words);
+            target_words = words;
+        }
+        const auto pixels = static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
+        while (targets.aovs.size() < s.aovs.size()) {
+            targets.aovs.push_back(target_arena->buffer(
+                {.name = "aov", .size = pixels * sizeof(glm::vec4), .host = true}));
+        }
+    }
+
+    Device device;
+    PipelineCache pipelines;
+    DescriptorArena descriptors;
+    MemoryArena shared_arena;
+    std::unique_ptr<GpuBuffer> constants;
+    VkDeviceSize constants_stride = 0;
+    SurfaceMaps surface_maps;
+    DepthMaps depth_maps;
+    SkyMaps sky;
+    std::unique_ptr<MemoryArena> target_arena;
+    FrameTargets targets;
+    int target_words = 0;
+    std::unique_ptr<MemoryArena> light_arena;
+    LightTable light_table;
+    std::unique_ptr<MemoryArena> environment_arena;
+    std::unique_ptr<GpuImage> environment;
+    std::unique_ptr<GpuScene> scene;
+    bool constant_weather = false;
+    std::string graph_text;
+};
+
+Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
+{
+    impl_->scene = nullptr;
+    impl_->depth_maps.shadow_valid = false;
+    impl_->depth_maps.shelter_valid = false;
+    impl_->depth_maps.sky_valid = false;
+    impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
+    impl_->constant_weather = has_constant_weather(scene);
+}
+
+void Renderer::set_environment(const EnvironmentMap& map)
+{
+    impl_->environment = nullptr;
+    impl_->sky.drawn_valid = false;
+    impl_->environment_arena = std::make_unique<MemoryArena>(impl_->device);
+    if (map.rgb.empty()) return;
+    impl_->environment = impl_->environment_arena->image(
+        {.name = "environment",
+         .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+         .width = map.width,
+         .height = map.height,
+         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    std::vector<std::byte> texels(map.rgb.size() / 3 * 16);
+    for (std::size_t i = 0; i < map.rgb.size() / 3; ++i) {
+        const float rgba[4] = {map.rgb[3 * i], map.rgb[3 * i + 1], map.rgb[3 * i + 2], 1.0f};
+        std::memcpy(texels.data() + i * 16, rgba, 16);
+    }
+    upload_image(impl_->device, *impl_->environment, {texels});
+}
+
+RenderResult Renderer::render(const Frame& frame)
+{
+    Impl& impl = *impl_;
+    check_frame(frame, impl.device.limits());
+    if (!impl.scene) throw Error("render: no scene is loaded", "Call load() before render().");
+    std::vector<std::uint32_t> aov_kinds;
+    for (const std::string& name : frame.settings.aovs) {
+        const auto& table = aov_table();
+        const auto found = std::find_if(table.begin(), table.end(),
+                                        [&](const AovInfo& a) { return a.name == name; });
+        if (found == table.end()) {
+            std::string known;
+            for (const AovInfo& a : table) known += (known.empty() ? "" : ", ") + a.name;
+            throw Error("render: there is no output \"" + name + "\"; there are " + known,
+                        "Choose among these for --aov.");
+        }
+        aov_kinds.push_back(static_cast<std::uint32_t>(found - table.begin()));
+    }
+
+    const Light* scene_sun = nullptr;
+    if (!frame.sky.analytic_sun) {
+        for (const Light& light : impl.scene->lights()) {
+            if (light.kind == LightKind::Directional) {
+                scene_sun = &light;
+                break;
+            }
+        }
+    }
+    const Sun sun = sun_of(frame.sky, scene_sun, impl.environment != nullptr);
+    impl.prepare_lights(frame, scene_sun);
+    impl.prepare_targets(frame.settings);
+    impl.descriptors.reset();
+
+    FrameResources resources;
+    resources.device = &impl.device;
+    resources.scene = impl.scene.get();
+    resources.targets = &impl.targets;
+    resources.surface_maps = &impl.surface_maps;
+    resources.depth_maps = &impl.depth_maps;
+    resources.sky = &impl.sky;
+    resources.lights = &impl.light_table;
+    resources.environment = impl.environment.get();
+    resources.constants = impl.constants.get();
+    resources.constants_stride = impl.constants_stride;
+    resources.scene_has_constant_weather = impl.constant_weather;
+    FrameGraph graph = build_frame(frame, sun, resources, aov_kinds);
+    impl.graph_text = graph.describe();
+
+    RenderResult result;
+    result.passes = graph.execute(impl.device, impl.pipelines, impl.descriptors);
+    result.width = frame.settings.width;
+    result.height = frame.settings.height;
+    const auto pixels = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+    result.beauty.resize(pixels * 4);
+    std::memcpy(result.beauty.data(), impl.targets.beauty->mapped, pixels * 8);
+    result.display.resize(pixels * 4);
+    std::memcpy(result.display.data(), impl.targets.display->mapped, pixels * 4);
+    shared::SkyLight light{};
+    std::memcpy(&light, impl.sky.light->mapped, sizeof(light));
+    result.exposure = light.exposure;
+    result.light_list_overflows = count_overflows(impl.targets);
+    for (std::size_t i = 0; i < aov_kinds.size(); ++i) {
+        const AovInfo& info = aov_table()[aov_kinds[i]];
+        AovImage image;
+        image.name = info.name;
+        image.channels = static_cast<int>(info.channels.size());
+        image.pixels.resize(pixels * info.channels.size());
+        const std::byte* source = impl.targets.aovs[i]->mapped;
+        for (std::size_t p = 0; p < pixels; ++p) {
+            std::memcpy(&image.pixels[p * info.channels.size()], source + p * 16,
+                        info.channels.size() * 4);
+        }
+        result.aovs.push_back(std::move(image));
+    }
+    return result;
+}
+
+const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
+
+const std::vector<std::string>& Renderer::validation_messages() const
+{
+    return impl_->device.validation_messages();
+}
+
+std::string Renderer::describe_graph() const { return impl_->graph_text; }
+
+}  // namespace petrichor::gpu

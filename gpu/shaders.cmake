@@ -1,0 +1,46 @@
+# petrichor_add_shaders(TARGET file.stage.glsl ...)
+#
+# Compiles GLSL to SPIR-V at build time and embeds it: every shader becomes a header with an array,
+# and one table maps names ("lighting.comp") to arrays. Editing an included header recompiles its users.
+function(petrichor_add_shaders target)
+    set(output_dir ${CMAKE_CURRENT_BINARY_DIR}/shaders)
+    file(MAKE_DIRECTORY ${output_dir})
+    set(table_includes "")
+    set(table_rows "")
+    set(headers "")
+    foreach(source IN LISTS ARGN)
+        get_filename_component(file ${source} NAME)
+        string(REGEX REPLACE "\\.glsl$" "" name ${file})
+        string(REPLACE "." "_" symbol ${name})
+        string(REGEX REPLACE ".*\\." "" stage ${name})
+        set(header ${output_dir}/${name}.h)
+        add_custom_command(
+            OUTPUT ${header}
+            COMMAND Vulkan::glslangValidator -V --quiet --target-env vulkan1.3 -S ${stage}
+                    -I${PROJECT_SOURCE_DIR} $<IF:$<CONFIG:Debug>,-gVS,-g0>
+                    --vn ${symbol} --depfile ${header}.d -o ${header}
+                    ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+            DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+            DEPFILE ${header}.d
+            COMMENT "Compiling shader ${name}"
+            VERBATIM)
+        list(APPEND headers ${header})
+        string(APPEND table_includes "#include \"${header}\"\n")
+        string(APPEND table_rows "    if (name == \"${name}\") return ${symbol};\n")
+    endforeach()
+    file(GENERATE OUTPUT ${output_dir}/embedded_shaders.cpp CONTENT
+"#include \"gpu/detail/shaders.h\"
+
+namespace petrichor::gpu {
+namespace {
+${table_includes}}  // namespace
+
+std::span<const std::uint32_t> embedded_shader(const std::string& name)
+{
+${table_rows}    return {};
+}
+
+}  // namespace petrichor::gpu
+")
+    target_sources(${target} PRIVATE ${output_dir}/embedded_shaders.cpp ${headers})
+endfunction()

@@ -1,0 +1,211 @@
+#include "texproc/io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "base/error.h"
+
+namespace petrichor::texproc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Io : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+        folder = fs::temp_directory_path() /
+                 ("petrichor-io-" + std::string(info->name()) + std::to_string(::getpid()));
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    fs::path write_file(const std::string& name, const std::string& content) const
+    {
+        std::ofstream(folder / name, std::ios::binary) << content;
+        return folder / name;
+    }
+
+    fs::path folder;
+};
+
+// Every code once, and rows that differ, so that filters and blocks are all used.
+RawImage ramp(int width, int height, int channels, PixelType type)
+{
+    RawImage image{width, height, channels, type, {}, {}};
+    image.bytes.resize(image.values() * size_of(type));
+    std::uint32_t seed = 7;
+    for (std::size_t i = 0; i < image.bytes.size(); ++i) {
+        seed = seed * 1664525u + 1013904223u;
+        image.bytes[i] = static_cast<std::byte>(i % 3 == 0 ? (seed >> 24) : (i / 5) & 255);
+    }
+    return image;
+}
+
+struct Kind {
+    const char* name;
+    int channels;
+    PixelType type;
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name << kind.channels; }
+
+class RoundTrip : public Io, public testing::WithParamInterface<Kind> {};
+TEST_P(RoundTrip, KeepsEveryCode)
+{
+    const Kind& kind = GetParam();
+    const RawImage image = ramp(700, 400, kind.channels, kind.type);
+    const fs::path path = folder / kind.name;
+    write_raw(path, image);
+    const RawImage back = read_raw(path);
+    ASSERT_EQ(back.width, 700);
+    ASSERT_EQ(back.height, 400);
+    ASSERT_EQ(back.channels, kind.channels);
+    ASSERT_EQ(back.type, kind.type);
+    EXPECT_EQ(back.bytes, image.bytes);
+}
+INSTANTIATE_TEST_SUITE_P(Table, RoundTrip, testing::Values(
+    Kind{"a.png", 1, PixelType::U8}, Kind{"a.png", 2, PixelType::U8}, Kind{"a.png", 3, PixelType::U8},
+    Kind{"a.png", 4, PixelType::U8}, Kind{"b.png", 1, PixelType::U16},
+    Kind{"b.png", 2, PixelType::U16}, Kind{"b.png", 3, PixelType::U16},
+    Kind{"b.png", 4, PixelType::U16}, Kind{"a.tga", 3, PixelType::U8}, Kind{"a.tga", 4, PixelType::U8},
+    Kind{"a.tif", 4, PixelType::U8}, Kind{"a.tif", 1, PixelType::U16},
+    Kind{"a.tif", 4, PixelType::U16}, Kind{"f.exr", 4, PixelType::F32}));
+
+TEST_F(Io, ExrKeepsNamesHalvesAndFloats)
+{
+    ExrChannel half{"albedo.R", {0x3c00, 0x4000, 0x0001, 0xbc00}, {}};
+    ExrChannel depth{"depth.Z", {}, {1.0f, 1e-30f, 3.25f, 1e30f}};
+    write_exr(folder / "a.exr", 2, 2, {half, depth}, {{"command", "test"}});
+    const Image back = read_image(folder / "a.exr");
+    ASSERT_EQ(back.channels, 2);
+    const RawImage raw = read_raw(folder / "a.exr");
+    ASSERT_EQ(raw.channel_names.size(), 2u);
+    EXPECT_EQ(raw.channel_names[0], "albedo.R");
+    EXPECT_EQ(raw.channel_names[1], "depth.Z");
+    EXPECT_FLOAT_EQ(back.at(0, 0, 0), 1.0f);
+    EXPECT_FLOAT_EQ(back.at(1, 1, 0), -1.0f);
+    EXPECT_FLOAT_EQ(back.at(1, 0, 1), 1e-30f);
+    EXPECT_FLOAT_EQ(back.at(1, 1, 1), 1e30f);
+}
+
+TEST_F(Io, LinearColourGoesThroughTheSrgbCurveAndAlphaDoesNot)
+{
+    const std::uint8_t codes[4] = {188, 0, 255, 128};
+    write_png8(folder / "a.png", 1, 1, 4, codes);
+    const Image linear = read_image(folder / "a.png", {.space = ColorSpace::Linear});
+    EXPECT_NEAR(linear.pixels[0], 0.5029f, 1e-4f);  // 188 / 255 through the inverse curve
+    EXPECT_FLOAT_EQ(linear.pixels[2], 1.0f);
+    EXPECT_NEAR(linear.pixels[3], 128.0f / 255.0f, 1e-6f);
+    const Image data = read_image(folder / "a.png");
+    EXPECT_NEAR(data.pixels[0], 188.0f / 255.0f, 1e-6f);
+    write_image(folder / "b.png", linear);
+    EXPECT_EQ(read_raw(folder / "b.png").bytes, read_raw(folder / "a.png").bytes);
+}
+
+TEST_F(Io, AlphaIsDataAndLeavesColourAlone)
+{
+    // Colour under alpha 0 and 3: a library that multiplies or divides by alpha loses it.
+    const std::uint8_t codes[8] = {200, 150, 100, 0, 200, 150, 100, 3};
+    for (const char* name : {"a.png", "a.tga", "a.tif"}) {
+        RawImage image{2, 1, 4, PixelType::U8, {}, {}};
+        for (const std::uint8_t c : codes) image.bytes.push_back(static_cast<std::byte>(c));
+        write_raw(folder / name, image);
+        EXPECT_EQ(read_raw(folder / name).bytes, image.bytes) << name;
+    }
+}
+
+TEST_F(Io, BytesInMemoryDecodeLikeTheFile)
+{
+    const RawImage image = ramp(33, 17, 3, PixelType::U8);
+    write_raw(folder / "a.png", image);
+    std::ifstream in(folder / "a.png", std::ios::binary);
+    const std::string content((std::istreambuf_iterator<char>(in)), {});
+    const auto bytes = std::as_bytes(std::span(content));
+    EXPECT_EQ(decode_raw(bytes, "embedded image 3").bytes, image.bytes);
+    EXPECT_THROW(decode_raw(bytes.subspan(0, 20), "cut"), Error);
+    EXPECT_THROW(decode_raw({}, "empty"), Error);
+}
+
+TEST_F(Io, PngBytesDoNotDependOnThreads)
+{
+    const RawImage image = ramp(1000, 900, 3, PixelType::U16);
+    write_raw(folder / "1.png", image, {.threads = 1});
+    write_raw(folder / "5.png", image, {.threads = 5});
+    const auto content = [](const fs::path& p) {
+        std::ifstream in(p, std::ios::binary);
+        return std::string((std::istreambuf_iterator<char>(in)), {});
+    };
+    EXPECT_EQ(content(folder / "1.png"), content(folder / "5.png"));
+    EXPECT_GT(content(folder / "1.png").size(), 1000u);
+}
+
+TEST_F(Io, RefusesWithTheReason)
+{
+    const auto problem = [](const auto& act) {
+        try {
+            act();
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    EXPECT_THAT(problem([&] { read_image(folder / "none.png"); }), testing::HasSubstr("no such file"));
+    EXPECT_THAT(problem([&] { read_image(folder); }), testing::HasSubstr("not a file"));
+    const fs::path text = write_file("text.png", "this is not an image at all, really");
+    EXPECT_THAT(problem([&] { read_image(text); }), testing::HasSubstr("none of PNG"));
+    const fs::path empty = write_file("empty.png", "");
+    EXPECT_THAT(problem([&] { read_image(empty); }), testing::HasSubstr("empty"));
+    write_raw(folder / "a.png", ramp(300, 200, 1, PixelType::U8));
+    EXPECT_THAT(problem([&] { read_image(folder / "a.png", {.max_pixels = 1000}); }),
+                testing::HasSubstr("300 x 200"));
+    EXPECT_THAT(problem([&] { read_image(folder / "a.png", {.max_bytes = 1000}); }),
+                testing::HasSubstr("MiB"));
+    EXPECT_THAT(problem([&] { write_image("/proc/none/a.png", Image(1, 1, 1, ColorSpace::Data)); }),
+                testing::HasSubstr("/proc/none"));
+    EXPECT_THAT(problem([&] { write_image(folder / "a.xyz", Image(1, 1, 1, ColorSpace::Data)); }),
+                testing::HasSubstr(".xyz"));
+}
+
+TEST_F(Io, ManyThreadsReadAtOnce)
+{
+    std::vector<RawImage> images;
+    for (int i = 0; i < 8; ++i) {
+        images.push_back(ramp(64 + i, 64, 3, PixelType::U8));
+        write_raw(folder / (std::to_string(i) + ".png"), images.back());
+    }
+    std::vector<int> good(8, 0);
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 8; ++t) {
+        threads.emplace_back([&, t] {
+            const RawImage back = read_raw(folder / (std::to_string(t) + ".png"));
+            good[t] = back.bytes == images[t].bytes;
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const int ok : good) EXPECT_EQ(ok, 1);
+}
+
+// A file on which the image library itself aborts is an error, and the next file is read.
+TEST_F(Io, ACrashOfTheImageLibraryIsAnError)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    write_raw(folder / "a.png", ramp(8, 8, 3, PixelType::U8));
+    for (const char* name : {"tga/crash1.tga", "exr/memory_DOS_2.1", "psd/crash-bomb-30000.psd"}) {
+        try {
+            (void)read_image(fs::path(assets) / "bad" / name);
+        } catch (const Error&) {
+        }
+        EXPECT_EQ(read_raw(folder / "a.png").width, 8) << "after " << name;
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

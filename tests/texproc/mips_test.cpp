@@ -1,0 +1,130 @@
+#include "texproc/mips.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "texproc/area.h"
+
+namespace petrichor::texproc {
+namespace {
+
+Image noise(int width, int height, int channels)
+{
+    Image image(width, height, channels, ColorSpace::Data);
+    std::uint32_t seed = 12345;
+    for (float& v : image.pixels) {
+        seed = seed * 1664525u + 1013904223u;
+        v = static_cast<float>(seed >> 8) / 16777216.0f;
+    }
+    return image;
+}
+
+double mean(const Image& image, int channel)
+{
+    double sum = 0.0;
+    const auto step = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = static_cast<std::size_t>(channel); i < image.pixels.size(); i += step) {
+        sum += static_cast<double>(image.pixels[i]);
+    }
+    return sum * image.channels / static_cast<double>(image.pixels.size());
+}
+
+struct Size {
+    int width, height;
+};
+void PrintTo(const Size& s, std::ostream* out) { *out << s.width << "x" << s.height; }
+
+class Chain : public testing::TestWithParam<Size> {};
+
+// Exact area: nothing is lost, at any size, on any level.
+TEST_P(Chain, EveryLevelKeepsTheMean)
+{
+    const Image image = noise(GetParam().width, GetParam().height, 3);
+    for (const Image& level : mip_chain(image)) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean(level, c), mean(image, c), 1e-5);
+    }
+}
+
+// Each texel against a sum over level 0, taken in another way.
+TEST_P(Chain, EveryTexelIsTheMeanOverItsAreaOfLevelZero)
+{
+    const Image image = noise(GetParam().width, GetParam().height, 1);
+    const auto chain = mip_chain(image);
+    for (const Image& level : chain) {
+        const double sx = static_cast<double>(image.width) / level.width;
+        const double sy = static_cast<double>(image.height) / level.height;
+        for (int y = 0; y < level.height; ++y) {
+            for (int x = 0; x < level.width; ++x) {
+                double sum = 0.0, area = 0.0;
+                for (int v = 0; v < image.height; ++v) {
+                    const double h = std::min(v + 1.0, (y + 1) * sy) - std::max<double>(v, y * sy);
+                    if (h <= 0.0) continue;
+                    for (int u = 0; u < image.width; ++u) {
+                        const double w = std::min(u + 1.0, (x + 1) * sx) - std::max<double>(u, x * sx);
+                        if (w <= 0.0) continue;
+                        sum += w * h * static_cast<double>(image.at(u, v, 0));
+                        area += w * h;
+                    }
+                }
+                ASSERT_NEAR(static_cast<double>(level.at(x, y, 0)), sum / area, 1e-5);
+            }
+        }
+    }
+    EXPECT_EQ(chain.back().width, 1);
+    EXPECT_EQ(chain.back().height, 1);
+}
+INSTANTIATE_TEST_SUITE_P(Sizes, Chain, testing::Values(Size{1, 1}, Size{16, 16}, Size{32, 4},
+                                                       Size{5, 5}, Size{7, 13}, Size{1, 9},
+                                                       Size{12, 10}, Size{24, 36}));
+
+TEST(Mips, RollingByATexelOfALevelRollsThatLevel)
+{
+    const Image image = noise(32, 32, 1);
+    Image rolled = image;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) rolled.at(x, y, 0) = image.at((x + 8) % 32, y, 0);
+    }
+    const auto a = mip_chain(image), b = mip_chain(rolled);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 4; ++x) EXPECT_EQ(b[3].at(x, y, 0), a[3].at((x + 1) % 4, y, 0));
+    }
+}
+
+TEST(Mips, NormalsComeOutWithUnitLength)
+{
+    for (const Image& level : mip_chain(noise(9, 6, 3), {.normals = true})) {
+        if (level.width == 9) continue;
+        for (std::size_t i = 0; i < level.pixels.size(); i += 3) {
+            double length = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double n = 2.0 * static_cast<double>(level.pixels[i + k]) - 1.0;
+                length += n * n;
+            }
+            EXPECT_NEAR(length, 1.0, 1e-5);
+        }
+    }
+    EXPECT_THROW(mip_chain(noise(4, 4, 2), {.normals = true}), Error);
+}
+
+TEST(Mips, AlphaCoverageIsKept)
+{
+    Image image = noise(64, 64, 4);
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] *= image.pixels[i];
+    const auto share = [](const Image& level) {
+        int over = 0;
+        for (std::size_t i = 3; i < level.pixels.size(); i += 4) over += level.pixels[i] > 0.5f;
+        return 4.0 * over / static_cast<double>(level.pixels.size());
+    };
+    const auto kept = mip_chain(image, {.alpha_cutoff = 0.5f});
+    const auto plain = mip_chain(image);
+    for (std::size_t k = 1; k < 5; ++k) {
+        EXPECT_NEAR(share(kept[k]), share(image), 0.51 * 4.0 / static_cast<double>(kept[k].pixels.size()))
+            << "level " << k;
+    }
+    EXPECT_LT(share(plain[3]), 0.1) << "the test would not notice a chain that does nothing";
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

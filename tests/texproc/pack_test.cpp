@@ -1,0 +1,124 @@
+#include "texproc/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/error.h"
+
+namespace petrichor::texproc {
+namespace {
+
+RawImage grey8(std::initializer_list<int> codes)
+{
+    RawImage image{static_cast<int>(codes.size()), 1, 1, PixelType::U8, {}, {}};
+    for (const int c : codes) image.bytes.push_back(static_cast<std::byte>(c));
+    return image;
+}
+
+RawImage grey16(std::initializer_list<int> codes)
+{
+    RawImage image{static_cast<int>(codes.size()), 1, 1, PixelType::U16, {}, {}};
+    image.bytes.resize(2 * codes.size());
+    std::size_t i = 0;
+    for (const int c : codes) {
+        const auto code = static_cast<std::uint16_t>(c);
+        std::memcpy(&image.bytes[2 * i++], &code, 2);
+    }
+    return image;
+}
+
+int code(const RawImage& image, std::size_t value)
+{
+    if (image.type == PixelType::U8) return static_cast<int>(image.bytes[value]);
+    std::uint16_t c;
+    std::memcpy(&c, &image.bytes[2 * value], 2);
+    return c;
+}
+
+TEST(Pack, HdrpMaskCopiesCodesAndFillsWhatIsMissing)
+{
+    const auto out = pack(pack_preset("unity-hdrp-mask"),
+                          {{"metallic", grey8({1, 2})}, {"roughness", grey8({10, 255})}});
+    ASSERT_EQ(out.channels, 4);
+    const int wanted[8] = {1, 255, 255, 245, 2, 255, 255, 0};
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(code(out, i), wanted[i]) << i;
+}
+
+TEST(Pack, GltfOrm)
+{
+    const auto out = pack(pack_preset("gltf-orm"),
+                          {{"smoothness", grey8({55})}, {"occlusion", grey8({7})}});
+    ASSERT_EQ(out.channels, 3);
+    EXPECT_EQ(code(out, 0), 7);
+    EXPECT_EQ(code(out, 1), 200);
+    EXPECT_EQ(code(out, 2), 0);
+}
+
+TEST(Pack, DepthsMixWithoutLosingACode)
+{
+    const auto out = pack(pack_preset("gltf-orm"),
+                          {{"roughness", grey16({513})}, {"metallic", grey8({3})}});
+    EXPECT_EQ(out.type, PixelType::U16);
+    EXPECT_EQ(code(out, 1), 513);
+    EXPECT_EQ(code(out, 2), 3 * 257);
+    const auto narrow = pack(pack_preset("gltf-orm"), {{"roughness", grey16({513})}}, 8);
+    EXPECT_EQ(code(narrow, 1), 2);
+}
+
+// Every preset: what was packed comes back, bit for bit.
+TEST(Pack, UnpackIsTheInverse)
+{
+    for (const PackPreset& preset : pack_presets()) {
+        std::map<std::string, RawImage> maps;
+        int n = 3;
+        for (const std::string& text : preset.channels) {
+            const PackSource source = parse_pack_channel(text).front();
+            if (source.role.empty()) continue;
+            RawImage& map = maps[source.role];
+            if (map.bytes.empty()) {
+                map = RawImage{2, 1, 4, PixelType::U8, {}, {}};
+                for (int i = 0; i < 8; ++i) map.bytes.push_back(static_cast<std::byte>(n += 11));
+            }
+        }
+        const auto back = unpack(preset, pack(preset, maps));
+        EXPECT_FALSE(back.empty()) << preset.name;
+        for (const auto& [name, image] : back) {
+            const std::size_t dot = name.find('.');
+            const int channel =
+                dot == std::string::npos
+                    ? 0
+                    : static_cast<int>(std::string("rgba").find(name.substr(dot + 1)));
+            EXPECT_EQ(image.bytes, channel_of(maps.at(name.substr(0, dot)), channel).bytes)
+                << preset.name << " " << name;
+        }
+    }
+}
+
+TEST(Pack, ReadsChannelTexts)
+{
+    const PackChannel c = parse_pack_channel("albedo.g | 1 - roughness|0.25");
+    ASSERT_EQ(c.size(), 3u);
+    EXPECT_EQ(c[0].role, "albedo");
+    EXPECT_EQ(c[0].channel, 1);
+    EXPECT_TRUE(c[1].invert);
+    EXPECT_EQ(c[1].role, "roughness");
+    EXPECT_EQ(c[2].constant, 0.25);
+    for (const char* bad : {"", "2", "-1", "1 +a", "a.x", "a.rg", "a||b", "Rough ness", "2 - a"}) {
+        EXPECT_THROW(parse_pack_channel(bad), Error) << bad;
+    }
+}
+
+TEST(Pack, RefusesWhatDoesNotFit)
+{
+    EXPECT_THROW(pack_preset("unity"), Error);
+    EXPECT_THROW(pack(pack_preset("gltf-orm"), {}), Error);
+    EXPECT_THROW(pack(pack_preset("gltf-orm"),
+                      {{"roughness", grey8({1, 2})}, {"metallic", grey8({1})}}),
+                 Error);
+    EXPECT_THROW(pack(pack_preset("normal-rg"), {{"roughness", grey8({1})}}), Error);
+    EXPECT_THROW(pack(pack_preset("normal-rg"), {{"normal", grey8({1})}}), Error);
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

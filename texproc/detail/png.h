@@ -1,0 +1,28 @@
+#ifndef PETRICHOR_TEXPROC_DETAIL_PNG_H
+#define PETRICHOR_TEXPROC_DETAIL_PNG_H
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace petrichor::texproc::detail {
+
+struct PngImage {
+    int width = 0, height = 0;
+    int channels = 0;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
+    int bits = 8;      ///< 8 or 16; 16-bit samples are in the byte order of this machine
+    const std::byte* pixels = nullptr;
+};
+
+/// A whole PNG file. Each row takes the cheaper of two filters, the rows are deflated in blocks of a
+/// fixed size, on `threads` threads (0: all cores): same bytes for any number.
+std::vector<std::byte> encode_png(const PngImage& image,
+                                  const std::vector<std::pair<std::string, std::string>>& texts,
+                                  int level = 1, int threads = 0);
+
+}  // namespace petrichor::texproc::detail
+
+#endif
