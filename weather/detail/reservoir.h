@@ -25,6 +25,15 @@ PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& 
     const Real steady = net * (1.0 / c) + w0;
     const auto above = w > w0;
     const auto falling = net < 0.0;
+    if (!any(above | !falling)) {
+        // Drying pores: a line, which is what the general form gives too.
+        const Real available = w + net * dt;
+        ReservoirStep<Real> dry;
+        dry.shortfall = larger(available * -1.0, Real(0.0));
+        dry.drained = Real(0.0);
+        dry.water = larger(available, Real(0.0));
+        return dry;
+    }
     const Real fall_time =
         logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) * (1.0 / c);
     const Real rise_time = (w0 - w) / larger(net, Real(1e-300));
