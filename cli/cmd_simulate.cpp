@@ -18,6 +18,7 @@
 #include "cli/commands.h"
 #include "cli/folders.h"
 #include "cli/simulate_artist.h"
+#include "cli/simulate_physical.h"
 #include "cli/simulate_plot.h"
 #include "cli/simulate_report.h"
 #include "cli/words.h"
@@ -45,6 +46,7 @@ struct SimulateOptions {
     bool json = false;
     bool hash = false;
     bool list = false;
+    PhysicalRun physical;
 };
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
@@ -156,11 +158,46 @@ SimulationTable simulate_artist(const SimulateOptions& options)
     return table;
 }
 
+// The physical model's share of the options.
+PhysicalRun physical_run(const SimulateOptions& options)
+{
+    PhysicalRun run = options.physical;
+    run.from_s = options.from_s;
+    run.to_s = options.to_s;
+    if (options.step != "1/60") run.step_s = parse_fraction(options.step, "--dt").value();
+    run.every_s = options.every.empty() ? run.step_s : parse_fraction(options.every, "--every").value();
+    if (!options.params.empty()) run.fetch_params = read_file(options.params);
+    if (!options.resume.empty()) run.resume = read_file(options.resume);
+    return run;
+}
+
+std::string weather_text(const SimulateOptions& options)
+{
+    if (options.inputs.size() != 1) {
+        throw Error("simulate: the physical model takes one weather file, got " + std::to_string(options.inputs.size()),
+                    "Give one EPW, TMY3, METAR, CSV or other weather file.");
+    }
+    const std::string& input = options.inputs.front();
+    return input == "-" ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(input);
+}
+
+SimulationTable simulate_physical(const SimulateOptions& options)
+{
+    PhysicalRun run = physical_run(options);
+    std::string checkpoint;
+    if (!options.checkpoint.empty()) run.checkpoint = &checkpoint;
+    const fs::path path = options.inputs.empty() ? "" : options.inputs.front();
+    SimulationTable table = run_physical(weather_text(options), path == "-" ? "weather" : path.stem().string(), run);
+    if (!options.checkpoint.empty()) write_text_file(options.checkpoint, checkpoint);
+    return table;
+}
+
 // One line a model: a new model fills a SimulationTable and has every output.
 SimulationTable simulate(const SimulateOptions& options)
 {
     if (options.model == "artist") return simulate_artist(options);
-    throw Error("simulate: no model \"" + options.model + "\"", "Use --model artist.");
+    if (options.model == "physical") return simulate_physical(options);
+    throw Error("simulate: no model \"" + options.model + "\"", "Use --model artist or physical.");
 }
 
 void write(const SimulationTable& table, const SimulateOptions& options, const fs::path& path)
@@ -197,6 +234,12 @@ void run(const SimulateOptions& options)
     if (options.inputs.empty()) {
         throw Error("simulate: no input", "Give a CSV of keys, a weather TOML, or a preset (--list).");
     }
+    if (options.physical.fit_artist) {
+        const std::string toml = fitted_artist_toml(weather_text(options), physical_run(options));
+        if (options.outputs.empty() || options.outputs.front() == "-") std::cout << toml;
+        else write_text_file(options.outputs.front(), toml);
+        return;
+    }
     const SimulationTable table = simulate(options);
     for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
     std::vector<std::string> outputs = options.outputs;
@@ -214,8 +257,8 @@ void add_simulate(CLI::App& app)
     command->add_option("INPUT", options->inputs,
                         "CSV of keys (time_s,temperature_c,rainfall and any parameter; - reads standard "
                         "input), a weather TOML, or the name of a preset");
-    command->add_option("--model", options->model, "artist")
-        ->check(CLI::IsMember({"artist"}))
+    command->add_option("--model", options->model, "artist: 0..1, by keys; physical: SI, by a weather file")
+        ->check(CLI::IsMember({"artist", "physical"}))
         ->capture_default_str();
     command->add_option("--mode", options->mode, "exact: closed form; stepped: as the original, by --dt")
         ->check(CLI::IsMember({"exact", "stepped"}))
@@ -236,11 +279,14 @@ void add_simulate(CLI::App& app)
     command->add_flag("--json", options->json, "print a summary as JSON");
     command->add_flag("--hash", options->hash, "end the CSV with a line of state hashes");
     command->add_flag("--list", options->list, "list the presets");
+    add_physical_options(*command, options->physical);
     command->footer(
         "Examples:\n"
         "  petrichor simulate rain-then-snow -o report.html     a preset, as an interactive report\n"
         "  petrichor simulate keys.csv --interp linear --every 0.5 -o state.csv\n"
-        "  petrichor simulate keys.csv --mode stepped --dt 1/60 --params look.toml -o plot.svg");
+        "  petrichor simulate keys.csv --mode stepped --dt 1/60 --params look.toml -o plot.svg\n"
+        "  petrichor simulate denver.epw --model physical --surface asphalt -o street.csv -o street.html\n"
+        "  petrichor simulate denver.epw --fit-artist -o rates.toml");
     command->callback([options] { run(*options); });
 }
 
