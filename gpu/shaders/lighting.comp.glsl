@@ -125,7 +125,7 @@ void main()
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
     vec3 radiance;
-    vec3 mirror = vec3(0.0);
+    vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
         radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
@@ -151,13 +151,18 @@ void main()
         m.emission_scale = 1.0;
         m.normal_mix = 0.0;
         vec3 n = g.base_normal;
+        float closed = 0.0;  // share of a flat water surface over the relief
         if (WEATHER != 0u) {
             const float film = g.weather.x;
             m = apply_frost(m, g.weather.w);
             // Murk (the opacity of standing water) is part of the base colour already.
             m = apply_water(m, film * frame.film, g.weather.y, vec4(0.0), g.porosity);
             m = apply_snow(m, g.weather.z, frame.snow_color, vec3(0.02), 0.35, 0.5);
-            n = normalize(mix(n, g.cover_normal, saturate(max(m.normal_mix, g.weather.z))));
+            // A thin film follows the bumps, water that stands closes over them to a mirror.
+            closed = smooth_edge(0.08, 0.55, g.weather.y) * (1.0 - g.weather.z);
+            m.smoothness = mix(m.smoothness, 0.94, closed);
+            n = normalize(mix(n, g.cover_normal,
+                              saturate(max(max(m.normal_mix, closed), g.weather.z))));
         }
         if (g.model == MODEL_UNLIT) {
             radiance = g.base_color + emission;
@@ -216,6 +221,8 @@ void main()
                 const float sky_open =
                     AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
                 const float occlusion = m.occlusion * screen;
+                // A water surface lies above the crevices that its ground has.
+                const float mirror_occlusion = mix(occlusion, 1.0, closed);
                 const float nv = clamp(dot(n, v), 0.0, 1.0);
                 const vec2 size = vec2(textureSize(env_brdf, 0));
                 const vec2 at = (vec2(nv, roughness) * (size - 1.0) + 0.5) / size;
@@ -229,7 +236,8 @@ void main()
                 const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
                 const vec3 irradiance = sky_irradiance(n) * (sky_open + (1.0 - sky_open) * hidden);
                 const float specular_occlusion =
-                    saturate(pow(nv + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion);
+                    saturate(pow(nv + mirror_occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 +
+                             mirror_occlusion);
                 // Light that a bright surface throws back into its own crevices (Jimenez et al. 2016).
                 const vec3 a = 2.0404 * m.albedo - 0.3324;
                 const vec3 b = -4.7951 * m.albedo + 0.6417;
@@ -240,7 +248,7 @@ void main()
                             bounced * frame.ambient_scale;
                 const vec3 reflectance = single * (specular_occlusion * frame.ambient_scale);
                 if (roughness < kMirrorRoughness) {
-                    mirror = reflectance;
+                    mirror = vec4(reflectance, closed);
                     shape = vec4(octahedral_encode(n), roughness, sky_open);
                 } else {
                     const vec3 reflected = reflect(-v, n);
@@ -256,13 +264,13 @@ void main()
             const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
             const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);
-            mirror *= kept;
+            mirror.rgb *= kept;
         }
     }
     const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
     if (IMAGE_BASED_LIGHT != 0u) {
         imageStore(radiance_out, texel, result);
-        imageStore(mirror_weight, texel, vec4(mirror, 1.0));
+        imageStore(mirror_weight, texel, mirror);
         imageStore(mirror_shape, texel, shape);
     } else {
         imageStore(accumulated, texel,

@@ -51,7 +51,8 @@ Hit trace(vec3 origin, vec3 direction, float view_m, float start)
             return hit;
         }
         const float behind = at.z - scene_depth_m(at.xy);
-        if (behind > 0.0 && behind < 0.25 * (t - before) + 0.15 * view_m * 0.2 + 0.1) {
+        // What the ray has passed within this step counts as met; what lies deeper was never near it.
+        if (behind > 0.0 && behind < 1.1 * (t - before) + 0.02 * view_m) {
             float low = before;
             float high = t;
             for (int k = 0; k < kRefinements; ++k) {
@@ -79,7 +80,8 @@ void main()
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, frame.size))) return;
     vec4 sum = texelFetch(radiance_map, texel, 0);
-    const vec3 weight = texelFetch(mirror_weight, texel, 0).rgb;
+    const vec4 mirror = texelFetch(mirror_weight, texel, 0);
+    const vec3 weight = mirror.rgb;
     if (weight.r + weight.g + weight.b > 0.0) {
         const vec4 shape = texelFetch(mirror_shape, texel, 0);
         const float depth = texelFetch(depth_map, texel, 0).r;
@@ -102,7 +104,8 @@ void main()
         Hit hit;
         hit.confidence = 0.0;
         if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0) {
-            hit = trace(position + n * (0.002 * view_m), ray, view_m,
+            // Water stands above the relief that the depth map knows.
+            hit = trace(position + n * (0.002 * view_m + 0.05 * mirror.a), ray, view_m,
                         dither(texel, frame.sample_index + 7u));
         }
         const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);

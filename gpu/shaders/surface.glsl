@@ -201,7 +201,8 @@ void main()
         if (frame.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
             const float t = frame.ripple_tiling;
             const vec2 xy = textureGrad(ripple_map, xz * t, xz_dx * t, xz_dy * t).xy;
-            ripple = mix(ripple, unpack_normal(xy, 1.0),
+            // A third of the slope in the map, as rings on a real puddle have (Lagarde 2013, 2b).
+            ripple = mix(ripple, unpack_normal(xy, 0.35),
                          water.deep * saturate(geometric.y) * saturate(open * 2.0));
         }
         const float constant_puddle = material.water_accumulation.z;
