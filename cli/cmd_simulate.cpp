@@ -1,12 +1,15 @@
 // petrichor simulate: weather over time, from keys or a preset to a table, a plot or a report.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,9 +18,11 @@
 #include "cli/commands.h"
 #include "cli/folders.h"
 #include "cli/simulate_artist.h"
+#include "cli/simulate_physical.h"
 #include "cli/simulate_plot.h"
 #include "cli/simulate_report.h"
 #include "cli/words.h"
+#include "texproc/io.h"
 #include "weather/artist_csv.h"
 
 namespace petrichor::cli {
@@ -41,16 +46,33 @@ struct SimulateOptions {
     bool json = false;
     bool hash = false;
     bool list = false;
+    PhysicalRun physical;
 };
 
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+
+// The whole file, or of a binary one only the head, so that its reader refuses it without delay.
 std::string read_file(const fs::path& path)
 {
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(path, failed);
     std::ifstream in(path, std::ios::binary);
     if (!in || fs::is_directory(path)) {
         throw Error("simulate: cannot read " + path.string(),
                     "Give a file that exists, or the name of a preset (simulate --list).");
     }
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string head(4096, ' ');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (head.find('\0') != head.npos) return head;
+    if (!failed && size > kMostBytes) {
+        throw Error("simulate: " + path.string() + " has " + std::to_string(size) +
+                        " bytes, at most 268435456 are read",
+                    "Give a smaller file.");
+    }
+    std::ostringstream rest;
+    if (in) rest << in.rdbuf();
+    return head + rest.str();
 }
 
 // An input is a preset by name, a TOML weather file, or CSV keys ("-": from standard input).
@@ -111,6 +133,13 @@ SimulationTable simulate_artist(const SimulateOptions& options)
                         std::to_string(options.inputs.size()),
                     "Give one CSV of keys, one weather TOML or one preset.");
     }
+    for (double time_s : {options.from_s.value_or(0.0), options.to_s.value_or(0.0)}) {
+        if (!(time_s >= 0.0 && time_s <= 9e9)) {
+            throw Error("simulate: --from and --to take seconds from 0 up, got " +
+                            number_text(time_s),
+                        "Give times from the start of the run.");
+        }
+    }
     std::vector<std::string> notes;
     const WeatherScript script = read_script(options, notes);
     ArtistRun run;
@@ -129,11 +158,46 @@ SimulationTable simulate_artist(const SimulateOptions& options)
     return table;
 }
 
+// The physical model's share of the options.
+PhysicalRun physical_run(const SimulateOptions& options)
+{
+    PhysicalRun run = options.physical;
+    run.from_s = options.from_s;
+    run.to_s = options.to_s;
+    if (options.step != "1/60") run.step_s = parse_fraction(options.step, "--dt").value();
+    run.every_s = options.every.empty() ? run.step_s : parse_fraction(options.every, "--every").value();
+    if (!options.params.empty()) run.fetch_params = read_file(options.params);
+    if (!options.resume.empty()) run.resume = read_file(options.resume);
+    return run;
+}
+
+std::string weather_text(const SimulateOptions& options)
+{
+    if (options.inputs.size() != 1) {
+        throw Error("simulate: the physical model takes one weather file, got " + std::to_string(options.inputs.size()),
+                    "Give one EPW, TMY3, METAR, CSV or other weather file.");
+    }
+    const std::string& input = options.inputs.front();
+    return input == "-" ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(input);
+}
+
+SimulationTable simulate_physical(const SimulateOptions& options)
+{
+    PhysicalRun run = physical_run(options);
+    std::string checkpoint;
+    if (!options.checkpoint.empty()) run.checkpoint = &checkpoint;
+    const fs::path path = options.inputs.empty() ? "" : options.inputs.front();
+    SimulationTable table = run_physical(weather_text(options), path == "-" ? "weather" : path.stem().string(), run);
+    if (!options.checkpoint.empty()) write_text_file(options.checkpoint, checkpoint);
+    return table;
+}
+
 // One line a model: a new model fills a SimulationTable and has every output.
 SimulationTable simulate(const SimulateOptions& options)
 {
     if (options.model == "artist") return simulate_artist(options);
-    throw Error("simulate: no model \"" + options.model + "\"", "Use --model artist.");
+    if (options.model == "physical") return simulate_physical(options);
+    throw Error("simulate: no model \"" + options.model + "\"", "Use --model artist or physical.");
 }
 
 void write(const SimulationTable& table, const SimulateOptions& options, const fs::path& path)
@@ -149,11 +213,14 @@ void write(const SimulationTable& table, const SimulateOptions& options, const f
         write_text_file(path, json_text(table));
     } else if (kind == ".svg") {
         write_text_file(path, svg_plot(table));
+    } else if (kind == ".png") {
+        const Pixels pixels = to_pixels(plot_of(table), 2.0);
+        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb);
     } else if (kind == ".html") {
         write_text_file(path, html_report(table));
     } else {
         throw Error("simulate: cannot write " + path.string() + ": unknown kind \"" + kind + "\"",
-                    "Use .csv, .json, .svg or .html, or - for CSV on standard output.");
+                    "Use .csv, .json, .svg, .png or .html, or - for CSV on standard output.");
     }
     if (!options.json) std::cerr << "info simulate: wrote " << path.string() << '\n';
 }
@@ -166,6 +233,12 @@ void run(const SimulateOptions& options)
     }
     if (options.inputs.empty()) {
         throw Error("simulate: no input", "Give a CSV of keys, a weather TOML, or a preset (--list).");
+    }
+    if (options.physical.fit_artist) {
+        const std::string toml = fitted_artist_toml(weather_text(options), physical_run(options));
+        if (options.outputs.empty() || options.outputs.front() == "-") std::cout << toml;
+        else write_text_file(options.outputs.front(), toml);
+        return;
     }
     const SimulationTable table = simulate(options);
     for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
@@ -184,8 +257,8 @@ void add_simulate(CLI::App& app)
     command->add_option("INPUT", options->inputs,
                         "CSV of keys (time_s,temperature_c,rainfall and any parameter; - reads standard "
                         "input), a weather TOML, or the name of a preset");
-    command->add_option("--model", options->model, "artist")
-        ->check(CLI::IsMember({"artist"}))
+    command->add_option("--model", options->model, "artist: 0..1, by keys; physical: SI, by a weather file")
+        ->check(CLI::IsMember({"artist", "physical"}))
         ->capture_default_str();
     command->add_option("--mode", options->mode, "exact: closed form; stepped: as the original, by --dt")
         ->check(CLI::IsMember({"exact", "stepped"}))
@@ -199,18 +272,21 @@ void add_simulate(CLI::App& app)
         ->check(CLI::IsMember({"hold", "linear", "smooth"}));
     command->add_option("--params", options->params, "TOML with [artist] and [artist.initial]");
     command->add_option("-o,--output", options->outputs,
-                        "OUT.csv, .json, .svg or .html; - is CSV on standard output (default)")
+                        "OUT.csv, .json, .svg, .png or .html; - is CSV on standard output (default)")
         ->allow_extra_args(false);
     command->add_option("--checkpoint", options->checkpoint, "write the state at the end to this file");
     command->add_option("--resume", options->resume, "continue from such a file, with identical bits");
     command->add_flag("--json", options->json, "print a summary as JSON");
     command->add_flag("--hash", options->hash, "end the CSV with a line of state hashes");
     command->add_flag("--list", options->list, "list the presets");
+    add_physical_options(*command, options->physical);
     command->footer(
         "Examples:\n"
         "  petrichor simulate rain-then-snow -o report.html     a preset, as an interactive report\n"
         "  petrichor simulate keys.csv --interp linear --every 0.5 -o state.csv\n"
-        "  petrichor simulate keys.csv --mode stepped --dt 1/60 --params look.toml -o plot.svg");
+        "  petrichor simulate keys.csv --mode stepped --dt 1/60 --params look.toml -o plot.svg\n"
+        "  petrichor simulate denver.epw --model physical --surface asphalt -o street.csv -o street.html\n"
+        "  petrichor simulate denver.epw --fit-artist -o rates.toml");
     command->callback([options] { run(*options); });
 }
 

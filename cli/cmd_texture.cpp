@@ -14,6 +14,7 @@ void add_texture(CLI::App& app)
     add_texture_prefilter(*texture);
     add_texture_pack(*texture);
     add_texture_score(*texture);
+    add_texture_maps(*texture);
 }
 
 }  // namespace petrichor::cli

@@ -11,6 +11,7 @@ namespace petrichor::cli {
 void add_texture_prefilter(CLI::App& texture);
 void add_texture_pack(CLI::App& texture);
 void add_texture_score(CLI::App& texture);
+void add_texture_maps(CLI::App& texture);  // mips, normal, bake, unpack
 
 }  // namespace petrichor::cli
 

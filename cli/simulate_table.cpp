@@ -1,9 +1,11 @@
 #include "cli/simulate_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "weather/csv.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::cli {
 namespace {
@@ -43,12 +45,18 @@ std::string csv_text(const SimulationTable& table, bool with_hash)
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         if (c > 0) text += ',';
         text += table.columns[c];
+        if (c == 0 && table.utc) text += ",time_utc";
     }
     text += '\n';
     for (const auto& row : table.rows) {
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (c > 0) text += ',';
             text += weather::number_17(row[c]);
+            if (c == 0 && table.utc) {
+                text += ',';
+                text += weather::iso_from_us(table.utc_start_us +
+                                             static_cast<std::int64_t>(std::llround(row[0] * 1e6)));
+            }
         }
         text += '\n';
     }

@@ -36,6 +36,8 @@ struct SimulationTable {
     std::string model;  ///< "artist"
     std::string mode;   ///< "exact", "stepped"
     std::vector<std::string> columns;       ///< the first is time_s
+    bool utc = false;               ///< the CSV has time_utc after time_s
+    std::int64_t utc_start_us = 0;  ///< of time_s 0, microseconds since 1970
     std::vector<std::vector<double>> rows;  ///< as many numbers a row as columns
     std::vector<SimulationEvent> events;    ///< ascending
     std::vector<PlotPanel> panels;

@@ -55,6 +55,20 @@ void normalize_texels(Image& image)
     }
 }
 
+std::vector<Image> smaller_levels(const Image& image, const MipOptions& options)
+{
+    if (options.filter == MipFilter::Box) return area_levels(image, options.threads);
+    const Edge u = options.mirror_u ? Edge::Mirror : options.wrap_u ? Edge::Wrap : Edge::Clamp;
+    const Edge v = options.mirror_v ? Edge::Mirror : options.wrap_v ? Edge::Wrap : Edge::Clamp;
+    std::vector<Image> chain;
+    const std::vector<LevelSize> sizes = level_sizes(image.width, image.height);
+    for (std::size_t k = 1; k < sizes.size(); ++k) {
+        chain.push_back(resampled(chain.empty() ? image : chain.back(), sizes[k].width,
+                                  sizes[k].height, options.filter, u, v, options.threads));
+    }
+    return chain;
+}
+
 }  // namespace
 
 std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
@@ -73,10 +87,12 @@ std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
     if (options.normals) {
         Image unit = image;
         normalize_texels(unit);  // a vector that is too long must not count for more
-        chain = area_levels(unit);
-        for (Image& level : chain) normalize_texels(level);
+        chain = smaller_levels(unit, options);
+        if (!options.keep_length) {
+            for (Image& level : chain) normalize_texels(level);
+        }
     } else {
-        chain = area_levels(image);
+        chain = smaller_levels(image, options);
     }
     if (cut) {
         const double wanted = coverage(image, options.alpha_cutoff);

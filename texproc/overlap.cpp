@@ -31,14 +31,13 @@ public:
         float overlaps[kViews * 16];
         kernel_.overlaps(storage_.view(), {n.x, n.y, n.z, 0.0f}, alpha2s, count, overlaps);
         for (int k = 0; k < count; ++k) {
-            float sum = 0.0f;
+            float sum = 0.0f, mine[kViews];
             int views = 0;
+            lobe_albedo_in_views(alpha2s[k], n, mine);
             for (int v = 0; v < kViews; ++v) {
                 const float r = mass_[static_cast<std::size_t>(v)];
                 if (!(r > 1e-6f)) continue;
-                const float* d = kViewDirections[v];
-                const float m = lobe_albedo(alpha2s[k], n.x * d[0] + n.y * d[1] + n.z * d[2]);
-                sum += std::min(2.0f, std::max(0.0f, (r + m - overlaps[v * count + k]) / r));
+                sum += std::min(2.0f, std::max(0.0f, (r + mine[v] - overlaps[v * count + k]) / r));
                 ++views;
             }
             costs[k] = views ? sum / static_cast<float>(views) : 0.0f;
@@ -158,6 +157,7 @@ std::pair<std::array<float, N>, float> simplex(const std::array<float, N>& start
 
 struct Effort {
     int samples;
+    int guard;      // samples of the guard; 0: the candidates compete on the first set
     int ladder;     // alphas tried about each normal
     int line;       // evaluations of the search along alpha
     int joint;      // evaluations of the search over normal and alpha
@@ -170,13 +170,14 @@ Effort effort_at(int level, bool quick)
     static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 640, 640};
     const int samples = level >= 8 ? 1280 : kSamples[level];
     if (quick) {
-        if (level <= 1) return {40, 5, 0, 0, false, 4};
-        if (level == 2) return {40, 6, 0, 16, false, 4};
-        return {std::max(80, samples / 2), 8, 10, 30, false, 6};
+        // The finest levels hold most texels: there the cheapest of the fits, without a search.
+        if (level <= 2) return {40, 0, 0, 0, 0, false, 3};
+        const int half = std::max(80, samples / 2);
+        return {half, half, 6, 6, 24, false, 4};
     }
-    if (level <= 1) return {samples, 6, 6, 24, false, 5};
-    if (level == 2) return {samples, 8, 8, 32, false, 6};
-    return {samples, 10, 14, 48, true, 6};
+    if (level <= 1) return {samples, samples, 5, 5, 18, false, 4};
+    if (level == 2) return {samples, samples, 6, 6, 24, false, 5};
+    return {samples, samples, 10, 10, 36, level >= 5, 5};
 }
 
 struct Candidate {
@@ -188,6 +189,7 @@ struct Candidate {
 // Ten or so alphas, geometric between the bounds, about one normal.
 Candidate climb(const Cost& cost, const Direction& normal, float low2, float high2, int count)
 {
+    if (count < 1) return {};
     float alpha2s[16], costs[16];
     const float ratio = count > 1 ? std::pow(high2 / low2, 1.0f / static_cast<float>(count - 1)) : 1.0f;
     float a2 = low2;
@@ -294,8 +296,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     }
     const float variance = slope_variance(cells.view(), mean_normal);
     FittedLobe out{mean_normal, plain_alpha2, false, {}, plain_alpha2, plain_alpha2};
-    if (variance < 0.01f * (means.alpha2 + light2) &&
-        widest - narrowest < 0.1f * (means.alpha2 + light2)) {
+    if (variance < 0.02f * (means.alpha2 + light2) &&
+        widest - narrowest < 0.2f * (means.alpha2 + light2)) {
         out.alpha2 = out.alpha2_x = out.alpha2_y = std::min(1.0f, means.alpha2 + variance);
         return out;
     }
@@ -306,15 +308,10 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     for (float& a2 : lit.alpha2) a2 = std::clamp(a2 + light2, kMinAlpha2, 1.0f);
     const CellsView view = lit.view();
     std::array<float, kViews> mass{};
-    for (int v = 0; v < kViews; ++v) {
-        const float* d = kViewDirections[v];
-        float sum = 0.0f;
-        for (int i = 0; i < view.count; ++i) {
-            sum += view.weight[i] * lobe_albedo(view.alpha2[i], view.nx[i] * d[0] +
-                                                                    view.ny[i] * d[1] +
-                                                                    view.nz[i] * d[2]);
-        }
-        mass[static_cast<std::size_t>(v)] = sum;
+    for (int i = 0; i < view.count; ++i) {
+        float mine[kViews];
+        lobe_albedo_in_views(view.alpha2[i], {view.nx[i], view.ny[i], view.nz[i]}, mine);
+        for (std::size_t v = 0; v < kViews; ++v) mass[v] += view.weight[i] * mine[v];
     }
 
     const Effort effort = effort_at(level, options.quick);
@@ -349,6 +346,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
         Candidate starts[3] = {
             rough, climb(cost, robust_normal, low2, high2, effort.ladder),
             climb(cost, mode_normal, low2, high2, effort.ladder)};
+        const Candidate robust{robust_normal, robust2, cost(robust_normal, robust2)};
+        if (robust.cost < starts[1].cost) starts[1] = robust;
         std::sort(starts, starts + 3,
                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
         joint = refine_joint(cost, starts[0], effort.joint);
@@ -364,12 +363,18 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     }
 
     // The guard: the cheapest on samples that the search has not seen, simplest first.
-    const Cost judge(view, mass, 2 * effort.samples, 2 * seed + 1, second_samples);
     Candidate chosen = plain;
-    chosen.cost = judge(plain.normal, plain.alpha2);
-    for (const Candidate& c : {rough, joint}) {
-        const float value = judge(c.normal, c.alpha2);
-        if (value < chosen.cost - 1e-4f) chosen = {c.normal, c.alpha2, value};
+    if (effort.guard > 0) {
+        const Cost judge(view, mass, effort.guard, 2 * seed + 1, second_samples);
+        chosen.cost = judge(plain.normal, plain.alpha2);
+        for (const Candidate& c : {rough, joint}) {
+            const float value = judge(c.normal, c.alpha2);
+            if (value < chosen.cost - 1e-4f) chosen = {c.normal, c.alpha2, value};
+        }
+    } else {
+        for (const Candidate& c : {rough, joint}) {
+            if (c.cost < chosen.cost - 1e-4f) chosen = c;
+        }
     }
     const auto unlit = [&](float a2) { return std::clamp(a2 - light2, narrowest, 1.0f); };
     out.normal = chosen.normal;
@@ -381,7 +386,9 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
         const RobustFit robust = student_t(view, mean_normal, median2, 2, 8, true, kernel);
         const auto [lobe, found] = fit_elliptic(cost, chosen, robust, 90);
         (void)found;
-        if (judge(lobe) < chosen.cost - 1e-4f) {
+        // On fresh samples against the chosen lobe, as the guard does.
+        const Cost judge(view, mass, 2 * effort.samples, 2 * seed + 1, second_samples);
+        if (judge(lobe) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
             out.elliptic = true;
             out.normal = {lobe.nx, lobe.ny, lobe.nz};
             out.tangent = {lobe.tx, lobe.ty, lobe.tz};

@@ -38,7 +38,7 @@ public:
 
     bool needs_cells() const { return kind_ != RuleKind::Moments; }
 
-    FittedLobe operator()(const Texel& t) const
+    FittedLobe operator()(const MipTexel& t) const
     {
         const Means& m = t.means;
         const Direction mean = normalized({m.nx, m.ny, m.nz});
@@ -88,7 +88,7 @@ private:
     bool plain_ = false;
 };
 
-void store(const FittedLobe& lobe, const Texel& t, const PrefilterOptions& options, Prefiltered& out)
+void store(const FittedLobe& lobe, const MipTexel& t, const PrefilterOptions& options, Prefiltered& out)
 {
     const std::size_t k = static_cast<std::size_t>(t.level);
     float* n = &out.normal[k].at(t.x, t.y, 0);
@@ -125,7 +125,7 @@ std::uint8_t code(float v)
 }
 
 // The compatible rule works on 8-bit codes and knows smoothness only.
-void lux_roughness(const Surface& surface, const PrefilterOptions& options, Prefiltered& out)
+void lux_roughness(const MapSurface& surface, const PrefilterOptions& options, Prefiltered& out)
 {
     const int size = surface.width;
     if (surface.height != size) {
@@ -162,7 +162,7 @@ void lux_roughness(const Surface& surface, const PrefilterOptions& options, Pref
     }
 }
 
-Prefiltered filtered(const Surface& surface, const PrefilterOptions& options)
+Prefiltered filtered(const MapSurface& surface, const PrefilterOptions& options)
 {
     if (!(options.design_light >= 0.0f && options.design_light <= 1.0f)) {
         throw Error("prefilter: the design light must be in 0..1, got " +
@@ -186,7 +186,7 @@ Prefiltered filtered(const Surface& surface, const PrefilterOptions& options)
         if (options.anisotropic) out.anisotropy[k] = Image(width, height, 3, ColorSpace::Data);
     }
     walk(surface, {filter.needs_cells(), options.rule == "vmf", options.threads, options.progress},
-         [&](const Texel& texel) { store(filter(texel), texel, options, out); });
+         [&](const MipTexel& texel) { store(filter(texel), texel, options, out); });
     if (options.rule == "lux") lux_roughness(surface, options, out);
     return out;
 }
@@ -200,7 +200,7 @@ Prefiltered prefilter(const Image& normal, const Image& roughness, const Prefilt
                         " channels, 1 is needed",
                     "Choose the channel that holds it.");
     }
-    const Surface surface = make_surface(ref(normal), ref(roughness), options);
+    const MapSurface surface = make_surface(ref(normal), ref(roughness), options);
     Prefiltered out = filtered(surface, options);
     out.roughness[0] = roughness;
     out.normal[0] = Image(normal.width, normal.height, 3, ColorSpace::Data);

@@ -244,7 +244,7 @@ struct TexelErrors {
     std::vector<Measure> tested;
 };
 
-TexelErrors texel_errors(const Surface& surface, const Footprint& columns, const Footprint& rows,
+TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, const Footprint& rows,
                          std::size_t level, int x, int y, const std::vector<Prefiltered>& chains,
                          const PrefilterOptions& input, const ScoreOptions& options)
 {
@@ -335,7 +335,7 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
         throw Error("score: texels must be at least 1 and points in 8..65536",
                     "Use the defaults: 32 texels, 512 points.");
     }
-    const Surface surface = make_surface(ref(normal), ref(roughness), input);
+    const MapSurface surface = make_surface(ref(normal), ref(roughness), input);
     const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
     for (const Prefiltered& chain : chains) {
         for (std::size_t k = 1; k < chain.roughness.size(); ++k) {
@@ -481,7 +481,7 @@ std::vector<SelfCheck> score_self_test()
     }
     // The projected density of half-vectors of a footprint integrates to 1.
     gaussian_map(64, 0.25, 0.25f, normal, roughness);
-    const Surface surface = make_surface(ref(normal), ref(roughness), {});
+    const MapSurface surface = make_surface(ref(normal), ref(roughness), {});
     std::vector<SurfaceRow> rows(64);
     for (int y = 0; y < 64; ++y) fetch(surface, y, rows[static_cast<std::size_t>(y)]);
     const Footprint whole = footprints(64, 1)[0];

@@ -53,7 +53,7 @@ struct Site {
     double elevation_m = kMissing;
     double temp_height_m = 2.0;
     double wind_height_m = 10.0;
-    std::string name;
+    std::string name{};
 };
 
 /// Weather over time. Times are microseconds since 1970-01-01 UTC, strictly increasing; every column
@@ -79,7 +79,7 @@ struct ReadNote {
 };
 /// What was there, what was missing, how it was filled.
 struct FieldReport {
-    std::string name;
+    std::string name{};
     std::size_t present = 0;       ///< values read
     std::size_t missing = 0;       ///< rows without a value
     std::size_t out_of_range = 0;  ///< values refused

@@ -8,7 +8,7 @@ namespace petrichor::weather {
 
 namespace {
 
-constexpr double kFarEnough = 37.0;  // 1 - exp(-37) is 1 in double precision
+constexpr double kFarEnough = 38.0;  // 1 - exp(-38) is 1 in double precision
 
 double unit(double x)
 {

@@ -16,7 +16,7 @@ struct MappingParams {
 };
 
 // Each map is monotone, clamped to 0..1 and has its inverse beside it. The inverse of 1 is where the map first
-// reaches 1 to double precision (film, snow: 37 scales).
+// reaches 1 to double precision (film, snow: 38 scales).
 
 /// R = ln(1 + p/P0) / ln(1 + P1/P0).
 double rainfall_of_rate(const MappingParams& params, double rate_mm_h);

@@ -42,20 +42,22 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
 Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin, std::int64_t end,
                double offset)
 {
+    // The usual case: the step is the interval between two rows.
+    const auto& t = table.time_us;
+    if (first + 1 < t.size() && t[first] == begin && t[first + 1] == end) {
+        const auto& v = table[field];
+        return {v[first] + offset, v[first + 1] - v[first]};
+    }
     const double a = value_at(table, field, begin);
     const double b = value_at(table, field, end);
     const double mean = mean_over(table, field, first, begin, end);
     return {mean - 0.5 * (b - a) + offset, b - a};
 }
 
-}  // namespace
-
-StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length)
+// `first`: the last row at or before the beginning.
+StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin, std::int64_t length)
 {
     const std::int64_t end = begin + length;
-    const auto& t = table.time_us;
-    const auto upper = std::upper_bound(t.begin(), t.end(), begin);
-    const std::size_t first = upper == t.begin() ? 0 : static_cast<std::size_t>(upper - t.begin()) - 1;
     StepForcing step;
     step.begin_us = begin;
     step.dt_s = static_cast<double>(length) * 1e-6;
@@ -86,6 +88,15 @@ StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std
     return step;
 }
 
+}  // namespace
+
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length)
+{
+    const auto& t = table.time_us;
+    const auto upper = std::upper_bound(t.begin(), t.end(), begin);
+    return step_from(table, upper == t.begin() ? 0 : static_cast<std::size_t>(upper - t.begin()) - 1, begin, length);
+}
+
 std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us)
 {
     std::vector<StepForcing> steps;
@@ -94,8 +105,10 @@ std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int6
     const std::int64_t tail = table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
     const std::int64_t end = table.time_us.back() + tail;
     steps.reserve(static_cast<std::size_t>((end - begin) / step_us + 1));
+    std::size_t first = 0;
     for (std::int64_t at = begin; at < end; at += step_us) {
-        steps.push_back(make_step_forcing(table, at, std::min(step_us, end - at)));
+        while (first + 1 < table.rows() && table.time_us[first + 1] <= at) ++first;
+        steps.push_back(step_from(table, first, at, std::min(step_us, end - at)));
     }
     return steps;
 }

@@ -92,6 +92,63 @@ TEST(Mips, RollingByATexelOfALevelRollsThatLevel)
     }
 }
 
+struct FilterCase {
+    const char* name;
+    MipFilter filter;
+};
+void PrintTo(const FilterCase& c, std::ostream* out) { *out << c.name; }
+
+class Filters : public testing::TestWithParam<FilterCase> {};
+TEST_P(Filters, KeepAConstantAndRollWithTheInput)
+{
+    for (const Image& level : mip_chain(Image(24, 20, 2, ColorSpace::Data, 0.7f),
+                                        {.filter = GetParam().filter})) {
+        for (const float v : level.pixels) EXPECT_NEAR(v, 0.7f, 1e-6f);
+    }
+    const Image image = noise(32, 64, 1);
+    Image rolled = image;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 32; ++x) rolled.at((x + 8) % 32, (y + 16) % 64, 0) = image.at(x, y, 0);
+    }
+    const MipOptions options{.filter = GetParam().filter};
+    const auto a = mip_chain(image, options), b = mip_chain(rolled, options);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 4; ++x) {
+            EXPECT_EQ(b[3].at((x + 1) % 4, (y + 2) % 8, 0), a[3].at(x, y, 0));
+        }
+    }
+    // Clamped, the edges differ from wrapped ones.
+    if (GetParam().filter != MipFilter::Box) {
+        const auto c = mip_chain(image, {.wrap_u = false, .filter = GetParam().filter});
+        EXPECT_NE(c[1].at(0, 0, 0), a[1].at(0, 0, 0));
+        EXPECT_EQ(c[1].at(8, 0, 0), a[1].at(8, 0, 0));
+    }
+}
+
+// A low frequency passes nearly whole, one above the new limit nearly not.
+TEST_P(Filters, PassLowAndStopHigh)
+{
+    const auto energy = [&](int waves) {
+        Image wave(64, 64, 1, ColorSpace::Data);
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                wave.at(x, y, 0) = std::cos(6.2831853f * static_cast<float>(waves * x) / 64.0f + 0.3f);
+            }
+        }
+        double sum = 0.0;
+        const auto chain = mip_chain(wave, {.filter = GetParam().filter});
+        for (const float v : chain[1].pixels) sum += 2.0 * static_cast<double>(v * v) / 1024.0;
+        return sum;
+    };
+    EXPECT_GT(energy(3), GetParam().filter == MipFilter::Mitchell ? 0.8 : 0.95);
+    EXPECT_LT(energy(28), GetParam().filter == MipFilter::Box ? 0.06 : 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(All, Filters, testing::Values(FilterCase{"box", MipFilter::Box},
+                                                       FilterCase{"kaiser", MipFilter::Kaiser},
+                                                       FilterCase{"lanczos3", MipFilter::Lanczos3},
+                                                       FilterCase{"mitchell", MipFilter::Mitchell}),
+                         [](const auto& test) { return test.param.name; });
+
 TEST(Mips, NormalsComeOutWithUnitLength)
 {
     for (const Image& level : mip_chain(noise(9, 6, 3), {.normals = true})) {

@@ -31,7 +31,7 @@ using detail::Request;
 
 constexpr std::uint64_t kMemory = 1536ull << 20;    // on top of what the libraries map at the start
 constexpr std::uint64_t kRecycleBytes = 256ull << 20;  // a process that held more is not kept
-constexpr unsigned kBaseSeconds = 8;                // CPU seconds for any file, plus
+constexpr unsigned kBaseSeconds = 4;                // CPU seconds for any file, plus
 constexpr unsigned kMegapixelsASecond = 2;          // time in proportion to its size
 
 void limit_memory()

@@ -5,7 +5,7 @@
 
 #include "texproc/area.h"
 #include "texproc/detail/lobe_kernel.h"
-#include "texproc/detail/surface.h"
+#include "texproc/detail/map_surface.h"
 
 namespace petrichor::texproc::detail {
 

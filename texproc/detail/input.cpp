@@ -24,7 +24,7 @@ std::string size_text(const ImageRef& image)
 
 }  // namespace
 
-Surface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options)
+MapSurface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options)
 {
     if (normal.width < 1 || normal.height < 1 || rough.width < 1 || rough.height < 1) {
         throw Error("prefilter: an input is empty", "Pass a normal map and a roughness map.");
@@ -46,7 +46,7 @@ Surface make_surface(const ImageRef& normal, const ImageRef& rough, const Prefil
                         " channels, channel " + std::to_string(options.channel) + " is needed",
                     "Choose the channel that holds it.");
     }
-    Surface s;
+    MapSurface s;
     s.width = normal.width;
     s.height = normal.height;
     s.x = {normal.data, normal.type, normal.channels, options.normal_x};

@@ -1,7 +1,7 @@
 #ifndef PETRICHOR_TEXPROC_DETAIL_INPUT_H
 #define PETRICHOR_TEXPROC_DETAIL_INPUT_H
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/map_surface.h"
 #include "texproc/prefilter.h"
 
 namespace petrichor::texproc::detail {
@@ -17,7 +17,7 @@ ImageRef ref(const RawImage& image);
 
 /// Checks a pair of maps and sets up how they are decoded. Throws Error for sizes that differ, missing
 /// channels and values that are not numbers. The images must outlive the result.
-Surface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options);
+MapSurface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options);
 
 }  // namespace petrichor::texproc::detail
 

@@ -65,19 +65,49 @@ std::array<float, kTable * kTable> make_albedo_table()
 
 }  // namespace
 
-float lobe_albedo(float alpha2, float mu)
+namespace {
+
+const std::array<float, kTable * kTable>& albedo_table()
 {
     static const std::array<float, kTable * kTable> table = make_albedo_table();
-    if (!(mu > 0.0f)) return 0.0f;
-    const float p = std::min(1.0f, std::sqrt(std::sqrt(alpha2)));
-    const float x = p * (kTable - 1), y = std::min(1.0f, mu) * (kTable - 1);
+    return table;
+}
+
+// Row of the table for a width, and how far towards the next.
+struct Row {
+    const float* row;
+    float share;
+};
+Row albedo_row(float alpha2)
+{
+    const float x = std::min(1.0f, std::sqrt(std::sqrt(alpha2))) * (kTable - 1);
     const int i = std::min(kTable - 2, static_cast<int>(x));
+    return {&albedo_table()[static_cast<std::size_t>(i * kTable)], x - static_cast<float>(i)};
+}
+
+float albedo_at(const Row& r, float mu)
+{
+    if (!(mu > 0.0f)) return 0.0f;
+    const float y = std::min(1.0f, mu) * (kTable - 1);
     const int j = std::min(kTable - 2, static_cast<int>(y));
-    const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
-    const float* t = &table[static_cast<std::size_t>(i * kTable + j)];
+    const float fy = y - static_cast<float>(j);
+    const float* t = r.row + j;
     const float a = t[0] + fy * (t[1] - t[0]);
     const float b = t[kTable] + fy * (t[kTable + 1] - t[kTable]);
-    return a + fx * (b - a);
+    return a + r.share * (b - a);
+}
+
+}  // namespace
+
+float lobe_albedo(float alpha2, float mu) { return albedo_at(albedo_row(alpha2), mu); }
+
+void lobe_albedo_in_views(float alpha2, const Direction& n, float* out)
+{
+    const Row row = albedo_row(alpha2);
+    for (int v = 0; v < kViews; ++v) {
+        const float* d = kViewDirections[v];
+        out[v] = albedo_at(row, n.x * d[0] + n.y * d[1] + n.z * d[2]);
+    }
 }
 
 void Samples::resize(int per_view)

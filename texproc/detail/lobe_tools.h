@@ -24,6 +24,8 @@ Frame frame_about(const Direction& n);
 /// How much light one GGX lobe of F = 1 returns in all directions together, seen from n.v = mu:
 /// a table over (sqrt(alpha), mu), bilinear.
 float lobe_albedo(float alpha2, float mu);
+/// The same for one lobe of normal n under the five views.
+void lobe_albedo_in_views(float alpha2, const Direction& n, float* out);
 
 /// Storage behind a SamplesView.
 class Samples {

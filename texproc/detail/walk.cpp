@@ -44,7 +44,7 @@ void add_own_lobes(const Cells& cells, Means& m)
 }
 
 // Means of one row of texels of any level, straight from level 0, without cells.
-void means_row(const Surface& surface, const Footprint& rows, const std::vector<Footprint>& columns,
+void means_row(const MapSurface& surface, const Footprint& rows, const std::vector<Footprint>& columns,
                bool own_lobes, int y, Image& out)
 {
     SurfaceRow row;
@@ -113,8 +113,8 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
 
 }  // namespace
 
-void walk(const Surface& surface, const WalkOptions& options,
-          const std::function<void(const Texel&)>& visit)
+void walk(const MapSurface& surface, const WalkOptions& options,
+          const std::function<void(const MipTexel&)>& visit)
 {
     const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
     std::vector<Image> means(sizes.size());

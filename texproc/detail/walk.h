@@ -4,12 +4,12 @@
 #include <functional>
 
 #include "texproc/detail/cells.h"
-#include "texproc/detail/surface.h"
+#include "texproc/detail/map_surface.h"
 
 namespace petrichor::texproc::detail {
 
 /// What a rule sees of one mip texel. `cells` is null when the walk carries no cells.
-struct Texel {
+struct MipTexel {
     int level, x, y;
     const Means& means;
     const Cells* cells;
@@ -25,8 +25,8 @@ struct WalkOptions {
 /// Calls visit for every texel of levels 1.., rows in parallel. Levels 1 to 5 see every texel of level
 /// 0; from there on the lists of cells are joined and merged, so that the whole is O(N). The means
 /// are exact on every level.
-void walk(const Surface& surface, const WalkOptions& options,
-          const std::function<void(const Texel&)>& visit);
+void walk(const MapSurface& surface, const WalkOptions& options,
+          const std::function<void(const MipTexel&)>& visit);
 
 }  // namespace petrichor::texproc::detail
 

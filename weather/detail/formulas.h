@@ -62,12 +62,16 @@ PETRICHOR_INLINE Real snow_fraction_wet_bulb_of(const Real& wet_bulb_c)
 template <class Real>
 PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& neutral, const Real& root_z_over_z0)
 {
-    const Real ri_stable = larger(richardson, Real(0.0));
-    const Real ri_unstable = larger(richardson * -1.0, Real(0.0));
-    const Real stable = 1.0 / (ri_stable * 15.0 * square_root(ri_stable * 5.0 + 1.0) + 1.0);
-    const Real unstable =
-        ri_unstable * 15.0 / (neutral * 75.0 * square_root(ri_unstable) * root_z_over_z0 + 1.0) + 1.0;
-    return select(richardson >= 0.0, stable, unstable);
+    const auto is_stable = richardson >= 0.0;
+    Real stable = 1.0;
+    if (any(is_stable)) {
+        const Real ri = larger(richardson, Real(0.0));
+        stable = 1.0 / (ri * 15.0 * square_root(ri * 5.0 + 1.0) + 1.0);
+        if (!any(!is_stable)) return stable;
+    }
+    const Real ri = larger(richardson * -1.0, Real(0.0));
+    const Real unstable = ri * 15.0 / (neutral * 75.0 * square_root(ri) * root_z_over_z0 + 1.0) + 1.0;
+    return select(is_stable, stable, unstable);
 }
 
 // B.5

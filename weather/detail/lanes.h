@@ -12,6 +12,10 @@
 #include <cmath>
 #include <cstdint>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 #define PETRICHOR_INLINE inline __attribute__((always_inline))
 // Large pieces stay functions of their own: inlining them several times costs minutes of compilation.
 #define PETRICHOR_KERNEL __attribute__((noinline))
@@ -161,6 +165,9 @@ PETRICHOR_INLINE bool any(const LaneMask<kBytes>& mask)
 {
     typename Native<kBytes>::Bits all = mask.part[0];
     for (int p = 1; p < LaneMask<kBytes>::kParts; ++p) all |= mask.part[p];
+#if defined(__AVX__)
+    if constexpr (kBytes == 32) return _mm256_movemask_pd((__m256d)all) != 0;
+#endif
     std::int64_t found = 0;
     for (int i = 0; i < kBytes / 8; ++i) found |= all[i];
     return found != 0;
@@ -170,6 +177,12 @@ PETRICHOR_INLINE Lanes<kBytes> square_root(const Lanes<kBytes>& a)
 {
     Lanes<kBytes> r;
     for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+#if defined(__AVX__)
+        if constexpr (kBytes == 32) {
+            r.part[p] = (typename Native<kBytes>::Number)_mm256_sqrt_pd((__m256d)a.part[p]);
+            continue;
+        }
+#endif
         for (int i = 0; i < Lanes<kBytes>::kPerPart; ++i) r.part[p][i] = __builtin_sqrt(a.part[p][i]);
     }
     return r;

@@ -25,8 +25,19 @@ PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& 
     const Real steady = net * (1.0 / c) + w0;
     const auto above = w > w0;
     const auto falling = net < 0.0;
-    const Real fall_time =
-        logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) * (1.0 / c);
+    if (!any(above | !falling)) {
+        // Drying pores: a line, which is what the general form gives too.
+        const Real available = w + net * dt;
+        ReservoirStep<Real> dry;
+        dry.shortfall = larger(available * -1.0, Real(0.0));
+        dry.drained = Real(0.0);
+        dry.water = larger(available, Real(0.0));
+        return dry;
+    }
+    Real fall_time = dt;
+    if (any(above & falling)) {
+        fall_time = logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) * (1.0 / c);
+    }
     const Real rise_time = (w0 - w) / larger(net, Real(1e-300));
     Real until = select(above, select(falling, fall_time, Real(dt)), select(falling, Real(dt), rise_time));
     until = smaller(until, Real(dt));
@@ -34,7 +45,8 @@ PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& 
     const Real high = steady + (w - steady) * exponential(until * -c);
     const Real low = w + net * until;
     const Real reached = select(above, high, low);
-    const Real crossed_up = steady + (w0 - steady) * exponential(rest * -c);
+    Real crossed_up = w0;
+    if (any((rest > 0.0) & !above)) crossed_up = steady + (w0 - steady) * exponential(rest * -c);
     const Real crossed_down = net * rest + w0;
     Real end = select(rest > 0.0, select(above, crossed_down, crossed_up), reached);
     ReservoirStep<Real> step;

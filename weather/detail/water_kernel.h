@@ -44,6 +44,11 @@ template <class Real>
 PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k)
 {
     WetSurface<Real> w;
+    const Real all = (c.film + c.film_ice) + (c.crack + c.crack_ice) + (c.puddle + c.puddle_ice);
+    if (!any(all > 0.0)) {
+        w.film_share = w.crack_area = w.puddle_area = w.beta = Real(0.0);
+        return w;
+    }
     w.film_share = smaller((c.film + c.film_ice) * k.inverse_film_capacity, Real(1.0));
     const Real crack = c.crack + c.crack_ice;
     const Real puddle = c.puddle + c.puddle_ice;

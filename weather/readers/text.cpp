@@ -13,9 +13,10 @@ std::optional<std::string_view> Lines::next()
         done_ = true;
         return std::nullopt;
     }
-    const std::size_t end = rest_.find_first_of("\r\n");
+    std::size_t end = 0;
+    while (end < rest_.size() && rest_[end] != '\n' && rest_[end] != '\r') ++end;
     ++number_;
-    if (end == std::string_view::npos) {
+    if (end == rest_.size()) {
         const auto line = rest_;
         rest_ = {};
         return line;

@@ -1,4 +1,4 @@
-#include "texproc/detail/surface.h"
+#include "texproc/detail/map_surface.h"
 
 #include <Imath/half.h>
 
@@ -48,7 +48,7 @@ void plane_values(const Plane& plane, std::size_t first, std::size_t count, floa
     }
 }
 
-void fetch(const Surface& s, int y, SurfaceRow& row)
+void fetch(const MapSurface& s, int y, SurfaceRow& row)
 {
     const std::size_t width = static_cast<std::size_t>(s.width);
     for (auto* v : {&row.nx, &row.ny, &row.nz, &row.p}) v->resize(width);

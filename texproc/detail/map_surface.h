@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_TEXPROC_DETAIL_SURFACE_H
-#define PETRICHOR_TEXPROC_DETAIL_SURFACE_H
+#ifndef PETRICHOR_TEXPROC_DETAIL_MAP_SURFACE_H
+#define PETRICHOR_TEXPROC_DETAIL_MAP_SURFACE_H
 
 #include <cstddef>
 #include <vector>
@@ -18,7 +18,7 @@ struct Plane {
 
 /// Level 0 of a normal map and its roughness, decoded row by row so that a 4096 x 4096 pair costs no
 /// more memory than its files.
-struct Surface {
+struct MapSurface {
     int width = 0, height = 0;
     Plane x, y, z;  ///< 0..1 codes of the normal; without z it is rebuilt
     Plane rough;    ///< perceptual roughness, or smoothness
@@ -33,7 +33,7 @@ struct SurfaceRow {
 };
 
 /// Decodes texels 0..width-1 of row y. A zero normal becomes straight up.
-void fetch(const Surface& surface, int y, SurfaceRow& row);
+void fetch(const MapSurface& surface, int y, SurfaceRow& row);
 
 /// Texels first .. first + count - 1 of a plane, as stored (integers as 0..1).
 void plane_values(const Plane& plane, std::size_t first, std::size_t count, float* to);

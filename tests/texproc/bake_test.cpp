@@ -1,0 +1,136 @@
+#include "texproc/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace petrichor::texproc {
+namespace {
+
+Image flat(float value) { return Image(32, 32, 1, ColorSpace::Data, value); }
+
+// A square pit of 6 texels, 0.4 deep.
+Image pit()
+{
+    Image h = flat(0.8f);
+    for (int y = 10; y < 16; ++y) {
+        for (int x = 10; x < 16; ++x) h.at(x, y, 0) = 0.4f;
+    }
+    return h;
+}
+
+TEST(Bake, AFlatMapSeesTheWholeSkyAndHoldsNoWater)
+{
+    for (const float v : ambient_occlusion(flat(0.3f)).pixels) EXPECT_FLOAT_EQ(v, 1.0f);
+    for (const float v : cavity(flat(0.3f)).pixels) EXPECT_FLOAT_EQ(v, 0.5f);
+    for (const float v : curvature(flat(0.3f)).pixels) EXPECT_FLOAT_EQ(v, 0.5f);
+    const Hollows h = puddles(flat(0.3f));
+    EXPECT_EQ(h.deepest, 0.0f);
+    EXPECT_EQ(h.covered[0], 0.0f);
+    const Image flow = flow_direction(flat(0.3f));
+    for (std::size_t i = 2; i < flow.pixels.size(); i += 3) EXPECT_EQ(flow.pixels[i], 0.0f);
+}
+
+TEST(Bake, APitIsDarkHollowAndFull)
+{
+    const BakeOptions options{.depth = 0.3f, .reach = 0.2f};
+    const Image ao = ambient_occlusion(pit(), options);
+    EXPECT_LT(ao.at(12, 12, 0), 0.8f);
+    EXPECT_FLOAT_EQ(ao.at(2, 2, 0), 1.0f);
+    EXPECT_LT(cavity(pit(), options).at(12, 12, 0), 0.4f);
+    const Hollows h = puddles(pit(), options);
+    EXPECT_NEAR(h.deepest, 0.4f, 1e-6f);
+    EXPECT_FLOAT_EQ(h.depth.at(12, 12, 0), 1.0f);
+    EXPECT_FLOAT_EQ(h.depth.at(20, 20, 0), 0.0f);
+    EXPECT_NEAR(h.covered[0], 36.0f / 1024.0f, 1e-6f);
+    EXPECT_TRUE(std::is_sorted(h.covered.rbegin(), h.covered.rend()));
+    // Too wide for a crack: the disc of a fifth of the reach fits in.
+    EXPECT_LT(cracks(pit(), options).deepest, 0.2f);
+}
+
+TEST(Bake, MasksOfARolledMapAreRolled)
+{
+    Image rolled = flat(0.0f);
+    const Image map = pit();
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) rolled.at((x + 21) % 32, y, 0) = map.at(x, y, 0);
+    }
+    const BakeOptions options{.depth = 0.3f, .reach = 0.2f, .threads = 2};
+    const Image a = ambient_occlusion(map, options), b = ambient_occlusion(rolled, options);
+    const Image c = puddles(map, options).depth, d = puddles(rolled, options).depth;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            EXPECT_EQ(b.at((x + 21) % 32, y, 0), a.at(x, y, 0));
+            EXPECT_EQ(d.at((x + 21) % 32, y, 0), c.at(x, y, 0));
+        }
+    }
+}
+
+TEST(Bake, WaterRunsDownhill)
+{
+    Image h = flat(0.0f);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) h.at(x, y, 0) = static_cast<float>(y) / 64.0f;  // high below
+    }
+    const Image flow = flow_direction(h, {.depth = 0.5f, .reach = 0.05f});
+    EXPECT_NEAR(flow.at(16, 16, 0), 0.5f, 1e-4f);
+    EXPECT_NEAR(flow.at(16, 16, 1), 0.0f, 1e-4f);  // up the image
+    EXPECT_NEAR(flow.at(16, 16, 2), 0.25f, 1e-3f);
+}
+
+TEST(Bake, PorosityFollowsTheReference)
+{
+    Image rough(3, 1, 1, ColorSpace::Data);
+    rough.pixels = {0.3f, 0.7f, 0.95f};
+    const Image p = porosity(rough);
+    EXPECT_FLOAT_EQ(p.pixels[0], 0.0f);
+    EXPECT_NEAR(p.pixels[1], 0.5f, 1e-5f);
+    EXPECT_FLOAT_EQ(p.pixels[2], 1.0f);
+    EXPECT_EQ(porosity(rough, Image(3, 1, 1, ColorSpace::Data, 1.0f)).pixels[2], 0.0f);
+    EXPECT_THROW(porosity(rough, flat(1.0f)), Error);
+}
+
+TEST(WeatherTextures, SnowMaskHasItsStatistics)
+{
+    const Image mask = snow_mask(128, 4);
+    std::vector<float> values;
+    double sum = 0.0;
+    for (std::size_t i = 2; i < mask.pixels.size(); i += 4) {
+        values.push_back(mask.pixels[i]);
+        sum += static_cast<double>(mask.pixels[i]);
+    }
+    std::sort(values.begin(), values.end());
+    EXPECT_NEAR(sum / static_cast<double>(values.size()), 0.715, 0.002);
+    EXPECT_NEAR(values[values.size() / 20], 0.51f, 0.005f);
+    EXPECT_NEAR(values[values.size() * 19 / 20], 0.85f, 0.005f);
+}
+
+TEST(WeatherTextures, DropsPointAwayFromTheirCentresAndTile)
+{
+    const Image drops = ripple_drops(256, 1);
+    int inside = 0;
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const float* c = &drops.pixels[drops.index(x, y, 0)];
+            EXPECT_TRUE(c[0] >= 0.0f && c[0] <= 1.0f && c[3] >= 0.0f && c[3] < 1.0f);
+            if (c[0] < 0.2f || c[0] > 0.9f) continue;
+            ++inside;
+            // One texel along the direction the envelope of the same drop is lower.
+            const int u = static_cast<int>(std::lround(2.0f * (2.0f * c[1] - 1.0f)));
+            const int v = static_cast<int>(std::lround(2.0f * (2.0f * c[2] - 1.0f)));
+            const float* d = &drops.pixels[drops.index((x + u + 256) % 256, (y + v + 256) % 256, 0)];
+            if (d[3] == c[3]) { EXPECT_LT(d[0], c[0]); }
+        }
+    }
+    EXPECT_GT(inside, 10000);
+    EXPECT_EQ(ripple_drops(64, 1).pixels, ripple_drops(64, 1).pixels);
+    EXPECT_NE(ripple_drops(64, 1).pixels, ripple_drops(64, 2).pixels);
+    EXPECT_THROW(snow_mask(4, 1), Error);
+    EXPECT_EQ(snow_water_bump(64, 1).channels, 4);
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

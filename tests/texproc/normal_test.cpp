@@ -1,0 +1,116 @@
+#include "texproc/normal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "base/error.h"
+#include "texproc/detail/fft.h"
+#include "texproc/noise.h"
+
+namespace petrichor::texproc {
+namespace {
+
+Image hills(int width, int height)
+{
+    Image h(width, height, 1, ColorSpace::Data);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            h.at(x, y, 0) = 0.5f + 0.2f * gradient_noise(5.0f * static_cast<float>(x) / static_cast<float>(width),
+                                                         4.0f * static_cast<float>(y) / static_cast<float>(height),
+                                                         5, 4, 9);
+        }
+    }
+    return h;
+}
+
+TEST(Normal, SlopesPointDownhill)
+{
+    Image h(4, 4, 1, ColorSpace::Data);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 4; ++x) h.at(x, y, 0) = 0.25f * static_cast<float>(x);
+    }
+    const Image n = normal_from_height(h, {.depth = 1.0f, .wrap_u = false});
+    EXPECT_NEAR(n.at(1, 1, 0), 0.5f - 0.5f / std::sqrt(2.0f), 1e-6f);  // slope 1 up to the right
+    EXPECT_NEAR(n.at(1, 1, 1), 0.5f, 1e-6f);
+}
+
+TEST(Normal, HeightComesBackFromItsNormals)
+{
+    for (const auto& [width, height] : {std::pair{64, 64}, std::pair{60, 36}}) {
+        const Image h = hills(width, height);
+        const Image n = normal_from_height(h, {.depth = 0.3f});
+        const IntegratedHeight back = height_from_normal(n);
+        const Image again = normal_from_height(back.height, {.depth = back.depth});
+        for (std::size_t i = 0; i < n.pixels.size(); ++i) {
+            ASSERT_NEAR(again.pixels[i], n.pixels[i], 2e-3f) << width << " x " << height;
+        }
+    }
+}
+
+TEST(Normal, GreenIsDetected)
+{
+    const Image h = hills(64, 64);
+    Image n = normal_from_height(h, {.depth = 0.3f});
+    EXPECT_FALSE(detect_green(n, h).down);
+    EXPECT_FALSE(detect_green(n).down);
+    EXPECT_GT(detect_green(n, h).confidence, 0.9);
+    EXPECT_GT(detect_green(n).confidence, 0.9);
+    flip_green(n);
+    EXPECT_TRUE(detect_green(n, h).down);
+    EXPECT_TRUE(detect_green(n).down);
+    const Image flat(8, 8, 3, ColorSpace::Data, 0.5f);
+    EXPECT_EQ(detect_green(flat).confidence, 0.0);
+}
+
+TEST(Normal, LayoutsAreLosslessForUnitNormals)
+{
+    const Image n = normal_from_height(hills(16, 16), {.depth = 0.3f});
+    for (const NormalLayout layout :
+         {NormalLayout::Rgb, NormalLayout::Rg, NormalLayout::Ag, NormalLayout::Rxgb}) {
+        const Image back = from_layout(to_layout(n, layout), layout);
+        for (std::size_t i = 0; i < n.pixels.size(); ++i) {
+            EXPECT_NEAR(back.pixels[i], n.pixels[i], 1e-4f);
+        }
+    }
+    EXPECT_THROW(from_layout(n, NormalLayout::Ag), Error);
+    EXPECT_THROW(normal_layout("xyz"), Error);
+}
+
+TEST(Normal, BlendingWithFlatChangesNothing)
+{
+    const Image n = normal_from_height(hills(16, 16), {.depth = 0.3f});
+    Image flat(16, 16, 3, ColorSpace::Data, 0.5f);
+    for (std::size_t i = 2; i < flat.pixels.size(); i += 3) flat.pixels[i] = 1.0f;
+    for (const Image& out : {blend_normals(n, flat), blend_normals(flat, n)}) {
+        for (std::size_t i = 0; i < n.pixels.size(); ++i) {
+            EXPECT_NEAR(out.pixels[i], n.pixels[i], 1e-5f);
+        }
+    }
+    EXPECT_THROW(blend_normals(n, Image(8, 8, 3, ColorSpace::Data)), Error);
+}
+
+TEST(Fft, AgreesWithTheSumAndInverts)
+{
+    for (const std::size_t n : {1u, 8u, 15u, 31u}) {
+        std::vector<std::complex<double>> a(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            a[i] = {static_cast<double>(hash_unit(hash_u32(static_cast<std::uint32_t>(i)))), 0.25 * static_cast<double>(i)};
+        }
+        auto f = a;
+        detail::fft(f, false);
+        for (std::size_t k = 0; k < n; ++k) {
+            std::complex<double> sum = 0.0;
+            for (std::size_t i = 0; i < n; ++i) {
+                sum += a[i] * std::polar(1.0, -6.283185307179586 * static_cast<double>(i * k) / static_cast<double>(n));
+            }
+            EXPECT_NEAR(std::abs(f[k] - sum), 0.0, 1e-9);
+        }
+        detail::fft(f, true);
+        for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(std::abs(f[i] - a[i]), 0.0, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::texproc
