@@ -143,7 +143,7 @@ MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, 
 
     float low = surface.texels.front().height_m;
     float high = low;
-    for (const Texel& texel : surface.texels) {
+    for (const MaterialTexel& texel : surface.texels) {
         low = std::min(low, texel.height_m);
         high = std::max(high, texel.height_m);
     }
@@ -165,7 +165,7 @@ MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, 
     for_rows(size, surface.threads, [&](int first, int last) {
         for (std::size_t k = static_cast<std::size_t>(first) * n;
              k < static_cast<std::size_t>(last) * n; ++k) {
-            const Texel& texel = surface.texels[k];
+            const MaterialTexel& texel = surface.texels[k];
             height_m[k] = texel.height_m - low;
             maps.height.pixels[k] = saturate(height_m[k] * to_unit);
             for (int c = 0; c < 3; ++c) {

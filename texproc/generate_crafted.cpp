@@ -111,7 +111,7 @@ void make_plank(MaterialSurface& surface)
         }
         const float head = 1.0f - smooth_step(0.0030f, 0.0042f, nail);
 
-        Texel texel;
+        MaterialTexel texel;
         const float cup = 1.0f - 4.0f * lx * lx / (board_m * board_m);
         texel.height_m =
             0.0042f * round + 0.00075f * hash_signed(h, 4) * round +
@@ -162,7 +162,7 @@ void make_metal_plate(MaterialSurface& surface)
             std::sin(55.0f * (crystal.dx * std::cos(angle) + crystal.dy * std::sin(angle)) +
                      3.0f * warp_x[k]);
         const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.00050f * waves[k] + 0.000010f * tone + 0.000008f * fine[k] -
                          0.00020f * scratches[k] + 0.00003f * white_rust;
         vec3 color = vec3(0.545f, 0.560f, 0.575f) * (1.0f + 0.11f * tone + 0.025f * feather);
@@ -188,7 +188,7 @@ void make_painted_iron(MaterialSurface& surface)
     shade_texels(surface, [&](float, float, std::size_t k) {
         const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k]);
         const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k]);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m =
             0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip + chip * 0.00015f * fine[k];
         vec3 color = vec3(0.0165f, 0.0205f, 0.0195f) * (1.0f + 0.2f * waves[k]);
@@ -227,7 +227,7 @@ void make_standing_seam(MaterialSurface& surface)
         welt_y -= surface.tile_m * std::round(welt_y / surface.tile_m);
         const float welt =
             smooth_step(-0.012f, -0.010f, welt_y) * smooth_step(0.010f, 0.007f, welt_y);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.0140f * seam + 0.0013f * can[k] * (1.0f - foot) +
                          0.0016f * welt * (1.0f - seam) + 0.00005f * fine[k] + 0.0008f * foot;
         const float run = smooth_step(0.0f, 1.1f, streak[k] + 0.4f * patch[k]);

@@ -32,7 +32,7 @@ void make_asphalt(MaterialSurface& surface)
                        crack_cells, crack_cells, seed + 1u);
         const float crack = (1.0f - smooth_step(0.002f, 0.010f, slab.second - slab.nearest)) *
                             smooth_step(0.0f, 0.5f, worn[k]);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.0026f * round * (0.6f + 0.4f * hash_unit(stone.id, 2)) +
                          0.0010f * worn[k] + 0.0003f * bitumen[k] - 0.005f * crack;
         const float tone = hash_unit(stone.id, 3);
@@ -71,7 +71,7 @@ void make_concrete(MaterialSurface& surface)
         const float seam =
             1.0f - smooth_step(0.0015f, 0.0045f,
                                board_m * std::min(board_y - board, board + 1.0f - board_y));
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.0009f * waves[k] + 0.0006f * hash_signed(h, 1) + 0.0007f * seam -
                          0.0035f * hole * (0.3f + size) + 0.00012f * fine[k];
         vec3 color = vec3(0.365f, 0.355f, 0.335f) *
@@ -108,9 +108,9 @@ Earth make_earth(const MaterialSurface& surface)
     return earth;
 }
 
-Texel earth_texel(const Earth& earth, float x, float y, std::size_t k)
+MaterialTexel earth_texel(const Earth& earth, float x, float y, std::size_t k)
 {
-    Texel texel;
+    MaterialTexel texel;
     const float clod = 1.0f - std::abs(earth.clods[k]);
     texel.height_m = 0.0075f * earth.mounds[k] + 0.0065f * clod + 0.0015f * earth.crumbs[k];
     vec3 color = mix(vec3(0.085f, 0.058f, 0.036f), vec3(0.150f, 0.108f, 0.068f),
@@ -190,7 +190,7 @@ void make_grass_ground(MaterialSurface& surface)
                 const float offset = static_cast<float>(w);
                 const int px = wrap_index(static_cast<int>(std::floor(x + nx * offset)), size);
                 const int py = wrap_index(static_cast<int>(std::floor(y + ny * offset)), size);
-                Texel& texel =
+                MaterialTexel& texel =
                     surface.texels[static_cast<std::size_t>(py) * n + static_cast<std::size_t>(px)];
                 const float height = 0.010f + 0.016f * order + 0.010f * std::sin(3.0f * t) -
                                      0.0015f * across * across;

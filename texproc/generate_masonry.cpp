@@ -64,7 +64,7 @@ void make_brick(MaterialSurface& surface)
         const float above = face - mortar;
         const float is_brick = smooth_step(-0.0002f, 0.0007f, above);
 
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = std::max(face, mortar);
 
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 10) * 7.0f) % 7u;
@@ -124,7 +124,7 @@ void make_plaster(MaterialSurface& surface)
         const float sweep = std::abs(trowel[k]);
         const float thin = smooth_step(0.75f, 1.25f, waves[k] + 0.35f * crack_x[k]);
 
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.0016f * waves[k] + 0.0011f * (1.0f - sweep) + 0.00022f * grain[k] -
                          0.0011f * crack - 0.0016f * thin;
         vec3 color = mix(kLime, kPale, smooth_step(-0.8f, 0.8f, waves[k] + 0.5f * crack_y[k]));
@@ -188,7 +188,7 @@ void make_roof_tile(MaterialSurface& surface)
         const float gap = smooth_step(0.985f, 0.999f, std::abs(hit.across));
         const float up = hit.below / course_m;
         const float lip = saturate(hit.below / 0.006f);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.013f * std::sqrt(lip * (2.0f - lip)) - 0.0115f * std::min(up, 1.35f) +
                          0.0022f * (1.0f - hit.across * hit.across) + 0.0015f * hash_signed(id, 3) +
                          0.0012f * hash_signed(id, 4) * hit.across + 0.0006f * rough[k] +

@@ -111,7 +111,7 @@ void make_cobble(MaterialSurface& surface)
         const float soft = 0.0012f;
         const float blend = std::max(soft - std::abs(above), 0.0f);
 
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = std::max(top, sand) + 0.25f * blend * blend / soft;
 
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 10) * 8.0f) & 7u;
@@ -185,7 +185,7 @@ void make_paving(MaterialSurface& surface)
         const float sand = 0.0016f + 0.0006f * grit[k] + 0.0016f * green;
         const float is_stone = smooth_step(-0.0004f, 0.0010f, top - sand);
 
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = std::max(top, sand);
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 10) * 5.0f) % 5u;
         vec3 color = kStones[pick] * (1.0f + 0.10f * hash_signed(id, 11));
@@ -211,7 +211,7 @@ void make_granite(MaterialSurface& surface)
     const vec3 kBase(0.205f, 0.200f, 0.195f);
     shade_texels(surface, [&](float, float, std::size_t k) {
         const float pock = smooth_step(0.25f, 0.8f, hammer[k]);
-        Texel texel;
+        MaterialTexel texel;
         texel.height_m = 0.0012f * waves[k] - 0.0009f * pock + 0.00015f * fine[k];
         vec3 color = granite_grain(kBase, coarse[k], fine[k]) * (1.0f + 0.08f * waves[k]);
         color = mix(color, 0.6f * color, 0.6f * pock);

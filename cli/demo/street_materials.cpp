@@ -204,6 +204,7 @@ struct Recipe {
     float roughness = 1.0f;
     float porosity = -1.0f;
     glm::vec4 water{0.0f, 1.0f, 0.0f, 1.0f};
+    float specular = 1.0f;
     float snow_influence = 1.0f;
     bool double_sided = false;
 };
@@ -286,6 +287,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
          .roughness = 0.70f,
          .porosity = 0.20f,
          .water = {0.0f, 0.0f, 0.0f, 0.0f},
+         .specular = 0.4f,
          .snow_influence = 0.8f,
          .double_sided = true},
         {.slot = Slot::Glass,
@@ -339,6 +341,7 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
         material.base_color = recipe.color;
         material.metallic = recipe.metallic;
         material.roughness = recipe.roughness;
+        material.specular = recipe.specular;
         material.double_sided = recipe.double_sided;
         material.weather.porosity = recipe.porosity;
         material.weather.water_accumulation = recipe.water;

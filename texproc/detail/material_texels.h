@@ -11,7 +11,7 @@
 namespace petrichor::texproc::detail {
 
 /// One texel of a material before the maps are derived.
-struct Texel {
+struct MaterialTexel {
     float height_m = 0.0f;  ///< any zero
     glm::vec3 albedo{0.5f};
     float roughness = 0.8f;
@@ -25,7 +25,7 @@ struct MaterialSurface {
     int threads = 1;
     std::uint32_t seed = 0;
     float occlusion_strength = 1.0f;
-    std::vector<Texel> texels;
+    std::vector<MaterialTexel> texels;
 
     float texel_m() const { return tile_m / static_cast<float>(size); }
     /// Cells of that size over the tile, at least one.
