@@ -105,6 +105,11 @@ build_target() {
         # shellcheck disable=SC2086  # lists of names
         install_packages $packages || return 1
         : >"$build/.building-$name"  # edits made while it builds count for the next run
+        if [ -e "$build/CMakeCache.txt" ] &&
+            ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+            say "petrichor: the folder was moved; configuring it anew"
+            rm -f "$build/CMakeCache.txt" "$build/build.ninja"
+        fi
         local configure=(ninja -C "$build" build.ninja) first=
         if [ ! -e "$build/build.ninja" ] || [ -n "$options" ]; then
             # shellcheck disable=SC2206  # a list of options
