@@ -1,7 +1,10 @@
 #include "cli/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "base/error.h"
 #include "cli/words.h"
@@ -36,6 +39,32 @@ const gpu::Camera& named_camera(const gpu::Scene& scene, const std::string& name
 }
 
 }  // namespace
+
+gpu::Bounds content_bounds(const gpu::Scene& scene)
+{
+    const gpu::Bounds all = gpu::scene_bounds(scene);
+    std::array<std::vector<float>, 3> axes;
+    for (const gpu::Instance& instance : scene.instances) {
+        for (const gpu::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            for (const glm::vec3& position : primitive.positions) {
+                const auto world = glm::vec3(instance.to_world * glm::vec4(position, 1.0f));
+                for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].push_back(world[i]);
+            }
+        }
+    }
+    if (axes[0].size() < 100) return all;
+    gpu::Bounds middle;
+    for (int i = 0; i < 3; ++i) {
+        auto& values = axes[static_cast<std::size_t>(i)];
+        const auto cut = static_cast<std::ptrdiff_t>(values.size() / 50);
+        std::nth_element(values.begin(), values.begin() + cut, values.end());
+        middle.low[i] = values[static_cast<std::size_t>(cut)];
+        std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
+        middle.high[i] = *(values.end() - 1 - cut);
+    }
+    const bool few_far_points = glm::length(middle.high - middle.low) < 0.4f * glm::length(all.high - all.low);
+    return few_far_points ? middle : all;
+}
 
 gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m, double fov_rad)
 {

@@ -8,6 +8,10 @@
 
 namespace petrichor::cli {
 
+/// Where the detail of a scene is: its bounds, or, when they are much larger because of a few far points
+/// (an endless ground plane, a sky dome), the bounds of the middle 96 % of its vertices on each axis.
+gpu::Bounds content_bounds(const gpu::Scene& scene);
+
 /// A camera that sees all of the bounds from the front right and above (three-quarter view), as near as
 /// the frame allows. aspect = width / height. Empty bounds are taken as 1 m around the origin.
 gpu::Camera framing_camera(const gpu::Bounds& bounds, double aspect);

@@ -37,7 +37,11 @@ int main(int argc, char** argv)
     app.set_version_flag("--version", "petrichor " PETRICHOR_VERSION);
     app.footer("Try: petrichor render            the demo street, into petrichor-demo/\n"
                "     petrichor COMMAND --help    options and an example");
+    cli::add_render(app, std::vector<std::string>(argv, argv + argc));
+    cli::add_bench(app);
+    cli::add_doctor(app);
     cli::add_init(app);
+    cli::add_simulate(app);
     cli::add_texture(app);
     try {
         if (argc > 1) check_command(app, argv[1]);

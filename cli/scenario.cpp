@@ -237,6 +237,19 @@ void read_materials(Scenario& scenario, const toml::table& table)
                      });
 }
 
+void read_weather_preset(Scenario& scenario, const toml::table& table)
+{
+    const toml::node* preset = table.get("preset");
+    if (!preset) return;
+    const TomlValue value(*preset, scenario.name, "weather.preset");
+    scenario.weather_preset = value.text();
+    if (scenario.weather_preset.empty()) value.refuse("the name of a preset or a file");
+    if (table.size() > 1) {
+        throw Error(value.place() + ": [weather] has a preset and also keys of its own",
+                    "Give either preset = \"...\" alone, or the keys without it.");
+    }
+}
+
 void check_camera(const Scenario& scenario, const toml::table& root)
 {
     const auto& keys = scenario.camera.keys;
@@ -272,6 +285,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
         if (!node.is_table()) value.refuse("a table, written [" + table + "]");
         if (table == "weather") {
             scenario.has_weather = true;
+            read_weather_preset(scenario, *node.as_table());
         } else if (table == "materials") {
             read_materials(scenario, *node.as_table());
         } else {

@@ -100,6 +100,7 @@ struct Scenario {
     std::filesystem::path folder;  ///< where relative names in it are looked for
     std::string text;              ///< the file itself: cli/weather_file reads [weather] from it
     bool has_weather = false;      ///< there is a [weather] table
+    std::string weather_preset;    ///< its `preset`: a name or a file, instead of keys of its own
     ScenarioScene scene;
     ScenarioCamera camera;
     ScenarioSun sun;
@@ -111,8 +112,8 @@ struct Scenario {
 };
 
 /// Reads a scenario from TOML text. Unknown tables and keys, wrong types and values out of range throw
-/// Error with "name:line" and, for names, the nearest one that exists. [weather] is only looked at to
-/// see that it is a table.
+/// Error with "name:line" and, for names, the nearest one that exists. Of [weather] only `preset`
+/// is read here, its keys are cli/weather_file's.
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
 /// The same from a file; relative names in it are taken from the file's folder.

@@ -135,6 +135,17 @@ Image decode(const gpu::EncodedImage& encoded, ColorSpace space, int channels)
     return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}), channels);
 }
 
+Image first_channels(const Image& image, int channels)
+{
+    Image result(image.width, image.height, channels, image.space);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < channels; ++c) result.at(x, y, c) = image.at(x, y, c);
+        }
+    }
+    return result;
+}
+
 Image channel_of(const Image& image, int channel, float factor)
 {
     Image result(image.width, image.height, 1, ColorSpace::Data);
@@ -202,9 +213,10 @@ gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe, const
             levels = texproc::mip_chain(decode(encoded, ColorSpace::Linear, 4), mips);
             break;
         case Kind::Normal:
-            texture.format = gpu::TexelFormat::Rgba8Unorm;
+            texture.format = gpu::TexelFormat::Rg8Unorm;  // the third component follows: unit length
             mips.normals = true;
-            levels = texproc::mip_chain(decode(encoded, ColorSpace::Data, 4), mips);
+            levels = texproc::mip_chain(decode(encoded, ColorSpace::Data, 3), mips);
+            for (Image& level : levels) level = first_channels(level, 2);
             break;
         case Kind::Surface:
             texture.format = gpu::TexelFormat::Rgba8Unorm;

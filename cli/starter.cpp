@@ -24,7 +24,16 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
         const bool first_of_table = key.table != table;
         if (first_of_table && table == "output") {
             text += "\n# " + table_meaning("weather") + "\n[weather]\n" +
-                    "preset = \"rain-then-snow\"  # a name from `petrichor doctor`, or keys of your own: see README\n";
+                    "# a name that `petrichor doctor` lists, or a file with a [weather] table\n"
+                    "preset = \"rain-then-snow\"\n"
+                    "# ... or instead of the preset, keys of your own (rainfall 0 to 1; snow below 0 C):\n"
+                    "# interpolation = \"linear\"\n"
+                    "# keys = [\n"
+                    "#     { time_s = 0.0, temperature_c = 12.0, rainfall = 0.0, cloud_cover = 0.3, wind_m_s = 2.0,\n"
+                    "#       wind_from_deg = 240.0, visibility_m = 20000.0 },\n"
+                    "#     { time_s = 10.0, rainfall = 0.8, cloud_cover = 0.9 },\n"
+                    "#     { time_s = 30.0, temperature_c = -6.0 },\n"
+                    "# ]\n";
         }
         if (first_of_table) {
             table = key.table;

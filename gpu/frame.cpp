@@ -28,6 +28,14 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_shadow(graph, maps, *r.scene);
         }
     }
+    if (frame.settings.image_based_light && frame.settings.ambient_occlusion) {
+        const auto views = sky_views(frame.camera, r.scene->bounds());
+        if (!maps.sky_valid || views != maps.sky_views) {
+            maps.sky_views = views;
+            maps.sky_valid = true;
+            add_sky_visibility(graph, maps, *r.scene);
+        }
+    }
     if (frame.settings.shelter && weather) {
         const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
@@ -89,6 +97,10 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     c.cascade_end_m = glm::vec4(cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
     c.shelter_from_world = maps.shelter_view.map_from_world;
     if (!maps.shelter_valid) c.flags &= ~FRAME_SHELTER;
+    for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
+        c.sky_from_world[i] = maps.sky_views[i].map_from_world;
+        c.sky_direction[i] = glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
+    }
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
     c.light_count = r.lights->count;
@@ -110,13 +122,15 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
-    add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
-    add_flow(graph, *r.surface_maps, time_s);
+    if (weather) {
+        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
+        add_flow(graph, *r.surface_maps, time_s);
+    }
     add_depth_maps(graph, frame, sun, r, weather);
     add_sky(graph, frame, sun, r);
 
     const LightingVariant variant{weather, settings.shadows, settings.image_based_light,
-                                  settings.ambient_occlusion};
+                                  settings.ambient_occlusion, r.scene->emissive()};
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
@@ -128,7 +142,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                     c.world_to_clip, c.camera_m, weather);
         if (i == 0) {
             for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
-                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot]);
+                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot], variant);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
@@ -136,6 +150,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_ambient_occlusion(graph, *r.targets, constants);
         }
         add_lighting(graph, *r.targets, *r.lights, *r.sky, *r.depth_maps, constants, variant);
+        if (settings.image_based_light) {
+            add_reflections(graph, *r.targets, *r.sky, constants);
+        }
     }
     add_resolve(graph, *r.targets, *r.sky, constants);
     return graph;

@@ -11,20 +11,12 @@
 namespace petrichor::gpu {
 namespace {
 
-constexpr std::array<std::string_view, 14> kExtensions{"KHR_lights_punctual",
-                                                       "KHR_texture_transform",
-                                                       "KHR_materials_emissive_strength",
-                                                       "KHR_materials_specular",
-                                                       "KHR_materials_ior",
-                                                       "KHR_materials_clearcoat",
-                                                       "KHR_materials_sheen",
-                                                       "KHR_materials_anisotropy",
-                                                       "KHR_materials_transmission",
-                                                       "KHR_materials_unlit",
-                                                       "KHR_mesh_quantization",
-                                                       "EXT_mesh_gpu_instancing",
-                                                       "EXT_texture_webp",
-                                                       "PETRICHOR_materials_weather"};
+constexpr std::array<std::string_view, 14> kExtensions{
+    "KHR_lights_punctual",    "KHR_texture_transform",      "KHR_materials_emissive_strength",
+    "KHR_materials_specular", "KHR_materials_ior",          "KHR_materials_clearcoat",
+    "KHR_materials_sheen",    "KHR_materials_anisotropy",   "KHR_materials_transmission",
+    "KHR_materials_unlit",    "KHR_mesh_quantization",      "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",       "PETRICHOR_materials_weather"};
 
 bool is_known(std::string_view extension)
 {
@@ -59,8 +51,8 @@ void check_extensions(const JsonObject& root)
         } else if (name == "KHR_texture_basisu") {
             fix = "Export the scene with PNG, JPEG or WebP textures.";
         }
-        root.log().fail(required.path_to(i), "cannot read the required extension " + in_quotes(name),
-                        fix);
+        root.log().fail(required.path_to(i),
+                        "cannot read the required extension " + in_quotes(name), fix);
     }
     const JsonArray used = root.array("extensionsUsed");
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -102,12 +94,11 @@ void complete(Primitive& primitive, const Material& material)
 
 bool uses_second_texcoord(const Material& m)
 {
-    const std::array uses{&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                          &m.occlusion_texture,  &m.emissive_texture,           &m.weather.height,
+    const std::array uses{&m.base_color_texture,  &m.metallic_roughness_texture, &m.normal_texture,
+                          &m.occlusion_texture,   &m.emissive_texture,           &m.weather.height,
                           &m.weather.puddle_mask, &m.weather.snow_mask};
-    return std::any_of(uses.begin(), uses.end(), [](const TextureUse* use) {
-        return use->present() && use->texcoord == 1;
-    });
+    return std::any_of(uses.begin(), uses.end(),
+                       [](const TextureUse* use) { return use->present() && use->texcoord == 1; });
 }
 
 }  // namespace
@@ -122,8 +113,8 @@ Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
     check_version(root);
     check_extensions(root);
 
-    GltfSource source{root, GltfBuffers(root, container.bin, container.has_bin, read_resource,
-                                        asset.size())};
+    GltfSource source{
+        root, GltfBuffers(root, container.bin, container.has_bin, read_resource, asset.size())};
     Scene scene;
     scene.name = name;
     read_materials(source, scene);
@@ -146,7 +137,8 @@ Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
         for (Primitive& primitive : mesh.primitives) {
             const Material& material = scene.materials[primitive.material];
             if (uses_second_texcoord(material) && primitive.uv1.empty()) {
-                log.warnings.add(mesh.name, "its material reads TEXCOORD_1, which it does not have");
+                log.warnings.add(mesh.name,
+                                 "its material reads TEXCOORD_1, which it does not have");
             }
             complete(primitive, material);
         }

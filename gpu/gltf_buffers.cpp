@@ -15,11 +15,14 @@ std::size_t component_bytes(ComponentType type)
 {
     switch (type) {
         case ComponentType::Int8:
-        case ComponentType::Uint8: return 1;
+        case ComponentType::Uint8:
+            return 1;
         case ComponentType::Int16:
-        case ComponentType::Uint16: return 2;
+        case ComponentType::Uint16:
+            return 2;
         case ComponentType::Uint32:
-        case ComponentType::Float: return 4;
+        case ComponentType::Float:
+            return 4;
     }
     return 4;
 }
@@ -44,7 +47,8 @@ int component_count(const JsonObject& json)
     if (type == "VEC2") return 2;
     if (type == "VEC3") return 3;
     if (type == "VEC4") return 4;
-    json.fail("type", "must be SCALAR, VEC2, VEC3 or VEC4 here, got " + in_quotes(type), kFixDamaged);
+    json.fail("type", "must be SCALAR, VEC2, VEC3 or VEC4 here, got " + in_quotes(type),
+              kFixDamaged);
 }
 
 template <class T>
@@ -55,8 +59,8 @@ T load(const std::byte* from)
     return value;
 }
 
-// Whether count elements of `bytes` each, `stride` apart, fit in `available` bytes from `offset` on.
-// count, offset < 2^53.
+// Whether count elements of `bytes` each, `stride` apart, fit in `available` bytes from `offset`
+// on. count, offset < 2^53.
 bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t bytes,
           std::uint64_t available)
 {
@@ -67,7 +71,10 @@ bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::
 
 }  // namespace
 
-void Budget::grow(std::size_t file_bytes) { left_ += std::uint64_t{256} * file_bytes; }
+void Budget::grow(std::size_t file_bytes)
+{
+    left_ += std::uint64_t{256} * file_bytes;
+}
 
 void Budget::take(std::uint64_t count, std::uint64_t bytes_each, const std::string& where,
                   const GltfLog& log)
@@ -84,11 +91,12 @@ void Budget::take(std::uint64_t count, std::uint64_t bytes_each, const std::stri
 const std::byte* Accessor::element(std::size_t i) const
 {
     if (!sparse_indices.empty()) {
-        const auto found =
-            std::lower_bound(sparse_indices.begin(), sparse_indices.end(), static_cast<std::uint32_t>(i));
+        const auto found = std::lower_bound(sparse_indices.begin(), sparse_indices.end(),
+                                            static_cast<std::uint32_t>(i));
         if (found != sparse_indices.end() && *found == i) {
             const auto nth = static_cast<std::size_t>(found - sparse_indices.begin());
-            return sparse_values + nth * static_cast<std::size_t>(components) * component_bytes(type);
+            return sparse_values +
+                   nth * static_cast<std::size_t>(components) * component_bytes(type);
         }
     }
     return base ? base + i * stride : nullptr;
@@ -102,12 +110,22 @@ float Accessor::value(std::size_t i, int c) const
     float number = 0.0f;
     float largest = 1.0f;
     switch (type) {
-        case ComponentType::Float: return load<float>(at);
-        case ComponentType::Int8: number = load<std::int8_t>(at), largest = 127.0f; break;
-        case ComponentType::Uint8: number = load<std::uint8_t>(at), largest = 255.0f; break;
-        case ComponentType::Int16: number = load<std::int16_t>(at), largest = 32767.0f; break;
-        case ComponentType::Uint16: number = load<std::uint16_t>(at), largest = 65535.0f; break;
-        case ComponentType::Uint32: return static_cast<float>(load<std::uint32_t>(at));
+        case ComponentType::Float:
+            return load<float>(at);
+        case ComponentType::Int8:
+            number = load<std::int8_t>(at), largest = 127.0f;
+            break;
+        case ComponentType::Uint8:
+            number = load<std::uint8_t>(at), largest = 255.0f;
+            break;
+        case ComponentType::Int16:
+            number = load<std::int16_t>(at), largest = 32767.0f;
+            break;
+        case ComponentType::Uint16:
+            number = load<std::uint16_t>(at), largest = 65535.0f;
+            break;
+        case ComponentType::Uint32:
+            return static_cast<float>(load<std::uint32_t>(at));
     }
     return normalized ? std::max(number / largest, -1.0f) : number;
 }
@@ -180,8 +198,8 @@ std::span<const std::byte> GltfBuffers::buffer(std::uint32_t index)
     }
     if (length > bytes.size()) {
         json.fail("byteLength",
-                  "is " + std::to_string(length) + ", but " + source + std::to_string(bytes.size()) +
-                      " bytes",
+                  "is " + std::to_string(length) + ", but " + source +
+                      std::to_string(bytes.size()) + " bytes",
                   kFixDamaged);
     }
     return buffers_[index] = bytes.first(length);
@@ -231,8 +249,8 @@ Accessor GltfBuffers::read_accessor(const JsonObject& json)
             accessor.stride = view_json.require_whole("byteStride");
             if (accessor.stride < bytes || accessor.stride > 252) {
                 view_json.fail("byteStride",
-                               "must be in [" + std::to_string(bytes) + ", 252] for " + json.path() +
-                                   ", got " + std::to_string(accessor.stride),
+                               "must be in [" + std::to_string(bytes) + ", 252] for " +
+                                   json.path() + ", got " + std::to_string(accessor.stride),
                                kFixDamaged);
             }
         }
@@ -256,9 +274,10 @@ void GltfBuffers::read_sparse(const JsonObject& json, Accessor& accessor)
 {
     const std::uint64_t count = json.require_whole("count");
     if (count == 0 || count > accessor.count) {
-        json.fail("count",
-                  "must be in [1, " + std::to_string(accessor.count) + "], got " + std::to_string(count),
-                  kFixDamaged);
+        json.fail(
+            "count",
+            "must be in [1, " + std::to_string(accessor.count) + "], got " + std::to_string(count),
+            kFixDamaged);
     }
     // Bytes of one half of the sparse data, known to fit.
     const auto part = [&](std::string_view name, std::size_t bytes_each) {
@@ -287,8 +306,8 @@ void GltfBuffers::read_sparse(const JsonObject& json, Accessor& accessor)
     index.count = count;
     index.stride = component_bytes(index.type);
     index.base = part("indices", index.stride);
-    accessor.sparse_values = part("values", static_cast<std::size_t>(accessor.components) *
-                                                component_bytes(accessor.type));
+    accessor.sparse_values = part(
+        "values", static_cast<std::size_t>(accessor.components) * component_bytes(accessor.type));
     budget.take(count, sizeof(std::uint32_t), json.path_to("count"), *log_);
     accessor.sparse_indices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

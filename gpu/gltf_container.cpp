@@ -26,7 +26,10 @@ std::uint32_t little_endian(std::span<const std::byte> bytes, std::size_t at)
     return value;
 }
 
-std::string bytes_text(std::size_t count) { return std::to_string(count) + " bytes"; }
+std::string bytes_text(std::size_t count)
+{
+    return std::to_string(count) + " bytes";
+}
 
 GltfContainer split_glb(std::span<const std::byte> asset, GltfLog& log)
 {
@@ -51,7 +54,8 @@ GltfContainer split_glb(std::span<const std::byte> asset, GltfLog& log)
     }
     const auto body = asset.first(length);
     if (length < kHeaderBytes + kChunkHeaderBytes) {
-        log.fail("GLB header", "says " + bytes_text(length) + ", too few for a JSON chunk", kFixCopy);
+        log.fail("GLB header", "says " + bytes_text(length) + ", too few for a JSON chunk",
+                 kFixCopy);
     }
 
     GltfContainer parts;
@@ -141,8 +145,7 @@ nlohmann::json parse_gltf_json(std::string_view text, const GltfLog& log)
         const auto before = text.substr(0, at);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t line_start = before.rfind('\n');
-        const std::size_t column =
-            line_start == std::string_view::npos ? at + 1 : at - line_start;
+        const std::size_t column = line_start == std::string_view::npos ? at + 1 : at - line_start;
         log.fail("JSON",
                  "not valid at line " + std::to_string(line) + ", column " + std::to_string(column),
                  "Correct the text there; if a program wrote the file, copy or export it again.");

@@ -58,7 +58,7 @@ std::optional<std::string> nearest_word(std::string_view word,
                                         std::span<const std::string_view> candidates)
 {
     if (word.size() > 100) return std::nullopt;
-    std::size_t best = std::max<std::size_t>(3, word.size() / 3) + 1;
+    std::size_t best = std::max<std::size_t>(3, word.size() / 2) + 1;
     std::optional<std::string> found;
     for (const std::string_view candidate : candidates) {
         // Levenshtein distance, one row at a time.
@@ -119,16 +119,17 @@ std::uint32_t to_index(const json& value, const std::string& path, std::string_v
 {
     const auto number = to_whole(value);
     if (!number) {
-        log.fail(path, "must be the index of a " + std::string(thing) + ", got " + describe(value),
+        log.fail(path,
+                 "must be a whole number, the index of some " + std::string(thing) + ", got " +
+                     describe(value),
                  kFixType);
     }
     if (*number >= count) {
-        const std::string range = count == 0 ? "there are none"
-                                             : "0.." + std::to_string(count - 1);
-        log.fail(path,
-                 std::string(thing) + " " + std::to_string(*number) + " does not exist (" + range +
-                     ")",
-                 "Correct the index, or export the scene again: the file is damaged or incomplete.");
+        const std::string range = count == 0 ? "there are none" : "0.." + std::to_string(count - 1);
+        log.fail(
+            path,
+            std::string(thing) + " " + std::to_string(*number) + " does not exist (" + range + ")",
+            "Correct the index, or export the scene again: the file is damaged or incomplete.");
     }
     return static_cast<std::uint32_t>(*number);
 }
@@ -157,7 +158,10 @@ std::string JsonObject::path_to(std::string_view key) const
     return path;
 }
 
-bool JsonObject::has(std::string_view key) const { return find(key) != nullptr; }
+bool JsonObject::has(std::string_view key) const
+{
+    return find(key) != nullptr;
+}
 
 std::vector<std::string> JsonObject::keys() const
 {
@@ -234,7 +238,8 @@ std::uint32_t JsonObject::require_index(std::string_view key, std::string_view t
                                         std::size_t count) const
 {
     const auto found = index(key, thing, count);
-    if (!found) fail(key, "is missing; the index of a " + std::string(thing) + " is needed", kFixType);
+    if (!found)
+        fail(key, "is missing; the index of some " + std::string(thing) + " is needed", kFixType);
     return *found;
 }
 
@@ -295,9 +300,15 @@ void JsonObject::warn(std::string_view key, const std::string& what) const
     log_->warnings.add(path_to(key), what);
 }
 
-std::size_t JsonArray::size() const { return value_ ? value_->size() : 0; }
+std::size_t JsonArray::size() const
+{
+    return value_ ? value_->size() : 0;
+}
 
-JsonObject JsonArray::object(std::size_t i) const { return {(*value_)[i], path_to(i), *log_}; }
+JsonObject JsonArray::object(std::size_t i) const
+{
+    return {(*value_)[i], path_to(i), *log_};
+}
 
 std::string JsonArray::text(std::size_t i) const
 {

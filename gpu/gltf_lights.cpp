@@ -67,17 +67,18 @@ Camera read_camera(const JsonObject& json, std::size_t number)
         }
         camera.near_m = lens->number("znear", camera.near_m);
         if (!(camera.near_m > 0.0f)) {
-            lens->fail("znear",
-                       "must be more than 0, got " + number_text(static_cast<double>(camera.near_m)),
-                       kFix);
+            lens->fail(
+                "znear",
+                "must be more than 0, got " + number_text(static_cast<double>(camera.near_m)),
+                kFix);
         }
     } else if (type == "orthographic") {
         const auto lens = json.object("orthographic");
         if (!lens) json.fail("orthographic", "is missing", kFix);
         const float half = lens->number("ymag", 1.0f);
         if (!(half > 0.0f && half < kLargest / 2.0f)) {
-            lens->fail("ymag",
-                       "must be more than 0, got " + number_text(static_cast<double>(half)), kFix);
+            lens->fail("ymag", "must be more than 0, got " + number_text(static_cast<double>(half)),
+                       kFix);
         }
         camera.orthographic_height_m = 2.0f * half;
         camera.near_m = lens->number("znear", 0.0f, 0.0f);

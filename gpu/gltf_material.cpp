@@ -21,7 +21,8 @@ Wrap read_wrap(const JsonObject& sampler, std::string_view key)
     return Wrap::Repeat;
 }
 
-void clamp_numbers(const JsonObject& json, std::string_view key, std::span<float> values, float high)
+void clamp_numbers(const JsonObject& json, std::string_view key, std::span<float> values,
+                   float high)
 {
     if (!json.numbers(key, values)) return;
     bool outside = false;
@@ -155,7 +156,8 @@ TextureUse TextureCollector::use(const JsonObject& parent, std::string_view key)
 TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& info)
 {
     const JsonObject json = textures_.object(index);
-    // The plain source is the copy that every reader understands; WebP may be the only one there is.
+    // The plain source is the copy that every reader understands; WebP may be the only one there
+    // is.
     auto image = json.index("source", "image", images_.size());
     if (const auto webp = json.extension("EXT_texture_webp"); webp && !image) {
         image = webp->index("source", "image", images_.size());

@@ -39,8 +39,8 @@ std::vector<std::uint32_t> to_triangles(std::span<const std::uint32_t> corners, 
 }
 
 // Keeps only the vertices that triangles use, since files often share one vertex array among many
-// primitives. Renumbers `indices`; gives the old numbers, increasing. The cost follows the number of
-// indices, not the size of the shared array.
+// primitives. Renumbers `indices`; gives the old numbers, increasing. The cost follows the number
+// of indices, not the size of the shared array.
 std::vector<std::uint32_t> keep_used(std::vector<std::uint32_t>& indices, std::size_t vertex_count)
 {
     std::vector<std::uint32_t> used;
@@ -67,18 +67,10 @@ std::vector<std::uint32_t> keep_used(std::vector<std::uint32_t>& indices, std::s
 
 class PrimitiveReader {
 public:
-    PrimitiveReader(GltfSource& source, const JsonObject& json, const JsonObject& attributes)
-        : buffers_(source.buffers), json_(json), attributes_(attributes)
+    PrimitiveReader(GltfSource& source, const JsonObject& json, const JsonObject& attributes,
+                    bool quantized)
+        : buffers_(source.buffers), json_(json), attributes_(attributes), quantized_(quantized)
     {
-        const auto extension_named = [&source](const char* list, std::string_view name) {
-            const JsonArray names = source.root.array(list);
-            for (std::size_t i = 0; i < names.size(); ++i) {
-                if (names.text(i) == name) return true;
-            }
-            return false;
-        };
-        quantized_ = extension_named("extensionsUsed", "KHR_mesh_quantization") ||
-                     extension_named("extensionsRequired", "KHR_mesh_quantization");
     }
 
     /// Nothing when there is nothing to draw.
@@ -119,11 +111,13 @@ public:
 private:
     std::vector<std::uint32_t> read_corners(const Accessor& positions, std::uint64_t mode)
     {
-        const std::uint64_t bytes_each = mode == Triangles ? 8 : 16;
+        // What a corner can come to in the end: its index, and a vertex of its own.
+        constexpr std::uint64_t kCorner = 64;
         std::vector<std::uint32_t> corners;
         if (!json_.has("indices")) {
-            buffers_.budget.take(positions.count, bytes_each, json_.path_to("attributes.POSITION"),
-                                 json_.log());
+            buffers_.budget.take(positions.count,
+                                 positions.base ? kCorner : Budget::kInventedElement,
+                                 json_.path_to("attributes.POSITION"), json_.log());
             corners.resize(positions.count);
             for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
         } else {
@@ -136,7 +130,8 @@ private:
                 json_.fail("indices", "must be a SCALAR accessor of an unsigned integer type",
                            kFixDamaged);
             }
-            buffers_.budget.take(indices.count, bytes_each, json_.path_to("indices"), json_.log());
+            buffers_.budget.take(indices.count, indices.base ? kCorner : Budget::kInventedElement,
+                                 json_.path_to("indices"), json_.log());
             corners.resize(indices.count);
             for (std::size_t i = 0; i < corners.size(); ++i) {
                 corners[i] = indices.whole(i);
@@ -171,10 +166,10 @@ private:
                                  std::to_string(*components.begin()) + " are needed",
                              kFixDamaged);
         }
-        const bool plain_integer = accessor.normalized && (accessor.type == ComponentType::Uint8 ||
-                                                           accessor.type == ComponentType::Uint16) &&
-                                   (name.starts_with("TEXCOORD") || name.starts_with("COLOR") ||
-                                    name == "_WEATHER");
+        const bool plain_integer =
+            accessor.normalized &&
+            (accessor.type == ComponentType::Uint8 || accessor.type == ComponentType::Uint16) &&
+            (name.starts_with("TEXCOORD") || name.starts_with("COLOR") || name == "_WEATHER");
         const bool quantized_integer = quantized_ && accessor.type != ComponentType::Uint32;
         if (accessor.type != ComponentType::Float && !plain_integer && !quantized_integer) {
             attributes_.fail(name,
@@ -186,11 +181,14 @@ private:
         return &accessor;
     }
 
-    // The attribute at the used vertices; empty when the file has none.
+    // The attribute at the used vertices; empty when the file has none. A broken normal, tangent,
+    // colour or texture coordinate counts as 0 and is mended later; a broken position is an error.
     template <int N>
     std::vector<glm::vec<N, float>> read(const char* name, const Accessor* accessor,
                                          std::size_t vertex_count)
     {
+        constexpr float kLargest =
+            1e18f;  // its square, and a place in the world, still fit a float
         std::vector<glm::vec<N, float>> values;
         if (!accessor) return values;
         if (accessor->count != vertex_count) {
@@ -200,20 +198,27 @@ private:
                              kFixDamaged);
         }
         const int components = std::min(accessor->components, N);
-        buffers_.budget.take(used_.size(), sizeof values[0], attributes_.path_to(name), json_.log());
+        buffers_.budget.take(used_.size(), sizeof values[0], attributes_.path_to(name),
+                             json_.log());
         values.assign(used_.size(), glm::vec<N, float>(1.0f));
+        bool broken = false;
         for (std::size_t i = 0; i < used_.size(); ++i) {
             for (int c = 0; c < components; ++c) {
-                const float value = accessor->value(used_[i], c);
-                if (!std::isfinite(value)) {
-                    attributes_.fail(name,
-                                     "element " + std::to_string(used_[i]) +
-                                         " is not a finite number",
-                                     "Remove the broken vertex, or export the scene again.");
+                float value = accessor->value(used_[i], c);
+                if (!(std::abs(value) <= kLargest)) {
+                    if (name == std::string_view("POSITION")) {
+                        attributes_.fail(name,
+                                         "element " + std::to_string(used_[i]) +
+                                             " is not a finite number below 1e18",
+                                         "Remove the broken vertex, or export the scene again.");
+                    }
+                    broken = true;
+                    value = 0.0f;
                 }
                 values[i][c] = value;
             }
         }
+        if (broken) attributes_.warn(name, "numbers that are not finite count as 0");
         return values;
     }
 
@@ -230,6 +235,7 @@ private:
         if (!out.normals.empty()) {
             out.tangents = read<4>("TANGENT", attribute("TANGENT", {4}), count);
         }
+        for (glm::vec4& masks : out.weather) masks = glm::clamp(masks, 0.0f, 1.0f);
         mend_normals(out);
         mend_tangents(out);
         if (attributes_.has("JOINTS_0")) {
@@ -292,9 +298,17 @@ private:
     GltfBuffers& buffers_;
     const JsonObject& json_;
     const JsonObject& attributes_;
-    bool quantized_ = false;
+    bool quantized_;                   ///< KHR_mesh_quantization is in use
     std::vector<std::uint32_t> used_;  ///< vertices of the file that triangles use
 };
+
+bool lists_extension(const JsonArray& names, std::string_view name)
+{
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names.text(i) == name) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -302,6 +316,9 @@ std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material
 {
     const JsonArray meshes_json = source.root.array("meshes");
     const std::size_t material_count = source.root.array("materials").size();
+    constexpr std::string_view kQuantization = "KHR_mesh_quantization";
+    const bool quantized = lists_extension(source.root.array("extensionsUsed"), kQuantization) ||
+                           lists_extension(source.root.array("extensionsRequired"), kQuantization);
     std::vector<Mesh> meshes;
     for (std::size_t m = 0; m < meshes_json.size(); ++m) {
         const JsonObject mesh_json = meshes_json.object(m);
@@ -313,7 +330,7 @@ std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material
             const auto material = json.index("material", "material", material_count);
             const auto attributes = json.object("attributes");
             if (!attributes) json.fail("attributes", "is missing", kFixDamaged);
-            auto primitive = PrimitiveReader(source, json, *attributes).read();
+            auto primitive = PrimitiveReader(source, json, *attributes, quantized).read();
             if (!primitive) continue;
             primitive->material = material.value_or(default_material);
             mesh.primitives.push_back(std::move(*primitive));

@@ -23,7 +23,8 @@ bool finite(const glm::dmat4& m)
     return true;
 }
 
-glm::dmat4 compose(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale)
+glm::dmat4 compose(const glm::dvec3& translation, const glm::dquat& rotation,
+                   const glm::dvec3& scale)
 {
     glm::dmat4 m = glm::mat4_cast(rotation);
     m[0] *= scale.x;
@@ -67,8 +68,8 @@ glm::dmat4 local_matrix(const JsonObject& node)
     return compose(glm::dvec3(translation), *turned, glm::dvec3(scale));
 }
 
-// The rotation and place of a matrix: columns made orthonormal, z first, since a camera or light looks
-// along it. A mirrored or collapsed matrix gives the nearest proper frame.
+// The rotation and place of a matrix: columns made orthonormal, z first, since a camera or light
+// looks along it. A mirrored or collapsed matrix gives the nearest proper frame.
 glm::dmat4 without_scale(const glm::dmat4& m)
 {
     const auto unit_or = [](const glm::dvec3& v, const glm::dvec3& otherwise) {
@@ -76,7 +77,8 @@ glm::dmat4 without_scale(const glm::dmat4& m)
         return length > 1e-30 ? v / length : otherwise;
     };
     const glm::dvec3 z = unit_or(glm::dvec3(m[2]), {0.0, 0.0, 1.0});
-    const glm::dvec3 side = std::abs(z.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 side =
+        std::abs(z.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
     glm::dvec3 y(m[1]);
     y = unit_or(y - z * glm::dot(z, y), glm::normalize(side - z * glm::dot(z, side)));
     glm::dmat4 out(1.0);
@@ -129,7 +131,8 @@ std::vector<std::vector<std::uint32_t>> read_tree(const JsonArray& nodes,
     return children;
 }
 
-std::vector<std::uint32_t> scene_roots(const JsonObject& root, const std::vector<std::uint32_t>& parents,
+std::vector<std::uint32_t> scene_roots(const JsonObject& root,
+                                       const std::vector<std::uint32_t>& parents,
                                        std::string& scene_name)
 {
     std::vector<std::uint32_t> roots;
@@ -148,10 +151,11 @@ std::vector<std::uint32_t> scene_roots(const JsonObject& root, const std::vector
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::uint32_t n = list.index(i, "node", parents.size());
         if (parents[n] != kNoParent || listed[n]) {
-            scene.log().fail(list.path_to(i),
-                             "node " + std::to_string(n) +
-                                 (listed[n] ? " is listed twice" : " is not a root: it has a parent"),
-                             kFixTree);
+            scene.log().fail(
+                list.path_to(i),
+                "node " + std::to_string(n) +
+                    (listed[n] ? " is listed twice" : " is not a root: it has a parent"),
+                kFixTree);
         }
         listed[n] = true;
         roots.push_back(n);
@@ -214,9 +218,9 @@ private:
         const auto attributes = extension->object("attributes");
         if (!attributes) extension->fail("attributes", "is missing", kFixDamaged);
         std::size_t count = 0;
+        bool has_data = false;
         const auto find = [&](const char* key, int components) -> const Accessor* {
-            const auto index =
-                attributes->index(key, "accessor", source_.buffers.accessor_count());
+            const auto index = attributes->index(key, "accessor", source_.buffers.accessor_count());
             if (!index) return nullptr;
             const Accessor& accessor = source_.buffers.accessor(*index);
             if (accessor.components != components || (count != 0 && accessor.count != count)) {
@@ -226,13 +230,16 @@ private:
                                  kFixDamaged);
             }
             count = accessor.count;
+            has_data = has_data || accessor.base;
             return &accessor;
         };
         const Accessor* translations = find("TRANSLATION", 3);
         const Accessor* rotations = find("ROTATION", 4);
         const Accessor* scales = find("SCALE", 3);
-        source_.buffers.budget.take(count, sizeof(Instance) + name.size(), attributes->path(),
-                                    node.log());
+        if (count == 0) attributes->warn("", "no attribute that we know: nothing is placed");
+        source_.buffers.budget.take(
+            count, name.size() + (has_data ? sizeof(Instance) : Budget::kInventedElement),
+            attributes->path(), node.log());
         for (std::size_t i = 0; i < count; ++i) {
             glm::vec3 translation(0.0f);
             glm::vec4 turn(0.0f, 0.0f, 0.0f, 1.0f);

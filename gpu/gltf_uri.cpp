@@ -107,7 +107,8 @@ std::string decode_relative_uri(std::string_view uri, const std::string& where, 
         start = end + 1;
         if (step.empty() || step == ".") continue;
         if (step == "..") {
-            log.fail(where, "may not leave the folder of the scene with \"..\", got " + in_quotes(path),
+            log.fail(where,
+                     "may not leave the folder of the scene with \"..\", got " + in_quotes(path),
                      kFixUri);
         }
         if (!tidy.empty()) tidy += '/';

@@ -7,11 +7,11 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr std::array<std::string_view, 20> kKeys{
-    "heightTexture",     "heightScale",        "defaultHeight",      "puddleMaskTexture",
-    "snowMaskTexture",   "porosity",           "waterSlopeDamp",     "waterAccumulation",
-    "waterColor",        "flowTiling",         "flowSpeed",          "flowInterval",
-    "flowRefraction",    "flowNormalStrength", "snowSlopeDamp",      "snowAccumulation",
-    "snowNormalStrength", "snowDetailStrength", "snowOpacity",       "sheltered"};
+    "heightTexture",      "heightScale",        "defaultHeight",  "puddleMaskTexture",
+    "snowMaskTexture",    "porosity",           "waterSlopeDamp", "waterAccumulation",
+    "waterColor",         "flowTiling",         "flowSpeed",      "flowInterval",
+    "flowRefraction",     "flowNormalStrength", "snowSlopeDamp",  "snowAccumulation",
+    "snowNormalStrength", "snowDetailStrength", "snowOpacity",    "sheltered"};
 
 void check_keys(const JsonObject& weather)
 {

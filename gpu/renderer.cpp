@@ -167,6 +167,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->scene = nullptr;
     impl_->depth_maps.shadow_valid = false;
     impl_->depth_maps.shelter_valid = false;
+    impl_->depth_maps.sky_valid = false;
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
     impl_->constant_weather = has_constant_weather(scene);
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-// Numbers rows of N words: equal rows get the same number. An open-addressing hash table; sorting the
-// rows instead took three times as long on a ship of 70 000 triangles.
+// Numbers rows of N words: equal rows get the same number. An open-addressing hash table; sorting
+// the rows instead took three times as long on a ship of 70 000 triangles.
 template <std::size_t N>
 class RowTable {
 public:
@@ -62,7 +62,10 @@ private:
     std::vector<Row> rows_;
 };
 
-std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); }  // -0 is 0
+std::uint32_t bits(float value)
+{
+    return std::bit_cast<std::uint32_t>(value + 0.0f);
+}  // -0 is 0
 
 bool finite(const glm::vec3& v)
 {
@@ -92,7 +95,8 @@ glm::vec4 any_tangent(const glm::vec3& normal)
 
 // Gives every corner a vertex that carries the corner's own value: where the corners of a vertex
 // disagree, the vertex is copied. Returns the values by vertex; unused vertices get `unused`.
-std::vector<glm::vec4> split_by_value(Primitive& primitive, std::span<const glm::vec4> corner_values,
+std::vector<glm::vec4> split_by_value(Primitive& primitive,
+                                      std::span<const glm::vec4> corner_values,
                                       const glm::vec4& unused)
 {
     const std::size_t old_count = primitive.positions.size();
@@ -108,8 +112,8 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive, std::span<const glm:
             values[index] = value;
         }
         if (values[index] == value) continue;
-        const std::uint32_t copy = copies.number(
-            {index, bits(value.x), bits(value.y), bits(value.z), bits(value.w)});
+        const std::uint32_t copy =
+            copies.number({index, bits(value.x), bits(value.y), bits(value.z), bits(value.w)});
         if (copy == vertex_of_copy.size()) {
             vertex_of_copy.push_back(static_cast<std::uint32_t>(values.size()));
             values.push_back(value);
@@ -134,15 +138,22 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive, std::span<const glm:
 // What MikkTSpace keeps of a triangle.
 struct Face {
     std::array<std::uint32_t, 3> point{};  ///< welded corners
-    std::array<std::uint32_t, 3> neighbor{kNone, kNone, kNone};  ///< across the edge corner k -> k + 1
-    glm::vec3 along_u{0.0f};  ///< unit direction in which u grows, or zero
-    bool degenerate = false;  ///< two corners at one position
+    std::array<std::uint32_t, 3> neighbor{kNone, kNone,
+                                          kNone};  ///< across the edge corner k -> k + 1
+    glm::vec3 along_u{0.0f};                       ///< unit direction in which u grows, or zero
+    bool degenerate = false;                       ///< two corners at one position
     bool has_uv_area = false;
     bool mirrored = false;  ///< the uv triangle is wound the other way
 };
 
-std::size_t next_corner(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
-std::size_t previous_corner(std::size_t corner) { return corner == 0 ? 2 : corner - 1; }
+std::size_t next_corner(std::size_t corner)
+{
+    return corner == 2 ? 0 : corner + 1;
+}
+std::size_t previous_corner(std::size_t corner)
+{
+    return corner == 0 ? 2 : corner - 1;
+}
 
 std::vector<Face> make_faces(const Primitive& primitive, const std::vector<glm::vec2>& uv)
 {
@@ -168,18 +179,19 @@ std::vector<Face> make_faces(const Primitive& primitive, const std::vector<glm::
         const float area = uv1.x * uv2.y - uv1.y * uv2.x;
         face.along_u = uv2.y * (p1 - p0) - uv1.y * (p2 - p0);
         const glm::vec3 along_v = uv1.x * (p2 - p0) - uv2.x * (p1 - p0);
-        // v grows downwards in glTF, so the image's handedness is the opposite of the sign of `area`.
+        // v grows downwards in glTF, so the image's handedness is the opposite of the sign of
+        // `area`.
         face.mirrored = area > 0.0f;
         const bool has_u = normalize_if_possible(face.along_u);
-        face.has_uv_area = std::abs(area) > FLT_MIN && has_u && finite(along_v) &&
-                           along_v != glm::vec3(0.0f);
+        face.has_uv_area =
+            std::abs(area) > FLT_MIN && has_u && finite(along_v) && along_v != glm::vec3(0.0f);
         if (area < 0.0f) face.along_u = -face.along_u;
     }
     return faces;
 }
 
-// Pairs the two sides of every edge: same two points, run through in opposite directions. Where more
-// than two triangles meet, they pair in the order of their index.
+// Pairs the two sides of every edge: same two points, run through in opposite directions. Where
+// more than two triangles meet, they pair in the order of their index.
 void link_neighbors(std::vector<Face>& faces)
 {
     struct Edge {
@@ -290,8 +302,10 @@ private:
             assert(face.point[c] == point);
             const std::size_t side = 3 * std::size_t{f} + c;
             if (taken_[side]) continue;
-            // A triangle without uv area has no handedness; the first group that reaches it decides.
-            const bool untouched = !taken_[3 * f] && !taken_[3 * f + 1] && !taken_[3 * f + 2];
+            // A triangle without uv area has no handedness; the first group that reaches it
+            // decides.
+            const std::size_t first = side - c;
+            const bool untouched = !taken_[first] && !taken_[first + 1] && !taken_[first + 2];
             if (!face.has_uv_area && untouched) face.mirrored = mirrored;
             if (face.mirrored != mirrored) continue;
             taken_[side] = true;

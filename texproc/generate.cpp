@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc {
 

@@ -1,7 +1,7 @@
 // Wood and metal.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -73,24 +73,31 @@ void make_plank(Surface& surface)
         const float side = 0.5f * board_m - std::abs(lx) - 0.0013f + 0.0005f * edge_noise[k];
         const float d = std::min(side, std::abs(from_joint) - 0.0009f);
 
-        // Year rings cut lengthwise: bands that run along the board and swing round the knots.
-        float swing = 0.018f * bend[k] + 0.03f * hash_signed(h, 2);
-        float knot_shade = 0.0f;
+        // Year rings cut lengthwise: lines along the board that part and flow round its knots.
+        float line_x = lx + 0.018f * bend[k] + 0.03f * hash_signed(h, 2);
+        float knot = 0.0f;      // 1 in its middle, 0 at its rim
+        float knot_ring = 0.0f;
         for (std::uint32_t s = 0; s < 2; ++s) {
             if (hash_unit(h, 20 + s) < 0.45f) continue;
-            const float kx = 0.32f * board_m * hash_signed(h, 24 + s);
+            const float radius = 0.007f + 0.006f * hash_unit(h, 32 + s);
+            const float kx = lx - 0.30f * board_m * hash_signed(h, 24 + s) + 0.004f * bend[k];
             float ky = y - surface.tile_m * hash_unit(h, 28 + s);
             ky -= surface.tile_m * std::round(ky / surface.tile_m);
-            const float rx = (lx - kx) / 0.011f;
-            const float ry = ky / 0.030f;
-            const float r2 = rx * rx + ry * ry;
-            const float pull = 1.0f / (1.0f + r2);
-            swing += (lx - kx > 0.0f ? 1.0f : -1.0f) * 0.010f * pull * (1.0f - pull);
-            knot_shade = std::max(knot_shade, smooth_step(0.30f, 0.9f, pull));
+            const float reach = ky / (4.2f * radius);
+            if (std::abs(reach) > 4.0f) continue;
+            const float push = 1.5f * radius * std::exp(-reach * reach);
+            line_x -= std::copysign(std::min(push, std::abs(kx)) * std::exp(-std::abs(kx) / (4.0f * radius)), kx);
+            const float r = std::sqrt(kx * kx + 0.30f * ky * ky) / radius + 0.06f * edge_noise[k];
+            knot = std::max(knot, saturate(1.0f - r));
+            if (r < 1.0f) knot_ring = 0.5f + 0.5f * std::sin(24.0f * r);
         }
-        const float rings = (lx + swing) * (150.0f + 70.0f * hash_signed(h, 3));
+        const float rings = line_x * (150.0f + 70.0f * hash_signed(h, 3));
         const float ring = rings - std::floor(rings);
-        const float late = smooth_step(0.35f, 0.92f, ring) * (1.0f - smooth_step(0.94f, 1.0f, ring));
+        const float in_knot = smooth_step(0.0f, 0.12f, knot);
+        const float late = mix(smooth_step(0.35f, 0.92f, ring) * (1.0f - smooth_step(0.94f, 1.0f, ring)),
+                               knot_ring, in_knot);
+        const float knot_shade = in_knot * (0.45f + 0.55f * smooth_step(0.25f, 0.02f, knot) +
+                                            0.35f * smooth_step(0.7f, 1.0f, knot));
 
         const float edge = saturate(d / 0.0028f);
         const float round = d <= 0.0f ? 0.0f : std::sqrt(edge * (2.0f - edge));
@@ -115,7 +122,7 @@ void make_plank(Surface& surface)
         color *= 1.0f + 0.12f * fibre[k] + 0.07f * pore[k];
         color = mix(color, kGrey * (1.0f + 0.12f * fibre[k] - 0.2f * late),
                     0.55f * smooth_step(-0.6f, 0.9f, weather[k] + 0.3f * hash_signed(h, 8)));
-        color = mix(color, 0.32f * color, 0.9f * knot_shade);
+        color = mix(color, vec3(0.30f, 0.24f, 0.20f) * color, 0.85f * saturate(knot_shade));
         color *= 0.35f + 0.65f * smooth_step(0.0f, 0.0035f, d);
         color = mix(color, vec3(0.060f, 0.044f, 0.036f), head);
         // Rust runs down from the nails.
@@ -136,7 +143,7 @@ void make_metal_plate(Surface& surface)
     const auto warp_y = noise_layer(surface, {0.030f, 0.030f, 3, 0.6f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
     const auto dull = noise_layer(surface, {0.20f, 0.20f, 5, 0.55f, 5});
-    const auto scratches = scratch_layer(surface, 150, 0.22f, 6);
+    const auto scratches = scratch_layer(surface, 220, 0.24f, 6);
     const int cells = surface.cells(0.020f);
     const float to_cells = static_cast<float>(cells) / surface.tile_m;
     const std::uint32_t seed = hash_u32(surface.seed + 21u);
@@ -148,18 +155,18 @@ void make_metal_plate(Surface& surface)
         const float angle = 6.2831853f * hash_unit(crystal.id, 2);
         const float feather = std::sin(55.0f * (crystal.dx * std::cos(angle) +
                                                 crystal.dy * std::sin(angle)) + 3.0f * warp_x[k]);
-        const float white_rust = smooth_step(0.55f, 1.1f, dull[k] + 0.25f * fine[k]);
+        const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
         Texel texel;
         texel.height_m = 0.00050f * waves[k] + 0.000010f * tone + 0.000008f * fine[k] -
-                         0.00012f * scratches[k] + 0.00003f * white_rust;
+                         0.00020f * scratches[k] + 0.00003f * white_rust;
         vec3 color = vec3(0.545f, 0.560f, 0.575f) * (1.0f + 0.11f * tone + 0.025f * feather);
         color *= 1.0f - 0.14f * smooth_step(-0.2f, 0.9f, dull[k]);
-        color = mix(color, vec3(0.70f, 0.71f, 0.72f), 0.6f * saturate(1.6f * scratches[k]));
+        color = mix(color, vec3(0.70f, 0.71f, 0.72f), 0.75f * saturate(4.0f * scratches[k]));
         color = mix(color, vec3(0.47f, 0.47f, 0.46f), 0.6f * white_rust);
         texel.albedo = color;
         texel.metallic = 1.0f - 0.55f * white_rust;
         texel.roughness = 0.36f + 0.07f * tone + 0.015f * feather + 0.10f * smooth_step(-0.2f, 0.9f, dull[k]) +
-                          0.25f * white_rust - 0.08f * scratches[k] + 0.02f * fine[k];
+                          0.25f * white_rust - 0.30f * scratches[k] + 0.02f * fine[k];
         return texel;
     });
 }
@@ -172,8 +179,8 @@ void make_painted_iron(Surface& surface)
     const auto wear = noise_layer(surface, {0.10f, 0.10f, 6, 0.62f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
     shade_texels(surface, [&](float, float, std::size_t k) {
-        const float chip = smooth_step(1.02f, 1.10f, wear[k] + 0.2f * cast[k]);
-        const float rust_halo = smooth_step(0.72f, 1.08f, wear[k] + 0.2f * cast[k]);
+        const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k]);
+        const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k]);
         Texel texel;
         texel.height_m = 0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip +
                          chip * 0.00015f * fine[k];

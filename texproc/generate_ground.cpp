@@ -1,7 +1,7 @@
 // Ground and cast surfaces: asphalt, concrete, soil, grass.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 

@@ -2,7 +2,7 @@
 #include <cassert>
 #include <thread>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 

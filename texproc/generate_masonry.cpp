@@ -1,7 +1,7 @@
 // Walls and roofs: brick, plaster, clay tiles.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -79,9 +79,9 @@ void make_brick(Surface& surface)
         color = mix(color, kSoot, saturate(burnt + 0.5f * flame * hash_unit(id, 16)));
         color *= 1.0f + 0.15f * rough[k] + 0.10f * crease[k] + 0.06f * sand[k];
         color = mix(color, 1.25f * color + vec3(0.02f), 0.5f * lost);
-        const float weathered = smooth_step(0.1f, 1.1f, soot[k]);
+        const float weathered = smooth_step(-0.05f, 0.75f, soot[k]);
         color = mix(color, 0.45f * color + 0.5f * kSoot, 0.7f * weathered);
-        const float bloom = smooth_step(0.55f, 1.1f, -soot[k] + 0.25f * chips[k]);
+        const float bloom = smooth_step(0.40f, 0.9f, -soot[k] + 0.25f * chips[k]);
         color = mix(color, vec3(0.42f, 0.36f, 0.31f), 0.22f * bloom);
         vec3 joint = kMortar * (1.0f + 0.13f * rough[k] + 0.10f * sand[k] + 0.08f * warp_x[k]);
         joint = mix(joint, 0.36f * joint, 0.8f * weathered);
@@ -107,8 +107,8 @@ void make_plaster(Surface& surface)
     const auto crack_y = noise_layer(surface, {0.15f, 0.15f, 5, 0.55f, 7});
     const int crack_cells = surface.cells(0.6f);
     const float to_cells = static_cast<float>(crack_cells) / surface.tile_m;
-    const vec3 kLime(0.560f, 0.465f, 0.330f);
-    const vec3 kPale(0.640f, 0.575f, 0.455f);
+    const vec3 kLime(0.545f, 0.430f, 0.285f);
+    const vec3 kPale(0.620f, 0.535f, 0.405f);
     const vec3 kDamp(0.285f, 0.225f, 0.150f);
     const std::uint32_t crack_seed = hash_u32(surface.seed + 11u);
 
@@ -130,9 +130,9 @@ void make_plaster(Surface& surface)
         texel.height_m = 0.0016f * waves[k] + 0.0011f * (1.0f - sweep) + 0.00022f * grain[k] -
                          0.0011f * crack - 0.0016f * thin;
         vec3 color = mix(kLime, kPale, smooth_step(-0.8f, 0.8f, waves[k] + 0.5f * crack_y[k]));
-        const float streak = smooth_step(0.15f, 1.1f, drip[k] + 0.5f * stain[k]);
+        const float streak = smooth_step(0.05f, 0.8f, drip[k] + 0.5f * stain[k]);
         color = mix(color, kDamp, 0.34f * streak);
-        color = mix(color, 0.72f * kDamp, 0.38f * smooth_step(0.3f, 1.2f, stain[k]));
+        color = mix(color, 0.72f * kDamp, 0.42f * smooth_step(0.15f, 0.8f, stain[k]));
         color *= 1.0f + 0.035f * grain[k] + 0.05f * trowel[k];
         color = mix(color, vec3(0.42f, 0.38f, 0.33f), 0.7f * thin);
         color = mix(color, vec3(0.10f, 0.08f, 0.06f), 0.75f * crack);

@@ -1,7 +1,7 @@
 // Stone underfoot: setts, slabs, hammered granite.
 #include <array>
 
-#include "texproc/detail/surface.h"
+#include "texproc/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
@@ -116,7 +116,7 @@ void make_cobble(Surface& surface)
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 10) * 8.0f) & 7u;
         const std::size_t other = static_cast<std::size_t>(hash_unit(id, 11) * 8.0f) & 7u;
         vec3 color = mix(kStones[pick], kStones[other], 0.35f * hash_unit(id, 12));
-        color *= 1.0f + 0.16f * hash_signed(id, 13);
+        color *= 0.92f + 0.20f * hash_signed(id, 13);
         color = granite_grain(color, pits[k], grain[k]) * (1.0f + 0.10f * bumps[k]);
         color *= mix(0.86f, 1.07f, polish);
         const float grime = saturate(1.15f * std::pow(1.0f - flank, 0.8f) +

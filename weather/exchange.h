@@ -12,7 +12,7 @@ enum class Stability {
 
 struct ExchangeParams {
     Stability stability = Stability::LouisCapped;
-    double max_richardson = 0.2;  ///< cap in stable air, >= 0; Martin & Lejeune 1998
+    double max_richardson = 0.1;  ///< cap in stable air, >= 0
     double min_wind_m_s = 0.1;    ///< wind is raised to this; > 0
 };
 

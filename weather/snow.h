@@ -26,7 +26,7 @@ struct SnowParams {
     double albedo_refresh_kg_m2 = 10.0;  ///< snowfall that renews 1 - 1/e of the albedo
     double irreducible_water = 0.03;   ///< of the pores, held against gravity
     double cover_depth_m = 0.1;        ///< cover fraction tanh(D / this) for albedo and roughness
-    double roughness_m = 0.001;
+    double roughness_m = 0.003;        ///< middle (geometric) of the 0.001..0.01 m measured over snow
     double emissivity = 0.98;
 };
 

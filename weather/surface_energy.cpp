@@ -26,6 +26,7 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.richardson_k = kGravity_m_s2 * skin.wind_height_m / (f.air_temp_k * wind * wind);
     p.root_z = std::sqrt(skin.wind_height_m / skin.roughness_m);
     p.beta = skin.wet_fraction;
+    p.most_vapour = 1e30;
     p.icy = skin.icy;
     p.latent_heat = skin.icy ? kLatentSublimation : kLatentVaporisation;
     p.rain_heat = f.rain_kg_m2_s * kWaterHeatCapacity;

@@ -19,6 +19,7 @@ using nlohmann::json;
 
 constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
+constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedByte = 5121;
 
 // Numbers that came from floats, written with the digits a float has.
@@ -270,6 +271,14 @@ private:
         return accessor;
     }
 
+    // Two bytes an index where they suffice (65535 itself means "restart" to some readers).
+    std::size_t add_indices(const gpu::Primitive& p)
+    {
+        if (p.positions.size() > 65535) return add_accessor(p.indices, "SCALAR", kUnsignedInt, 34963);
+        const std::vector<std::uint16_t> narrow(p.indices.begin(), p.indices.end());
+        return add_accessor(narrow, "SCALAR", kUnsignedShort, 34963);
+    }
+
     json primitive(const gpu::Primitive& p)
     {
         const std::size_t count = p.positions.size();
@@ -304,7 +313,7 @@ private:
         if (!p.colors.empty()) attributes["COLOR_0"] = add_byte_colors(p.colors);
         if (!p.weather.empty()) attributes["_WEATHER"] = add_byte_colors(p.weather);
         return {{"attributes", attributes},
-                {"indices", add_accessor(p.indices, "SCALAR", kUnsignedInt, 34963)},
+                {"indices", add_indices(p)},
                 {"material", p.material}};
     }
 

@@ -14,7 +14,7 @@ std::uint32_t MeshBuilder::add_vertex(const vec3& position, const vec3& normal, 
 {
     primitive_.positions.push_back(position);
     primitive_.normals.push_back(normal);
-    primitive_.uv0.push_back((uv_m + uv_offset_m) / tile_m_);
+    primitive_.uv0.push_back((uv_m + uv_offset_m) * (uv_scale / tile_m_));
     primitive_.colors.push_back(color);
     primitive_.weather.push_back(weather);
     return static_cast<std::uint32_t>(primitive_.positions.size() - 1);

@@ -28,6 +28,7 @@ public:
     glm::vec4 color{1.0f};    ///< given to the vertices that follow
     glm::vec4 weather{1.0f};  ///< r mix, g puddle mask, b snow mask
     glm::vec2 uv_offset_m{0.0f};
+    float uv_scale = 1.0f;    ///< > 1: the material appears smaller
 
     std::uint32_t add_vertex(const glm::vec3& position, const glm::vec3& normal,
                              const glm::vec2& uv_m);

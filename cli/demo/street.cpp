@@ -67,8 +67,8 @@ gpu::Scene make_demo_street(const DemoOptions& options)
     lamp.position_m = kLampFoot + glm::vec3(0.0f, kLampLight, 0.0f);
     scene.lights.push_back(lamp);
 
-    scene.cameras.push_back(look("main", {0.90f, 1.50f, 6.0f}, {0.18f, 1.30f, -1.0f}, 0.75f));
-    scene.cameras.push_back(look("low", {0.65f, 0.42f, 4.2f}, {-0.15f, 0.55f, -1.0f}, 0.85f));
+    scene.cameras.push_back(look("main", {0.90f, 1.50f, 6.0f}, {0.16f, 1.40f, -1.0f}, 0.75f));
+    scene.cameras.push_back(look("low", {0.75f, 0.40f, 3.75f}, {-0.05f, 0.62f, -1.0f}, 0.85f));
     scene.cameras.push_back(look("top", {0.0f, 17.0f, -0.5f}, {0.0f, 0.0f, -0.6f}, 0.80f, {0.0f, 0.0f, -1.0f}));
     return scene;
 }

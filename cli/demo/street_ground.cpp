@@ -31,11 +31,10 @@ struct Hollow {
     float x, z, radius_x, radius_z, depth_m;
 };
 constexpr Hollow kHollows[] = {
-    {0.55f, 2.35f, 0.85f, 0.55f, 0.034f},  {-0.55f, 0.55f, 0.95f, 0.62f, 0.036f},
-    {1.15f, -0.75f, 0.60f, 1.05f, 0.032f}, {-0.95f, -2.75f, 0.75f, 1.20f, 0.034f},
-    {0.55f, -4.30f, 0.95f, 1.10f, 0.036f}, {-0.75f, -6.70f, 1.10f, 1.30f, 0.036f},
-    {0.95f, -8.60f, 0.80f, 1.20f, 0.032f}, {-1.35f, 3.10f, 0.45f, 0.95f, 0.028f},
-    {0.25f, 5.60f, 1.10f, 1.10f, 0.034f},
+    {0.30f, 1.50f, 1.20f, 0.58f, 0.040f},   {1.55f, 0.10f, 0.42f, 1.30f, 0.034f},
+    {-1.45f, -0.95f, 0.50f, 1.45f, 0.034f}, {0.60f, -2.55f, 0.85f, 0.80f, 0.036f},
+    {-0.75f, -5.10f, 0.95f, 1.15f, 0.036f}, {1.10f, -7.30f, 0.65f, 1.35f, 0.032f},
+    {0.45f, 3.55f, 0.75f, 0.45f, 0.030f},   {0.25f, 6.20f, 1.10f, 1.00f, 0.034f},
 };
 
 constexpr vec2 kCover{-1.05f, 1.75f};  // the iron cover in the road
@@ -204,7 +203,10 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
     const int columns = std::max(2, static_cast<int>(std::abs(x1 - x0) / 0.15f));
     const int rows = std::max(2, static_cast<int>((z_near - z_far) / 0.2f));
     kit[Slot::Paving].grid(columns, rows, [&](int i, int j) {
-        const float x = x0 + (x1 - x0) * static_cast<float>(i) / static_cast<float>(columns);
+        // The first column reaches under the bevel of the kerb.
+        const bool hidden = i == 0;
+        const float x = hidden ? x0 - std::copysign(0.03f, x0)
+                               : x0 + (x1 - x0) * static_cast<float>(i - 1) / static_cast<float>(columns - 1);
         const float z = z_near + (z_far - z_near) * static_cast<float>(j) / static_cast<float>(rows);
         const float sunk = smooth_step(0.05f, 0.75f, ground_noise(kit, x, z, 0.8f, 31) +
                                                          0.4f * ground_noise(kit, x, z, 1.9f, 32));
@@ -212,7 +214,7 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
                                                                     std::abs(x - kRightWall)));
         const float slow = ground_noise(kit, x, z, 0.6f, 33);
         const float light = std::clamp(0.90f + 0.10f * slow - 0.22f * dirt, 0.5f, 1.0f);
-        return MeshBuilder::Point{vec3(x, pavement_height(x) - 0.008f * sunk, z), vec3(0, 1, 0), vec2(x, z),
+        return MeshBuilder::Point{vec3(x, pavement_height(x) - 0.008f * sunk - (hidden ? 0.012f : 0.0f), z), vec3(0, 1, 0), vec2(x, z),
                                   vec4(light, light, light * (1.0f - 0.03f * dirt), 1.0f),
                                   vec4(1.0f, 0.85f * sunk, 1.0f, 1.0f)};
     });
@@ -255,10 +257,10 @@ void add_grating(Kit& kit)
         iron.box({.centre = centre + vec3(0.145f * s, 0.003f, 0.0f), .half = vec3(0.014f, 0.013f, 0.235f), .bevel_m = 0.004f});
         iron.box({.centre = centre + vec3(0.0f, 0.003f, 0.235f * s), .half = vec3(0.155f, 0.013f, 0.014f), .bevel_m = 0.004f});
     }
-    kit[Slot::Soil].color = vec4(0.12f, 0.12f, 0.12f, 1.0f);
-    kit[Slot::Soil].quad(centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
+    kit[Slot::Grass].color = vec4(0.05f, 0.04f, 0.05f, 1.0f);
+    kit[Slot::Grass].quad(centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
                          centre + vec3(0.15f, -0.012f, -0.23f), centre + vec3(-0.15f, -0.012f, -0.23f));
-    kit[Slot::Soil].color = vec4(1.0f);
+    kit[Slot::Grass].color = vec4(1.0f);
 }
 
 }  // namespace
@@ -266,8 +268,8 @@ void add_grating(Kit& kit)
 RoadPoint road_at(const Kit& kit, float x, float z)
 {
     const float crown = 0.045f * (1.0f - x * x / (kRoadHalf * kRoadHalf));
-    const float wobble_x = 0.16f * ground_noise(kit, x, z, 1.3f, 1) + 0.05f * ground_noise(kit, x, z, 4.0f, 2);
-    const float wobble_z = 0.16f * ground_noise(kit, x, z, 1.3f, 3) + 0.05f * ground_noise(kit, x, z, 4.0f, 4);
+    const float wobble_x = 0.34f * ground_noise(kit, x, z, 1.1f, 1) + 0.10f * ground_noise(kit, x, z, 3.1f, 2);
+    const float wobble_z = 0.34f * ground_noise(kit, x, z, 1.1f, 3) + 0.10f * ground_noise(kit, x, z, 3.1f, 4);
     float dip = 0.0f;
     for (const Hollow& hollow : kHollows) {
         const float dx = (x + wobble_x - hollow.x) / hollow.radius_x;
@@ -304,29 +306,28 @@ void add_ground(Kit& kit)
     add_grating(kit);
 
     // Earth under the joints of the gutters.
-    MeshBuilder& soil = kit[Slot::Soil];
-    soil.color = vec4(0.35f, 0.35f, 0.35f, 1.0f);
+    MeshBuilder& grass = kit[Slot::Grass];
+    grass.color = vec4(0.40f, 0.30f, 0.35f, 1.0f);
     for (const float side : {-1.0f, 1.0f}) {
         const float a = side < 0.0f ? -kKerbEnd : kRoadHalf - 0.1f;
         const float b = side < 0.0f ? -kRoadHalf + 0.1f : kKerbEnd;
-        soil.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar), vec3(a, -0.075f, kFar));
+        grass.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar), vec3(a, -0.075f, kFar));
     }
-    soil.color = vec4(1.0f);
+    grass.color = vec4(1.0f);
     // The verge along the garden wall and the garden behind it.
-    soil.grid(8, 40, [&](int i, int j) {
+    grass.grid(8, 40, [&](int i, int j) {
         const float x = kKerbEnd + 0.10f * static_cast<float>(i);
         const float z = kNear + (kGarden + 0.1f - kNear) * static_cast<float>(j) / 40.0f;
         const float mound = 0.02f * std::sin(3.14159265f * static_cast<float>(i) / 8.0f) +
                             0.012f * ground_noise(kit, x, z, 2.5f, 41);
-        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.9f, 0.9f, 0.9f, 1.0f),
-                                  vec4(1.0f, 0.4f, 1.0f, 1.0f)};
+        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.72f, 0.66f, 0.62f, 1.0f),
+                                  vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
-    MeshBuilder& grass = kit[Slot::Grass];
     grass.grid(16, 24, [&](int i, int j) {
         const float x = kRightWall + 0.3f + 0.5f * static_cast<float>(i);
         const float z = kNear + (kGarden - kNear) * static_cast<float>(j) / 24.0f;
         return MeshBuilder::Point{vec3(x, 0.16f + 0.05f * ground_noise(kit, x, z, 0.8f, 42), z), vec3(0, 1, 0), vec2(x, z),
-                                  vec4(1.0f), vec4(1.0f, 0.3f, 1.0f, 1.0f)};
+                                  vec4(1.0f), vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
     // The land around, below everything else.
     constexpr float kLand = 60.0f;

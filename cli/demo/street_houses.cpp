@@ -31,7 +31,7 @@ vec4 wall_tint(float v, float height)
 }
 
 void add_wall(Kit& kit, Slot slot, const Frame& frame, float width, float height,
-              const std::vector<Opening>& openings)
+              const std::vector<Opening>& openings, const vec3& tint = vec3(1.0f))
 {
     std::vector<float> us = {0.0f, width};
     std::vector<float> vs = {0.0f, 0.12f, 0.4f, 0.8f, height - 0.5f, height};
@@ -61,7 +61,7 @@ void add_wall(Kit& kit, Slot slot, const Frame& frame, float width, float height
             wall.grid(1, 1, [&](int a, int b) {
                 const vec3 p = frame.at(us[i + static_cast<std::size_t>(a)], vs[j + static_cast<std::size_t>(b)]);
                 return MeshBuilder::Point{p, frame.out, vec2(glm::dot(p, frame.along), glm::dot(p, axis_v)),
-                                          wall_tint(vs[j + static_cast<std::size_t>(b)], height), vec4(1.0f)};
+                                          wall_tint(vs[j + static_cast<std::size_t>(b)], height) * vec4(tint, 1.0f), vec4(1.0f)};
             });
         }
     }
@@ -89,22 +89,59 @@ void add_box(Kit& kit, Slot slot, const Frame& frame, vec3 low, vec3 high, float
                    .grain = grain});
 }
 
+// A pane whose texture coordinates run from 0 to 1 over it.
+void add_pane(MeshBuilder& glass, const Frame& frame, const Opening& o, float d)
+{
+    glass.grid(1, 1, [&](int i, int j) {
+        return MeshBuilder::Point{frame.at(i == 0 ? o.u0 : o.u1, j == 0 ? o.v1 : o.v0, d), frame.out,
+                                  vec2(static_cast<float>(i), static_cast<float>(j))};
+    });
+}
+
 struct WindowStyle {
     int panes_u = 2;
     int panes_v = 3;
     bool lit = false;
     bool lintel = true;
     bool shutters = false;
+    bool flowers = false;
     float depth_m = 0.11f;
     vec4 paint{0.80f, 0.78f, 0.70f, 1.0f};
 };
+
+// A box of geraniums on the sill.
+void add_flower_box(Kit& kit, const Frame& frame, const Opening& o)
+{
+    MeshBuilder& timber = kit[Slot::Timber];
+    timber.color = vec4(0.62f, 0.60f, 0.56f, 1.0f);
+    add_box(kit, Slot::Timber, frame, {o.u0 + 0.02f, o.v0 + 0.005f, 0.0f}, {o.u1 - 0.02f, o.v0 + 0.15f, 0.16f}, 0.008f, 0);
+    timber.color = vec4(1.0f);
+    const auto seed = static_cast<std::uint32_t>(std::lround(100.0f * (frame.origin.z + frame.origin.x + 3.0f * o.u0 + 7.0f * o.v0) + 5000.0f));
+    MeshBuilder& plants = kit[Slot::Blades];
+    plants.weather = vec4(1.0f, 0.0f, 0.6f, 1.0f);
+    const auto count = static_cast<int>(330.0f * (o.u1 - o.u0));
+    for (int k = 0; k < count; ++k) {
+        const std::uint32_t h = hash_cell(k, static_cast<int>(seed), kit.seed + 90u);
+        const float u = o.u0 + 0.03f + (o.u1 - o.u0 - 0.06f) * hash_unit(h, 60);
+        const float mound = 0.75f + 0.25f * std::sin(9.0f * u + static_cast<float>(seed));
+        const float angle = 3.14159265f * hash_unit(h, 61);
+        const float r = 0.15f * mound * std::sqrt(hash_unit(h, 62));
+        const vec3 at = frame.at(u, o.v0 + 0.15f + r * std::sin(angle) * 1.1f, 0.09f + r * std::cos(angle));
+        const vec3 outward = glm::normalize(frame.out * std::cos(angle) + vec3(0.0f, 0.4f + std::sin(angle), 0.0f));
+        const bool flower = r > 0.075f && hash_unit(h, 63) > 0.55f;
+        const vec3 green = glm::mix(vec3(0.05f, 0.12f, 0.03f), vec3(0.12f, 0.20f, 0.05f), hash_unit(h, 64));
+        const vec3 red = glm::mix(vec3(0.52f, 0.020f, 0.022f), vec3(0.62f, 0.07f, 0.10f), hash_unit(h, 64));
+        add_leaf(plants, at, outward, flower ? 0.062f : 0.070f, h, flower ? red : green * (0.45f + 3.5f * r));
+    }
+    plants.color = vec4(1.0f);
+    plants.weather = vec4(1.0f);
+}
 
 void add_window(Kit& kit, Slot wall, const Frame& frame, const Opening& o, const WindowStyle& style)
 {
     add_reveals(kit, wall, frame, o, style.depth_m);
     const float back = -style.depth_m + 0.012f;
-    MeshBuilder& glass = kit[style.lit ? Slot::LitGlass : Slot::Glass];
-    glass.quad(frame.at(o.u0, o.v0, back), frame.at(o.u1, o.v0, back), frame.at(o.u1, o.v1, back), frame.at(o.u0, o.v1, back));
+    add_pane(kit[style.lit ? Slot::LitGlass : Slot::Glass], frame, o, back);
 
     constexpr float kStile = 0.055f;
     MeshBuilder& paint = kit[Slot::Painted];
@@ -130,6 +167,7 @@ void add_window(Kit& kit, Slot wall, const Frame& frame, const Opening& o, const
     if (style.lintel) {
         add_box(kit, Slot::Granite, frame, {o.u0 - 0.12f, o.v1 - 0.003f, -0.10f}, {o.u1 + 0.12f, o.v1 + 0.20f, 0.016f}, 0.008f, 0);
     }
+    if (style.flowers) add_flower_box(kit, frame, o);
     if (style.shutters) {
         paint.color = vec4(0.10f, 0.19f, 0.155f, 1.0f);
         const float w = 0.5f * (o.u1 - o.u0);
@@ -154,7 +192,7 @@ void add_door(Kit& kit, Slot wall, const Frame& frame, const Opening& o, const v
     MeshBuilder& paint = kit[Slot::Painted];
     const float split = o.v1 - 0.42f;  // a light above the leaf
     const float back = -kDepth + 0.01f;
-    kit[Slot::LitGlass].quad(frame.at(o.u0, split, back), frame.at(o.u1, split, back), frame.at(o.u1, o.v1, back), frame.at(o.u0, o.v1, back));
+    add_pane(kit[Slot::LitGlass], frame, {o.u0, o.u1, split, o.v1}, back);
     paint.color = vec4(0.80f, 0.78f, 0.70f, 1.0f);
     for (const float u : {o.u0 + 0.04f, o.u1 - 0.04f}) {
         add_box(kit, Slot::Painted, frame, {u - 0.04f, o.v0, back}, {u + 0.04f, o.v1, back + 0.09f}, 0.010f);
@@ -309,7 +347,7 @@ void add_brick_house(Kit& kit)
     add_window(kit, Slot::Brick, front, shop, {.panes_u = 4, .panes_v = 2, .lit = true, .paint = vec4(0.085f, 0.14f, 0.19f, 1.0f)});
     for (const Opening& o : low) add_window(kit, Slot::Brick, front, o, {});
     for (std::size_t i = 0; i < upper.size(); ++i) {
-        add_window(kit, Slot::Brick, front, upper[i], {.lit = i == 3});
+        add_window(kit, Slot::Brick, front, upper[i], {.lit = i == 3, .flowers = i >= 3});
     }
     // A string course between the floors, and a plinth.
     add_box(kit, Slot::Granite, front, {0.0f, 2.98f, -0.05f}, {kWidth, 3.10f, 0.05f}, 0.012f, 0);
@@ -351,17 +389,19 @@ void add_plaster_house(Kit& kit)
     std::vector<Opening> windows = {{2.25f, 3.35f, 1.0f, 2.35f}, {0.65f, 1.55f, 3.0f, 4.15f}, {2.45f, 3.35f, 3.0f, 4.15f}};
     std::vector<Opening> openings = windows;
     openings.push_back(door);
-    kit[Slot::Plaster].color = vec4(1.0f);
-    add_wall(kit, Slot::Plaster, front, kWidth, kEave, openings);
+    const vec3 kRose(1.0f, 0.80f, 0.66f);
+    add_wall(kit, Slot::Plaster, front, kWidth, kEave, openings, kRose);
     add_door(kit, Slot::Plaster, front, door, vec4(0.20f, 0.055f, 0.035f, 1.0f));
     for (std::size_t i = 0; i < windows.size(); ++i) {
-        add_window(kit, Slot::Plaster, front, windows[i], {.lit = i == 0, .lintel = false, .shutters = i > 0});
+        add_window(kit, Slot::Plaster, front, windows[i], {.lit = i == 0, .lintel = false, .shutters = i > 0, .flowers = i > 0});
     }
     MeshBuilder& plaster = kit[Slot::Plaster];
+    plaster.color = vec4(kRose, 1.0f);
     const vec3 up(0.0f, kEave, 0.0f);
     const vec3 a(front.origin), b(front.origin - vec3(kDepth, 0, 0));
     plaster.quad(b, a, a + up, b + up);
     add_gable(kit, Slot::Plaster, b + up, a + up, 0.5f * (a + b) + vec3(0.0f, kEave + 2.6f, 0.0f));
+    plaster.color = vec4(1.0f);
     add_roof(kit, front, {.width = kWidth, .depth = kDepth, .eave_v = kEave, .rise = 2.6f});
     add_chimney(kit, front.origin + vec3(-1.6f, kEave + 1.2f, -3.4f), 2.4f);
 }
@@ -371,7 +411,7 @@ void add_beam(Kit& kit, const Frame& frame, vec2 from, vec2 to, float width, flo
     // Sunk into the plaster so that only `proud` shows.
     const std::uint32_t h = hash_cell(static_cast<int>(std::lround(from.x * 100.0f)), static_cast<int>(std::lround(to.y * 100.0f)), kit.seed + 9u);
     MeshBuilder& timber = kit[Slot::Timber];
-    const float light = 0.62f + 0.3f * hash_unit(h, 1);
+    const float light = 0.36f + 0.22f * hash_unit(h, 1);
     timber.color = vec4(light, light * 0.97f, light * 0.94f, 1.0f);
     timber.uv_offset_m = vec2(0.15f * std::floor(8.0f * hash_unit(h, 2)) + 0.075f, hash_unit(h, 3));
     timber.beam(frame.at(from.x, from.y, proud - 0.06f), frame.at(to.x, to.y, proud - 0.06f), width, 0.12f, 0.010f, frame.out);
@@ -441,8 +481,11 @@ void add_timber_house(Kit& kit)
     // The jetty: joist ends under the upper floor.
     kit[Slot::Timber].quad(upper.at(0.0f, kFloor), ground.at(0.0f, kFloor), ground.at(kWidth, kFloor), upper.at(kWidth, kFloor), vec3(1, 0, 0));
     for (float u = 0.25f; u < kWidth; u += 0.62f) {
+        kit[Slot::Timber].color = vec4(0.50f, 0.48f, 0.46f, 1.0f);
         add_box(kit, Slot::Timber, upper, {u, kFloor - 0.14f, -kJetty - 0.1f}, {u + 0.14f, kFloor + 0.02f, 0.05f}, 0.012f, 2);
     }
+
+    kit[Slot::Timber].color = vec4(1.0f);
 
     // The gable towards the garden.
     const Frame gable{vec3(kRightWall - kJetty, 0.0f, kGarden), vec3(1, 0, 0), vec3(0, 0, 1)};
@@ -491,7 +534,7 @@ void add_houses(Kit& kit)
     // The house that closes the view beyond the gate, and the walls that lead to it.
     const Frame end{vec3(-5.0f, 0.0f, kFar), vec3(1, 0, 0), vec3(0, 0, 1)};
     const Opening windows[] = {{3.4f, 4.3f, 1.0f, 2.3f}, {5.9f, 6.8f, 1.0f, 2.3f}, {3.4f, 4.3f, 3.2f, 4.4f}, {5.9f, 6.8f, 3.2f, 4.4f}};
-    add_wall(kit, Slot::Plaster, end, 10.0f, 5.0f, {windows[0], windows[1], windows[2], windows[3]});
+    add_wall(kit, Slot::Plaster, end, 10.0f, 5.0f, {windows[0], windows[1], windows[2], windows[3]}, vec3(0.92f, 0.93f, 0.90f));
     for (int i = 0; i < 4; ++i) add_window(kit, Slot::Plaster, end, windows[i], {.lit = i == 1, .lintel = false, .shutters = true});
     add_roof(kit, end, {.width = 10.0f, .depth = 5.0f, .eave_v = 5.0f, .rise = 3.0f});
     for (const float side : {-1.0f, 1.0f}) {
@@ -502,15 +545,74 @@ void add_houses(Kit& kit)
     }
 }
 
+namespace {
+
+// A timbered turret with a clock on the gate; a pyramid of tiles, a ball and a vane on top.
+void add_clock_turret(Kit& kit, const vec3& foot)
+{
+    constexpr float kHalf = 0.72f;
+    constexpr float kWall = 1.55f;
+    kit[Slot::Plaster].box({.centre = foot + vec3(0.0f, 0.5f * kWall, 0.0f), .half = vec3(kHalf, 0.5f * kWall, kHalf)});
+    MeshBuilder& timber = kit[Slot::Timber];
+    timber.color = vec4(0.50f, 0.48f, 0.46f, 1.0f);
+    for (const float sx : {-1.0f, 1.0f}) {
+        for (const float sz : {-1.0f, 1.0f}) {
+            timber.box({.centre = foot + vec3(sx * (kHalf - 0.05f), 0.5f * kWall, sz * (kHalf - 0.05f)), .half = vec3(0.085f, 0.5f * kWall, 0.085f), .bevel_m = 0.012f});
+        }
+    }
+    for (const float v : {0.10f, kWall - 0.07f}) {
+        timber.box({.centre = foot + vec3(0.0f, v, 0.0f), .half = vec3(kHalf + 0.04f, 0.07f, kHalf + 0.04f), .bevel_m = 0.012f, .grain = 0});
+    }
+    timber.color = vec4(1.0f);
+    // The clock: a white face, an iron ring, marks and two hands at ten past ten.
+    const vec3 face = foot + vec3(0.0f, 0.86f, kHalf + 0.01f);
+    const glm::mat3 forward(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
+    kit[Slot::Painted].color = vec4(0.80f, 0.77f, 0.68f, 1.0f);
+    kit[Slot::Painted].lathe(face, {{0.50f, 0.0f}, {0.50f, 0.03f}, {0.0f, 0.03f}}, 40, forward);
+    kit[Slot::Painted].color = vec4(1.0f);
+    MeshBuilder& iron = kit[Slot::Iron];
+    iron.lathe(face, {{0.54f, 0.0f}, {0.54f, 0.05f}, {0.52f, 0.065f}, {0.49f, 0.06f}, {0.485f, 0.03f}}, 40, forward);
+    const auto hand = [&](float turns, float from, float to, float width) {
+        const float angle = 6.2831853f * turns;
+        const vec3 d(std::sin(angle), std::cos(angle), 0.0f);
+        iron.beam(face + vec3(0, 0, 0.045f) + from * d, face + vec3(0, 0, 0.045f) + to * d, width, 0.012f, 0.002f, vec3(0, 0, 1));
+    };
+    for (int k = 0; k < 12; ++k) hand(static_cast<float>(k) / 12.0f, k % 3 == 0 ? 0.36f : 0.40f, 0.46f, k % 3 == 0 ? 0.035f : 0.022f);
+    hand(10.17f / 12.0f, -0.06f, 0.27f, 0.035f);
+    hand(10.0f / 60.0f, -0.08f, 0.41f, 0.026f);
+
+    MeshBuilder& tiles = kit[Slot::RoofTile];
+    constexpr float kEaves = kHalf + 0.22f;
+    const vec3 apex = foot + vec3(0.0f, kWall + 1.25f, 0.0f);
+    for (int side = 0; side < 4; ++side) {
+        const float angle = 1.5707963f * static_cast<float>(side);
+        const vec3 n(std::sin(angle), 0.0f, std::cos(angle));
+        const vec3 t(std::cos(angle), 0.0f, -std::sin(angle));
+        const vec3 low = foot + vec3(0.0f, kWall - 0.12f, 0.0f);
+        tiles.triangle(low + kEaves * (n - t), low + kEaves * (n + t), apex);
+        kit[Slot::Timber].quad(low + kEaves * (n - t) - vec3(0, 0.05f, 0), low + kEaves * (n + t) - vec3(0, 0.05f, 0), low + kEaves * (n + t), low + kEaves * (n - t));
+        tiles.tube({low + kEaves * (n + t) + vec3(0, 0.02f, 0), apex}, {0.055f, 0.05f}, 8);
+    }
+    const vec3 under = foot + vec3(0.0f, kWall - 0.17f, 0.0f);
+    kit[Slot::Timber].quad(under + kEaves * vec3(-1, 0, -1), under + kEaves * vec3(1, 0, -1), under + kEaves * vec3(1, 0, 1), under + kEaves * vec3(-1, 0, 1));
+    MeshBuilder& copper = kit[Slot::Awning];
+    copper.lathe(apex - vec3(0, 0.1f, 0), {{0.11f, 0.0f}, {0.05f, 0.12f}, {0.04f, 0.20f}, {0.075f, 0.24f}, {0.09f, 0.29f}, {0.075f, 0.34f}, {0.02f, 0.38f}, {0.012f, 0.62f}, {0.0f, 0.64f}}, 14);
+    iron.beam(apex + vec3(-0.20f, 0.42f, 0.0f), apex + vec3(0.22f, 0.42f, 0.0f), 0.02f, 0.012f, 0.003f, vec3(0, 0, 1));
+    iron.triangle(apex + vec3(-0.36f, 0.52f, 0.0f), apex + vec3(-0.36f, 0.32f, 0.0f), apex + vec3(-0.14f, 0.42f, 0.0f), vec3(0, 1, 0));
+    iron.triangle(apex + vec3(-0.36f, 0.32f, 0.0f), apex + vec3(-0.36f, 0.52f, 0.0f), apex + vec3(-0.14f, 0.42f, 0.0f), vec3(0, 1, 0));
+}
+
+}  // namespace
+
 void add_gate(Kit& kit)
 {
     // A gatehouse over the street: a round arch in a brick wall, a steep roof.
     constexpr float kLeft = kLeftWall - 0.9f;
     constexpr float kRight = kRightWall + 0.6f;
     constexpr float kCentre = -0.25f;
-    constexpr float kRadius = 1.75f;
-    constexpr float kSpring = 1.85f;
-    constexpr float kTop = 5.1f;
+    constexpr float kRadius = 1.70f;
+    constexpr float kSpring = 1.60f;
+    constexpr float kTop = 4.35f;
     constexpr float kDepth = 1.8f;
     constexpr int kSegments = 16;
     const auto arc = [&](int i, float radius) {
@@ -567,27 +669,13 @@ void add_gate(Kit& kit)
                                     .half = vec3(k % 2 == 0 ? 0.21f : 0.15f, 0.21f, 0.06f), .bevel_m = 0.012f});
         }
     }
-    kit[Slot::Granite].box({.centre = vec3(0.5f * (kLeft + kRight), 3.98f, kGate), .half = vec3(0.5f * (kRight - kLeft), 0.07f, 0.08f), .bevel_m = 0.015f});
-    // Two small windows above the arch: boxes of light.
-    const Frame front{vec3(kCentre, 0.0f, kGate + 0.02f), vec3(1, 0, 0), vec3(0, 0, 1)};
-    for (const float u : {-1.35f, 0.75f}) {
-        const Opening o{u, u + 0.6f, 4.22f, 4.86f};
-        kit[Slot::LitGlass].quad(front.at(o.u0, o.v0), front.at(o.u1, o.v0), front.at(o.u1, o.v1), front.at(o.u0, o.v1));
-        kit[Slot::Painted].color = vec4(0.72f, 0.70f, 0.64f, 1.0f);
-        for (const float t : {0.0f, 0.5f, 1.0f}) {
-            const float uu = o.u0 + t * (o.u1 - o.u0);
-            add_box(kit, Slot::Painted, front, {uu - 0.025f, o.v0, -0.02f}, {uu + 0.025f, o.v1, 0.03f}, 0.006f);
-            const float vv = o.v0 + t * (o.v1 - o.v0);
-            add_box(kit, Slot::Painted, front, {o.u0, vv - 0.025f, -0.02f}, {o.u1, vv + 0.025f, 0.03f}, 0.006f, 0);
-        }
-        kit[Slot::Painted].color = vec4(1.0f);
-        add_box(kit, Slot::Granite, front, {o.u0 - 0.08f, o.v0 - 0.08f, -0.05f}, {o.u1 + 0.08f, o.v0, 0.09f}, 0.012f, 0);
-    }
+    kit[Slot::Granite].box({.centre = vec3(0.5f * (kLeft + kRight), 3.72f, kGate), .half = vec3(0.5f * (kRight - kLeft), 0.06f, 0.08f), .bevel_m = 0.015f});
     // The roof falls to the front and back; its ridge spans the street.
     const Frame roof{vec3(kLeft, 0.0f, kGate), vec3(1, 0, 0), vec3(0, 0, 1)};
-    add_roof(kit, roof, {.width = kRight - kLeft, .depth = kDepth, .eave_v = kTop, .rise = 1.9f, .overhang = 0.22f});
+    add_roof(kit, roof, {.width = kRight - kLeft, .depth = kDepth, .eave_v = kTop, .rise = 1.05f, .overhang = 0.20f});
+    add_clock_turret(kit, vec3(kCentre, kTop - 0.15f, kGate - 0.55f));
     for (const float x : {kLeft, kRight}) {
-        const vec3 a(x, kTop, kGate), b(x, kTop, kGate - kDepth), top(x, kTop + 1.9f, kGate - 0.5f * kDepth);
+        const vec3 a(x, kTop, kGate), b(x, kTop, kGate - kDepth), top(x, kTop + 1.05f, kGate - 0.5f * kDepth);
         const vec3 a0(x, 0.0f, kGate), b0(x, 0.0f, kGate - kDepth);
         if (x < 0.0f) {
             add_gable(kit, Slot::Brick, b, a, top);

@@ -24,7 +24,6 @@ enum class Slot {
     Zinc,
     Iron,
     Awning,
-    Soil,
     Grass,
     Blades,    ///< grass blades and leaves, coloured by vertex
     Glass,
@@ -79,6 +78,10 @@ RoadPoint road_at(const Kit& kit, float x, float z);
 /// Pavement level at a distance from the axis of the road, on either side.
 float pavement_height(float x);
 
+/// A leaf of two triangles, folded along its middle, that hangs from `at` and faces outward.
+void add_leaf(MeshBuilder& plants, const glm::vec3& at, const glm::vec3& outward, float size,
+              std::uint32_t hash, const glm::vec3& color);
+
 void add_ground(Kit& kit);
 void add_houses(Kit& kit);
 void add_gate(Kit& kit);
@@ -88,8 +91,8 @@ void add_furniture(Kit& kit);
 void add_plants(Kit& kit);
 
 /// Where the light of the lamp is, above its foot.
-inline constexpr float kLampLight = 3.32f;
-inline constexpr glm::vec3 kLampFoot{2.80f, 0.11f, -1.0f};
+inline constexpr float kLampLight = 3.12f;
+inline constexpr glm::vec3 kLampFoot{2.82f, 0.11f, -0.95f};
 
 }  // namespace petrichor::cli
 

@@ -87,30 +87,30 @@ void add_lamp(Kit& kit, const vec3& foot)
     iron.lathe(foot, {{0.150f, 0.10f}, {0.150f, 0.14f}, {0.135f, 0.17f}, {0.118f, 0.19f}, {0.112f, 0.24f},
                       {0.100f, 0.60f}, {0.108f, 0.63f}, {0.112f, 0.66f}, {0.100f, 0.69f}, {0.078f, 0.72f},
                       {0.062f, 0.80f}, {0.055f, 0.92f}, {0.066f, 0.95f}, {0.068f, 0.98f}, {0.052f, 1.01f},
-                      {0.046f, 1.10f}, {0.040f, 2.50f}, {0.058f, 2.53f}, {0.062f, 2.56f}, {0.045f, 2.60f},
-                      {0.040f, 2.66f}, {0.034f, 2.84f}, {0.060f, 2.88f}, {0.072f, 2.94f}, {0.050f, 2.97f},
-                      {0.030f, 3.00f}, {0.0f, 3.01f}}, 20);
+                      {0.046f, 1.10f}, {0.040f, 2.30f}, {0.058f, 2.33f}, {0.062f, 2.36f}, {0.045f, 2.40f},
+                      {0.040f, 2.46f}, {0.034f, 2.64f}, {0.060f, 2.68f}, {0.072f, 2.74f}, {0.050f, 2.77f},
+                      {0.030f, 2.80f}, {0.0f, 2.81f}}, 20);
     for (int k = 0; k < 12; ++k) {  // flutes of the base
         const float angle = 6.2831853f * static_cast<float>(k) / 12.0f;
         const vec3 n(std::cos(angle), 0.0f, std::sin(angle));
         iron.tube({foot + 0.112f * n + vec3(0, 0.235f, 0), foot + 0.101f * n + vec3(0, 0.60f, 0)}, 0.011f, 6);
     }
     // The ladder bar.
-    const vec3 bar(0.0f, 2.72f, 0.0f);
+    const vec3 bar(0.0f, 2.52f, 0.0f);
     iron.tube({foot + bar - vec3(0.34f, 0, 0), foot + bar + vec3(0.34f, 0, 0)}, 0.015f, 10);
     for (const float s : {-1.0f, 1.0f}) {
         iron.lathe(foot + bar + vec3(0.34f * s, -0.03f, 0.0f), {{0.0f, 0.0f}, {0.022f, 0.010f}, {0.030f, 0.030f}, {0.022f, 0.050f}, {0.0f, 0.060f}}, 10);
         std::vector<vec3> arm;
         for (int k = 0; k <= 8; ++k) {
             const float angle = 1.5707963f * static_cast<float>(k) / 8.0f;
-            arm.push_back(foot + vec3(s * (0.05f + 0.19f * std::sin(angle)), 2.53f + 0.19f * (1.0f - std::cos(angle)), 0.0f));
+            arm.push_back(foot + vec3(s * (0.05f + 0.19f * std::sin(angle)), 2.33f + 0.19f * (1.0f - std::cos(angle)), 0.0f));
         }
         iron.tube(arm, 0.009f, 6);
     }
 
     // The lantern: four leaning panes in a frame, a vented roof, a finial.
-    constexpr float kLow = 3.03f;
-    constexpr float kHigh = 3.52f;
+    constexpr float kLow = 2.83f;
+    constexpr float kHigh = 3.32f;
     constexpr float kNarrow = 0.115f;
     constexpr float kWide = 0.205f;
     iron.box({.centre = foot + vec3(0, kLow - 0.010f, 0), .half = vec3(kNarrow + 0.02f, 0.016f, kNarrow + 0.02f), .bevel_m = 0.006f});
@@ -278,12 +278,14 @@ void add_garden_wall(Kit& kit)
 {
     constexpr float kX = kRightWall + 0.12f;
     constexpr float kHeight = 0.88f;
-    MeshBuilder& stone = kit[Slot::Cobble];
+    MeshBuilder& stone = kit[Slot::Paving];  // smaller, it makes a wall of squared rubble
+    stone.uv_scale = 2.4f;
     stone.weather = vec4(1.0f, 0.0f, 1.0f, 1.0f);
-    stone.color = vec4(0.92f, 0.89f, 0.84f, 1.0f);
+    stone.color = vec4(0.86f, 0.82f, 0.76f, 1.0f);
     stone.box({.centre = vec3(kX, 0.5f * kHeight - 0.05f, 0.5f * (kNear + kGarden)), .half = vec3(0.16f, 0.5f * kHeight + 0.05f, 0.5f * (kNear - kGarden)), .bevel_m = 0.02f});
     stone.color = vec4(1.0f);
     stone.weather = vec4(1.0f);
+    stone.uv_scale = 1.0f;
     float z = kNear;
     int index = 0;
     while (z > kGarden + 0.3f) {

@@ -107,6 +107,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     // Koschmieder: 2 % contrast is left at the visibility. The veil is skylight: none without it.
     c.fog_per_m = s.image_based_light ? 3.912f / std::max(w.visibility_m, 1.0f) : 0.0f;
     c.emissive_scale = frame.emissive_scale;
+    c.bounce = 0.22f + 0.25f * std::clamp(w.snow_amount, 0.0f, 1.0f);
     c.exposure = s.exposure;
     c.exposure_bias = std::exp2(s.exposure_bias_stops);
     c.samples = static_cast<float>(s.samples);

@@ -14,18 +14,22 @@
 
 namespace petrichor::gpu {
 
-/// Limits what a file may make us allocate: 64 MiB and 256 times its own size (with the buffers and
-/// images it names). Honest scenes stay far below: a byte of quantised, shared geometry becomes some 50
-/// bytes of ours. A count of 1e9 that no data stands behind does not.
+/// Limits what a file may make us allocate: 512 MiB and 256 times its own size (with the buffers
+/// and images it names). Honest scenes stay far below: most bytes become some 50 of ours, and a
+/// thousand meshes may share one vertex array. Accessors without a buffer view hold zeros that no
+/// byte of the file stands behind; their elements are charged at 4096 bytes, so that a count of 1e9
+/// is refused.
 class Budget {
 public:
+    static constexpr std::uint64_t kInventedElement = 4096;
+
     void grow(std::size_t file_bytes);
     /// Charges `count` things of `bytes_each`; throws Error at `where` when that is too much.
     void take(std::uint64_t count, std::uint64_t bytes_each, const std::string& where,
               const GltfLog& log);
 
 private:
-    std::uint64_t left_ = std::uint64_t{64} << 20;
+    std::uint64_t left_ = std::uint64_t{512} << 20;
 };
 
 enum class ComponentType : std::uint32_t {

@@ -14,8 +14,8 @@
 
 namespace petrichor::gpu {
 
-/// What was ignored or mended. A scene may have the same flaw ten thousand times: each is said once,
-/// with the first place and the number of others.
+/// What was ignored or mended. A scene may have the same flaw ten thousand times: each is said
+/// once, with the first place and the number of others.
 class Warnings {
 public:
     void add(const std::string& where, const std::string& what);
@@ -104,7 +104,9 @@ private:
 class JsonArray {
 public:
     JsonArray(const nlohmann::json* value, std::string path, GltfLog& log)
-        : value_(value), path_(std::move(path)), log_(&log) {}
+        : value_(value), path_(std::move(path)), log_(&log)
+    {
+    }
 
     std::size_t size() const;
     const std::string& path() const { return path_; }

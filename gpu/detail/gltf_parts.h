@@ -25,7 +25,8 @@ class TextureCollector {
 public:
     TextureCollector(GltfSource& source, Scene& scene);
 
-    /// Reads a textureInfo (index, texCoord, KHR_texture_transform) of `parent`; absent: not present.
+    /// Reads a textureInfo (index, texCoord, KHR_texture_transform) of `parent`; absent: not
+    /// present.
     TextureUse use(const JsonObject& parent, std::string_view key);
 
 private:
@@ -52,8 +53,8 @@ std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material
 /// Fills instances, lights and cameras with what the scene to be shown holds.
 void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene);
 
-/// KHR_lights_punctual of the file, at the origin, shining along -z. Lights of a type that we do not
-/// know are none.
+/// KHR_lights_punctual of the file, at the origin, shining along -z. Lights of a type that we do
+/// not know are none.
 std::vector<std::optional<Light>> read_lights(const JsonObject& root);
 std::vector<Camera> read_cameras(const JsonObject& root);
 

@@ -20,9 +20,9 @@ std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& 
 /// The file that a relative URI names, percent-decoded, separated by '/'.
 ///
 /// Throws Error for anything that could leave the folder of the scene: an absolute path, a "..", a
-/// scheme (http:, file:, C:), also when they only appear after decoding; and for control characters.
-std::string decode_relative_uri(std::string_view uri, const std::string& where,
-                                const GltfLog& log);
+/// scheme (http:, file:, C:), also when they only appear after decoding; and for control
+/// characters.
+std::string decode_relative_uri(std::string_view uri, const std::string& where, const GltfLog& log);
 
 }  // namespace petrichor::gpu
 

@@ -257,6 +257,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
+        emissive_ = emissive_ || source.emissive != glm::vec3(0.0f);
         const shared::MaterialConstants c = constants_of(source, loaded);
         std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
         GpuMaterial material;

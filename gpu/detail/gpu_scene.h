@@ -54,6 +54,7 @@ public:
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     const std::vector<Light>& lights() const { return lights_; }
     const Bounds& bounds() const { return bounds_; }
+    bool emissive() const { return emissive_; }  ///< any material emits light
 
 private:
     void upload_geometry(const Device& device, const Scene& scene);
@@ -73,6 +74,7 @@ private:
     std::vector<GpuMaterial> materials_;
     std::vector<Light> lights_;
     Bounds bounds_;
+    bool emissive_ = false;
 };
 
 }  // namespace petrichor::gpu

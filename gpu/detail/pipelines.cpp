@@ -180,7 +180,8 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
 const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
 {
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
-    key += "|" + std::to_string(desc.colors.size()) + "|" + std::to_string(desc.depth) + "|" +
+    for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
+    key += "|" + std::to_string(desc.depth) + "|" +
            std::to_string(desc.depth_bias_constant) + "|" + std::to_string(desc.depth_bias_slope) + "|" +
            std::to_string(desc.color_write) + std::to_string(desc.depth_equal);
     auto& slot = pipelines_[key];

@@ -43,6 +43,25 @@ float far_m(const Axes& axes, const Camera& camera, const Bounds& scene)
     return std::max(depth_range_m(axes, scene).y * 1.01f, camera.near_m * 4.0f);
 }
 
+// What the maps from above cover: a small scene whole, else the surroundings of the camera.
+struct Window {
+    glm::vec3 centre_m;
+    float radius_m;
+};
+Window window_of(const Axes& axes, const Bounds& scene)
+{
+    const float reach = 40.0f;
+    const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
+    if (scene_radius <= reach * 1.2f) {
+        return {0.5f * (scene.low + scene.high), std::max(scene_radius, 1e-3f)};
+    }
+    glm::vec3 level(axes.forward.x, 0.0f, axes.forward.z);
+    if (glm::length(level) > 1e-3f) level = glm::normalize(level);
+    const glm::vec3 ahead = axes.position + level * (0.6f * reach);
+    // Steps of four metres: the maps are kept while the camera moves less.
+    return {glm::round(ahead * 0.25f) * 4.0f, reach};
+}
+
 }  // namespace
 
 glm::vec2 sample_offset(std::uint32_t index, std::uint32_t seed)
@@ -157,23 +176,34 @@ std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float
     return views;
 }
 
+glm::vec3 sky_direction(int index)
+{
+    const float u = (static_cast<float>(index) + 0.5f) / SKY_DIRECTIONS;
+    const float phi = 2.3999632f * static_cast<float>(index);
+    const float level = std::sqrt(u);
+    return {level * std::cos(phi), std::sqrt(1.0f - u), level * std::sin(phi)};
+}
+
+std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene)
+{
+    const Window window = window_of(axes_of(camera), scene);
+    std::array<DepthView, SKY_DIRECTIONS> views;
+    for (int i = 0; i < SKY_DIRECTIONS; ++i) {
+        views[static_cast<std::size_t>(i)] =
+            orthographic_view(-sky_direction(i), window.centre_m, window.radius_m, scene,
+                              DepthMaps::kSkySize);
+    }
+    return views;
+}
+
 DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene)
 {
     const Axes axes = axes_of(camera);
     // Drops fall at about 6.5 m/s. Steps of half a metre a second keep the map while the wind wavers.
     const glm::vec2 wind = glm::clamp(glm::round(wind_m_s * 2.0f) * 0.5f, -6.0f, 6.0f);
     const glm::vec3 fall = glm::normalize(glm::vec3(wind.x, -6.5f, wind.y));
-    const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
-    const float reach = 40.0f;
-    if (scene_radius <= reach * 1.2f) {
-        return orthographic_view(fall, 0.5f * (scene.low + scene.high),
-                                 std::max(scene_radius, 1e-3f), scene, DepthMaps::kShelterSize);
-    }
-    glm::vec3 level(axes.forward.x, 0.0f, axes.forward.z);
-    if (glm::length(level) > 1e-3f) level = glm::normalize(level);
-    glm::vec3 centre = axes.position + level * (0.6f * reach);
-    centre = glm::round(centre * 0.25f) * 4.0f;
-    return orthographic_view(fall, centre, reach, scene, DepthMaps::kShelterSize);
+    const Window window = window_of(axes, scene);
+    return orthographic_view(fall, window.centre_m, window.radius_m, scene, DepthMaps::kShelterSize);
 }
 
 }  // namespace petrichor::gpu

@@ -20,6 +20,12 @@ glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene);
 std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float aspect,
                                                      const glm::vec3& to_sun, const Bounds& scene);
 
+/// Direction `index` of SKY_DIRECTIONS towards the sky, spread by the cosine with the vertical.
+glm::vec3 sky_direction(int index);
+
+/// The views from all over the sky, around the camera.
+std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene);
+
 /// The view along the falling rain, around the camera; wind tilts it.
 DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene);
 

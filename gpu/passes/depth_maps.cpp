@@ -145,11 +145,21 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
                            .height = kShelterSize,
                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
                                     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
+      sky(arena.image({.name = "sky_visibility",
+                       .format = VK_FORMAT_D32_SFLOAT,
+                       .width = kSkySize,
+                       .height = kSkySize,
+                       .layers = SKY_DIRECTIONS,
+                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
+                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
       compare(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                            VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true))
 {
     for (std::uint32_t i = 0; i < SHADOW_CASCADES; ++i) {
         shadow_layers.push_back(layer_view(device, *shadow, i));
+    }
+    for (std::uint32_t i = 0; i < SKY_DIRECTIONS; ++i) {
+        sky_layers.push_back(layer_view(device, *sky, i));
     }
 }
 
@@ -161,6 +171,18 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
                    for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
                        draw_depth(pass, scene, maps.shadow_views[i].clip_from_world,
                                   maps.shadow_layers[i].get(), DepthMaps::kShadowSize);
+                   }
+               }});
+}
+
+void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
+{
+    graph.add({.name = "sky_visibility",
+               .uses = {{maps.sky, Use::DepthTarget}},
+               .record = [&maps, &scene](PassContext& pass) {
+                   for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
+                       draw_depth(pass, scene, maps.sky_views[i].clip_from_world,
+                                  maps.sky_layers[i].get(), DepthMaps::kSkySize);
                    }
                }});
 }

@@ -39,6 +39,10 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                         {g.emission, Use::Sampled},
                         {targets.occlusion, Use::Sampled},
                         {depth_maps.shadow, Use::Sampled},
+                        {depth_maps.sky, Use::Sampled},
+                        {targets.radiance, Use::StorageWrite},
+                        {targets.mirror_weight, Use::StorageWrite},
+                        {targets.mirror_shape, Use::StorageWrite},
                         {sky.specular, Use::Sampled},
                         {sky.env_brdf, Use::Sampled},
                         {sky.cube, Use::Sampled},
@@ -54,7 +58,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                        {{0, variant.weather ? 1u : 0u},
                         {1, variant.shadows ? 1u : 0u},
                         {2, variant.image_based_light ? 1u : 0u},
-                        {3, variant.ambient_occlusion ? 1u : 0u}},
+                        {3, variant.ambient_occlusion ? 1u : 0u},
+                        {4, variant.emission ? 1u : 0u}},
                        {frame_binding(constants),
                         uniform(*sky.light, 0, sizeof(shared::SkyLight)), sampled(*in.depth, s),
                         sampled(*in.color, s), sampled(*in.normals, s), sampled(*in.material, s),
@@ -63,7 +68,32 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                         sampled(*depth_maps.shadow, depth_maps.compare),
                         sampled(*sky.specular, sky.linear),
                         sampled(*sky.env_brdf, sky.linear), sampled(*sky.cube, sky.linear), texels(*lights.texels),
-                        texels(*targets.light_lists), storage(*targets.accumulated)});
+                        texels(*targets.light_lists), storage(*targets.accumulated),
+                        sampled(*depth_maps.sky, depth_maps.compare),
+                        storage(*targets.radiance), storage(*targets.mirror_weight),
+                        storage(*targets.mirror_shape)});
+                   pass.dispatch_over(targets.width, targets.height, kTile);
+               }});
+}
+
+void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
+                     const ConstantsRange& constants)
+{
+    graph.add({.name = "reflections",
+               .uses = {{targets.gbuffer.depth, Use::Sampled},
+                        {targets.radiance, Use::Sampled},
+                        {targets.mirror_weight, Use::Sampled},
+                        {targets.mirror_shape, Use::Sampled},
+                        {sky.specular, Use::Sampled},
+                        {targets.accumulated, Use::StorageWrite}},
+               .record = [=, &targets, &sky](PassContext& pass) {
+                   const SamplerHandle& s = targets.nearest;
+                   pass.bind_compute(
+                       "reflections.comp", {},
+                       {frame_binding(constants), sampled(*targets.gbuffer.depth, s),
+                        sampled(*targets.radiance, s), sampled(*targets.mirror_weight, s),
+                        sampled(*targets.mirror_shape, s), sampled(*sky.specular, sky.linear),
+                        storage(*targets.accumulated)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
 }
@@ -94,7 +124,8 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
 }
 
 void add_aov(FrameGraph& graph, FrameTargets& targets,
-             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind)
+             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind,
+             const LightingVariant& variant)
 {
     const GBuffer& g = targets.gbuffer;
     graph.add({.name = "aov",
@@ -113,7 +144,7 @@ void add_aov(FrameGraph& graph, FrameTargets& targets,
                         sampled(*in.color, targets.nearest), sampled(*in.normals, targets.nearest),
                         sampled(*in.material, targets.nearest), sampled(*in.weather, targets.nearest),
                         sampled(*in.emission, targets.nearest), storage_buffer(*targets.aovs[slot])});
-                   pass.push(kind);
+                   pass.push(glm::uvec3(kind, variant.weather ? 1u : 0u, variant.emission ? 1u : 0u));
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
     graph.add({.name = "read_back", .uses = {{targets.aovs[slot], Use::HostRead}}, .record = {}});

@@ -12,6 +12,7 @@ struct LightingVariant {
     bool shadows = true;
     bool image_based_light = true;
     bool ambient_occlusion = true;
+    bool emission = true;
 };
 
 // Screen-space ambient occlusion.
@@ -21,13 +22,22 @@ struct LightingVariant {
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants);
 
-// Applies weather to the dry material, then light; adds the sample to the sum.
+// Applies weather to the dry material, then light. Without image-based light the sample is added to the
+// sum at once, else by the reflections.
 //
 //   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists
-//   edits    accumulated
+//   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, SkyMaps& sky,
                   DepthMaps& depth_maps, const ConstantsRange& constants,
                   const LightingVariant& variant);
+
+// Adds what smooth surfaces mirror of the picture itself, else of the sky; then adds the sample to the
+// sum.
+//
+//   reads    depth, radiance, mirror_weight, mirror_shape, sky maps
+//   edits    accumulated
+void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
+                     const ConstantsRange& constants);
 
 // Mean of the samples, as halves and as display bytes.
 //
@@ -41,7 +51,8 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
 //   reads    the G-buffer
 //   writes   aovs[slot]
 void add_aov(FrameGraph& graph, FrameTargets& targets,
-             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind);
+             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind,
+             const LightingVariant& variant);
 
 }  // namespace petrichor::gpu
 

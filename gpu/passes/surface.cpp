@@ -1,7 +1,6 @@
 #include "gpu/passes/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
 #include "gpu/passes/draw.h"
@@ -78,6 +77,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m, bool weather)
 {
     GBuffer& g = targets.gbuffer;
+    const bool emission = scene.emissive();
     graph.add({
         .name = "surface",
         .uses = {{maps.ripple, Use::Sampled},
@@ -92,12 +92,14 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                  {g.depth, Use::DepthTarget}},
         .record = [=, &targets, &scene, &maps, &depth_maps](PassContext& pass) {
             GBuffer& out = targets.gbuffer;
-            const std::array<const GpuImage*, 5> colors{out.color.get(), out.normals.get(),
-                                                        out.material.get(), out.weather.get(),
-                                                        out.emission.get()};
+            std::vector<const GpuImage*> colors{out.color.get(), out.normals.get(),
+                                                out.material.get()};
+            if (weather) colors.push_back(out.weather.get());
+            if (emission) colors.push_back(out.emission.get());
             GraphicsDesc desc;
             desc.vertex = "surface.vert";
-            desc.fragment = "surface.frag";
+            desc.fragment = weather ? (emission ? "surface.frag" : "surface_dark.frag")
+                                    : (emission ? "surface_dry.frag" : "surface_lean.frag");
             desc.stride = sizeof(Vertex);
             desc.attributes = vertex_attributes();
             std::vector<VkRenderingAttachmentInfo> attachments;
@@ -171,7 +173,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             for (const Draw* draw : draws) {
                 const bool holes = has_holes(scene, *draw);
                 GraphicsDesc shaded = desc;
-                shaded.specialization = {{0, weather ? 1u : 0u}, {1, holes ? 1u : 0u}};
+                shaded.specialization = {{1, holes ? 1u : 0u}};
                 shaded.depth_equal = depth_first && !holes;
                 record(shaded, *draw, true);
             }

@@ -20,7 +20,7 @@ Binding frame_binding(const ConstantsRange& constants);
 //
 //   reads    ripple, flow and snow maps, the shelter map
 //   writes   the G-buffer
-//   variant  weather: off skips masks, ripples and the shelter look-up
+//   variant  weather and emission: a target that nobody reads is not written
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                  SurfaceMaps& maps, DepthMaps& depth_maps, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m, bool weather);

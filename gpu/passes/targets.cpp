@@ -45,6 +45,9 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.gbuffer.weather = target("weather", VK_FORMAT_R8G8B8A8_UNORM, color);
     targets.gbuffer.emission = target("emission", VK_FORMAT_R16G16B16A16_SFLOAT, color);
     targets.occlusion = target("screen_occlusion", VK_FORMAT_R8_UNORM, storage);
+    targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
+    targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
+    targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
 
     const auto pixels = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height);

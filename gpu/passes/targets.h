@@ -24,6 +24,9 @@ struct FrameTargets {
     GBuffer gbuffer;
     SamplerHandle nearest;               ///< for texelFetch
     std::unique_ptr<GpuImage> occlusion;    ///< screen-space ambient occlusion, 1 open
+    std::unique_ptr<GpuImage> radiance;     ///< of this sample, before smooth reflections; alpha as below
+    std::unique_ptr<GpuImage> mirror_weight;  ///< what a smooth surface reflects of its surroundings
+    std::unique_ptr<GpuImage> mirror_shape;   ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;  ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;

@@ -16,6 +16,8 @@ layout(binding = 7, scalar) writeonly buffer Output { vec4 values[]; };
 
 struct AovParams {
     uint kind;
+    uint has_weather;   // 0: the target was not written in this frame
+    uint has_emission;
 };
 layout(push_constant, scalar) uniform Push { AovParams params; };
 
@@ -28,7 +30,8 @@ void main()
     if (depth > 0.0) {
         const GBufferTexel g =
             decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
-                           texelFetch(material_map, texel, 0), texelFetch(weather_map, texel, 0));
+                           texelFetch(material_map, texel, 0),
+                           params.has_weather != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
         switch (params.kind) {
             case 0u: value = vec4(linear_depth(frame, depth), 0.0, 0.0, 0.0); break;
             case 1u: value = vec4(pixel_position(frame, vec2(texel) + 0.5, depth), 0.0); break;
@@ -37,7 +40,9 @@ void main()
             case 4u: value = vec4(g.roughness, 0.0, 0.0, 0.0); break;
             case 5u: value = vec4(g.metallic, 0.0, 0.0, 0.0); break;
             case 6u: value = vec4(g.occlusion, 0.0, 0.0, 0.0); break;
-            case 7u: value = vec4(texelFetch(emission_map, texel, 0).rgb, 0.0); break;
+            case 7u:
+                if (params.has_emission != 0u) value = vec4(texelFetch(emission_map, texel, 0).rgb, 0.0);
+                break;
             case 8u: value = vec4(g.weather.x, 0.0, 0.0, 0.0); break;
             case 9u: value = vec4(g.weather.y, 0.0, 0.0, 0.0); break;
             case 10u: value = vec4(g.weather.z, 0.0, 0.0, 0.0); break;

@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint WEATHER = 1u;
 layout(constant_id = 1) const uint SHADOWS = 1u;
 layout(constant_id = 2) const uint IMAGE_BASED_LIGHT = 1u;
 layout(constant_id = 3) const uint AMBIENT_OCCLUSION = 1u;
+layout(constant_id = 4) const uint EMISSION = 1u;
 
 layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
@@ -32,6 +33,13 @@ layout(binding = 12) uniform samplerCube sky_map;
 layout(binding = 13) uniform samplerBuffer lights;
 layout(binding = 14) uniform usamplerBuffer light_lists;
 layout(binding = 15, rgba32f) uniform image2D accumulated;
+layout(binding = 16) uniform sampler2DArrayShadow sky_visibility_map;
+layout(binding = 17, rgba16f) uniform writeonly image2D radiance_out;
+layout(binding = 18, rgba16f) uniform writeonly image2D mirror_weight;
+layout(binding = 19, rgba16_snorm) uniform writeonly image2D mirror_shape;
+
+// Smoother surfaces than this mirror their surroundings, in a pass of its own.
+const float kMirrorRoughness = 0.32;
 
 vec3 sky_irradiance(vec3 n)
 {
@@ -69,6 +77,33 @@ float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
     return lit * 0.25;
 }
 
+// Share of skylight that reaches a surface past buildings and roofs: each sample of the frame asks a
+// quarter of the sky's directions, so that four samples ask all of them.
+float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
+{
+    const int start = int((hash_u3(uint(texel.x), uint(texel.y), 9u) + frame.sample_index) & 3u);
+    const float turn = 6.2831853 * dither(texel.yx, frame.sample_index + 5u);
+    const vec2 blur = vec2(cos(turn), sin(turn)) * (0.8 / float(textureSize(sky_visibility_map, 0).x));
+    float open = 0.0;
+    float total = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const int i = (start + k * (SKY_DIRECTIONS / 4)) % SKY_DIRECTIONS;
+        const vec4 direction = frame.sky_direction[i];
+        const float facing = dot(normal, direction.xyz);
+        if (facing <= 0.0) continue;
+        // Directions are spread by their cosine with the vertical: undone for other normals.
+        const float weight = facing / max(direction.y, 0.2);
+        const vec3 lifted = position + normal * (direction.w * 1.2) + direction.xyz * (direction.w * 0.8);
+        const vec4 map = frame.sky_from_world[i] * vec4(lifted, 1.0);
+        const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
+        const float seen =
+            inside ? texture(sky_visibility_map, vec4(map.xy + blur, float(i), map.z)) : 1.0;
+        open += weight * seen;
+        total += weight;
+    }
+    return total > 0.0 ? open / total : 1.0;
+}
+
 vec3 background(vec3 direction)
 {
     vec3 radiance = textureLod(sky_map, direction, 0.0).rgb * frame.sky_scale;
@@ -89,6 +124,8 @@ void main()
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
     vec3 radiance;
+    vec3 mirror = vec3(0.0);
+    vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
         radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
                                                    : vec3(0.0);
@@ -98,7 +135,7 @@ void main()
             decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
                            texelFetch(material_map, texel, 0),
                            WEATHER != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
-        const vec3 emission = texelFetch(emission_map, texel, 0).rgb;
+        const vec3 emission = EMISSION != 0u ? texelFetch(emission_map, texel, 0).rgb : vec3(0.0);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -171,6 +208,8 @@ void main()
             if (IMAGE_BASED_LIGHT != 0u) {
                 const float screen =
                     AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
+                const float sky_open =
+                    AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
                 const float occlusion = m.occlusion * screen;
                 const float nv = clamp(dot(n, v), 0.0, 1.0);
                 const vec2 size = vec2(textureSize(env_brdf, 0));
@@ -181,10 +220,9 @@ void main()
                 const float lost = 1.0 - (ab.x + ab.y);
                 const vec3 average = m.specular + (vec3(1.0) - m.specular) * (1.0 / 21.0);
                 const vec3 multiple = single * average * lost / (vec3(1.0) - average * lost);
-                const vec3 reflected = reflect(-v, n);
-                const vec3 radiance_in =
-                    textureLod(specular_map, reflected, roughness * float(SKY_PREFILTER_MIPS - 1)).rgb;
-                const vec3 irradiance = sky_irradiance(n);
+                // Where the sky is hidden, walls and ground send some of its light on, warmer.
+                const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
+                const vec3 irradiance = sky_irradiance(n) * (sky_open + (1.0 - sky_open) * hidden);
                 const float specular_occlusion =
                     saturate(pow(nv + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion);
                 // Light that a bright surface throws back into its own crevices (Jimenez et al. 2016).
@@ -193,9 +231,18 @@ void main()
                 const vec3 c = 2.7552 * m.albedo + 0.6903;
                 const vec3 bounced =
                     max(vec3(occlusion), ((occlusion * a + b) * occlusion + c) * occlusion);
-                radiance += ((multiple + m.albedo * (vec3(1.0) - single - multiple)) * irradiance * bounced +
-                             single * radiance_in * specular_occlusion) *
-                            frame.ambient_scale;
+                radiance += (multiple + m.albedo * (vec3(1.0) - single - multiple)) * irradiance *
+                            bounced * frame.ambient_scale;
+                const vec3 reflectance = single * (specular_occlusion * frame.ambient_scale);
+                if (roughness < kMirrorRoughness) {
+                    mirror = reflectance;
+                    shape = vec4(octahedral_encode(n), roughness, sky_open);
+                } else {
+                    const vec3 reflected = reflect(-v, n);
+                    const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
+                    radiance += reflectance * textureLod(specular_map, reflected, lod).rgb *
+                                (sky_open + (1.0 - sky_open) * hidden);
+                }
             }
         }
         if (frame.fog_per_m > 0.0) {
@@ -204,9 +251,16 @@ void main()
             const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
             const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);
+            mirror *= kept;
         }
     }
-    vec4 sum = vec4(radiance, depth > 0.0 ? 1.0 : 0.0);
-    if (frame.sample_index > 0u) sum += imageLoad(accumulated, texel);
-    imageStore(accumulated, texel, sum);
+    const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
+    if (IMAGE_BASED_LIGHT != 0u) {
+        imageStore(radiance_out, texel, result);
+        imageStore(mirror_weight, texel, vec4(mirror, 1.0));
+        imageStore(mirror_shape, texel, shape);
+    } else {
+        imageStore(accumulated, texel,
+                   frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
+    }
 }

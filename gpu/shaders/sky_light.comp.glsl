@@ -68,8 +68,8 @@ void main()
     const float sky_lux = max(dot(up, weights), 0.0) * 3.14159265 * params.ambient_scale;
     const float lux =
         max(sky_lux + dot(params.sun_illuminance, weights) * max(params.sun_up, 0.0), params.floor_lux);
-    // A photographer's meter that lets dusk stay a little dark.
-    const float dusk = clamp(pow(lux / 5000.0, 0.12), 0.35, 1.0);
+    // A photographer's meter: half a stop above grey for streets between walls; dusk stays a little dark.
+    const float dusk = 1.5 * clamp(pow(lux / 5000.0, 0.12), 0.35, 1.0);
     result.illuminance = lux;
     result.exposure = (params.exposure > 0.0 ? params.exposure : 3.14159265 / lux * dusk) * params.bias;
 }

@@ -7,24 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <numeric>
 
-#include "tests/gpu/gltf_assets.h"
+#include "tests/gpu/gltf_helpers.h"
 
 namespace petrichor::gpu {
 namespace {
 
-// A deterministic stream of numbers, since std::shuffle differs between libraries.
-struct Random {
-    std::uint64_t state;
-    std::uint32_t next()
-    {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<std::uint32_t>(state >> 33);
-    }
-    float unit() { return static_cast<float>(next() % 65536) / 65536.0f; }
-};
+using scene_files::Random;
 
 struct Surface {
     glm::vec3 position, normal;
@@ -125,7 +115,8 @@ TEST(Tangents, OfASphereAreTheParallels)
     for (std::size_t v = 0; v < vertices; ++v) {
         const glm::vec3 n = sphere.normals[v];
         const glm::vec3 east = glm::normalize(glm::vec3(n.z, 0.0f, -n.x));
-        // The border of the chart has triangles on one side only: one step of the grid is 7.5 degrees.
+        // The border of the chart has triangles on one side only: one step of the grid is 7.5
+        // degrees.
         EXPECT_GT(glm::dot(glm::vec3(sphere.tangents[v]), east), 0.99f) << "vertex " << v;
         EXPECT_EQ(sphere.tangents[v].w, 1.0f);
     }
@@ -150,7 +141,8 @@ TEST(Tangents, DoNotMixAcrossAMirroredSeam)
     expect_orthonormal(plane);
     for (std::size_t i = 0; i < plane.indices.size(); i += 3) {
         float middle = 0.0f;
-        for (std::size_t c = 0; c < 3; ++c) middle += plane.positions[plane.indices[i + c]].x / 3.0f;
+        for (std::size_t c = 0; c < 3; ++c)
+            middle += plane.positions[plane.indices[i + c]].x / 3.0f;
         const float side = middle < 0.5f ? -1.0f : 1.0f;
         for (std::size_t c = 0; c < 3; ++c) {
             // +u points away from the seam; up in the image stays up, so the sign flips with it.
@@ -165,35 +157,24 @@ TEST(Tangents, DoNotMixAcrossAMirroredSeam)
     }
 }
 
-TEST(Tangents, AverageByAngle)
+TEST(Tangents, AreWeightedByTheAngle)
 {
-    // Two triangles share the edge a-b; their u directions differ by 90 degrees in the plane. At `a`
-    // the first has an angle of 90 degrees, the second one of 45.
+    // Two triangles share the edge 0-1. At vertex 0 the first has an angle of 90 degrees, the
+    // second one of 45; their uv are bent so that their directions of u differ.
     Primitive p;
     p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -1, 0}};
     p.normals.assign(4, {0, 0, 1});
     p.indices = {0, 1, 2, 0, 3, 1};
-    // First triangle: u along +x. The second maps the shared edge alike, so its direction differs.
-    p.uv0 = {{0, 0}, {1, 0}, {0, -1}, {2, 1}};
-    generate_tangents(p);
-    // Second triangle: duv(a->d) = (2, 1), duv(a->b) = (1, 0); e = (1,-1), (1,0).
-    // du/dpos: position derivative along u = edge a->b = +x as dv = 0 there. Both agree: +x.
-    EXPECT_NEAR(p.tangents[0].x, 1.0f, 1e-6f);
-    // Now bend the uv of the first triangle alone, at its own corner c: u direction still +x, because
-    // the shared edge pins it. A different direction needs a corner that does not pin it:
     p.uv0 = {{0, 0}, {1, 1}, {0, 2}, {2, 1}};
-    const auto direction = [&](std::size_t tri) {
-        const auto* i = &p.indices[3 * tri];
-        const glm::vec2 a = p.uv0[i[1]] - p.uv0[i[0]], b = p.uv0[i[2]] - p.uv0[i[0]];
-        const glm::vec3 e1 = p.positions[i[1]] - p.positions[i[0]];
-        const glm::vec3 e2 = p.positions[i[2]] - p.positions[i[0]];
-        return glm::normalize((b.y * e1 - a.y * e2) / (a.x * b.y - a.y * b.x));
-    };
-    const glm::vec3 expected =
-        glm::normalize(direction(0) * (3.14159265f / 2) + direction(1) * (3.14159265f / 4));
-    ASSERT_LT(glm::dot(direction(0), direction(1)), 0.999f) << "the case must mean something";
+    // By hand, from the edges and uv differences of each: e1 dv2 - e2 dv1, by the sign of the area.
+    //   first:  e1 = (1, 0), e2 = (0, 1), dv1 = 1, dv2 = 2, area = 1 * 2 - 1 * 0 = 2: (2, -1)
+    //   second: e1 = (1, -1), e2 = (1, 0), dv1 = 1, dv2 = 1, area = 2 * 1 - 1 * 1 = 1: (0, -1)
+    const glm::vec2 first = glm::vec2(2, -1) / std::sqrt(5.0f), second(0, -1);
+    const glm::vec2 expected = glm::normalize(2.0f * first + 1.0f * second);
     generate_tangents(p);
-    EXPECT_NEAR(glm::dot(glm::vec3(p.tangents[0]), expected), 1.0f, 1e-6f);
+    EXPECT_NEAR(p.tangents[0].x, expected.x, 1e-6f);
+    EXPECT_NEAR(p.tangents[0].y, expected.y, 1e-6f);
+    EXPECT_EQ(p.tangents[0].w, -1.0f);
 }
 
 TEST(Tangents, WeldCornersThatOnlyTheIndexSeparates)
@@ -231,13 +212,8 @@ TEST(Tangents, DoNotDependOnTheOrderOfTriangles)
             shuffled.indices[3 * i + c] = forward.indices[3 * order[i] + (c + turn) % 3];
         }
     }
-    const Primitive before = shuffled;
     generate_tangents(forward);
     generate_tangents(shuffled);
-    // Compare by triangle and position.
-    std::map<std::pair<std::size_t, std::uint32_t>, glm::vec4> expected;
-    const Primitive plain = before;
-    (void)plain;
     for (std::size_t i = 0; i < triangles; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             bool found = false;
@@ -410,14 +386,23 @@ Agreement compare_with_shipped(const Scene& scene)
 
 TEST(Tangents, AgreeWithThoseThatModelsShip)
 {
-    const auto folder = testing_files::assets();
+    const auto folder = scene_files::assets();
     if (!folder) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the folder of test data";
-    for (const char* file : {"FlightHelmet/FlightHelmet.gltf", "truck_town/town_model.gltf"}) {
+    // FlightHelmet's come from a modelling tool with rules of its own. In the town a sixth of the
+    // corners have no texture coordinates that would say anything.
+    struct Case {
+        const char* file;
+        double within_5_degrees, same_sign;
+    };
+    for (const Case& c : {Case{"FlightHelmet/FlightHelmet.gltf", 0.96, 0.9999},
+                          Case{"truck_town/town_model.gltf", 0.83, 0.995}}) {
         const auto agreement =
-            compare_with_shipped(testing_files::load_file(*folder / "models" / file));
-        std::cout << file << ": " << agreement.corners << " corners, "
+            compare_with_shipped(scene_files::load_file(*folder / "models" / c.file));
+        std::cout << c.file << ": " << agreement.corners << " corners, "
                   << 100.0 * agreement.within_5_degrees << " % within 5 degrees, "
                   << 100.0 * agreement.same_sign << " % of the same sign\n";
+        EXPECT_GE(agreement.within_5_degrees, c.within_5_degrees);
+        EXPECT_GE(agreement.same_sign, c.same_sign);
     }
 }
 

@@ -13,6 +13,8 @@
 #include <cstdint>
 
 #define PETRICHOR_INLINE inline __attribute__((always_inline))
+// Large pieces stay functions of their own: inlining them several times costs minutes of compilation.
+#define PETRICHOR_KERNEL __attribute__((noinline))
 
 namespace petrichor::weather::detail {
 
@@ -116,6 +118,14 @@ PETRICHOR_MASK_OPERATOR(|)
 #undef PETRICHOR_MASK_OPERATOR
 
 template <int kBytes>
+PETRICHOR_INLINE LaneMask<kBytes> operator!(const LaneMask<kBytes>& a)
+{
+    LaneMask<kBytes> r;
+    for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = ~a.part[p];
+    return r;
+}
+
+template <int kBytes>
 PETRICHOR_INLINE Lanes<kBytes> operator-(const Lanes<kBytes>& a)
 {
     return 0.0 - a;
@@ -191,6 +201,17 @@ PETRICHOR_INLINE double each(double a, F&& f)
 {
     return f(a);
 }
+
+template <class Real>
+struct MaskOfReal {
+    using Type = bool;
+};
+template <int kBytes>
+struct MaskOfReal<Lanes<kBytes>> {
+    using Type = LaneMask<kBytes>;
+};
+template <class Real>
+using MaskOf = typename MaskOfReal<Real>::Type;
 
 template <class Real>
 PETRICHOR_INLINE Real smaller(const Real& a, const Real& b)

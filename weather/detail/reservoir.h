@@ -19,7 +19,7 @@ struct ReservoirStep {
 // the crossing (A) and after it (B). Above w0 the solution is an exponential towards the steady state
 // ws = w0 + net/c, below it is a line.
 template <class Real>
-PETRICHOR_INLINE ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net, double c, double w0,
+PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net, double c, double w0,
                                                      double dt)
 {
     const Real steady = net * (1.0 / c) + w0;

@@ -21,6 +21,7 @@ struct SurfacePoint {
     Real richardson_k;  // g zU / (Ta U^2), 1/K
     Real root_z;        // sqrt(zU/z0)
     Real beta;
+    Real most_vapour;   // kg m-2 s-1 that can leave: the store over the step
     Mask icy;
     Real latent_heat;   // J/kg
     Real rain_heat;     // p cw, W m-2 K-1
@@ -65,13 +66,15 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, 
     PointFluxes<Real> f;
     f.net_radiation = p.absorbed - p.emitting * cubed * surface_k;
     f.sensible = exchange * kAirHeatCapacity * (surface_c - p.air_c);
-    f.vapour = beta * exchange * (q - p.q_air);
+    const Real wanted = beta * exchange * (q - p.q_air);
+    const auto limited = wanted > p.most_vapour;
+    f.vapour = select(limited, p.most_vapour, wanted);
     f.latent = p.latent_heat * f.vapour;
     f.ground = p.conductance * (surface_c - p.below_c);
     f.rain_heat = p.rain_heat * (p.air_c - surface_c);
     f.balance = f.net_radiation - f.sensible - f.latent - f.ground + f.rain_heat;
     f.slope = p.emitting * cubed * 4.0 + exchange * kAirHeatCapacity +
-              p.latent_heat * beta * exchange * dq + p.conductance + p.rain_heat;
+              select(limited, Real(0.0), p.latent_heat * beta * exchange * dq) + p.conductance + p.rain_heat;
     return f;
 }
 

@@ -8,6 +8,7 @@
 #define LIGHT_TILE 16          // pixels a side of a light list
 #define LIGHT_COARSE 8         // light tiles a side of a coarse tile
 #define LIGHT_LIST_MAX 255     // lights a list holds; its first entry is the count
+#define SKY_DIRECTIONS 16      // depth maps over the upper hemisphere, for skylight's shadow
 #define SKY_PREFILTER_MIPS 6   // roughness 0, 0.2 .. 1
 
 SHARED_BEGIN
@@ -16,6 +17,8 @@ struct FrameConstants {
     mat4 world_to_clip;
     mat4 shadow_from_world[SHADOW_CASCADES];  // to (u, v, depth), reversed depth
     mat4 shelter_from_world;
+    mat4 sky_from_world[SKY_DIRECTIONS];
+    vec4 sky_direction[SKY_DIRECTIONS];  // towards the sky, unit
 
     vec3 camera_m;
     float time_s;
@@ -71,6 +74,7 @@ struct FrameConstants {
     float exposure_bias;     // linear factor
     float samples;
     float sun_angular_cos;   // cosine of the sun's angular radius
+    float bounce;            // share of skylight that hidden directions still send
     uint flags;
 };
 
@@ -84,5 +88,6 @@ SHARED_END
 #define FRAME_SHELTER 32u
 #define FRAME_ORTHOGRAPHIC 64u
 #define FRAME_SUN_DISC 128u
+#define FRAME_SKY_VISIBILITY 256u
 
 #endif

@@ -1,0 +1,39 @@
+#!/bin/sh
+# Installs into a folder of its own, runs the program from there, and builds and runs a program that
+# uses the installed libraries.   install_test.sh BUILD_FOLDER SCRATCH_FOLDER CXX
+set -eu
+build=$1 scratch=$2 cxx=$3
+rm -rf "$scratch"
+mkdir -p "$scratch/consumer"
+cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/install.log"
+
+"$scratch/prefix/bin/petrichor" --version
+# The data is found beside the installed program, from any folder.
+data=$(cd / && "$scratch/prefix/bin/petrichor" doctor --json | grep -c "$scratch/prefix/share/petrichor")
+[ "$data" = 1 ] || { echo "the installed program does not find its data"; exit 1; }
+
+cat >"$scratch/consumer/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+find_package(petrichor REQUIRED)
+add_executable(consumer main.cpp)
+target_link_libraries(consumer PRIVATE petrichor::weather petrichor::texproc petrichor::gpu)
+END
+cat >"$scratch/consumer/main.cpp" <<'END'
+#include "gpu/renderer.h"
+#include "texproc/mips.h"
+#include "weather/artist.h"
+int main()
+{
+    const auto wet = petrichor::weather::step({.rain = 1.0}, {}, 12.0, 0.8, 0.02);
+    const petrichor::Image image(8, 4, 1, petrichor::ColorSpace::Data, 0.5f);
+    const bool mips = petrichor::texproc::mip_chain(image).size() == 4;
+    return wet.wetness > 0.0 && mips && !petrichor::gpu::aov_table().empty() ? 0 : 1;
+}
+END
+cmake -G Ninja -S "$scratch/consumer" -B "$scratch/consumer/build" -DCMAKE_CXX_COMPILER="$cxx" \
+    -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 || { cat "$scratch/configure.log"; exit 1; }
+cmake --build "$scratch/consumer/build"
+"$scratch/consumer/build/consumer"
+rm -rf "$scratch"

@@ -1,0 +1,275 @@
+#include "texproc/generate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include "base/error.h"
+#include "texproc/noise.h"
+
+namespace petrichor::texproc {
+
+void PrintTo(const MaterialKindInfo& info, std::ostream* out)
+{
+    *out << info.name;
+}
+
+namespace {
+
+constexpr int kSize = 192;
+
+std::vector<std::pair<const char*, const Image*>> images_of(const MaterialMaps& maps)
+{
+    return {{"albedo", &maps.albedo},       {"normal", &maps.normal},
+            {"height", &maps.height},       {"roughness", &maps.roughness},
+            {"occlusion", &maps.occlusion}, {"metallic", &maps.metallic},
+            {"puddle_mask", &maps.puddle_mask}};
+}
+
+bool same_bits(const Image& a, const Image& b)
+{
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+class Material : public testing::TestWithParam<MaterialKindInfo> {};
+
+TEST_P(Material, IsTheSameForAnyThreadCount)
+{
+    const MaterialMaps one = generate_material(GetParam().kind, kSize, 7, 1);
+    for (const int threads : {2, 8}) {
+        const MaterialMaps many = generate_material(GetParam().kind, kSize, 7, threads);
+        const auto a = images_of(one);
+        const auto b = images_of(many);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_TRUE(same_bits(*a[i].second, *b[i].second)) << a[i].first << " x " << threads;
+        }
+        EXPECT_EQ(one.height_scale_m, many.height_scale_m);
+    }
+}
+
+TEST_P(Material, ChangesWithTheSeed)
+{
+    const MaterialMaps a = generate_material(GetParam().kind, 64, 1, 1);
+    const MaterialMaps b = generate_material(GetParam().kind, 64, 2, 1);
+    EXPECT_FALSE(same_bits(a.height, b.height));
+    EXPECT_FALSE(same_bits(a.albedo, b.albedo));
+}
+
+// The mean step between column pairs: across the seam it must look like any other place.
+double seam_excess(const Image& image, bool across_columns)
+{
+    const int n = image.width;
+    std::vector<double> steps;
+    for (int i = 0; i < n; ++i) {
+        double sum = 0.0;
+        for (int j = 0; j < n; ++j) {
+            for (int c = 0; c < image.channels; ++c) {
+                const float a = across_columns ? image.at(i, j, c) : image.at(j, i, c);
+                const int next = (i + 1) % n;
+                const float b = across_columns ? image.at(next, j, c) : image.at(j, next, c);
+                sum += std::abs(static_cast<double>(a) - static_cast<double>(b));
+            }
+        }
+        steps.push_back(sum / (n * image.channels));
+    }
+    const double seam = steps.back();
+    steps.pop_back();
+    return seam - *std::max_element(steps.begin(), steps.end());
+}
+
+TEST_P(Material, HasNoSeam)
+{
+    const MaterialMaps maps = generate_material(GetParam().kind, kSize, 3, 2);
+    for (const auto& [name, image] : images_of(maps)) {
+        EXPECT_LE(seam_excess(*image, true), 1e-3) << name << ", left to right";
+        EXPECT_LE(seam_excess(*image, false), 1e-3) << name << ", top to bottom";
+    }
+}
+
+TEST_P(Material, StaysInRange)
+{
+    const MaterialMaps maps = generate_material(GetParam().kind, kSize, 5, 2);
+    for (const auto& [name, image] : images_of(maps)) {
+        ASSERT_EQ(image->width, kSize) << name;
+        ASSERT_EQ(image->height, kSize) << name;
+        const bool color = image == &maps.albedo || image == &maps.normal;
+        ASSERT_EQ(image->channels, color ? 3 : 1) << name;
+        for (const float v : image->pixels) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << name << " " << v;
+    }
+    EXPECT_EQ(maps.albedo.space, ColorSpace::Linear);
+    EXPECT_EQ(maps.normal.space, ColorSpace::Data);
+    EXPECT_GT(maps.tile_m, 0.0f);
+    EXPECT_GT(maps.height_scale_m, 0.0f);
+    EXPECT_LT(maps.height_scale_m, 0.1f);
+}
+
+TEST_P(Material, NormalsAreTheGradientOfTheHeight)
+{
+    const MaterialMaps maps = generate_material(GetParam().kind, kSize, 11, 2);
+    const double texel_m = static_cast<double>(maps.tile_m) / kSize;
+    const auto height_m = [&](int x, int y) {
+        return static_cast<double>(maps.height.at(wrap_index(x, kSize), wrap_index(y, kSize), 0)) *
+               static_cast<double>(maps.height_scale_m);
+    };
+    for (int y = 0; y < kSize; y += 3) {
+        for (int x = 0; x < kSize; x += 3) {
+            std::array<double, 3> n{};
+            double length = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                n[static_cast<std::size_t>(c)] = 2.0 * static_cast<double>(maps.normal.at(x, y, c)) - 1.0;
+                length += n[static_cast<std::size_t>(c)] * n[static_cast<std::size_t>(c)];
+            }
+            ASSERT_NEAR(length, 1.0, 1e-5);
+            ASSERT_GT(n[2], 0.0);
+            // y is up the picture, rows go down.
+            const double slope_x = (height_m(x + 1, y) - height_m(x - 1, y)) / (2.0 * texel_m);
+            const double slope_y = (height_m(x, y - 1) - height_m(x, y + 1)) / (2.0 * texel_m);
+            ASSERT_NEAR(-n[0] / n[2], slope_x, 2e-4 * (1.0 + std::abs(slope_x)));
+            ASSERT_NEAR(-n[1] / n[2], slope_y, 2e-4 * (1.0 + std::abs(slope_y)));
+        }
+    }
+}
+
+TEST_P(Material, HeightUsesItsRange)
+{
+    const MaterialMaps maps = generate_material(GetParam().kind, kSize, 1, 2);
+    std::vector<float> sorted = maps.height.pixels;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_FLOAT_EQ(sorted.front(), 0.0f);
+    EXPECT_FLOAT_EQ(sorted.back(), 1.0f);
+    // Not a plane with a spike: the middle 98 % cover a fair part of the range.
+    const std::size_t n = sorted.size();
+    EXPECT_GT(sorted[n * 99 / 100] - sorted[n / 100], 0.2f);
+}
+
+TEST_P(Material, PuddleMaskIsSmoothAndHasBothEnds)
+{
+    const MaterialMaps maps = generate_material(GetParam().kind, kSize, 1, 2);
+    const auto [low, high] = std::minmax_element(maps.puddle_mask.pixels.begin(), maps.puddle_mask.pixels.end());
+    EXPECT_LT(*low, 0.2f);
+    EXPECT_GT(*high, 0.8f);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 1; x < kSize; ++x) {
+            ASSERT_LT(std::abs(maps.puddle_mask.at(x, y, 0) - maps.puddle_mask.at(x - 1, y, 0)), 0.15f);
+        }
+    }
+}
+
+TEST_P(Material, IsFoundByName)
+{
+    ASSERT_TRUE(find_material_kind(GetParam().name).has_value());
+    EXPECT_EQ(*find_material_kind(GetParam().name), GetParam().kind);
+    EXPECT_FALSE(GetParam().meaning.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Material, testing::ValuesIn(material_kinds()),
+                         [](const auto& test) { return test.param.name; });
+
+// What water and snow need from the cobbles: tops high, joints deep and narrower than the tops.
+TEST(Generate, CobbleJointsLieDeepBelowTheStones)
+{
+    const MaterialMaps maps = generate_material(MaterialKind::Cobble, 384, 1, 2);
+    std::vector<float> sorted = maps.height.pixels;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    EXPECT_LT(at(0.10), 0.25f);
+    EXPECT_GT(at(0.70), 0.60f);
+    EXPECT_GT(maps.height_scale_m, 0.018f);
+    EXPECT_LT(maps.height_scale_m, 0.032f);
+}
+
+TEST(Generate, OcclusionDarkensWhatLiesLow)
+{
+    const MaterialMaps maps = generate_material(MaterialKind::Cobble, 384, 1, 2);
+    double low = 0.0, high = 0.0;
+    int low_count = 0, high_count = 0;
+    for (std::size_t k = 0; k < maps.height.pixels.size(); ++k) {
+        if (maps.height.pixels[k] < 0.2f) {
+            low += static_cast<double>(maps.occlusion.pixels[k]);
+            ++low_count;
+        } else if (maps.height.pixels[k] > 0.7f) {
+            high += static_cast<double>(maps.occlusion.pixels[k]);
+            ++high_count;
+        }
+    }
+    ASSERT_GT(low_count, 0);
+    ASSERT_GT(high_count, 0);
+    EXPECT_LT(low / low_count, high / high_count - 0.15);
+}
+
+TEST(Generate, MetalsAreMetalAndStonesAreNot)
+{
+    const auto mean = [](const Image& image) {
+        double sum = 0.0;
+        for (const float v : image.pixels) sum += static_cast<double>(v);
+        return sum / static_cast<double>(image.pixels.size());
+    };
+    EXPECT_GT(mean(generate_material(MaterialKind::MetalPlate, 128, 1, 1).metallic), 0.8);
+    EXPECT_EQ(mean(generate_material(MaterialKind::Cobble, 128, 1, 1).metallic), 0.0);
+    EXPECT_EQ(mean(generate_material(MaterialKind::Plank, 128, 1, 1).metallic), 0.0);
+}
+
+TEST(Generate, TakesAnySizeInRange)
+{
+    EXPECT_EQ(generate_material(MaterialKind::Brick, 16, 1, 1).height.width, 16);
+    EXPECT_EQ(generate_material(MaterialKind::RoofTile, 101, 1, 3).height.width, 101);
+    for (const int size : {0, -4, 15, 8193}) {
+        EXPECT_THROW(generate_material(MaterialKind::Brick, size, 1, 1), Error) << size;
+    }
+}
+
+TEST(Generate, KnowsNoOtherNames)
+{
+    EXPECT_FALSE(find_material_kind("cobbles").has_value());
+    EXPECT_FALSE(find_material_kind("").has_value());
+}
+
+TEST(Noise, RepeatsAfterItsPeriod)
+{
+    for (int k = 0; k < 200; ++k) {
+        const float x = 0.37f * static_cast<float>(k);
+        const float y = 0.53f * static_cast<float>(k);
+        EXPECT_NEAR(gradient_noise(x, y, 5, 7, 3), gradient_noise(x + 5.0f, y - 7.0f, 5, 7, 3), 2e-4f);
+        const CellPoint a = cell_noise(x, y, 5, 7, 3);
+        const CellPoint b = cell_noise(x - 5.0f, y + 7.0f, 5, 7, 3);
+        EXPECT_EQ(a.id, b.id);
+        EXPECT_NEAR(a.nearest, b.nearest, 1e-4f);
+        EXPECT_LE(a.nearest, a.second);
+    }
+}
+
+TEST(Noise, IsCentredAndBounded)
+{
+    double sum = 0.0;
+    float largest = 0.0f;
+    for (int j = 0; j < 300; ++j) {
+        for (int i = 0; i < 300; ++i) {
+            const float v = gradient_noise(0.173f * static_cast<float>(i), 0.191f * static_cast<float>(j), 1 << 10, 1 << 10, 9);
+            sum += static_cast<double>(v);
+            largest = std::max(largest, std::abs(v));
+        }
+    }
+    EXPECT_NEAR(sum / 90000.0, 0.0, 0.02);
+    EXPECT_LT(largest, 1.9f);
+    EXPECT_GT(largest, 0.8f);
+}
+
+TEST(Noise, HashesAreSpreadEvenly)
+{
+    std::array<int, 16> bins{};
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 128; ++x) ++bins[static_cast<std::size_t>(hash_unit(hash_cell(x, y, 1)) * 16.0f)];
+    }
+    for (const int count : bins) EXPECT_NEAR(count, 1024, 140);
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

@@ -1,0 +1,201 @@
+#include "weather/physical.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "weather/constants.h"
+#include "weather/detail/cell_steps.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+constexpr std::size_t kCheckpointEvery = 24;
+
+void require(bool good, const char* name, double found, const char* accepted)
+{
+    if (good) return;
+    throw Error(std::string("physical model: ") + name + " must be " + accepted + ", got " + std::to_string(found),
+                std::string("Set ") + name + " to a value in the accepted range.");
+}
+
+}  // namespace
+
+void check_params(const PhysicalParams& p)
+{
+    check_surface(p.surface);
+    require(p.step_s >= 1.0 && p.step_s <= 86400.0, "step_s", p.step_s, "in 1..86400");
+    require(p.substep_s >= 1.0 && p.substep_s <= 86400.0, "substep_s", p.substep_s, "in 1..86400");
+    require(p.step_s / p.substep_s <= 1000.0, "substep_s", p.substep_s, "at least a thousandth of step_s");
+    require(p.sky_view >= 0.0 && p.sky_view <= 1.0, "sky_view", p.sky_view, "in 0..1");
+    require(p.precip_factor >= 0.0 && p.precip_factor <= 100.0, "precip_factor", p.precip_factor, "in 0..100");
+    require(std::isnan(p.deep_temp_k) || (p.deep_temp_k > 200.0 && p.deep_temp_k < 330.0), "deep_temp_k",
+            p.deep_temp_k, "in 200..330");
+    const SnowParams& s = p.snow;
+    require(s.max_layers >= 1 && s.max_layers <= 3, "snow.max_layers", s.max_layers, "1, 2 or 3");
+    require(s.albedo_min >= 0.0 && s.albedo_min <= 1.0, "snow.albedo_min", s.albedo_min, "in 0..1");
+    require(s.albedo_max >= s.albedo_min && s.albedo_max <= 1.0, "snow.albedo_max", s.albedo_max,
+            "from albedo_min to 1");
+    require(s.albedo_cold_h > 0.0, "snow.albedo_cold_h", s.albedo_cold_h, "above 0");
+    require(s.albedo_melting_h > 0.0, "snow.albedo_melting_h", s.albedo_melting_h, "above 0");
+    require(s.albedo_refresh_kg_m2 > 0.0, "snow.albedo_refresh_kg_m2", s.albedo_refresh_kg_m2, "above 0");
+    require(s.irreducible_water >= 0.0 && s.irreducible_water < 1.0, "snow.irreducible_water", s.irreducible_water,
+            "in [0, 1)");
+    require(s.cover_depth_m > 0.0, "snow.cover_depth_m", s.cover_depth_m, "above 0");
+    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, "snow.roughness_m", s.roughness_m, "in 1e-6..0.5");
+    require(s.emissivity > 0.0 && s.emissivity <= 1.0, "snow.emissivity", s.emissivity, "in (0, 1]");
+    require(s.constant_density_kg_m3 >= 10.0 && s.constant_density_kg_m3 <= 900.0, "snow.constant_density_kg_m3",
+            s.constant_density_kg_m3, "in 10..900");
+    require(p.exchange.min_wind_m_s > 0.0 && p.exchange.min_wind_m_s < 50.0, "exchange.min_wind_m_s",
+            p.exchange.min_wind_m_s, "above 0");
+    require(p.exchange.max_richardson >= 0.0, "exchange.max_richardson", p.exchange.max_richardson, "0 or more");
+    require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k, "above phase.all_snow_k");
+}
+
+struct PhysicalTimeline::Impl {
+    ForcingTable table;
+    PhysicalParams params;
+    detail::CellConstants constants;
+    detail::StepConstants step_constants;
+    detail::StepConstants tail_constants;  // the last step may be shorter
+    detail::CellPlace<double> place;
+    std::vector<detail::StepForcing> steps;
+    std::size_t first_step = 0;           // where the checkpoints begin
+    std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
+
+    const detail::StepConstants& constants_of(const detail::StepForcing& step) const
+    {
+        return step.dt_s == step_constants.dt_s ? step_constants : tail_constants;
+    }
+    void advance(CellState& cell, std::size_t i) const
+    {
+        detail::advance_cell(cell, steps[i], place, constants, constants_of(steps[i]));
+    }
+    std::int64_t end_us() const
+    {
+        return steps.back().begin_us + static_cast<std::int64_t>(std::llround(steps.back().dt_s * 1e6));
+    }
+    // Index of the step that holds a time within the run.
+    std::size_t step_of(std::int64_t time_us) const
+    {
+        const auto length = static_cast<std::int64_t>(std::llround(params.step_s * 1e6));
+        const auto i = static_cast<std::size_t>((time_us - steps.front().begin_us) / length);
+        return std::min(i, steps.size() - 1);
+    }
+    void begin(const ForcingTable& source, const PhysicalParams& wanted)
+    {
+        check_params(wanted);
+        if (source.rows() == 0 || !source.has(Field::Longwave) || !source.has(Field::Precip)) {
+            throw Error("physical model: the forcing table is not complete", "Call fill_forcing on the table first.");
+        }
+        table = source;
+        params = wanted;
+        const double deep =
+            std::isnan(params.deep_temp_k) ? kZeroCelsiusK + detail::yearly_wave(table).mean_c : params.deep_temp_k;
+        constants = detail::make_cell_constants(params, table.site, deep);
+        place = detail::station_place(params.sky_view, params.precip_factor);
+        steps = detail::make_step_forcings(table, static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
+        step_constants = detail::make_step_constants(constants, steps.front().dt_s, params.substep_s);
+        tail_constants = detail::make_step_constants(constants, steps.back().dt_s, params.substep_s);
+    }
+    void run(CellState cell, std::size_t from)
+    {
+        first_step = from;
+        checkpoints.reserve((steps.size() - from) / kCheckpointEvery + 1);
+        for (std::size_t i = from; i < steps.size(); ++i) {
+            if ((i - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
+            advance(cell, i);
+        }
+        if ((steps.size() - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
+    }
+    // The piece of step i up to a time inside it.
+    void advance_partly(CellState& cell, std::size_t i, std::int64_t time_us) const
+    {
+        const auto piece = detail::make_step_forcing(table, steps[i].begin_us, time_us - steps[i].begin_us);
+        detail::advance_cell(cell, piece, place, constants,
+                             detail::make_step_constants(constants, piece.dt_s, params.substep_s));
+    }
+};
+
+PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->begin(table, params);
+    impl_->run(detail::initial_cell(impl_->table, impl_->constants), 0);
+}
+
+PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params, const CellState& state,
+                                   std::int64_t at_us)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->begin(table, params);
+    const std::int64_t length = static_cast<std::int64_t>(std::llround(params.step_s * 1e6));
+    const std::int64_t since = at_us - impl_->steps.front().begin_us;
+    if (since < 0 || at_us > impl_->end_us() || (since % length != 0 && at_us != impl_->end_us())) {
+        throw Error("physical model: the saved state is not at a step of this run",
+                    "Continue with the same weather file and step, from a time at which a step begins.");
+    }
+    const std::size_t from = at_us == impl_->end_us() ? impl_->steps.size() : static_cast<std::size_t>(since / length);
+    impl_->run(state, from);
+}
+
+PhysicalTimeline::PhysicalTimeline(PhysicalTimeline&&) noexcept = default;
+PhysicalTimeline& PhysicalTimeline::operator=(PhysicalTimeline&&) noexcept = default;
+PhysicalTimeline::~PhysicalTimeline() = default;
+
+std::int64_t PhysicalTimeline::begin_us() const
+{
+    const auto& steps = impl_->steps;
+    return impl_->first_step < steps.size() ? steps[impl_->first_step].begin_us : impl_->end_us();
+}
+
+std::int64_t PhysicalTimeline::end_us() const { return impl_->end_us(); }
+
+std::size_t PhysicalTimeline::steps() const { return impl_->steps.size() - impl_->first_step; }
+
+CellState PhysicalTimeline::state_at(std::int64_t time_us) const
+{
+    if (time_us <= begin_us() || steps() == 0) return impl_->checkpoints.front();
+    const std::int64_t end = end_us();
+    const bool whole = time_us >= end;
+    const std::size_t target = whole ? impl_->steps.size() : impl_->step_of(time_us);
+    const std::size_t point = std::min((target - impl_->first_step) / kCheckpointEvery, impl_->checkpoints.size() - 1);
+    CellState cell = impl_->checkpoints[point];
+    for (std::size_t i = impl_->first_step + point * kCheckpointEvery; i < target; ++i) impl_->advance(cell, i);
+    if (!whole && time_us > impl_->steps[target].begin_us) impl_->advance_partly(cell, target, time_us);
+    return cell;
+}
+
+std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64_t to_us, std::int64_t every_us) const
+{
+    if (every_us <= 0) {
+        throw Error("physical model: the interval of a series must be above 0", "Give --every a positive time.");
+    }
+    std::vector<CellState> out;
+    if (to_us < from_us) return out;
+    out.reserve(static_cast<std::size_t>((to_us - from_us) / every_us) + 1);
+    // One walk through the steps; a time inside a step is a side branch.
+    std::size_t at = impl_->first_step;
+    CellState cell = impl_->checkpoints.front();
+    for (std::int64_t t = from_us; t <= to_us; t += every_us) {
+        if (t <= begin_us() || steps() == 0) {
+            out.push_back(impl_->checkpoints.front());
+            continue;
+        }
+        const bool whole = t >= end_us();
+        const std::size_t target = whole ? impl_->steps.size() : impl_->step_of(t);
+        const std::size_t point =
+            std::min((target - impl_->first_step) / kCheckpointEvery, impl_->checkpoints.size() - 1);
+        if (impl_->first_step + point * kCheckpointEvery > at) {
+            at = impl_->first_step + point * kCheckpointEvery;
+            cell = impl_->checkpoints[point];
+        }
+        for (; at < target; ++at) impl_->advance(cell, at);
+        out.push_back(cell);
+        if (!whole && t > impl_->steps[target].begin_us) impl_->advance_partly(out.back(), target, t);
+    }
+    return out;
+}
+
+}  // namespace petrichor::weather

@@ -1,0 +1,156 @@
+// Plain CSV: a header with a time column and names with units, then rows. The separator (comma, semicolon, tab) is
+// the most frequent one of the header; # begins a comment. Column names: units.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "weather/constants.h"
+#include "weather/humidity.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/text.h"
+#include "weather/readers/units.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+bool is_time_name(std::string_view name)
+{
+    const std::string low = lower(name);
+    return low == "time" || low == "time_utc" || low == "datetime" || low == "date" || low == "timestamp" ||
+           low == "date_time" || low == "time(utc)";
+}
+
+bool is_missing_word(std::string_view text)
+{
+    const std::string low = lower(trimmed(text));
+    return low.empty() || low == "na" || low == "nan" || low == "null" || low == "none" || low == "-" || low == "-9999" ||
+           low == "-9999.0" || low == "-999" || low == "-999.0" || low == "-99.00";
+}
+
+}  // namespace
+
+void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+{
+    Lines lines(text);
+    std::string_view header;
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        header = *line;
+        break;
+    }
+    char separator = ',';
+    std::ptrdiff_t most = 0;
+    for (const char c : {',', ';', '\t'}) {
+        const auto n = std::count(header.begin(), header.end(), c);
+        if (n > most) {
+            most = n;
+            separator = c;
+        }
+    }
+    const auto names = split(header, separator, 256);
+    std::size_t time_at = names.size();
+    std::vector<std::optional<ColumnMeaning>> meaning(names.size());
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (time_at == names.size() && is_time_name(names[i])) {
+            time_at = i;
+            continue;
+        }
+        meaning[i] = column_meaning(names[i]);
+        if (meaning[i]) {
+            ++known;
+            for (std::size_t j = 0; j < i; ++j) {
+                const bool plain = !meaning[i]->percent_snow && !meaning[i]->vapour_pressure;
+                if (plain && meaning[j] && !meaning[j]->percent_snow && !meaning[j]->vapour_pressure &&
+                    meaning[j]->field == meaning[i]->field) {
+                    throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) + "' mean the same quantity",
+                                "Keep one of the two columns.");
+                }
+            }
+        } else {
+            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "this column is not known and not used");
+        }
+    }
+    if (time_at == names.size() || known == 0) {
+        throw Error("weather: line " + std::to_string(lines.number()) + ": the header '" + shown(header) +
+                        "' has no time column or no known weather column",
+                    "Name the columns as in: time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2.");
+    }
+
+    // Amounts per interval belong to the time from this row to the next.
+    std::int64_t usual_us = 3600000000LL;
+    bool amounts = false;
+    for (const auto& m : meaning) amounts = amounts || (m && m->amount);
+    if (amounts) {
+        // The step is that of the first two rows with a time.
+        Lines look = lines;
+        std::vector<std::int64_t> first_times;
+        while (first_times.size() < 2) {
+            const auto line = look.next();
+            if (!line) break;
+            const auto f = split(*line, separator, 256);
+            if (f.size() <= time_at) continue;
+            if (const auto us = us_from_iso(f[time_at])) first_times.push_back(*us);
+        }
+        if (first_times.size() == 2 && first_times[1] > first_times[0]) usual_us = first_times[1] - first_times[0];
+        rows.note(ReadNote::Kind::Info, 0, "precip",
+                  std::string("amounts are for the interval that begins at their row, ")
+                      .append(std::to_string(usual_us / 1000000)).append(" s"));
+    }
+    const double seconds = static_cast<double>(usual_us) * 1e-6;
+
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        const auto f = split(*line, separator, 256);
+        if (f.size() != names.size()) {
+            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(names.size()));
+            continue;
+        }
+        const auto us = us_from_iso(f[time_at]);
+        if (!us) {
+            rows.bad_row(lines.number(), "time", "'" + shown(f[time_at]) + "' is not a date and time as 2005-10-01T06:00");
+            continue;
+        }
+        if (!rows.begin_row(*us, lines.number())) continue;
+        double snow_share = kMissing, vapour = kMissing, air_k = kMissing, precip = kMissing;
+        for (std::size_t i = 0; i < f.size(); ++i) {
+            if (!meaning[i]) continue;
+            const ColumnMeaning& m = *meaning[i];
+            const bool field = !m.percent_snow && !m.vapour_pressure;
+            if (is_missing_word(f[i])) {
+                if (field) rows.missing(m.field);
+                continue;
+            }
+            const auto value = to_number(f[i]);
+            if (!value) {
+                if (field) rows.unreadable(m.field, f[i]);
+                continue;
+            }
+            if (m.percent_snow) {
+                snow_share = *value;
+                continue;
+            }
+            if (m.vapour_pressure) {
+                vapour = *value;
+                continue;
+            }
+            double si = *value * m.scale + m.offset;
+            if (m.amount) si /= seconds;
+            if (m.field == Field::AirTemp) air_k = si;
+            if (m.field == Field::Precip) precip = si;
+            rows.set(m.field, si);
+        }
+        if (!std::isnan(vapour) && air_k > 173.15 && air_k < 333.15) {
+            rows.set(Field::RelHumidity, std::min(100.0 * vapour / saturation_pressure_water_pa(air_k), 100.0));
+        }
+        if (snow_share >= 0.0 && snow_share <= 1.0 && !std::isnan(precip)) {
+            rows.set(Field::Snow, precip * snow_share);
+            rows.set(Field::Rain, precip * (1.0 - snow_share));
+        }
+    }
+}
+
+}  // namespace petrichor::weather

@@ -1,0 +1,156 @@
+// NOAA GHCN-daily: .dly (fixed columns, a line a month and element), CSV by year or station (ID,YYYYMMDD,ELEMENT,VALUE)
+// and the access CSV with a column an element. Tenths of C, of mm and of m/s; snow depth in mm.
+//
+// A day becomes eight rows: temperature swings between its minimum at 6 and its maximum at 15 o'clock, the rest is
+// spread evenly. Times are taken as UTC unless the site's longitude is given.
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "weather/constants.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+struct Day {
+    double low_c = kMissing, high_c = kMissing, mean_c = kMissing, precip_mm = kMissing, wind_m_s = kMissing, depth_m = kMissing;
+    std::size_t line = 0;
+};
+using Days = std::map<std::int64_t, Day>;
+
+void put(Day& day, std::string_view element, double value)
+{
+    if (element == "TMIN") day.low_c = value * 0.1;
+    else if (element == "TMAX") day.high_c = value * 0.1;
+    else if (element == "TAVG") day.mean_c = value * 0.1;
+    else if (element == "PRCP") day.precip_mm = value * 0.1;
+    else if (element == "AWND") day.wind_m_s = value * 0.1;
+    else if (element == "SNWD") day.depth_m = value * 0.001;
+}
+
+constexpr std::size_t kMostDays = 400000;
+
+void read_fixed(std::string_view text, RowCollector& rows, Days& days)
+{
+    Lines lines(text);
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        const auto year = line->size() >= 21 ? to_integer(line->substr(11, 4)) : std::nullopt;
+        const auto month = line->size() >= 21 ? to_integer(line->substr(15, 2)) : std::nullopt;
+        if (!year || !month || *month < 1 || *month > 12 || *year < 1500 || *year > 2600) {
+            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no year and month in columns 12 to 17");
+            continue;
+        }
+        const auto element = line->substr(17, 4);
+        for (int d = 0; d < 31; ++d) {
+            const std::size_t at = 21 + static_cast<std::size_t>(d) * 8;
+            if (at + 5 > line->size()) break;
+            const auto value = to_number(line->substr(at, 5));
+            const bool failed_check = at + 6 < line->size() && line->substr(at + 6, 1) != " ";
+            if (!value || *value == -9999.0 || failed_check) continue;
+            const auto us = us_from_civil({*year, static_cast<int>(*month), d + 1, 0, 0, 0.0});
+            if (!us || days.size() > kMostDays) continue;
+            Day& day = days[*us];
+            day.line = lines.number();
+            put(day, element, *value);
+        }
+    }
+}
+
+void read_table(std::string_view text, RowCollector& rows, Days& days)
+{
+    Lines lines(text);
+    std::vector<std::string> names;
+    std::string station;
+    bool others = false;
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        const auto f = split(*line, ',', 256);
+        if (lines.number() == 1 && lower(*line).find("station") != std::string::npos) {
+            for (const auto n : f) names.emplace_back(n);
+            continue;
+        }
+        if (!names.empty()) {
+            std::optional<std::int64_t> us;
+            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
+                if (names[i] == "DATE") us = us_from_iso(f[i]);
+                if (names[i] == "LATITUDE" && std::isnan(rows.site().latitude_deg)) rows.site().latitude_deg = to_number(f[i]).value_or(kMissing);
+                if (names[i] == "LONGITUDE" && std::isnan(rows.site().longitude_deg)) rows.site().longitude_deg = to_number(f[i]).value_or(kMissing);
+                if (names[i] == "ELEVATION" && std::isnan(rows.site().elevation_m)) rows.site().elevation_m = to_number(f[i]).value_or(kMissing);
+            }
+            if (!us) {
+                rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no DATE");
+                continue;
+            }
+            if (days.size() > kMostDays) continue;
+            Day& day = days[*us];
+            day.line = lines.number();
+            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
+                if (const auto v = to_number(f[i])) put(day, names[i], *v);
+            }
+            continue;
+        }
+        const auto date = f.size() >= 4 && f[1].size() == 8 ? us_from_iso(f[1]) : std::nullopt;
+        const auto value = f.size() >= 4 ? to_number(f[3]) : std::nullopt;
+        if (!date || !value) {
+            rows.bad_row(lines.number(), "", "'" + shown(*line) + "' is not ID,YYYYMMDD,ELEMENT,VALUE");
+            continue;
+        }
+        if (station.empty()) station = std::string(f[0]);
+        if (station != f[0]) {
+            others = true;
+            continue;
+        }
+        const bool failed_check = f.size() >= 6 && !f[5].empty();
+        if (*value == -9999.0 || failed_check || days.size() > kMostDays) continue;
+        Day& day = days[*date];
+        day.line = lines.number();
+        put(day, f[2], *value);
+    }
+    if (others) rows.note(ReadNote::Kind::Info, 0, "station", "several stations in the file, only " + shown(station) + " is used");
+}
+
+}  // namespace
+
+void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options)
+{
+    Days days;
+    const auto first = Lines(text).next().value_or("");
+    if (first.find(',') == std::string_view::npos) read_fixed(text, rows, days);
+    else read_table(text, rows, days);
+    const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg : options.site.longitude_deg;
+    const double zone_h = std::isnan(longitude) ? 0.0 : std::round(longitude / 15.0);
+    rows.note(ReadNote::Kind::Info, 0, "", "daily values: temperature swings from its minimum at 6 to its maximum at 15 o'clock, precipitation is spread over the day");
+    for (const auto& [us, day] : days) {
+        const auto next = days.find(us + 86400000000LL);
+        double low = day.low_c, high = day.high_c;
+        if (std::isnan(low) && !std::isnan(day.mean_c)) low = day.mean_c;
+        if (std::isnan(high) && !std::isnan(day.mean_c)) high = day.mean_c;
+        if (std::isnan(low)) low = high;
+        if (std::isnan(high)) high = low;
+        const double low_after = next == days.end() || std::isnan(next->second.low_c) ? low : next->second.low_c;
+        for (int i = 0; i < 8; ++i) {
+            const double hour = 3.0 * i;
+            if (!rows.begin_row(us + static_cast<std::int64_t>((hour - zone_h) * 3600e6), day.line)) continue;
+            if (std::isnan(low)) rows.missing(Field::AirTemp);
+            else {
+                // Half a cosine up from 6 to 15, half a cosine down from 15 to 6 of the next day.
+                double t = 0.0;
+                if (hour < 6.0) t = low + 0.5 * (high - low) * (1.0 + std::cos(kPi * (hour + 9.0) / 15.0));
+                else if (hour <= 15.0) t = low + 0.5 * (high - low) * (1.0 - std::cos(kPi * (hour - 6.0) / 9.0));
+                else t = low_after + 0.5 * (high - low_after) * (1.0 + std::cos(kPi * (hour - 15.0) / 15.0));
+                rows.set(Field::AirTemp, t + kZeroCelsiusK);
+            }
+            if (std::isnan(day.precip_mm)) rows.missing(Field::Precip);
+            else rows.set(Field::Precip, day.precip_mm / 86400.0);
+            if (!std::isnan(day.wind_m_s)) rows.set(Field::Wind, day.wind_m_s);
+            if (!std::isnan(day.depth_m)) rows.set(Field::SnowDepth, day.depth_m);
+        }
+    }
+}
+
+}  // namespace petrichor::weather

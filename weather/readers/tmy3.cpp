@@ -1,0 +1,119 @@
+// NREL TMY3 CSV: a station line, a line of column names with units, 8760 rows. Time 01:00..24:00 local standard, the
+// end of the hour; -9900 is missing; months come from different years.
+#include "base/error.h"
+#include "weather/constants.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+struct Column {
+    const char* name;
+    Field field;
+    double scale, offset;
+};
+constexpr Column kColumns[] = {
+    {"ghi (w/m^2)", Field::Shortwave, 1, 0},     {"dni (w/m^2)", Field::Direct, 1, 0},
+    {"dhi (w/m^2)", Field::Diffuse, 1, 0},       {"totcld (tenths)", Field::Cloud, 0.1, 0},
+    {"dry-bulb (c)", Field::AirTemp, 1, kZeroCelsiusK}, {"dew-point (c)", Field::DewPoint, 1, kZeroCelsiusK},
+    {"rhum (%)", Field::RelHumidity, 1, 0},      {"pressure (mbar)", Field::Pressure, 100, 0},
+    {"wdir (degrees)", Field::WindFrom, 1, 0},   {"wspd (m/s)", Field::Wind, 1, 0},
+    {"hvis (m)", Field::Visibility, 1, 0},
+};
+
+struct When {
+    long long year = 0;
+    int month = 0, day = 0, hour = 0, minute = 0;
+};
+bool parse_when(std::string_view date, std::string_view time, When& when)
+{
+    const auto d = split(date, '/', 4);
+    const auto t = split(time, ':', 3);
+    if (d.size() != 3 || t.size() < 2) return false;
+    const auto month = to_integer(d[0]), day = to_integer(d[1]), year = to_integer(d[2]);
+    const auto hour = to_integer(t[0]), minute = to_integer(t[1]);
+    if (!month || !day || !year || !hour || !minute) return false;
+    if (*month < 1 || *month > 12 || *day < 1 || *day > 31 || *hour < 0 || *hour > 24) return false;
+    when = {*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour), static_cast<int>(*minute)};
+    return true;
+}
+
+}  // namespace
+
+void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
+{
+    Lines lines(text);
+    const auto place = split(lines.next().value_or(""), ',', 16);
+    double zone_h = 0.0;
+    if (place.size() >= 7) {
+        rows.site().name = std::string(place[1]);
+        zone_h = to_number(place[3]).value_or(0.0);
+        rows.site().latitude_deg = to_number(place[4]).value_or(kMissing);
+        rows.site().longitude_deg = to_number(place[5]).value_or(kMissing);
+        rows.site().elevation_m = to_number(place[6]).value_or(kMissing);
+    }
+    if (!(zone_h >= -12.0 && zone_h <= 14.0)) zone_h = 0.0;
+    const auto names = split(lines.next().value_or(""), ',', 256);
+    std::vector<std::size_t> index(std::size(kColumns), names.size());
+    std::size_t depth_at = names.size(), hours_at = names.size();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string name = lower(names[i]);
+        for (std::size_t c = 0; c < std::size(kColumns); ++c) {
+            if (name == kColumns[c].name) index[c] = i;
+        }
+        if (name == "lprecip depth (mm)") depth_at = i;
+        if (name == "lprecip quantity (hr)") hours_at = i;
+    }
+    Lines again = lines;
+    TypicalYear typical;
+    while (const auto line = again.next()) {
+        const auto f = split(*line, ',', 3);
+        When when;
+        if (f.size() >= 2 && parse_when(f[0], f[1], when)) typical.watch(when.year, when.month);
+    }
+    typical.decide(rows);
+    for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse}) rows.means_of_past(f);
+
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        const auto f = split(*line, ',', 256);
+        When when;
+        if (f.size() < 2 || !parse_when(f[0], f[1], when)) {
+            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' does not begin with MM/DD/YYYY,HH:MM");
+            continue;
+        }
+        if (f.size() < names.size() / 2) {
+            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(names.size()));
+            continue;
+        }
+        if (typical.typical && when.month == 2 && when.day == 29) {
+            rows.note(ReadNote::Kind::Time, lines.number(), "time", "29 February of a typical year left out");
+            continue;
+        }
+        const auto us = us_from_civil({typical.of(when.year), when.month, when.day, when.hour, when.minute, 0.0});
+        if (!us) {
+            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "': there is no such day");
+            continue;
+        }
+        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number())) continue;
+        for (std::size_t c = 0; c < std::size(kColumns); ++c) {
+            if (index[c] >= f.size()) continue;
+            const auto value = to_number(f[index[c]]);
+            if (!value) rows.unreadable(kColumns[c].field, f[index[c]]);
+            else if (*value <= -9900.0) rows.missing(kColumns[c].field);
+            else rows.set(kColumns[c].field, *value * kColumns[c].scale + kColumns[c].offset);
+        }
+        if (depth_at < f.size()) {
+            const auto depth = to_number(f[depth_at]);
+            double hours = hours_at < f.size() ? to_number(f[hours_at]).value_or(1.0) : 1.0;
+            if (!(hours >= 1.0 && hours <= 24.0)) hours = 1.0;
+            if (!depth) rows.unreadable(Field::Precip, f[depth_at]);
+            else if (*depth < 0.0) rows.missing(Field::Precip);
+            else rows.fell_before(Field::Precip, *depth, hours);
+        }
+    }
+}
+
+}  // namespace petrichor::weather
