@@ -1,12 +1,15 @@
 // petrichor simulate: weather over time, from keys or a preset to a table, a plot or a report.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +22,7 @@
 #include "cli/simulate_plot.h"
 #include "cli/simulate_report.h"
 #include "cli/words.h"
+#include "texproc/io.h"
 #include "weather/artist_csv.h"
 
 namespace petrichor::cli {
@@ -45,14 +49,30 @@ struct SimulateOptions {
     PhysicalRun physical;
 };
 
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+
+// The whole file, or of a binary one only the head, so that its reader refuses it without delay.
 std::string read_file(const fs::path& path)
 {
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(path, failed);
     std::ifstream in(path, std::ios::binary);
     if (!in || fs::is_directory(path)) {
         throw Error("simulate: cannot read " + path.string(),
                     "Give a file that exists, or the name of a preset (simulate --list).");
     }
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string head(4096, ' ');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (head.find('\0') != head.npos) return head;
+    if (!failed && size > kMostBytes) {
+        throw Error("simulate: " + path.string() + " has " + std::to_string(size) +
+                        " bytes, at most 268435456 are read",
+                    "Give a smaller file.");
+    }
+    std::ostringstream rest;
+    if (in) rest << in.rdbuf();
+    return head + rest.str();
 }
 
 // An input is a preset by name, a TOML weather file, or CSV keys ("-": from standard input).
@@ -112,6 +132,13 @@ SimulationTable simulate_artist(const SimulateOptions& options)
         throw Error("simulate: the artist model takes one input, got " +
                         std::to_string(options.inputs.size()),
                     "Give one CSV of keys, one weather TOML or one preset.");
+    }
+    for (double time_s : {options.from_s.value_or(0.0), options.to_s.value_or(0.0)}) {
+        if (!(time_s >= 0.0 && time_s <= 9e9)) {
+            throw Error("simulate: --from and --to take seconds from 0 up, got " +
+                            number_text(time_s),
+                        "Give times from the start of the run.");
+        }
     }
     std::vector<std::string> notes;
     const WeatherScript script = read_script(options, notes);
@@ -186,11 +213,14 @@ void write(const SimulationTable& table, const SimulateOptions& options, const f
         write_text_file(path, json_text(table));
     } else if (kind == ".svg") {
         write_text_file(path, svg_plot(table));
+    } else if (kind == ".png") {
+        const Pixels pixels = to_pixels(plot_of(table), 2.0);
+        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb);
     } else if (kind == ".html") {
         write_text_file(path, html_report(table));
     } else {
         throw Error("simulate: cannot write " + path.string() + ": unknown kind \"" + kind + "\"",
-                    "Use .csv, .json, .svg or .html, or - for CSV on standard output.");
+                    "Use .csv, .json, .svg, .png or .html, or - for CSV on standard output.");
     }
     if (!options.json) std::cerr << "info simulate: wrote " << path.string() << '\n';
 }
@@ -242,7 +272,7 @@ void add_simulate(CLI::App& app)
         ->check(CLI::IsMember({"hold", "linear", "smooth"}));
     command->add_option("--params", options->params, "TOML with [artist] and [artist.initial]");
     command->add_option("-o,--output", options->outputs,
-                        "OUT.csv, .json, .svg or .html; - is CSV on standard output (default)")
+                        "OUT.csv, .json, .svg, .png or .html; - is CSV on standard output (default)")
         ->allow_extra_args(false);
     command->add_option("--checkpoint", options->checkpoint, "write the state at the end to this file");
     command->add_option("--resume", options->resume, "continue from such a file, with identical bits");

@@ -138,7 +138,7 @@ struct Tabulation {
 std::vector<PlotPanel> artist_panels()
 {
     return {
-        {"temperature, \u00b0C", true, {{"temperature_c", "temperature", "#c2410c", false}}, 0.0, 0.0},
+        {"temperature, \u00b0C", true, {{"temperature_c", "temperature", "#d9541e", false}}, 0.0, 0.0},
         {"precipitation, 0..1",
          true,
          {{"rain", "rain", "#1d6fd1", true}, {"snowfall", "snowfall", "#7a8aa8", true}},
@@ -147,14 +147,14 @@ std::vector<PlotPanel> artist_panels()
         {"water, 0..1",
          false,
          {{"wetness", "film", "#0e9f8e", false},
-          {"cracks", "cracks", "#7c4dbe", false},
-          {"puddles", "puddles", "#1d4ed8", false}},
+          {"cracks", "cracks", "#9162d6", false},
+          {"puddles", "puddles", "#3b6fe0", false}},
          0.0,
          1.0},
         {"snow and phase, 0..1",
          false,
          {{"snow_amount", "snow shown", "#8fb3d9", true},
-          {"snow", "snow on the ground", "#3b6ea5", false},
+          {"snow", "snow on the ground", "#4a80bd", false},
           {"water_to_snow", "frozen", "#d97706", false}},
          0.0,
          1.0},

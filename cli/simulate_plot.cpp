@@ -16,6 +16,7 @@ constexpr double kForcingHeight = 110.0;
 constexpr double kStateHeight = 180.0;
 constexpr double kBottom = 46.0;
 constexpr std::size_t kMostPoints = 3000;
+constexpr std::size_t kMostEvents = 40;
 
 std::string number(double value, int decimals = 2)
 {
@@ -29,17 +30,19 @@ std::string number(double value, int decimals = 2)
     return trimmed == "-0" ? "0" : trimmed;
 }
 
-std::string text_at(double x, double y, const std::string& anchor, const std::string& style,
-                    const std::string& text)
+constexpr const char* kInk = "#1b2430";
+constexpr const char* kSoft = "#51606f";
+constexpr const char* kGrid = "#e3e8ee";
+constexpr const char* kMark = "#8b98a7";
+
+void add_line(Drawing& drawing, DrawnPoint a, DrawnPoint b, const char* color, bool dashed = false)
 {
-    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\" " +
-           style + ">" + escaped(text) + "</text>\n";
+    drawing.shapes.push_back(DrawnLine{{a, b}, color, 1.0, dashed});
 }
 
-std::string line(double x0, double y0, double x1, double y1, const std::string& style)
+void add_label(Drawing& drawing, DrawnPoint at, Anchor anchor, const std::string& text)
 {
-    return "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) +
-           "\" y2=\"" + number(y1) + "\" " + style + "/>\n";
+    drawing.shapes.push_back(DrawnText{at, text, kSoft, 12.0, anchor, false});
 }
 
 struct TimeAxis {
@@ -52,69 +55,50 @@ struct TimeAxis {
     }
 };
 
-std::string panel_svg(const SimulationTable& table, const PlotPanel& panel, const TimeAxis& time,
-                      const std::vector<double>& time_ticks, double top, double height)
+void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
+               const TimeAxis& time, const std::vector<double>& time_ticks, double top, double height)
 {
     const auto [low, high] = axis_range(table, panel);
     const auto y = [&, low = low, high = high](double value) {
         return top + height * (1.0 - (std::clamp(value, low, high) - low) / (high - low));
     };
-    std::string svg = text_at(kLeft, top - 10, "start", "class=\"title\"", panel.title);
-    double legend_x = kWidth - kRight;
+    const double right = kWidth - kRight;
+    drawing.shapes.push_back(
+        DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
+    double legend_x = right;
     for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
-        svg += text_at(legend_x, top - 10, "end", "class=\"label\"", series->label);
-        legend_x -= 7.0 * static_cast<double>(series->label.size()) + 6.0;
-        svg += line(legend_x - 16, top - 14, legend_x, top - 14,
-                    "stroke=\"" + series->color + "\" stroke-width=\"3\"");
+        add_label(drawing, {legend_x, top - 10}, Anchor::End, series->label);
+        legend_x -= 7.5 * static_cast<double>(series->label.size()) + 6.0;
+        drawing.shapes.push_back(
+            DrawnLine{{{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
         legend_x -= 30.0;
     }
     for (double tick : axis_ticks(low, high, panel.forcing ? 4 : 5, false)) {
-        svg += line(kLeft, y(tick), kWidth - kRight, y(tick), "class=\"grid\"");
-        svg += text_at(kLeft - 8, y(tick) + 4, "end", "class=\"label\"", number(tick));
+        add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
+        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End, number(tick));
     }
     for (double tick : time_ticks) {
-        svg += line(time.x(tick), top, time.x(tick), top + height, "class=\"grid\"");
+        add_line(drawing, {time.x(tick), top}, {time.x(tick), top + height}, kGrid);
     }
-    if (low < 0.0 && high > 0.0) svg += line(kLeft, y(0), kWidth - kRight, y(0), "class=\"zero\"");
+    if (low < 0.0 && high > 0.0) add_line(drawing, {kLeft, y(0)}, {right, y(0)}, kMark);
     for (const PlotSeries& series : panel.series) {
         const std::size_t column = column_index(table, series.column);
         if (column == table.columns.size() || table.rows.empty()) continue;
-        std::string points;
-        double first_x = 0.0;
-        double last_x = 0.0;
+        DrawnLine curve{{}, series.color, 2.0, false};
         for (std::size_t r : rows_to_draw(table, kMostPoints)) {
-            last_x = time.x(table.rows[r][0]);
-            if (points.empty()) first_x = last_x;
-            points += (points.empty() ? "" : " ") + number(last_x) + "," +
-                      number(y(table.rows[r][column]));
+            curve.points.push_back({time.x(table.rows[r][0]), y(table.rows[r][column])});
         }
         if (series.filled) {
-            svg += "<polygon points=\"" + number(first_x) + "," + number(y(low)) + " " + points +
-                   " " + number(last_x) + "," + number(y(low)) + "\" fill=\"" + series.color +
-                   "\" fill-opacity=\"0.22\"/>\n";
+            DrawnArea area{curve.points, series.color, 0.22};
+            area.points.insert(area.points.begin(), {curve.points.front().x, y(low)});
+            area.points.push_back({curve.points.back().x, y(low)});
+            drawing.shapes.push_back(std::move(area));
         }
-        svg += "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + series.color +
-               "\" stroke-width=\"2\" stroke-linejoin=\"round\"/>\n";
+        drawing.shapes.push_back(std::move(curve));
     }
-    return svg;
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (char c : text) {
-        switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
-        }
-    }
-    return result;
-}
 
 std::size_t column_index(const SimulationTable& table, const std::string& name)
 {
@@ -193,14 +177,17 @@ std::pair<double, double> axis_range(const SimulationTable& table, const PlotPan
     return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9)};
 }
 
-std::string svg_plot(const SimulationTable& table)
+Drawing plot_of(const SimulationTable& table)
 {
-    double height = kTop + kBottom - kPanelGap + 22.0;
+    Drawing drawing;
+    drawing.width = kWidth;
+    drawing.height = kTop + kBottom - kPanelGap + 22.0;
     for (const PlotPanel& panel : table.panels) {
-        height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
+        drawing.height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
     }
-    const double list_top = height;
-    if (!table.events.empty()) height += 14.0 + 18.0 * static_cast<double>((table.events.size() + 1) / 2);
+    const double list_top = drawing.height;
+    const std::size_t half = (std::min(table.events.size(), kMostEvents) + 1) / 2;
+    if (half > 0) drawing.height += 14.0 + 18.0 * static_cast<double>(half);
 
     TimeAxis time;
     if (!table.rows.empty()) {
@@ -210,49 +197,41 @@ std::string svg_plot(const SimulationTable& table)
     const auto ticks = axis_ticks(time.first_s, time.last_s, 12, true);
     const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
 
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) +
-                      " " + number(height) + "\" width=\"" + number(kWidth) + "\" height=\"" +
-                      number(height) +
-                      "\" font-family=\"system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif\">\n"
-                      "<style>.head{font-size:17px;font-weight:600;fill:#1b2430}"
-                      ".title{font-size:13px;font-weight:600;fill:#1b2430}"
-                      ".label{font-size:12px;fill:#51606f}"
-                      ".grid{stroke:#e3e8ee;stroke-width:1}.zero{stroke:#8b98a7;stroke-width:1}"
-                      ".event{stroke:#8b98a7;stroke-width:1;stroke-dasharray:3 4}</style>\n"
-                      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-    svg += text_at(kLeft, 26, "start", "class=\"head\"",
-                   table.title + "  (" + table.model + " model, " + table.mode + ")");
+    drawing.shapes.push_back(
+        DrawnText{{kLeft, 26}, table.title + " (" + table.model + " model, " + table.mode + ")",
+                  kInk, 17.0, Anchor::Start, true});
     double top = kTop + 18.0;
     const double first_top = top;
     for (const PlotPanel& panel : table.panels) {
-        const double panel_height = panel.forcing ? kForcingHeight : kStateHeight;
-        svg += panel_svg(table, panel, time, ticks, top, panel_height);
-        top += panel_height + kPanelGap;
+        const double height = panel.forcing ? kForcingHeight : kStateHeight;
+        add_panel(drawing, table, panel, time, ticks, top, height);
+        top += height + kPanelGap;
     }
     const double bottom = top - kPanelGap;
     double label_x = -1e9;
-    for (std::size_t i = 0; i < table.events.size(); ++i) {
-        const double x = time.x(table.events[i].time_s);
-        svg += line(x, first_top, x, bottom, "class=\"event\"");
-        if (x - label_x < 14.0) continue;  // the list below has them all
-        label_x = x;
-        svg += text_at(x, bottom + 14, "middle", "class=\"label\"", std::to_string(i + 1));
+    for (std::size_t i = 0; i < 2 * half && i < table.events.size(); ++i) {
+        const SimulationEvent& event = table.events[i];
+        const double x = time.x(event.time_s);
+        add_line(drawing, {x, first_top}, {x, bottom}, kMark, true);
+        if (x - label_x >= 14.0) {  // the list below has them all
+            label_x = x;
+            add_label(drawing, {x, bottom + 14}, Anchor::Middle, std::to_string(i + 1));
+        }
+        const double list_x = i < half ? kLeft : kLeft + 440.0;
+        const double list_y = list_top + 10.0 + 18.0 * static_cast<double>(i < half ? i : i - half);
+        add_label(drawing, {list_x + 14, list_y}, Anchor::End, std::to_string(i + 1));
+        add_label(drawing, {list_x + 96, list_y}, Anchor::End, number(event.time_s, 3) + " s");
+        add_label(drawing, {list_x + 110, list_y}, Anchor::Start, event.text);
     }
     for (double tick : ticks) {
-        svg += text_at(time.x(tick), bottom + 34, "middle", "class=\"label\"",
-                       time_label(tick, spacing));
+        add_label(drawing, {time.x(tick), bottom + 34}, Anchor::Middle, time_label(tick, spacing));
     }
-    for (std::size_t i = 0; i < table.events.size(); ++i) {
-        const bool second = i >= (table.events.size() + 1) / 2;
-        const double row = static_cast<double>(second ? i - (table.events.size() + 1) / 2 : i);
-        const double x = second ? kLeft + 440.0 : kLeft;
-        const double y = list_top + 10.0 + 18.0 * row;
-        svg += text_at(x + 14, y, "end", "class=\"label\"", std::to_string(i + 1));
-        svg += text_at(x + 84, y, "end", "class=\"label\"",
-                       number(table.events[i].time_s, 3) + " s");
-        svg += text_at(x + 98, y, "start", "class=\"label\"", table.events[i].text);
-    }
-    return svg + "</svg>\n";
+    return drawing;
+}
+
+std::string svg_plot(const SimulationTable& table)
+{
+    return to_svg(plot_of(table));
 }
 
 }  // namespace petrichor::cli

@@ -5,12 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "cli/simulate_drawing.h"
 #include "cli/simulate_table.h"
 
 namespace petrichor::cli {
 
-/// A plot of the panels of a table, forcing above, state below, over one time axis with the events as
-/// numbered dashed lines. Self-contained SVG, 960 wide, white ground; reads well from 600 pixels on.
+/// A plot of the panels of a table, forcing above, state below, over one time axis with the first 40
+/// events as numbered dashed lines. 960 units wide.
+Drawing plot_of(const SimulationTable& table);
+/// The same as self-contained SVG.
 std::string svg_plot(const SimulationTable& table);
 
 /// Up to about `most` round numbers inside low..high, evenly spaced (steps of 1, 2, 5 x 10^n; for times
@@ -28,9 +31,6 @@ std::size_t column_index(const SimulationTable& table, const std::string& name);
 
 /// Rows to draw: all of them, or about `most` evenly spread ones, the first and the last included.
 std::vector<std::size_t> rows_to_draw(const SimulationTable& table, std::size_t most);
-
-/// & < > " as entities, for text in SVG and HTML.
-std::string escaped(const std::string& text);
 
 }  // namespace petrichor::cli
 

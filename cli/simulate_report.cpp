@@ -136,7 +136,7 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
    for(const s of p.series){c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
   p.series.forEach((s,i)=>{reads[i].textContent=cursor===null?"":valueAt(s.values,cursor).toFixed(p.high-p.low>5?1:3)})}
- $("now").textContent=cursor===null?"point at a curve to read it":nowText(cursor);drawn=true}
+ $("now").textContent=cursor===null?"point to read values":nowText(cursor);drawn=true}
 let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
 function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}
 function zoom(at,factor){view(at-(at-from)*factor,at+(to-at)*factor)}

@@ -192,7 +192,10 @@ ArtistSettings read_artist_settings(std::string_view toml_text, const std::strin
 {
     const toml::table root = parse_toml(toml_text, file);
     ArtistSettings settings;
-    for (const auto& [name, value] : TomlValue(root, file, "file").entries({"artist"})) {
+    for (const auto& [key, node] : root) {
+        const std::string name(key.str());
+        const TomlValue value(node, file, name);
+        if (name != "artist") refuse_name(value.place(), "table", name, {"artist"});
         settings = artist_settings_from(value);
     }
     return settings;

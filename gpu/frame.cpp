@@ -130,7 +130,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_sky(graph, frame, sun, r);
 
     const LightingVariant variant{weather, settings.shadows, settings.image_based_light,
-                                  settings.ambient_occlusion, r.scene->emissive()};
+                                  settings.ambient_occlusion, r.scene->emissive(),
+                                  settings.all_lights};
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);

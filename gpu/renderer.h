@@ -104,6 +104,7 @@ struct FrameSettings {
     bool draw_sky = true;
     bool tone_map = true;          ///< false: PNG bytes are plain sRGB of the exposed colour
     bool shelter = true;           ///< roofs keep rain and snow off
+    bool all_lights = false;       ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()
 };
 

@@ -304,7 +304,8 @@ private:
             if (taken_[side]) continue;
             // A triangle without uv area has no handedness; the first group that reaches it
             // decides.
-            const bool untouched = !taken_[3 * f] && !taken_[3 * f + 1] && !taken_[3 * f + 2];
+            const std::size_t first = side - c;
+            const bool untouched = !taken_[first] && !taken_[first + 1] && !taken_[first + 2];
             if (!face.has_uv_area && untouched) face.mirrored = mirrored;
             if (face.mirrored != mirrored) continue;
             taken_[side] = true;

@@ -41,28 +41,43 @@ std::optional<MaterialKind> find_material_kind(std::string_view name)
 
 namespace {
 
-void make_surface(MaterialKind kind, Surface& surface)
+void make_surface(MaterialKind kind, MaterialSurface& surface)
 {
     switch (kind) {
-        case MaterialKind::Cobble: return make_cobble(surface);
-        case MaterialKind::Brick: return make_brick(surface);
-        case MaterialKind::Asphalt: return make_asphalt(surface);
-        case MaterialKind::Concrete: return make_concrete(surface);
-        case MaterialKind::Paving: return make_paving(surface);
-        case MaterialKind::Granite: return make_granite(surface);
-        case MaterialKind::Plank: return make_plank(surface);
-        case MaterialKind::RoofTile: return make_roof_tile(surface);
-        case MaterialKind::Soil: return make_soil(surface);
-        case MaterialKind::GrassGround: return make_grass_ground(surface);
-        case MaterialKind::MetalPlate: return make_metal_plate(surface);
-        case MaterialKind::PaintedIron: return make_painted_iron(surface);
-        case MaterialKind::StandingSeam: return make_standing_seam(surface);
-        case MaterialKind::Plaster: return make_plaster(surface);
+        case MaterialKind::Cobble:
+            return make_cobble(surface);
+        case MaterialKind::Brick:
+            return make_brick(surface);
+        case MaterialKind::Asphalt:
+            return make_asphalt(surface);
+        case MaterialKind::Concrete:
+            return make_concrete(surface);
+        case MaterialKind::Paving:
+            return make_paving(surface);
+        case MaterialKind::Granite:
+            return make_granite(surface);
+        case MaterialKind::Plank:
+            return make_plank(surface);
+        case MaterialKind::RoofTile:
+            return make_roof_tile(surface);
+        case MaterialKind::Soil:
+            return make_soil(surface);
+        case MaterialKind::GrassGround:
+            return make_grass_ground(surface);
+        case MaterialKind::MetalPlate:
+            return make_metal_plate(surface);
+        case MaterialKind::PaintedIron:
+            return make_painted_iron(surface);
+        case MaterialKind::StandingSeam:
+            return make_standing_seam(surface);
+        case MaterialKind::Plaster:
+            return make_plaster(surface);
     }
 }
 
 // How much of the sky a texel sees, from how far it lies below the mean around it at four radii.
-void add_occlusion(const Surface& surface, const std::vector<float>& height_m, Image& occlusion)
+void add_occlusion(const MaterialSurface& surface, const std::vector<float>& height_m,
+                   Image& occlusion)
 {
     std::fill(occlusion.pixels.begin(), occlusion.pixels.end(), 1.0f);
     for (const float radius_m : {0.0025f, 0.006f, 0.015f, 0.04f}) {
@@ -81,7 +96,7 @@ void add_occlusion(const Surface& surface, const std::vector<float>& height_m, I
     }
 }
 
-void add_normals(const Surface& surface, const std::vector<float>& height_m, Image& normal)
+void add_normals(const MaterialSurface& surface, const std::vector<float>& height_m, Image& normal)
 {
     const int size = surface.size;
     const auto n = static_cast<std::size_t>(size);
@@ -89,8 +104,10 @@ void add_normals(const Surface& surface, const std::vector<float>& height_m, Ima
     for_rows(size, surface.threads, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const float* row = height_m.data() + static_cast<std::size_t>(j) * n;
-            const float* above = height_m.data() + static_cast<std::size_t>(wrap_index(j - 1, size)) * n;
-            const float* below = height_m.data() + static_cast<std::size_t>(wrap_index(j + 1, size)) * n;
+            const float* above =
+                height_m.data() + static_cast<std::size_t>(wrap_index(j - 1, size)) * n;
+            const float* below =
+                height_m.data() + static_cast<std::size_t>(wrap_index(j + 1, size)) * n;
             for (int i = 0; i < size; ++i) {
                 const int left = i == 0 ? size - 1 : i - 1;
                 const int right = i + 1 == size ? 0 : i + 1;
@@ -115,10 +132,11 @@ MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, 
         throw Error("material: the size must be 16 to 8192 texels, got " + std::to_string(size),
                     "Choose a size in that range, for example 1024.");
     }
-    Surface surface;
+    MaterialSurface surface;
     surface.size = size;
-    surface.threads = threads > 0 ? std::min(threads, 256)
-                                  : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    surface.threads = threads > 0
+                          ? std::min(threads, 256)
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     surface.seed = hash_u32(seed * 0x9e3779b1u + static_cast<std::uint32_t>(kind) * 7919u + 1u);
     surface.texels.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
     make_surface(kind, surface);
@@ -134,13 +152,13 @@ MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, 
     maps.height_scale_m = high - low;
     maps.albedo = Image(size, size, 3, ColorSpace::Linear);
     maps.normal = Image(size, size, 3, ColorSpace::Data);
-    for (Image* image : {&maps.height, &maps.roughness, &maps.occlusion, &maps.metallic,
-                         &maps.puddle_mask}) {
+    for (Image* image :
+         {&maps.height, &maps.roughness, &maps.occlusion, &maps.metallic, &maps.puddle_mask}) {
         *image = Image(size, size, 1, ColorSpace::Data);
     }
 
-    const std::vector<float> hollows = noise_layer(
-        surface, {0.5f * surface.tile_m, 0.5f * surface.tile_m, 3, 0.4f, 9001u});
+    const std::vector<float> hollows =
+        noise_layer(surface, {0.5f * surface.tile_m, 0.5f * surface.tile_m, 3, 0.4f, 9001u});
     std::vector<float> height_m(surface.texels.size());
     const float to_unit = 1.0f / std::max(high - low, 1e-9f);
     const auto n = static_cast<std::size_t>(size);

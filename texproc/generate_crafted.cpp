@@ -11,7 +11,7 @@ namespace {
 
 // Draws straight scratches into a layer, wrapping round the edges. Serial: cheap, and the order of
 // the strokes is part of the result.
-std::vector<float> scratch_layer(const Surface& surface, int count, float longest_m,
+std::vector<float> scratch_layer(const MaterialSurface& surface, int count, float longest_m,
                                  std::uint32_t salt)
 {
     const int size = surface.size;
@@ -45,7 +45,7 @@ std::vector<float> scratch_layer(const Surface& surface, int count, float longes
 
 }  // namespace
 
-void make_plank(Surface& surface)
+void make_plank(MaterialSurface& surface)
 {
     surface.tile_m = 1.2f;
     constexpr int kBoards = 8;
@@ -75,7 +75,7 @@ void make_plank(Surface& surface)
 
         // Year rings cut lengthwise: lines along the board that part and flow round its knots.
         float line_x = lx + 0.018f * bend[k] + 0.03f * hash_signed(h, 2);
-        float knot = 0.0f;      // 1 in its middle, 0 at its rim
+        float knot = 0.0f;  // 1 in its middle, 0 at its rim
         float knot_ring = 0.0f;
         for (std::uint32_t s = 0; s < 2; ++s) {
             if (hash_unit(h, 20 + s) < 0.45f) continue;
@@ -86,7 +86,8 @@ void make_plank(Surface& surface)
             const float reach = ky / (4.2f * radius);
             if (std::abs(reach) > 4.0f) continue;
             const float push = 1.5f * radius * std::exp(-reach * reach);
-            line_x -= std::copysign(std::min(push, std::abs(kx)) * std::exp(-std::abs(kx) / (4.0f * radius)), kx);
+            line_x -= std::copysign(
+                std::min(push, std::abs(kx)) * std::exp(-std::abs(kx) / (4.0f * radius)), kx);
             const float r = std::sqrt(kx * kx + 0.30f * ky * ky) / radius + 0.06f * edge_noise[k];
             knot = std::max(knot, saturate(1.0f - r));
             if (r < 1.0f) knot_ring = 0.5f + 0.5f * std::sin(24.0f * r);
@@ -94,8 +95,9 @@ void make_plank(Surface& surface)
         const float rings = line_x * (150.0f + 70.0f * hash_signed(h, 3));
         const float ring = rings - std::floor(rings);
         const float in_knot = smooth_step(0.0f, 0.12f, knot);
-        const float late = mix(smooth_step(0.35f, 0.92f, ring) * (1.0f - smooth_step(0.94f, 1.0f, ring)),
-                               knot_ring, in_knot);
+        const float late =
+            mix(smooth_step(0.35f, 0.92f, ring) * (1.0f - smooth_step(0.94f, 1.0f, ring)),
+                knot_ring, in_knot);
         const float knot_shade = in_knot * (0.45f + 0.55f * smooth_step(0.25f, 0.02f, knot) +
                                             0.35f * smooth_step(0.7f, 1.0f, knot));
 
@@ -111,11 +113,12 @@ void make_plank(Surface& surface)
 
         Texel texel;
         const float cup = 1.0f - 4.0f * lx * lx / (board_m * board_m);
-        texel.height_m = 0.0042f * round + 0.00075f * hash_signed(h, 4) * round +
-                         round * (0.0007f * cup * hash_signed(h, 5) + 0.00030f * late +
-                                  0.00032f * fibre[k] + 0.00010f * pore[k] + 0.0004f * bend[k] -
-                                  0.0008f * smooth_step(0.75f, 1.15f, fibre[k] + 0.3f * edge_noise[k])) -
-                         0.0006f * head;
+        texel.height_m =
+            0.0042f * round + 0.00075f * hash_signed(h, 4) * round +
+            round * (0.0007f * cup * hash_signed(h, 5) + 0.00030f * late + 0.00032f * fibre[k] +
+                     0.00010f * pore[k] + 0.0004f * bend[k] -
+                     0.0008f * smooth_step(0.75f, 1.15f, fibre[k] + 0.3f * edge_noise[k])) -
+            0.0006f * head;
         const std::size_t pick = static_cast<std::size_t>(hash_unit(h, 6) * 5.0f) % 5u;
         vec3 color = kWood[pick] * (1.0f + 0.10f * hash_signed(h, 7));
         color = mix(color, vec3(0.60f, 0.52f, 0.46f) * color, 0.75f * late);
@@ -126,16 +129,18 @@ void make_plank(Surface& surface)
         color *= 0.35f + 0.65f * smooth_step(0.0f, 0.0035f, d);
         color = mix(color, vec3(0.060f, 0.044f, 0.036f), head);
         // Rust runs down from the nails.
-        const float run = (1.0f - smooth_step(0.002f, 0.007f, std::abs(std::abs(lx) - 0.33f * board_m))) *
-                          smooth_step(0.0f, 0.01f, from_joint) * smooth_step(0.12f, 0.02f, from_joint);
+        const float run =
+            (1.0f - smooth_step(0.002f, 0.007f, std::abs(std::abs(lx) - 0.33f * board_m))) *
+            smooth_step(0.0f, 0.01f, from_joint) * smooth_step(0.12f, 0.02f, from_joint);
         color = mix(color, vec3(0.075f, 0.045f, 0.03f), 0.4f * run);
         texel.albedo = color;
-        texel.roughness = 0.76f + 0.06f * fibre[k] - 0.08f * late + 0.1f * (1.0f - round) - 0.25f * head;
+        texel.roughness =
+            0.76f + 0.06f * fibre[k] - 0.08f * late + 0.1f * (1.0f - round) - 0.25f * head;
         return texel;
     });
 }
 
-void make_metal_plate(Surface& surface)
+void make_metal_plate(MaterialSurface& surface)
 {
     surface.tile_m = 0.8f;
     const auto waves = noise_layer(surface, {0.20f, 0.20f, 3, 0.4f, 1});
@@ -153,8 +158,9 @@ void make_metal_plate(Surface& surface)
                                              y * to_cells + 0.35f * warp_y[k], cells, cells, seed);
         const float tone = hash_signed(crystal.id, 1);
         const float angle = 6.2831853f * hash_unit(crystal.id, 2);
-        const float feather = std::sin(55.0f * (crystal.dx * std::cos(angle) +
-                                                crystal.dy * std::sin(angle)) + 3.0f * warp_x[k]);
+        const float feather =
+            std::sin(55.0f * (crystal.dx * std::cos(angle) + crystal.dy * std::sin(angle)) +
+                     3.0f * warp_x[k]);
         const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
         Texel texel;
         texel.height_m = 0.00050f * waves[k] + 0.000010f * tone + 0.000008f * fine[k] -
@@ -165,13 +171,14 @@ void make_metal_plate(Surface& surface)
         color = mix(color, vec3(0.47f, 0.47f, 0.46f), 0.6f * white_rust);
         texel.albedo = color;
         texel.metallic = 1.0f - 0.55f * white_rust;
-        texel.roughness = 0.36f + 0.07f * tone + 0.015f * feather + 0.10f * smooth_step(-0.2f, 0.9f, dull[k]) +
-                          0.25f * white_rust - 0.30f * scratches[k] + 0.02f * fine[k];
+        texel.roughness = 0.36f + 0.07f * tone + 0.015f * feather +
+                          0.10f * smooth_step(-0.2f, 0.9f, dull[k]) + 0.25f * white_rust -
+                          0.30f * scratches[k] + 0.02f * fine[k];
         return texel;
     });
 }
 
-void make_painted_iron(Surface& surface)
+void make_painted_iron(MaterialSurface& surface)
 {
     surface.tile_m = 0.8f;
     const auto cast = noise_layer(surface, {0.012f, 0.012f, 3, 0.55f, 1});
@@ -182,19 +189,20 @@ void make_painted_iron(Surface& surface)
         const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k]);
         const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k]);
         Texel texel;
-        texel.height_m = 0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip +
-                         chip * 0.00015f * fine[k];
+        texel.height_m =
+            0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip + chip * 0.00015f * fine[k];
         vec3 color = vec3(0.0165f, 0.0205f, 0.0195f) * (1.0f + 0.2f * waves[k]);
         color = mix(color, vec3(0.040f, 0.029f, 0.022f), 0.45f * rust_halo);
         color = mix(color, vec3(0.150f, 0.062f, 0.028f) * (1.0f + 0.35f * fine[k]), chip);
         texel.albedo = color;
-        texel.roughness = mix(0.40f + 0.05f * waves[k] + 0.04f * fine[k] + 0.18f * rust_halo, 0.88f, chip);
+        texel.roughness =
+            mix(0.40f + 0.05f * waves[k] + 0.04f * fine[k] + 0.18f * rust_halo, 0.88f, chip);
         texel.metallic = 0.0f;
         return texel;
     });
 }
 
-void make_standing_seam(Surface& surface)
+void make_standing_seam(MaterialSurface& surface)
 {
     surface.tile_m = 1.6f;
     constexpr int kSheets = 4;
@@ -217,10 +225,11 @@ void make_standing_seam(Surface& surface)
         // Flat cross welts where two sheets meet down the slope.
         float welt_y = y - surface.tile_m * hash_unit(h, 1);
         welt_y -= surface.tile_m * std::round(welt_y / surface.tile_m);
-        const float welt = smooth_step(-0.012f, -0.010f, welt_y) * smooth_step(0.010f, 0.007f, welt_y);
+        const float welt =
+            smooth_step(-0.012f, -0.010f, welt_y) * smooth_step(0.010f, 0.007f, welt_y);
         Texel texel;
-        texel.height_m = 0.0140f * seam + 0.0013f * can[k] * (1.0f - foot) + 0.0016f * welt * (1.0f - seam) +
-                         0.00005f * fine[k] + 0.0008f * foot;
+        texel.height_m = 0.0140f * seam + 0.0013f * can[k] * (1.0f - foot) +
+                         0.0016f * welt * (1.0f - seam) + 0.00005f * fine[k] + 0.0008f * foot;
         const float run = smooth_step(0.0f, 1.1f, streak[k] + 0.4f * patch[k]);
         vec3 color = mix(kVerdigris, kPale, smooth_step(-0.2f, 1.1f, streak[k] - 0.6f * patch[k]));
         const float bare = saturate(smooth_step(0.25f, 0.95f, patch[k] + 0.25f * streak[k]) +

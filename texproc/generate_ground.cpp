@@ -7,7 +7,7 @@ namespace petrichor::texproc::detail {
 
 using glm::vec3;
 
-void make_asphalt(Surface& surface)
+void make_asphalt(MaterialSurface& surface)
 {
     surface.tile_m = 1.2f;
     const auto bitumen = noise_layer(surface, {0.010f, 0.010f, 2, 0.6f, 1});
@@ -20,16 +20,16 @@ void make_asphalt(Surface& surface)
     const float to_cracks = static_cast<float>(crack_cells) / surface.tile_m;
     const std::uint32_t seed = hash_u32(surface.seed + 41u);
     shade_texels(surface, [&](float x, float y, std::size_t k) {
-        const CellPoint stone = cell_noise(x * to_stones + 0.10f * bitumen[k],
-                                           y * to_stones - 0.10f * bitumen[k], stone_cells,
-                                           stone_cells, seed);
+        const CellPoint stone =
+            cell_noise(x * to_stones + 0.10f * bitumen[k], y * to_stones - 0.10f * bitumen[k],
+                       stone_cells, stone_cells, seed);
         const float gap = stone.second - stone.nearest;
         const float round = smooth_step(0.02f, 0.40f, gap);
         const float bare = smooth_step(0.35f, 0.85f, hash_unit(stone.id, 1) + 0.22f * worn[k]) *
                            smooth_step(0.12f, 0.30f, gap);
-        const CellPoint slab = cell_noise(x * to_cracks + 0.20f * warp_x[k],
-                                          y * to_cracks + 0.20f * warp_y[k], crack_cells, crack_cells,
-                                          seed + 1u);
+        const CellPoint slab =
+            cell_noise(x * to_cracks + 0.20f * warp_x[k], y * to_cracks + 0.20f * warp_y[k],
+                       crack_cells, crack_cells, seed + 1u);
         const float crack = (1.0f - smooth_step(0.002f, 0.010f, slab.second - slab.nearest)) *
                             smooth_step(0.0f, 0.5f, worn[k]);
         Texel texel;
@@ -37,15 +37,17 @@ void make_asphalt(Surface& surface)
                          0.0010f * worn[k] + 0.0003f * bitumen[k] - 0.005f * crack;
         const float tone = hash_unit(stone.id, 3);
         vec3 rock = mix(vec3(0.075f, 0.077f, 0.080f), vec3(0.215f, 0.200f, 0.182f), tone * tone);
-        rock = mix(rock, vec3(0.150f, 0.115f, 0.092f), hash_unit(stone.id, 4) > 0.85f ? 0.7f : 0.0f);
-        const vec3 tar = vec3(0.034f, 0.034f, 0.035f) * (1.0f + 0.2f * bitumen[k] + 0.25f * worn[k]);
+        rock =
+            mix(rock, vec3(0.150f, 0.115f, 0.092f), hash_unit(stone.id, 4) > 0.85f ? 0.7f : 0.0f);
+        const vec3 tar =
+            vec3(0.034f, 0.034f, 0.035f) * (1.0f + 0.2f * bitumen[k] + 0.25f * worn[k]);
         texel.albedo = mix(mix(tar, rock, 0.85f * bare), vec3(0.018f), 0.8f * crack);
         texel.roughness = mix(0.86f, 0.72f, bare) + 0.04f * bitumen[k] + 0.05f * crack;
         return texel;
     });
 }
 
-void make_concrete(Surface& surface)
+void make_concrete(MaterialSurface& surface)
 {
     surface.tile_m = 2.0f;
     const auto waves = noise_layer(surface, {0.50f, 0.33f, 4, 0.5f, 1});
@@ -57,8 +59,7 @@ void make_concrete(Surface& surface)
     const std::uint32_t seed = hash_u32(surface.seed + 51u);
     const float board_m = surface.tile_m / 10.0f;
     shade_texels(surface, [&](float x, float y, std::size_t k) {
-        const CellPoint pore =
-            cell_noise(x * to_pores, y * to_pores, pore_cells, pore_cells, seed);
+        const CellPoint pore = cell_noise(x * to_pores, y * to_pores, pore_cells, pore_cells, seed);
         const float size = hash_unit(pore.id, 1);
         const float radius = 0.02f + 0.13f * size * size * size;
         const float hole = (hash_unit(pore.id, 2) > 0.45f ? 1.0f : 0.0f) *
@@ -67,8 +68,9 @@ void make_concrete(Surface& surface)
         const float board_y = y / board_m;
         const float board = std::floor(board_y);
         const std::uint32_t h = hash_cell(static_cast<int>(board) % 10, 1, seed);
-        const float seam = 1.0f - smooth_step(0.0015f, 0.0045f,
-                                              board_m * std::min(board_y - board, board + 1.0f - board_y));
+        const float seam =
+            1.0f - smooth_step(0.0015f, 0.0045f,
+                               board_m * std::min(board_y - board, board + 1.0f - board_y));
         Texel texel;
         texel.height_m = 0.0009f * waves[k] + 0.0006f * hash_signed(h, 1) + 0.0007f * seam -
                          0.0035f * hole * (0.3f + size) + 0.00012f * fine[k];
@@ -93,7 +95,7 @@ struct Earth {
     std::uint32_t seed = 0;
 };
 
-Earth make_earth(const Surface& surface)
+Earth make_earth(const MaterialSurface& surface)
 {
     Earth earth;
     earth.mounds = noise_layer(surface, {0.36f, 0.36f, 4, 0.5f, 61});
@@ -115,17 +117,19 @@ Texel earth_texel(const Earth& earth, float x, float y, std::size_t k)
                      smooth_step(-0.9f, 0.9f, earth.tone[k] + 0.3f * earth.crumbs[k]));
     color *= 0.80f + 0.25f * clod + 0.14f * earth.crumbs[k];
     texel.roughness = 0.94f;
-    const CellPoint pebble = cell_noise(x * earth.to_pebbles + 0.08f * earth.clods[k],
-                                        y * earth.to_pebbles, earth.pebble_cells, earth.pebble_cells,
-                                        earth.seed);
+    const CellPoint pebble =
+        cell_noise(x * earth.to_pebbles + 0.08f * earth.clods[k], y * earth.to_pebbles,
+                   earth.pebble_cells, earth.pebble_cells, earth.seed);
     if (hash_unit(pebble.id, 1) > 0.70f) {
         const float radius = 0.10f + 0.20f * hash_unit(pebble.id, 2);
         const float inside = 1.0f - pebble.nearest / radius;
-        const float round = inside > 0.0f ? std::sqrt(std::min(1.0f, inside * (2.0f - inside))) : 0.0f;
+        const float round =
+            inside > 0.0f ? std::sqrt(std::min(1.0f, inside * (2.0f - inside))) : 0.0f;
         const float cover = smooth_step(0.0f, 0.35f, round);
         texel.height_m += 0.022f * radius * round;
-        const vec3 rock = mix(vec3(0.16f, 0.15f, 0.14f), vec3(0.27f, 0.235f, 0.19f),
-                              hash_unit(pebble.id, 3)) * (1.0f + 0.12f * earth.crumbs[k]);
+        const vec3 rock =
+            mix(vec3(0.16f, 0.15f, 0.14f), vec3(0.27f, 0.235f, 0.19f), hash_unit(pebble.id, 3)) *
+            (1.0f + 0.12f * earth.crumbs[k]);
         color = mix(color, rock, 0.9f * cover);
         texel.roughness = 0.94f - 0.22f * cover;
     }
@@ -135,18 +139,20 @@ Texel earth_texel(const Earth& earth, float x, float y, std::size_t k)
 
 }  // namespace
 
-void make_soil(Surface& surface)
+void make_soil(MaterialSurface& surface)
 {
     surface.tile_m = 1.5f;
     const Earth earth = make_earth(surface);
-    shade_texels(surface, [&](float x, float y, std::size_t k) { return earth_texel(earth, x, y, k); });
+    shade_texels(surface,
+                 [&](float x, float y, std::size_t k) { return earth_texel(earth, x, y, k); });
 }
 
-void make_grass_ground(Surface& surface)
+void make_grass_ground(MaterialSurface& surface)
 {
     surface.tile_m = 1.0f;
     const Earth earth = make_earth(surface);
-    shade_texels(surface, [&](float x, float y, std::size_t k) { return earth_texel(earth, x, y, k); });
+    shade_texels(surface,
+                 [&](float x, float y, std::size_t k) { return earth_texel(earth, x, y, k); });
 
     // Blades lie over one another: strokes drawn in one fixed order, each a little higher.
     const int size = surface.size;
@@ -164,7 +170,8 @@ void make_grass_ground(Surface& surface)
         const float curl = 1.4f * hash_signed(h, 6) / length;
         const float order = static_cast<float>(b) / static_cast<float>(kBlades);
         const float dryness = hash_unit(h, 7);
-        vec3 color = mix(vec3(0.040f, 0.078f, 0.014f), vec3(0.105f, 0.150f, 0.035f), hash_unit(h, 8));
+        vec3 color =
+            mix(vec3(0.040f, 0.078f, 0.014f), vec3(0.105f, 0.150f, 0.035f), hash_unit(h, 8));
         if (dryness > 0.88f) color = vec3(0.230f, 0.190f, 0.095f);
         color *= 0.45f + 0.6f * order;
         const int steps = std::max(2, static_cast<int>(length * 1.2f));

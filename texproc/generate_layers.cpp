@@ -66,10 +66,11 @@ void add_octave(float* row, int size, float y, int cells_x, int cells_y, float a
 
 }  // namespace
 
-std::vector<float> noise_layer(const Surface& surface, const NoiseLayer& layer)
+std::vector<float> noise_layer(const MaterialSurface& surface, const NoiseLayer& layer)
 {
     const int size = surface.size;
-    std::vector<float> values(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0.0f);
+    std::vector<float> values(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
+                              0.0f);
     struct Octave {
         int cells_x, cells_y;
         float amplitude;
@@ -94,7 +95,8 @@ std::vector<float> noise_layer(const Surface& surface, const NoiseLayer& layer)
     const float normalise = 1.0f / std::sqrt(energy);
     for_rows(size, surface.threads, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
-            float* row = values.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(size);
+            float* row =
+                values.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(size);
             for (const Octave& octave : octaves) {
                 add_octave(row, size, static_cast<float>(j) + 0.5f, octave.cells_x, octave.cells_y,
                            octave.amplitude * normalise, octave.seed);
@@ -156,10 +158,10 @@ Courses::Courses(float tile_m, const CourseRule& rule, std::uint32_t seed)
     assert(rule.rows >= 1 && rule.stone_length_m > 0.0f);
     const float row_m = tile_m / static_cast<float>(rule.rows);
     for (int j = 0; j <= rule.rows; ++j) {
-        const float shift = j == 0 || j == rule.rows
-                                ? 0.0f
-                                : 0.5f * rule.row_jitter *
-                                      hash_signed(seed, static_cast<std::uint32_t>(j));
+        const float shift =
+            j == 0 || j == rule.rows
+                ? 0.0f
+                : 0.5f * rule.row_jitter * hash_signed(seed, static_cast<std::uint32_t>(j));
         row_edges_.push_back((static_cast<float>(j) + shift) * row_m);
     }
     for (int j = 0; j < rule.rows; ++j) {
@@ -167,15 +169,15 @@ Courses::Courses(float tile_m, const CourseRule& rule, std::uint32_t seed)
         int count = std::max(2, static_cast<int>(std::lround(tile_m / rule.stone_length_m)));
         if (rule.length_jitter > 0.0f && count > 4) count += static_cast<int>(h >> 7) % 3 - 1;
         const float length = tile_m / static_cast<float>(count);
-        float start = rule.half_bond ? 0.5f * length * static_cast<float>(j & 1)
-                                     : length * hash_unit(h, 1);
+        float start =
+            rule.half_bond ? 0.5f * length * static_cast<float>(j & 1) : length * hash_unit(h, 1);
         // Rows of like count must not line up with the row above.
         if (!rule.half_bond) start += 0.5f * length * static_cast<float>(j & 1);
         start -= tile_m * std::floor(start / tile_m);
         Row row;
         for (int i = 0; i < count; ++i) {
-            const float shift = 0.5f * rule.length_jitter *
-                                hash_signed(h, 100u + static_cast<std::uint32_t>(i));
+            const float shift =
+                0.5f * rule.length_jitter * hash_signed(h, 100u + static_cast<std::uint32_t>(i));
             row.edges.push_back(start + (static_cast<float>(i) + shift) * length);
         }
         row.edges.push_back(row.edges.front() + tile_m);

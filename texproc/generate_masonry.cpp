@@ -7,11 +7,11 @@ namespace petrichor::texproc::detail {
 
 using glm::vec3;
 
-void make_brick(Surface& surface)
+void make_brick(MaterialSurface& surface)
 {
     surface.tile_m = 1.8f;  // 8 bricks of 225 mm, 24 courses of 75 mm, joints of 10 mm
-    const Courses courses(
-        surface.tile_m, {.rows = 24, .stone_length_m = 0.225f, .half_bond = true}, surface.seed);
+    const Courses courses(surface.tile_m, {.rows = 24, .stone_length_m = 0.225f, .half_bond = true},
+                          surface.seed);
     const auto warp_x = noise_layer(surface, {0.05f, 0.05f, 4, 0.55f, 1});
     const auto warp_y = noise_layer(surface, {0.60f, 0.15f, 5, 0.45f, 2});
     const auto chips = noise_layer(surface, {0.030f, 0.030f, 3, 0.6f, 3});
@@ -33,10 +33,8 @@ void make_brick(Surface& surface)
         const CourseStone stone = courses.find(px, py);
         const std::uint32_t id = stone.id;
         // Laid by hand: each brick a little off its place, longer or shorter, not quite level.
-        const float centre_x =
-            0.5f * (stone.left_m + stone.right_m) + 0.0016f * hash_signed(id, 1);
-        const float centre_y =
-            0.5f * (stone.top_m + stone.bottom_m) + 0.0013f * hash_signed(id, 2);
+        const float centre_x = 0.5f * (stone.left_m + stone.right_m) + 0.0016f * hash_signed(id, 1);
+        const float centre_y = 0.5f * (stone.top_m + stone.bottom_m) + 0.0013f * hash_signed(id, 2);
         const float turn = 0.011f * hash_signed(id, 3);
         const float local_x = (px - centre_x) + turn * (py - centre_y);
         const float local_y = (py - centre_y) - turn * (px - centre_x);
@@ -47,8 +45,8 @@ void make_brick(Surface& surface)
         // Lost corners and edges: deeper where the chip noise peaks, only on some bricks.
         const float fragile = smooth_step(0.35f, 1.0f, hash_unit(id, 6));
         const float near_edge = 1.0f - saturate(d / 0.0075f);
-        const float lost = fragile * smooth_step(0.25f, 0.9f, chips[k] + 0.4f * warp_x[k]) *
-                           (0.25f + near_edge);
+        const float lost =
+            fragile * smooth_step(0.25f, 0.9f, chips[k] + 0.4f * warp_x[k]) * (0.25f + near_edge);
         d -= 0.0045f * lost;
 
         const float edge = saturate(d / 0.0042f);
@@ -61,7 +59,8 @@ void make_brick(Surface& surface)
                            0.00042f * rough[k] - 0.0011f * dents - 0.0028f * lost +
                            0.00016f * sand[k];
         const float mortar = 0.0026f + 0.0009f * warp_x[k] + 0.00055f * rough[k] +
-                             0.0003f * sand[k] - 0.0018f * smooth_step(0.5f, 1.2f, soot[k] + 0.3f * chips[k]);
+                             0.0003f * sand[k] -
+                             0.0018f * smooth_step(0.5f, 1.2f, soot[k] + 0.3f * chips[k]);
         const float above = face - mortar;
         const float is_brick = smooth_step(-0.0002f, 0.0007f, above);
 
@@ -74,8 +73,8 @@ void make_brick(Surface& surface)
         color *= 1.0f + 0.14f * hash_signed(id, 13);
         // Burnt heads and smoke from the kiln.
         const float burnt = hash_unit(id, 14) > 0.86f ? 0.78f : 0.0f;
-        const float flame = smooth_step(0.2f, 1.0f, hash_signed(id, 15) * local_x / half_x +
-                                                        0.5f * chips[k] - 0.25f);
+        const float flame = smooth_step(
+            0.2f, 1.0f, hash_signed(id, 15) * local_x / half_x + 0.5f * chips[k] - 0.25f);
         color = mix(color, kSoot, saturate(burnt + 0.5f * flame * hash_unit(id, 16)));
         color *= 1.0f + 0.15f * rough[k] + 0.10f * crease[k] + 0.06f * sand[k];
         color = mix(color, 1.25f * color + vec3(0.02f), 0.5f * lost);
@@ -87,15 +86,14 @@ void make_brick(Surface& surface)
         joint = mix(joint, 0.36f * joint, 0.8f * weathered);
         joint *= 0.72f + 0.28f * smooth_step(-0.004f, 0.0f, above);
         texel.albedo = mix(joint, color, is_brick);
-        texel.roughness = mix(0.94f,
-                              saturate(0.80f + 0.06f * rough[k] - 0.24f * burnt +
-                                       0.05f * hash_signed(id, 17)),
-                              is_brick);
+        texel.roughness = mix(
+            0.94f, saturate(0.80f + 0.06f * rough[k] - 0.24f * burnt + 0.05f * hash_signed(id, 17)),
+            is_brick);
         return texel;
     });
 }
 
-void make_plaster(Surface& surface)
+void make_plaster(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const auto waves = noise_layer(surface, {0.48f, 0.34f, 4, 0.5f, 1});
@@ -142,7 +140,7 @@ void make_plaster(Surface& surface)
     });
 }
 
-void make_roof_tile(Surface& surface)
+void make_roof_tile(MaterialSurface& surface)
 {
     surface.tile_m = 1.44f;
     surface.occlusion_strength = 0.6f;
@@ -172,9 +170,10 @@ void make_roof_tile(Surface& surface)
             const float column = (x + 0.0010f * warp[k]) / width_m + shift;
             const float i = std::floor(column);
             const float across = 2.0f * (column - i) - 1.0f;
-            const std::uint32_t id = hash_cell(wrap_index(static_cast<int>(i), kColumns),
-                                               wrap_index(j, kRows), seed);
-            const float arc = 0.042f * (1.0f - std::sqrt(std::max(0.0f, 1.0f - 0.93f * across * across)));
+            const std::uint32_t id =
+                hash_cell(wrap_index(static_cast<int>(i), kColumns), wrap_index(j, kRows), seed);
+            const float arc =
+                0.042f * (1.0f - std::sqrt(std::max(0.0f, 1.0f - 0.93f * across * across)));
             const float tail = static_cast<float>(j + 1) * course_m - arc +
                                0.004f * hash_signed(id, 1) + 0.003f * hash_signed(id, 2) * across +
                                0.0008f * rough[k];
@@ -201,8 +200,8 @@ void make_roof_tile(Surface& surface)
         color = mix(color, 0.5f * color, smooth_step(0.5f, 1.1f, up) * 0.6f + 0.6f * gap);
         const float crust = smooth_step(0.55f, 0.95f, lichen[k] + 0.3f * rough[k]);
         color = mix(color, vec3(0.30f, 0.29f, 0.20f), 0.55f * crust);
-        const float moss = smooth_step(0.35f, 0.9f, stain[k] - 0.5f * lichen[k]) *
-                           smooth_step(0.55f, 1.0f, up);
+        const float moss =
+            smooth_step(0.35f, 0.9f, stain[k] - 0.5f * lichen[k]) * smooth_step(0.55f, 1.0f, up);
         color = mix(color, vec3(0.055f, 0.068f, 0.022f), 0.75f * moss);
         texel.height_m += 0.0008f * crust + 0.002f * moss;
         texel.albedo = color;

@@ -21,11 +21,11 @@ vec3 granite_grain(const vec3& base, float coarse, float fine)
 
 // Distances to the four sides, each moved in by its share of the joint.
 struct Sides {
-    float x;        ///< to the nearer of left and right
-    float y;        ///< to the nearer of top and bottom
-    float across;   ///< -1 left .. 1 right
-    float along;    ///< -1 top .. 1 bottom
-    float half_m;   ///< half of the shorter edge
+    float x;       ///< to the nearer of left and right
+    float y;       ///< to the nearer of top and bottom
+    float across;  ///< -1 left .. 1 right
+    float along;   ///< -1 top .. 1 bottom
+    float half_m;  ///< half of the shorter edge
 };
 
 Sides sides_of(const CourseStone& stone, float x, float y, float joint_m)
@@ -50,7 +50,7 @@ Sides sides_of(const CourseStone& stone, float x, float y, float joint_m)
 
 }  // namespace
 
-void make_cobble(Surface& surface)
+void make_cobble(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const Courses courses(surface.tile_m,
@@ -88,12 +88,13 @@ void make_cobble(Surface& surface)
         // A worn sett: steep flank, round shoulder, slightly domed and tilted top.
         const float shoulder = saturate(d / mix(0.016f, 0.027f, hash_unit(id, 6)));
         const float flank = std::sqrt(std::max(0.0f, 1.0f - (1.0f - shoulder) * (1.0f - shoulder)));
-        const float dome = (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
+        const float dome =
+            (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
         const float edge = 1.0f - shoulder;
         const float chip = smooth_step(0.45f, 0.95f, bumps[k] + 0.35f * warp_x[k]) * edge;
         const float level = 0.0028f * hash_signed(id, 7);
-        const float tilt = 0.0022f * (hash_signed(id, 8) * sides.across +
-                                      hash_signed(id, 9) * sides.along);
+        const float tilt =
+            0.0022f * (hash_signed(id, 8) * sides.across + hash_signed(id, 9) * sides.along);
         const float polish = smooth_step(0.25f, 0.85f, dome);
         const float top = 0.0165f * flank + 0.0055f * std::max(dome, 0.0f) + level +
                           tilt * shoulder + mix(0.0016f, 0.0010f, polish) * bumps[k] -
@@ -136,7 +137,7 @@ void make_cobble(Surface& surface)
     });
 }
 
-void make_paving(Surface& surface)
+void make_paving(MaterialSurface& surface)
 {
     surface.tile_m = 2.4f;
     const Courses courses(surface.tile_m,
@@ -171,14 +172,15 @@ void make_paving(Surface& surface)
         const float layers = (riven[k] + 0.4f * hash_signed(id, 6)) * 2.6f;
         const float step_at = std::floor(layers);
         const float terrace = step_at + smooth_step(0.35f, 0.65f, layers - step_at);
-        const float wear = (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
+        const float wear =
+            (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
         const float edge = saturate(d / 0.007f);
         const float round = std::sqrt(std::max(0.0f, 1.0f - (1.0f - edge) * (1.0f - edge)));
-        const float top = 0.0085f * round + 0.00065f * mix(terrace, layers, 0.45f) -
-                          0.0009f * wear + 0.0012f * hash_signed(id, 7) +
-                          0.0011f * (hash_signed(id, 8) * sides.across +
-                                     hash_signed(id, 9) * sides.along) +
-                          0.00012f * fine[k];
+        const float top =
+            0.0085f * round + 0.00065f * mix(terrace, layers, 0.45f) - 0.0009f * wear +
+            0.0012f * hash_signed(id, 7) +
+            0.0011f * (hash_signed(id, 8) * sides.across + hash_signed(id, 9) * sides.along) +
+            0.00012f * fine[k];
         const float green = smooth_step(0.25f, 0.8f, stain[k] + 0.2f * grit[k]);
         const float sand = 0.0016f + 0.0006f * grit[k] + 0.0016f * green;
         const float is_stone = smooth_step(-0.0004f, 0.0010f, top - sand);
@@ -192,14 +194,13 @@ void make_paving(Surface& surface)
         color = mix(color, kDirt, 0.6f * (1.0f - round));
         const vec3 joint = mix(kDirt * (1.0f + 0.3f * grit[k]), kMoss, 0.85f * green);
         texel.albedo = mix(joint, color, is_stone);
-        texel.roughness = mix(0.95f,
-                              0.74f - 0.10f * wear + 0.05f * fine[k] + 0.05f * hash_signed(id, 12),
-                              is_stone);
+        texel.roughness = mix(
+            0.95f, 0.74f - 0.10f * wear + 0.05f * fine[k] + 0.05f * hash_signed(id, 12), is_stone);
         return texel;
     });
 }
 
-void make_granite(Surface& surface)
+void make_granite(MaterialSurface& surface)
 {
     surface.tile_m = 1.0f;
     const auto waves = noise_layer(surface, {0.16f, 0.16f, 4, 0.5f, 1});

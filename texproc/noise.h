@@ -109,11 +109,11 @@ inline float gradient_noise(float x, float y, int period_x, int period_y, std::u
 
 /// The nearest and second nearest of one random point per cell.
 struct CellPoint {
-    float nearest = 8.0f;   ///< distance in cells
-    float second = 8.0f;    ///< distance in cells
-    float dx = 0.0f;        ///< from the nearest point to the position
+    float nearest = 8.0f;  ///< distance in cells
+    float second = 8.0f;   ///< distance in cells
+    float dx = 0.0f;       ///< from the nearest point to the position
     float dy = 0.0f;
-    std::uint32_t id = 0;   ///< hash of the nearest point
+    std::uint32_t id = 0;  ///< hash of the nearest point
 };
 
 /// Cellular (Worley) noise. jitter 0: a grid, 1: anywhere in the cell.
@@ -127,8 +127,8 @@ inline CellPoint cell_noise(float x, float y, int period_x, int period_y, std::u
     float second = 64.0f;
     for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
-            const std::uint32_t h = hash_cell(wrap_index(cell_x + i, period_x),
-                                              wrap_index(cell_y + j, period_y), seed);
+            const std::uint32_t h =
+                hash_cell(wrap_index(cell_x + i, period_x), wrap_index(cell_y + j, period_y), seed);
             const float px = static_cast<float>(h & 0xffffu) * (1.0f / 65536.0f) - 0.5f;
             const float py = static_cast<float>(h >> 16) * (1.0f / 65536.0f) - 0.5f;
             const float dx = x - (static_cast<float>(cell_x + i) + 0.5f + jitter * px);

@@ -446,8 +446,8 @@ ArtistCheckpoint ArtistTimeline::checkpoint_at(TimeUs time) const
 std::string_view name_of(ArtistEventKind kind)
 {
     switch (kind) {
-        case ArtistEventKind::TurnsWarm: return "temperature rises above 0 C";
-        case ArtistEventKind::TurnsCold: return "temperature falls to 0 C or below";
+        case ArtistEventKind::TurnsWarm: return "temperature rises above 0 \u00b0C";
+        case ArtistEventKind::TurnsCold: return "temperature falls to 0 \u00b0C or below";
         case ArtistEventKind::AllLiquid: return "everything liquid";
         case ArtistEventKind::AllFrozen: return "everything frozen";
         case ArtistEventKind::RainStarts: return "precipitation starts";

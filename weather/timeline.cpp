@@ -189,7 +189,9 @@ void check_timeline(const Timeline& timeline)
 {
     check_channel(timeline.temperature_c, "temperature_c", true);
     check_channel(timeline.rainfall, "rainfall", true);
-    for (const auto& [name, channel] : timeline.parameters) {
+    for (const auto& entry : timeline.parameters) {
+        const std::string& name = entry.first;
+        const Channel& channel = entry.second;
         const auto known = artist_parameters();
         if (name != "script_controlled" &&
             std::none_of(known.begin(), known.end(),

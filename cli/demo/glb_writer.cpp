@@ -26,7 +26,8 @@ constexpr int kUnsignedByte = 5121;
 json number(float value)
 {
     if (value == 0.0f) return 0.0;
-    const double magnitude = std::pow(10.0, 7.0 - std::ceil(std::log10(std::abs(static_cast<double>(value)))));
+    const double magnitude =
+        std::pow(10.0, 7.0 - std::ceil(std::log10(std::abs(static_cast<double>(value)))));
     return std::round(static_cast<double>(value) * magnitude) / magnitude;
 }
 
@@ -82,10 +83,7 @@ private:
         return document_["accessors"].size() - 1;
     }
 
-    void use(const char* extension)
-    {
-        extensions_.insert(extension);
-    }
+    void use(const char* extension) { extensions_.insert(extension); }
 
     json texture_info(const gpu::TextureUse& texture)
     {
@@ -99,7 +97,8 @@ private:
         if (texture.offset != glm::vec2(0.0f) || texture.scale != glm::vec2(1.0f) ||
             texture.rotation_rad != 0.0f) {
             use("KHR_texture_transform");
-            json transform = {{"offset", numbers(texture.offset)}, {"scale", numbers(texture.scale)}};
+            json transform = {{"offset", numbers(texture.offset)},
+                              {"scale", numbers(texture.scale)}};
             if (texture.rotation_rad != 0.0f) transform["rotation"] = number(texture.rotation_rad);
             info["extensions"]["KHR_texture_transform"] = transform;
         }
@@ -256,8 +255,8 @@ private:
         bytes.reserve(values.size() * 4);
         for (const glm::vec4& v : values) {
             for (int c = 0; c < 4; ++c) {
-                bytes.push_back(static_cast<std::uint8_t>(
-                    std::lround(std::clamp(v[c], 0.0f, 1.0f) * 255.0f)));
+                bytes.push_back(
+                    static_cast<std::uint8_t>(std::lround(std::clamp(v[c], 0.0f, 1.0f) * 255.0f)));
             }
         }
         return bytes;
@@ -266,7 +265,8 @@ private:
     // A byte a channel: the accessor counts vertices, not bytes.
     std::size_t add_byte_colors(const std::vector<glm::vec4>& values)
     {
-        const std::size_t accessor = add_accessor(to_bytes(values), "VEC4", kUnsignedByte, 34962, true);
+        const std::size_t accessor =
+            add_accessor(to_bytes(values), "VEC4", kUnsignedByte, 34962, true);
         document_["accessors"][accessor]["count"] = values.size();
         return accessor;
     }
@@ -274,7 +274,8 @@ private:
     // Two bytes an index where they suffice (65535 itself means "restart" to some readers).
     std::size_t add_indices(const gpu::Primitive& p)
     {
-        if (p.positions.size() > 65535) return add_accessor(p.indices, "SCALAR", kUnsignedInt, 34963);
+        if (p.positions.size() > 65535)
+            return add_accessor(p.indices, "SCALAR", kUnsignedInt, 34963);
         const std::vector<std::uint16_t> narrow(p.indices.begin(), p.indices.end());
         return add_accessor(narrow, "SCALAR", kUnsignedShort, 34963);
     }
@@ -289,9 +290,10 @@ private:
             !fits(p.normals.size()) || !fits(p.uv0.size()) || !fits(p.uv1.size()) ||
             !fits(p.tangents.size()) || !fits(p.colors.size()) || !fits(p.weather.size()) ||
             p.material >= scene_.materials.size()) {
-            throw Error("glb: a primitive of " + std::to_string(count) +
-                            " vertices has arrays or indices that do not fit it",
-                        "Give every attribute one value a vertex and keep indices below the count.");
+            throw Error(
+                "glb: a primitive of " + std::to_string(count) +
+                    " vertices has arrays or indices that do not fit it",
+                "Give every attribute one value a vertex and keep indices below the count.");
         }
         glm::vec3 low = p.positions.front();
         glm::vec3 high = low;
@@ -306,15 +308,15 @@ private:
         accessor["min"] = {low.x, low.y, low.z};
         accessor["max"] = {high.x, high.y, high.z};
         attributes["POSITION"] = positions;
-        if (!p.normals.empty()) attributes["NORMAL"] = add_accessor(p.normals, "VEC3", kFloat, 34962);
-        if (!p.tangents.empty()) attributes["TANGENT"] = add_accessor(p.tangents, "VEC4", kFloat, 34962);
+        if (!p.normals.empty())
+            attributes["NORMAL"] = add_accessor(p.normals, "VEC3", kFloat, 34962);
+        if (!p.tangents.empty())
+            attributes["TANGENT"] = add_accessor(p.tangents, "VEC4", kFloat, 34962);
         if (!p.uv0.empty()) attributes["TEXCOORD_0"] = add_accessor(p.uv0, "VEC2", kFloat, 34962);
         if (!p.uv1.empty()) attributes["TEXCOORD_1"] = add_accessor(p.uv1, "VEC2", kFloat, 34962);
         if (!p.colors.empty()) attributes["COLOR_0"] = add_byte_colors(p.colors);
         if (!p.weather.empty()) attributes["_WEATHER"] = add_byte_colors(p.weather);
-        return {{"attributes", attributes},
-                {"indices", add_indices(p)},
-                {"material", p.material}};
+        return {{"attributes", attributes}, {"indices", add_indices(p)}, {"material", p.material}};
     }
 
     void add_mesh(const gpu::Mesh& mesh)

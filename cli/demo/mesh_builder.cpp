@@ -69,16 +69,18 @@ void MeshBuilder::triangle(const vec3& a, const vec3& b, const vec3& c, const ve
 
 void MeshBuilder::box(const BoxShape& shape)
 {
-    const float bevel =
-        std::min(shape.bevel_m, 0.49f * 2.0f * std::min({shape.half.x, shape.half.y, shape.half.z}));
+    const float bevel = std::min(
+        shape.bevel_m, 0.49f * 2.0f * std::min({shape.half.x, shape.half.y, shape.half.z}));
     vec3 along(0.0f);
     along[shape.grain] = 1.0f;
     const auto to_world = [&](const vec3& local) { return shape.centre + shape.axes * local; };
-    const auto emit = [&](const vec3& local, const vec3& local_normal, const vec3& u, const vec3& v) {
+    const auto emit = [&](const vec3& local, const vec3& local_normal, const vec3& u,
+                          const vec3& v) {
         return add_vertex(to_world(local), glm::normalize(shape.axes * local_normal),
                           vec2(glm::dot(local, u), glm::dot(local, v)));
     };
-    // Where the corner (sx, sy, sz) lies on the face across `axis`: full there, inset on the others.
+    // Where the corner (sx, sy, sz) lies on the face across `axis`: full there, inset on the
+    // others.
     const auto corner_on = [&](const vec3& sign, int axis) {
         vec3 p = sign * (shape.half - vec3(bevel));
         p[axis] = sign[axis] * shape.half[axis];
@@ -165,7 +167,8 @@ void MeshBuilder::beam(const vec3& from, const vec3& to, float width_m, float he
 {
     const vec3 y = glm::normalize(to - from);
     vec3 z = side - y * glm::dot(side, y);
-    if (glm::dot(z, z) < 1e-4f) z = std::abs(y.x) < 0.9f ? vec3(1, 0, 0) - y * y.x : vec3(0, 0, 1) - y * y.z;
+    if (glm::dot(z, z) < 1e-4f)
+        z = std::abs(y.x) < 0.9f ? vec3(1, 0, 0) - y * y.x : vec3(0, 0, 1) - y * y.z;
     z = glm::normalize(z);
     const vec3 x = glm::cross(y, z);
     box({.centre = 0.5f * (from + to),
@@ -195,7 +198,8 @@ void MeshBuilder::grid(int columns, int rows, const std::function<Point(int, int
     };
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            const std::array<std::uint32_t, 4> q = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+            const std::array<std::uint32_t, 4> q = {at(i, j), at(i + 1, j), at(i + 1, j + 1),
+                                                    at(i, j + 1)};
             const vec3 n = glm::cross(primitive_.positions[q[2]] - primitive_.positions[q[0]],
                                       primitive_.positions[q[3]] - primitive_.positions[q[1]]);
             if (glm::dot(n, primitive_.normals[q[0]] + primitive_.normals[q[2]]) >= 0.0f) {
@@ -275,7 +279,8 @@ void MeshBuilder::tube(const std::vector<vec3>& path, const std::vector<float>& 
         const auto k = static_cast<std::size_t>(j);
         const float angle = 6.2831853f * static_cast<float>(i) / static_cast<float>(sides);
         const vec3 n = frames[k][0] * std::cos(angle) + frames[k][1] * std::sin(angle);
-        return Point{path[k] + radius_m[k] * n, n, vec2(angle * radius_m[0], -along[k]), color, weather};
+        return Point{path[k] + radius_m[k] * n, n, vec2(angle * radius_m[0], -along[k]), color,
+                     weather};
     });
     for (const bool end : {false, true}) {
         const std::size_t k = end ? path.size() - 1 : 0;

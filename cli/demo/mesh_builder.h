@@ -13,10 +13,10 @@ namespace petrichor::cli {
 /// A box with bevelled edges, turned by `axes` (its columns are the box's x, y, z in the world).
 struct BoxShape {
     glm::vec3 centre{0.0f};
-    glm::vec3 half{0.5f};   ///< half edges, metres
-    float bevel_m = 0.0f;   ///< width of the chamfer; shaded round
+    glm::vec3 half{0.5f};  ///< half edges, metres
+    float bevel_m = 0.0f;  ///< width of the chamfer; shaded round
     glm::mat3 axes{1.0f};
-    int grain = 1;          ///< axis 0..2 along which the texture's v runs
+    int grain = 1;  ///< axis 0..2 along which the texture's v runs
 };
 
 /// Collects the triangles of one material. Texture coordinates are metres over tile_m; u to the
@@ -28,7 +28,7 @@ public:
     glm::vec4 color{1.0f};    ///< given to the vertices that follow
     glm::vec4 weather{1.0f};  ///< r mix, g puddle mask, b snow mask
     glm::vec2 uv_offset_m{0.0f};
-    float uv_scale = 1.0f;    ///< > 1: the material appears smaller
+    float uv_scale = 1.0f;  ///< > 1: the material appears smaller
 
     std::uint32_t add_vertex(const glm::vec3& position, const glm::vec3& normal,
                              const glm::vec2& uv_m);
@@ -56,7 +56,8 @@ public:
     };
     void grid(int columns, int rows, const std::function<Point(int, int)>& point);
 
-    /// A surface of revolution: (radius, height) pairs from bottom to top, around +y through `foot`.
+    /// A surface of revolution: (radius, height) pairs from bottom to top, around +y through
+    /// `foot`.
     void lathe(const glm::vec3& foot, const std::vector<glm::vec2>& profile, int sides,
                const glm::mat3& axes = glm::mat3(1.0f));
     /// A round pipe along a path, with closed ends; radius may differ by point.
@@ -68,7 +69,8 @@ public:
     gpu::Primitive take(std::uint32_t material);
 
 private:
-    void face_uv_axes(const glm::vec3& normal, const glm::vec3& up, glm::vec3& u, glm::vec3& v) const;
+    void face_uv_axes(const glm::vec3& normal, const glm::vec3& up, glm::vec3& u,
+                      glm::vec3& v) const;
 
     float tile_m_;
     gpu::Primitive primitive_;

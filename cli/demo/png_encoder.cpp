@@ -70,8 +70,8 @@ std::vector<std::byte> encode_png(int width, int height, int channels,
             out[i] = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], corner));
         }
     }
-    // What is left is noise without repeats: Huffman codes alone are faster than a match search, and
-    // 15 % smaller than its quick levels.
+    // What is left is noise without repeats: Huffman codes alone are faster than a match search,
+    // and 15 % smaller than its quick levels.
     z_stream stream{};
     if (deflateInit2(&stream, 1, Z_DEFLATED, 15, 9, Z_HUFFMAN_ONLY) != Z_OK) throw std::bad_alloc();
     std::vector<std::uint8_t> packed(deflateBound(&stream, static_cast<uLong>(rows.size())));

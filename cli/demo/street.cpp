@@ -56,7 +56,8 @@ gpu::Scene make_demo_street(const DemoOptions& options)
         mesh.name = name;
         mesh.primitives.push_back(kit.builders[slot].take(static_cast<std::uint32_t>(slot)));
         scene.meshes.push_back(std::move(mesh));
-        scene.instances.push_back({.name = name, .mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1)});
+        scene.instances.push_back(
+            {.name = name, .mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1)});
     }
     gpu::Light lamp;
     lamp.name = "lamp";
@@ -69,7 +70,8 @@ gpu::Scene make_demo_street(const DemoOptions& options)
 
     scene.cameras.push_back(look("main", {0.90f, 1.50f, 6.0f}, {0.16f, 1.40f, -1.0f}, 0.75f));
     scene.cameras.push_back(look("low", {0.75f, 0.40f, 3.75f}, {-0.05f, 0.62f, -1.0f}, 0.85f));
-    scene.cameras.push_back(look("top", {0.0f, 17.0f, -0.5f}, {0.0f, 0.0f, -0.6f}, 0.80f, {0.0f, 0.0f, -1.0f}));
+    scene.cameras.push_back(
+        look("top", {0.0f, 17.0f, -0.5f}, {0.0f, 0.0f, -0.6f}, 0.80f, {0.0f, 0.0f, -1.0f}));
     return scene;
 }
 

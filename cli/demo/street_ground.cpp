@@ -53,7 +53,8 @@ float cobble_relief(const Kit& kit, float x, float z, float step_m)
             const float dz = (static_cast<float>(j) - 1.0f) * step_m / kTaps;
             const int px = static_cast<int>(std::floor((x + dx) * to_texels));
             const int py = static_cast<int>(std::floor((z + dz) * to_texels));
-            sum += map.at(texproc::wrap_index(px, map.width), texproc::wrap_index(py, map.height), 0);
+            sum +=
+                map.at(texproc::wrap_index(px, map.width), texproc::wrap_index(py, map.height), 0);
         }
     }
     return (sum / (kTaps * kTaps) - 0.8f) * kit.cobble_scale_m;
@@ -71,7 +72,8 @@ float road_surface(const Kit& kit, float x, float z, float step_m)
 // Slow stains: darker where wheels and water run, paler where feet polish.
 vec4 ground_tint(const Kit& kit, float x, float z)
 {
-    const float slow = ground_noise(kit, x, z, 0.45f, 21) + 0.5f * ground_noise(kit, x, z, 1.1f, 22);
+    const float slow =
+        ground_noise(kit, x, z, 0.45f, 21) + 0.5f * ground_noise(kit, x, z, 1.1f, 22);
     const float edge = smooth_step(1.2f, 2.4f, std::abs(x));
     const float light = std::clamp(0.90f + 0.13f * slow - 0.16f * edge, 0.55f, 1.0f);
     return {light, light * (1.0f - 0.02f * edge), light * (1.0f - 0.05f * edge), 1.0f};
@@ -108,9 +110,10 @@ void add_carriageway(Kit& kit)
         const float near_m = s > 0 ? kStrips[s - 1].step_m : 0.0f;
         const float far_m = s + 1 < count ? kStrips[s + 1].step_m : 0.0f;
         kit[Slot::Cobble].grid(columns, rows, [&](int i, int j) {
-            const float x = -kRoadHalf + 2.0f * kRoadHalf * static_cast<float>(i) / static_cast<float>(columns);
-            const float z = strip.z_near +
-                            (strip.z_far - strip.z_near) * static_cast<float>(j) / static_cast<float>(rows);
+            const float x =
+                -kRoadHalf + 2.0f * kRoadHalf * static_cast<float>(i) / static_cast<float>(columns);
+            const float z = strip.z_near + (strip.z_far - strip.z_near) * static_cast<float>(j) /
+                                               static_cast<float>(rows);
             float y;
             if (j == 0 && near_m > strip.step_m) {
                 y = on_coarse_edge(kit, x, z, near_m);
@@ -149,20 +152,21 @@ void add_gutter(Kit& kit, float side)
             return -0.052f * std::sin(3.14159265f * std::min(t * 1.05f, 1.0f)) - 0.012f * t + level;
         };
         // Rounded ends: the first and last rows drop into the joint.
-        const float stations[] = {z - gap, z - gap - 0.006f, z - gap - 0.02f,
+        const float stations[] = {z - gap,           z - gap - 0.006f,   z - gap - 0.02f,
                                   end + gap + 0.02f, end + gap + 0.006f, end + gap};
         const float drops[] = {0.022f, 0.004f, 0.0f, 0.0f, 0.004f, 0.022f};
         granite.grid(kColumns, 5, [&](int i, int j) {
             const float t = static_cast<float>(i) / kColumns;
             const float x = side * (kRoadHalf - 0.02f + t * (kGutterEnd - kRoadHalf + 0.03f));
-            const float slope = (profile(t + 0.02f) - profile(t - 0.02f)) /
-                                (0.04f * (kGutterEnd - kRoadHalf));
+            const float slope =
+                (profile(t + 0.02f) - profile(t - 0.02f)) / (0.04f * (kGutterEnd - kRoadHalf));
             const float low = smooth_step(-0.012f, -0.040f, profile(t));
             const float end_normal = j == 0 ? 0.7f : j == 5 ? -0.7f : 0.0f;
             return MeshBuilder::Point{
                 vec3(x, profile(t) - drops[j], stations[j]),
                 glm::normalize(vec3(-side * slope, 1.0f, end_normal)), vec2(x, stations[j]),
-                vec4(light * (0.95f - 0.20f * low), light * (0.94f - 0.2f * low), light * (0.91f - 0.21f * low), 1.0f),
+                vec4(light * (0.95f - 0.20f * low), light * (0.94f - 0.2f * low),
+                     light * (0.91f - 0.21f * low), 1.0f),
                 vec4(1.0f, low, 1.0f, 1.0f)};
         });
         granite.uv_offset_m = vec2(0.0f);
@@ -184,13 +188,15 @@ void add_kerb(Kit& kit, float side)
         granite.weather = vec4(1.0f, 0.0f, 1.0f, 1.0f);
         const float turn = 0.006f * hash_signed(h, 5);
         const float tip = 0.010f * hash_signed(h, 6);
-        const glm::mat3 axes(vec3(1.0f, tip, -turn), vec3(-tip, 1.0f, 0.0f), vec3(turn, 0.0f, 1.0f));
-        granite.box({.centre = vec3(side * (0.5f * (kGutterEnd + kKerbEnd) + 0.004f * hash_signed(h, 7)),
-                                    kKerbTop - 0.125f + 0.005f * hash_signed(h, 8), z - 0.5f * length),
-                     .half = vec3(0.5f * (kKerbEnd - kGutterEnd), 0.125f, 0.5f * length - 0.004f),
-                     .bevel_m = 0.016f,
-                     .axes = axes,
-                     .grain = 2});
+        const glm::mat3 axes(vec3(1.0f, tip, -turn), vec3(-tip, 1.0f, 0.0f),
+                             vec3(turn, 0.0f, 1.0f));
+        granite.box(
+            {.centre = vec3(side * (0.5f * (kGutterEnd + kKerbEnd) + 0.004f * hash_signed(h, 7)),
+                            kKerbTop - 0.125f + 0.005f * hash_signed(h, 8), z - 0.5f * length),
+             .half = vec3(0.5f * (kKerbEnd - kGutterEnd), 0.125f, 0.5f * length - 0.004f),
+             .bevel_m = 0.016f,
+             .axes = axes,
+             .grain = 2});
         granite.color = vec4(1.0f);
         granite.weather = vec4(1.0f);
         granite.uv_offset_m = vec2(0.0f);
@@ -205,18 +211,23 @@ void add_pavement(Kit& kit, float x0, float x1, float z_near, float z_far)
     kit[Slot::Paving].grid(columns, rows, [&](int i, int j) {
         // The first column reaches under the bevel of the kerb.
         const bool hidden = i == 0;
-        const float x = hidden ? x0 - std::copysign(0.03f, x0)
-                               : x0 + (x1 - x0) * static_cast<float>(i - 1) / static_cast<float>(columns - 1);
-        const float z = z_near + (z_far - z_near) * static_cast<float>(j) / static_cast<float>(rows);
-        const float sunk = smooth_step(0.05f, 0.75f, ground_noise(kit, x, z, 0.8f, 31) +
-                                                         0.4f * ground_noise(kit, x, z, 1.9f, 32));
-        const float dirt = 1.0f - smooth_step(0.0f, 0.35f, std::min(std::abs(x - kLeftWall),
-                                                                    std::abs(x - kRightWall)));
+        const float x =
+            hidden ? x0 - std::copysign(0.03f, x0)
+                   : x0 + (x1 - x0) * static_cast<float>(i - 1) / static_cast<float>(columns - 1);
+        const float z =
+            z_near + (z_far - z_near) * static_cast<float>(j) / static_cast<float>(rows);
+        const float sunk = smooth_step(
+            0.05f, 0.75f,
+            ground_noise(kit, x, z, 0.8f, 31) + 0.4f * ground_noise(kit, x, z, 1.9f, 32));
+        const float dirt =
+            1.0f -
+            smooth_step(0.0f, 0.35f, std::min(std::abs(x - kLeftWall), std::abs(x - kRightWall)));
         const float slow = ground_noise(kit, x, z, 0.6f, 33);
         const float light = std::clamp(0.90f + 0.10f * slow - 0.22f * dirt, 0.5f, 1.0f);
-        return MeshBuilder::Point{vec3(x, pavement_height(x) - 0.008f * sunk - (hidden ? 0.012f : 0.0f), z), vec3(0, 1, 0), vec2(x, z),
-                                  vec4(light, light, light * (1.0f - 0.03f * dirt), 1.0f),
-                                  vec4(1.0f, 0.85f * sunk, 1.0f, 1.0f)};
+        return MeshBuilder::Point{
+            vec3(x, pavement_height(x) - 0.008f * sunk - (hidden ? 0.012f : 0.0f), z),
+            vec3(0, 1, 0), vec2(x, z), vec4(light, light, light * (1.0f - 0.03f * dirt), 1.0f),
+            vec4(1.0f, 0.85f * sunk, 1.0f, 1.0f)};
     });
 }
 
@@ -227,19 +238,31 @@ void add_cover(Kit& kit)
     const float y = road_at(kit, kCover.x, kCover.y).height_m - 0.001f;
     const vec3 foot(kCover.x, y, kCover.y);
     iron.color = vec4(1.0f);
-    iron.lathe(foot, {{kCoverRadius + 0.045f, -0.03f}, {kCoverRadius + 0.043f, 0.003f},
-                      {kCoverRadius + 0.036f, 0.007f}, {kCoverRadius + 0.006f, 0.007f},
-                      {kCoverRadius, 0.003f}, {kCoverRadius - 0.004f, -0.012f},
-                      {kCoverRadius - 0.008f, 0.002f}, {kCoverRadius - 0.014f, 0.005f},
-                      {kCoverRadius - 0.045f, 0.005f}, {kCoverRadius - 0.050f, 0.0f},
-                      {0.115f, 0.0f}, {0.110f, 0.004f}, {0.070f, 0.004f}, {0.066f, 0.0f}, {0.0f, 0.0f}},
+    iron.lathe(foot,
+               {{kCoverRadius + 0.045f, -0.03f},
+                {kCoverRadius + 0.043f, 0.003f},
+                {kCoverRadius + 0.036f, 0.007f},
+                {kCoverRadius + 0.006f, 0.007f},
+                {kCoverRadius, 0.003f},
+                {kCoverRadius - 0.004f, -0.012f},
+                {kCoverRadius - 0.008f, 0.002f},
+                {kCoverRadius - 0.014f, 0.005f},
+                {kCoverRadius - 0.045f, 0.005f},
+                {kCoverRadius - 0.050f, 0.0f},
+                {0.115f, 0.0f},
+                {0.110f, 0.004f},
+                {0.070f, 0.004f},
+                {0.066f, 0.0f},
+                {0.0f, 0.0f}},
                36);
     for (int j = -6; j <= 6; ++j) {
         for (int i = -6; i <= 6; ++i) {
             const vec2 p(0.043f * static_cast<float>(i), 0.043f * static_cast<float>(j));
             const float r = glm::length(p);
             if (r > kCoverRadius - 0.065f || r < 0.13f) continue;
-            iron.box({.centre = foot + vec3(p.x, 0.001f, p.y), .half = vec3(0.0125f, 0.004f, 0.0125f), .bevel_m = 0.003f});
+            iron.box({.centre = foot + vec3(p.x, 0.001f, p.y),
+                      .half = vec3(0.0125f, 0.004f, 0.0125f),
+                      .bevel_m = 0.003f});
         }
     }
 }
@@ -251,15 +274,22 @@ void add_grating(Kit& kit)
     const vec3 centre(0.5f * (kRoadHalf + kGutterEnd) + 0.005f, -0.036f, 0.9f);
     for (int i = 0; i < 9; ++i) {
         const float z = centre.z - 0.20f + 0.05f * static_cast<float>(i);
-        iron.box({.centre = vec3(centre.x, centre.y, z), .half = vec3(0.15f, 0.012f, 0.011f), .bevel_m = 0.004f});
+        iron.box({.centre = vec3(centre.x, centre.y, z),
+                  .half = vec3(0.15f, 0.012f, 0.011f),
+                  .bevel_m = 0.004f});
     }
     for (const float s : {-1.0f, 1.0f}) {
-        iron.box({.centre = centre + vec3(0.145f * s, 0.003f, 0.0f), .half = vec3(0.014f, 0.013f, 0.235f), .bevel_m = 0.004f});
-        iron.box({.centre = centre + vec3(0.0f, 0.003f, 0.235f * s), .half = vec3(0.155f, 0.013f, 0.014f), .bevel_m = 0.004f});
+        iron.box({.centre = centre + vec3(0.145f * s, 0.003f, 0.0f),
+                  .half = vec3(0.014f, 0.013f, 0.235f),
+                  .bevel_m = 0.004f});
+        iron.box({.centre = centre + vec3(0.0f, 0.003f, 0.235f * s),
+                  .half = vec3(0.155f, 0.013f, 0.014f),
+                  .bevel_m = 0.004f});
     }
     kit[Slot::Grass].color = vec4(0.05f, 0.04f, 0.05f, 1.0f);
-    kit[Slot::Grass].quad(centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
-                         centre + vec3(0.15f, -0.012f, -0.23f), centre + vec3(-0.15f, -0.012f, -0.23f));
+    kit[Slot::Grass].quad(
+        centre + vec3(-0.15f, -0.012f, 0.23f), centre + vec3(0.15f, -0.012f, 0.23f),
+        centre + vec3(0.15f, -0.012f, -0.23f), centre + vec3(-0.15f, -0.012f, -0.23f));
     kit[Slot::Grass].color = vec4(1.0f);
 }
 
@@ -268,8 +298,10 @@ void add_grating(Kit& kit)
 RoadPoint road_at(const Kit& kit, float x, float z)
 {
     const float crown = 0.045f * (1.0f - x * x / (kRoadHalf * kRoadHalf));
-    const float wobble_x = 0.34f * ground_noise(kit, x, z, 1.1f, 1) + 0.10f * ground_noise(kit, x, z, 3.1f, 2);
-    const float wobble_z = 0.34f * ground_noise(kit, x, z, 1.1f, 3) + 0.10f * ground_noise(kit, x, z, 3.1f, 4);
+    const float wobble_x =
+        0.34f * ground_noise(kit, x, z, 1.1f, 1) + 0.10f * ground_noise(kit, x, z, 3.1f, 2);
+    const float wobble_z =
+        0.34f * ground_noise(kit, x, z, 1.1f, 3) + 0.10f * ground_noise(kit, x, z, 3.1f, 4);
     float dip = 0.0f;
     for (const Hollow& hollow : kHollows) {
         const float dx = (x + wobble_x - hollow.x) / hollow.radius_x;
@@ -311,7 +343,8 @@ void add_ground(Kit& kit)
     for (const float side : {-1.0f, 1.0f}) {
         const float a = side < 0.0f ? -kKerbEnd : kRoadHalf - 0.1f;
         const float b = side < 0.0f ? -kRoadHalf + 0.1f : kKerbEnd;
-        grass.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar), vec3(a, -0.075f, kFar));
+        grass.quad(vec3(a, -0.075f, kNear), vec3(b, -0.075f, kNear), vec3(b, -0.075f, kFar),
+                   vec3(a, -0.075f, kFar));
     }
     grass.color = vec4(1.0f);
     // The verge along the garden wall and the garden behind it.
@@ -320,14 +353,15 @@ void add_ground(Kit& kit)
         const float z = kNear + (kGarden + 0.1f - kNear) * static_cast<float>(j) / 40.0f;
         const float mound = 0.02f * std::sin(3.14159265f * static_cast<float>(i) / 8.0f) +
                             0.012f * ground_noise(kit, x, z, 2.5f, 41);
-        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z), vec4(0.72f, 0.66f, 0.62f, 1.0f),
-                                  vec4(1.0f, 0.0f, 1.0f, 1.0f)};
+        return MeshBuilder::Point{vec3(x, kKerbTop - 0.025f + mound, z), vec3(0, 1, 0), vec2(x, z),
+                                  vec4(0.72f, 0.66f, 0.62f, 1.0f), vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
     grass.grid(16, 24, [&](int i, int j) {
         const float x = kRightWall + 0.3f + 0.5f * static_cast<float>(i);
         const float z = kNear + (kGarden - kNear) * static_cast<float>(j) / 24.0f;
-        return MeshBuilder::Point{vec3(x, 0.16f + 0.05f * ground_noise(kit, x, z, 0.8f, 42), z), vec3(0, 1, 0), vec2(x, z),
-                                  vec4(1.0f), vec4(1.0f, 0.0f, 1.0f, 1.0f)};
+        return MeshBuilder::Point{vec3(x, 0.16f + 0.05f * ground_noise(kit, x, z, 0.8f, 42), z),
+                                  vec3(0, 1, 0), vec2(x, z), vec4(1.0f),
+                                  vec4(1.0f, 0.0f, 1.0f, 1.0f)};
     });
     // The land around, below everything else.
     constexpr float kLand = 60.0f;

@@ -86,7 +86,8 @@ std::vector<std::byte> encode_orm(const MaterialMaps& maps)
 
 // What shines out of a window at dusk, u and v from 0 to 1 over it: a warm room, brightest high up,
 // curtains drawn to the sides, a few pots on the sill.
-std::vector<std::byte> encode_window_light(std::uint32_t seed, const std::vector<std::uint8_t>& table)
+std::vector<std::byte> encode_window_light(std::uint32_t seed,
+                                           const std::vector<std::uint8_t>& table)
 {
     constexpr int kSize = 256;
     Image image(kSize, kSize, 3, ColorSpace::Linear);
@@ -106,10 +107,12 @@ std::vector<std::byte> encode_window_light(std::uint32_t seed, const std::vector
             color = glm::mix(color, color * glm::vec3(0.62f, 0.42f, 0.30f) * fold, curtain);
             for (int k = 0; k < 4; ++k) {
                 const std::uint32_t h = texproc::hash_cell(k, 3, seed);
-                const float at = 0.28f + 0.15f * static_cast<float>(k) + 0.04f * texproc::hash_signed(h, 1);
+                const float at =
+                    0.28f + 0.15f * static_cast<float>(k) + 0.04f * texproc::hash_signed(h, 1);
                 const float tall = 0.10f + 0.10f * texproc::hash_unit(h, 2);
                 const float wide = 0.025f + 0.02f * texproc::hash_unit(h, 3);
-                const float body = std::abs(u - at) / wide + std::max(0.0f, (1.0f - v) - tall) / 0.03f;
+                const float body =
+                    std::abs(u - at) / wide + std::max(0.0f, (1.0f - v) - tall) / 0.03f;
                 color *= 0.18f + 0.82f * texproc::smooth_step(0.85f, 1.1f, body);
             }
             for (int c = 0; c < 3; ++c) image.at(i, j, c) = color[c];
@@ -121,23 +124,18 @@ std::vector<std::byte> encode_window_light(std::uint32_t seed, const std::vector
 struct Source {
     MaterialKind kind;
     std::string name;
-    bool height;  ///< the height map goes into the file: water and snow settle in this relief
+    bool height;        ///< the height map goes into the file: water and snow settle in this relief
     float size = 1.0f;  ///< times DemoOptions::texture_size
 };
 
 const std::vector<Source>& sources()
 {
     static const std::vector<Source> list = {
-        {MaterialKind::Cobble, "cobble", true, 2.0f},
-        {MaterialKind::Brick, "brick", true},
-        {MaterialKind::Paving, "paving", true},
-        {MaterialKind::RoofTile, "roof_tile", true},
-        {MaterialKind::Plank, "plank", true},
-        {MaterialKind::Plaster, "plaster", false},
-        {MaterialKind::Granite, "granite", true},
-        {MaterialKind::MetalPlate, "zinc", false},
-        {MaterialKind::PaintedIron, "iron", false},
-        {MaterialKind::StandingSeam, "seam", true},
+        {MaterialKind::Cobble, "cobble", true, 2.0f}, {MaterialKind::Brick, "brick", true},
+        {MaterialKind::Paving, "paving", true},       {MaterialKind::RoofTile, "roof_tile", true},
+        {MaterialKind::Plank, "plank", true},         {MaterialKind::Plaster, "plaster", false},
+        {MaterialKind::Granite, "granite", true},     {MaterialKind::MetalPlate, "zinc", false},
+        {MaterialKind::PaintedIron, "iron", false},   {MaterialKind::StandingSeam, "seam", true},
         {MaterialKind::GrassGround, "grass", true},
     };
     return list;
@@ -160,8 +158,11 @@ std::vector<Baked> bake(const DemoOptions& options, Kit& kit)
         for (std::size_t k = next++; k < baked.size(); k = next++) {
             try {
                 const bool cobble = sources()[k].kind == MaterialKind::Cobble;
-                const int size = std::max(16, static_cast<int>(sources()[k].size * static_cast<float>(options.texture_size)));
-                MaterialMaps maps = texproc::generate_material(sources()[k].kind, size, options.seed, 1);
+                const int size = std::max(
+                    16,
+                    static_cast<int>(sources()[k].size * static_cast<float>(options.texture_size)));
+                MaterialMaps maps =
+                    texproc::generate_material(sources()[k].kind, size, options.seed, 1);
                 Baked& out = baked[k];
                 out.tile_m = maps.tile_m;
                 out.height_scale_m = maps.height_scale_m;
@@ -180,8 +181,9 @@ std::vector<Baked> bake(const DemoOptions& options, Kit& kit)
             }
         }
     };
-    const int threads = options.threads > 0 ? options.threads
-                                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int threads = options.threads > 0
+                            ? options.threads
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     {
         std::vector<std::jthread> workers;
         const std::size_t wanted = std::min(static_cast<std::size_t>(threads), baked.size());
@@ -215,22 +217,101 @@ void add_street_materials(const DemoOptions& options, gpu::Scene& scene, Kit& ki
     const glm::vec4 kStoneWater(0.0f, 0.55f, 0.0f, 1.45f);
     const glm::vec4 kDenseWater(0.0f, 0.45f, 0.0f, 1.3f);
     const Recipe recipes[kSlots] = {
-        {.slot = Slot::Cobble, .name = "cobble", .source = "cobble", .porosity = 0.45f, .water = kStoneWater},
-        {.slot = Slot::Paving, .name = "paving", .source = "paving", .porosity = 0.55f, .water = kStoneWater},
-        {.slot = Slot::Granite, .name = "granite", .source = "granite", .porosity = 0.40f, .water = kStoneWater},
-        {.slot = Slot::Brick, .name = "brick", .source = "brick", .porosity = 0.75f, .water = kStoneWater},
-        {.slot = Slot::Plaster, .name = "plaster", .source = "plaster", .porosity = 0.70f, .water = kDenseWater},
-        {.slot = Slot::Timber, .name = "timber", .source = "plank", .porosity = 0.55f, .water = kStoneWater},
-        {.slot = Slot::Painted, .name = "painted wood", .source = "plank", .color_texture = false, .roughness = 0.75f, .porosity = 0.05f, .water = kDenseWater},
-        {.slot = Slot::RoofTile, .name = "roof tile", .source = "roof_tile", .porosity = 0.65f, .water = kDenseWater},
-        {.slot = Slot::Zinc, .name = "galvanised zinc", .source = "zinc", .porosity = 0.0f, .water = kDenseWater},
-        {.slot = Slot::Iron, .name = "cast iron", .source = "iron", .porosity = 0.0f, .water = kDenseWater},
-        {.slot = Slot::Awning, .name = "copper sheet", .source = "seam", .porosity = 0.10f, .water = kDenseWater},
-        {.slot = Slot::Grass, .name = "grass ground", .source = "grass", .porosity = 0.90f, .water = {0.0f, 0.15f, 0.0f, 0.3f}},
-        {.slot = Slot::Blades, .name = "plants", .source = "", .metallic = 0.0f, .roughness = 0.70f, .porosity = 0.20f, .water = {0.0f, 0.0f, 0.0f, 0.0f}, .snow_influence = 0.8f, .double_sided = true},
-        {.slot = Slot::Glass, .name = "window glass", .source = "", .color = {0.016f, 0.020f, 0.024f, 1.0f}, .metallic = 0.0f, .roughness = 0.06f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
-        {.slot = Slot::LitGlass, .name = "lit window", .source = "", .color = {0.022f, 0.021f, 0.020f, 1.0f}, .metallic = 0.0f, .roughness = 0.10f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
-        {.slot = Slot::LampGlass, .name = "lantern glass", .source = "", .color = {0.45f, 0.42f, 0.36f, 1.0f}, .metallic = 0.0f, .roughness = 0.25f, .porosity = 0.0f, .water = {0.0f, 0.0f, 0.0f, 0.0f}},
+        {.slot = Slot::Cobble,
+         .name = "cobble",
+         .source = "cobble",
+         .porosity = 0.45f,
+         .water = kStoneWater},
+        {.slot = Slot::Paving,
+         .name = "paving",
+         .source = "paving",
+         .porosity = 0.55f,
+         .water = kStoneWater},
+        {.slot = Slot::Granite,
+         .name = "granite",
+         .source = "granite",
+         .porosity = 0.40f,
+         .water = kStoneWater},
+        {.slot = Slot::Brick,
+         .name = "brick",
+         .source = "brick",
+         .porosity = 0.75f,
+         .water = kStoneWater},
+        {.slot = Slot::Plaster,
+         .name = "plaster",
+         .source = "plaster",
+         .porosity = 0.70f,
+         .water = kDenseWater},
+        {.slot = Slot::Timber,
+         .name = "timber",
+         .source = "plank",
+         .porosity = 0.55f,
+         .water = kStoneWater},
+        {.slot = Slot::Painted,
+         .name = "painted wood",
+         .source = "plank",
+         .color_texture = false,
+         .roughness = 0.75f,
+         .porosity = 0.05f,
+         .water = kDenseWater},
+        {.slot = Slot::RoofTile,
+         .name = "roof tile",
+         .source = "roof_tile",
+         .porosity = 0.65f,
+         .water = kDenseWater},
+        {.slot = Slot::Zinc,
+         .name = "galvanised zinc",
+         .source = "zinc",
+         .porosity = 0.0f,
+         .water = kDenseWater},
+        {.slot = Slot::Iron,
+         .name = "cast iron",
+         .source = "iron",
+         .porosity = 0.0f,
+         .water = kDenseWater},
+        {.slot = Slot::Awning,
+         .name = "copper sheet",
+         .source = "seam",
+         .porosity = 0.10f,
+         .water = kDenseWater},
+        {.slot = Slot::Grass,
+         .name = "grass ground",
+         .source = "grass",
+         .porosity = 0.90f,
+         .water = {0.0f, 0.15f, 0.0f, 0.3f}},
+        {.slot = Slot::Blades,
+         .name = "plants",
+         .source = "",
+         .metallic = 0.0f,
+         .roughness = 0.70f,
+         .porosity = 0.20f,
+         .water = {0.0f, 0.0f, 0.0f, 0.0f},
+         .snow_influence = 0.8f,
+         .double_sided = true},
+        {.slot = Slot::Glass,
+         .name = "window glass",
+         .source = "",
+         .color = {0.016f, 0.020f, 0.024f, 1.0f},
+         .metallic = 0.0f,
+         .roughness = 0.06f,
+         .porosity = 0.0f,
+         .water = {0.0f, 0.0f, 0.0f, 0.0f}},
+        {.slot = Slot::LitGlass,
+         .name = "lit window",
+         .source = "",
+         .color = {0.022f, 0.021f, 0.020f, 1.0f},
+         .metallic = 0.0f,
+         .roughness = 0.10f,
+         .porosity = 0.0f,
+         .water = {0.0f, 0.0f, 0.0f, 0.0f}},
+        {.slot = Slot::LampGlass,
+         .name = "lantern glass",
+         .source = "",
+         .color = {0.45f, 0.42f, 0.36f, 1.0f},
+         .metallic = 0.0f,
+         .roughness = 0.25f,
+         .porosity = 0.0f,
+         .water = {0.0f, 0.0f, 0.0f, 0.0f}},
     };
 
     // Each image of a source once; materials share them.

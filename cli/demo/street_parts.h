@@ -18,14 +18,14 @@ enum class Slot {
     Granite,
     Brick,
     Plaster,
-    Timber,    ///< dark oak
-    Painted,   ///< painted boards: door, frames, shutters
+    Timber,   ///< dark oak
+    Painted,  ///< painted boards: door, frames, shutters
     RoofTile,
     Zinc,
     Iron,
     Awning,
     Grass,
-    Blades,    ///< grass blades and leaves, coloured by vertex
+    Blades,  ///< grass blades and leaves, coloured by vertex
     Glass,
     LitGlass,  ///< a window with light behind it
     LampGlass,
@@ -62,12 +62,12 @@ inline constexpr float kRoadHalf = 2.2f;
 inline constexpr float kGutterEnd = 2.5f;
 inline constexpr float kKerbEnd = 2.64f;
 inline constexpr float kKerbTop = 0.11f;
-inline constexpr float kNear = 8.0f;      ///< z where the street begins, behind the camera
-inline constexpr float kGate = -10.2f;    ///< z of the gate's front
-inline constexpr float kFar = -21.0f;     ///< z of the last house
+inline constexpr float kNear = 8.0f;    ///< z where the street begins, behind the camera
+inline constexpr float kGate = -10.2f;  ///< z of the gate's front
+inline constexpr float kFar = -21.0f;   ///< z of the last house
 inline constexpr float kLeftWall = -3.75f;
 inline constexpr float kRightWall = 3.3f;
-inline constexpr float kGarden = -2.2f;   ///< the garden on the right ends here, a house begins
+inline constexpr float kGarden = -2.2f;  ///< the garden on the right ends here, a house begins
 
 /// Ground level of the road without the relief of its stones, and where water gathers on it (0..1).
 struct RoadPoint {

@@ -1,4 +1,4 @@
-// What stands in the street: the awning, the lamp, bollards, a bench, barrels, a bucket, crates.
+// What stands in the street: bollards, a bench, barrels, a bucket, crates, the garden wall, a sign.
 #include <algorithm>
 #include <cmath>
 
@@ -14,146 +14,27 @@ using texproc::hash_cell;
 using texproc::hash_signed;
 using texproc::hash_unit;
 
-void add_awning(Kit& kit)
-{
-    constexpr float kZ0 = -1.2f;
-    constexpr float kZ1 = -5.2f;
-    constexpr float kInner = kLeftWall;
-    constexpr float kOuter = -1.92f;
-    constexpr float kHigh = 2.86f;
-    constexpr float kLow = 2.36f;
-    constexpr float kSheet = 0.4f;  // as the seams of the material
-    const vec3 down = glm::normalize(vec3(kOuter - kInner, kLow - kHigh, 0.0f));
-    const vec3 normal = glm::normalize(vec3(kHigh - kLow, kOuter - kInner, 0.0f));
-    const vec3 thick = 0.012f * normal;
-
-    MeshBuilder& sheet = kit[Slot::Awning];
-    const vec3 a(kOuter, kLow, kZ0), b(kOuter, kLow, kZ1), c(kInner, kHigh, kZ1), d(kInner, kHigh, kZ0);
-    sheet.quad(a + thick, b + thick, c + thick, d + thick, -down);
-    // The folded edge along the eaves and the two ends.
-    const vec3 fold = vec3(0.0f, -0.055f, 0.0f);
-    sheet.quad(a + fold, b + fold, b + thick, a + thick);
-    sheet.quad(a + fold, a + thick, d + thick, d + fold);
-    sheet.quad(b + thick, b + fold, c + fold, c + thick);
-    const vec3 bead = vec3(0.004f, -0.055f, 0.0f);
-    sheet.tube({a + bead, b + bead}, 0.009f, 8);
-    for (float z = kZ0; z > kZ1 - 0.01f; z -= kSheet) {
-        const float inset = z == kZ0 ? -0.008f : z < kZ1 + 0.1f ? 0.008f : 0.0f;
-        const vec3 offset(0.0f, 0.0f, z + inset);
-        sheet.beam(vec3(kOuter + 0.012f, kLow, 0.0f) + offset + 0.024f * normal, vec3(kInner, kHigh, 0.0f) + offset + 0.024f * normal, 0.010f, 0.030f, 0.004f, normal);
-    }
-    // A flashing against the wall.
-    sheet.box({.centre = vec3(kInner + 0.012f, kHigh + 0.06f, 0.5f * (kZ0 + kZ1)), .half = vec3(0.012f, 0.07f, 0.5f * (kZ0 - kZ1) + 0.02f), .bevel_m = 0.004f, .grain = 1});
-
-    // Boards and rafters below.
-    MeshBuilder& timber = kit[Slot::Timber];
-    const vec3 under = -0.035f * normal;
-    timber.quad(b + under, a + under, d + under, c + under, vec3(0, 0, 1));
-    for (int i = 0; i <= 6; ++i) {
-        const float z = kZ0 - 0.06f + (kZ1 - kZ0 + 0.12f) * static_cast<float>(i) / 6.0f;
-        timber.beam(vec3(kOuter + 0.10f, kLow - 0.095f, z), vec3(kInner, kHigh - 0.065f, z), 0.055f, 0.085f, 0.006f, normal);
-    }
-    timber.beam(vec3(-2.12f, kLow - 0.115f, kZ0 + 0.02f), vec3(-2.12f, kLow - 0.115f, kZ1 - 0.02f), 0.08f, 0.10f, 0.008f);
-    timber.beam(vec3(kInner + 0.035f, kHigh - 0.16f, kZ0), vec3(kInner + 0.035f, kHigh - 0.16f, kZ1), 0.07f, 0.11f, 0.008f);
-
-    // Brackets: a strut, a tie and a scroll of iron at four places.
-    MeshBuilder& iron = kit[Slot::Iron];
-    for (int i = 0; i < 4; ++i) {
-        const float z = kZ0 - 0.12f + (kZ1 - kZ0 + 0.24f) * static_cast<float>(i) / 3.0f;
-        iron.box({.centre = vec3(kInner + 0.02f, 2.22f, z), .half = vec3(0.02f, 0.46f, 0.028f), .bevel_m = 0.006f});
-        iron.beam(vec3(kInner, kLow - 0.14f + 0.21f, z), vec3(-2.12f, kLow - 0.18f, z), 0.035f, 0.035f, 0.006f);
-        std::vector<vec3> strut;
-        for (int k = 0; k <= 10; ++k) {
-            const float angle = 1.5707963f * static_cast<float>(k) / 10.0f;
-            strut.emplace_back(kInner + 0.04f + 1.30f * (1.0f - std::cos(angle)), 1.80f + 0.45f * std::sin(angle), z);
-        }
-        iron.tube(strut, 0.017f, 8);
-        std::vector<vec3> scroll;
-        for (int k = 0; k <= 24; ++k) {
-            const float t = static_cast<float>(k) / 24.0f;
-            const float angle = 1.2f + 8.2f * t;
-            const float r = 0.17f * (1.0f - 0.72f * t);
-            scroll.emplace_back(kInner + 0.27f + r * std::cos(angle), 2.14f + r * std::sin(angle), z);
-        }
-        iron.tube(scroll, 0.010f, 6);
-    }
-}
-
-void add_lamp(Kit& kit, const vec3& foot)
-{
-    MeshBuilder& iron = kit[Slot::Iron];
-    // A stepped plinth, a fluted base, a slender column with rings.
-    iron.box({.centre = foot + vec3(0.0f, 0.05f, 0.0f), .half = vec3(0.17f, 0.07f, 0.17f), .bevel_m = 0.018f});
-    iron.lathe(foot, {{0.150f, 0.10f}, {0.150f, 0.14f}, {0.135f, 0.17f}, {0.118f, 0.19f}, {0.112f, 0.24f},
-                      {0.100f, 0.60f}, {0.108f, 0.63f}, {0.112f, 0.66f}, {0.100f, 0.69f}, {0.078f, 0.72f},
-                      {0.062f, 0.80f}, {0.055f, 0.92f}, {0.066f, 0.95f}, {0.068f, 0.98f}, {0.052f, 1.01f},
-                      {0.046f, 1.10f}, {0.040f, 2.30f}, {0.058f, 2.33f}, {0.062f, 2.36f}, {0.045f, 2.40f},
-                      {0.040f, 2.46f}, {0.034f, 2.64f}, {0.060f, 2.68f}, {0.072f, 2.74f}, {0.050f, 2.77f},
-                      {0.030f, 2.80f}, {0.0f, 2.81f}}, 20);
-    for (int k = 0; k < 12; ++k) {  // flutes of the base
-        const float angle = 6.2831853f * static_cast<float>(k) / 12.0f;
-        const vec3 n(std::cos(angle), 0.0f, std::sin(angle));
-        iron.tube({foot + 0.112f * n + vec3(0, 0.235f, 0), foot + 0.101f * n + vec3(0, 0.60f, 0)}, 0.011f, 6);
-    }
-    // The ladder bar.
-    const vec3 bar(0.0f, 2.52f, 0.0f);
-    iron.tube({foot + bar - vec3(0.34f, 0, 0), foot + bar + vec3(0.34f, 0, 0)}, 0.015f, 10);
-    for (const float s : {-1.0f, 1.0f}) {
-        iron.lathe(foot + bar + vec3(0.34f * s, -0.03f, 0.0f), {{0.0f, 0.0f}, {0.022f, 0.010f}, {0.030f, 0.030f}, {0.022f, 0.050f}, {0.0f, 0.060f}}, 10);
-        std::vector<vec3> arm;
-        for (int k = 0; k <= 8; ++k) {
-            const float angle = 1.5707963f * static_cast<float>(k) / 8.0f;
-            arm.push_back(foot + vec3(s * (0.05f + 0.19f * std::sin(angle)), 2.33f + 0.19f * (1.0f - std::cos(angle)), 0.0f));
-        }
-        iron.tube(arm, 0.009f, 6);
-    }
-
-    // The lantern: four leaning panes in a frame, a vented roof, a finial.
-    constexpr float kLow = 2.83f;
-    constexpr float kHigh = 3.32f;
-    constexpr float kNarrow = 0.115f;
-    constexpr float kWide = 0.205f;
-    iron.box({.centre = foot + vec3(0, kLow - 0.010f, 0), .half = vec3(kNarrow + 0.02f, 0.016f, kNarrow + 0.02f), .bevel_m = 0.006f});
-    iron.box({.centre = foot + vec3(0, kHigh + 0.012f, 0), .half = vec3(kWide + 0.025f, 0.018f, kWide + 0.025f), .bevel_m = 0.006f});
-    MeshBuilder& glass = kit[Slot::LampGlass];
-    for (int side = 0; side < 4; ++side) {
-        const float angle = 1.5707963f * static_cast<float>(side);
-        const vec3 n(std::sin(angle), 0.0f, std::cos(angle));
-        const vec3 t(std::cos(angle), 0.0f, -std::sin(angle));
-        const vec3 low = foot + vec3(0, kLow, 0);
-        const vec3 high = foot + vec3(0, kHigh, 0);
-        const auto corner = [&](float s, bool top) {
-            const float r = top ? kWide : kNarrow;
-            return (top ? high : low) + r * n + s * r * t;
-        };
-        glass.quad(corner(-1, false), corner(1, false), corner(1, true), corner(-1, true));
-        iron.beam(corner(1, false), corner(1, true), 0.020f, 0.020f, 0.004f, n);
-        const vec3 middle_low = 0.5f * (corner(-1, false) + corner(1, false));
-        const vec3 middle_high = 0.5f * (corner(-1, true) + corner(1, true));
-        iron.beam(middle_low + 0.004f * n, middle_high + 0.004f * n, 0.008f, 0.008f, 0.002f, n);
-    }
-    const auto pyramid = [&](float y0, float r0, float y1, float r1) {
-        for (int side = 0; side < 4; ++side) {
-            const float angle = 1.5707963f * static_cast<float>(side);
-            const vec3 n(std::sin(angle), 0.0f, std::cos(angle));
-            const vec3 t(std::cos(angle), 0.0f, -std::sin(angle));
-            const vec3 a = foot + vec3(0, y0, 0), b = foot + vec3(0, y1, 0);
-            iron.quad(a + r0 * (n - t), a + r0 * (n + t), b + r1 * (n + t), b + r1 * (n - t));
-        }
-    };
-    pyramid(kHigh + 0.03f, kWide + 0.045f, kHigh + 0.19f, 0.085f);
-    pyramid(kHigh + 0.19f, 0.085f, kHigh + 0.24f, 0.085f);
-    pyramid(kHigh + 0.24f, 0.105f, kHigh + 0.31f, 0.02f);
-    iron.lathe(foot + vec3(0, kHigh + 0.30f, 0), {{0.02f, 0.0f}, {0.032f, 0.02f}, {0.036f, 0.045f}, {0.022f, 0.07f}, {0.010f, 0.085f}, {0.012f, 0.11f}, {0.0f, 0.15f}}, 10);
-}
-
 namespace {
 
 void add_bollard(Kit& kit, const vec3& foot)
 {
-    kit[Slot::Iron].lathe(foot, {{0.105f, -0.02f}, {0.105f, 0.05f}, {0.085f, 0.075f}, {0.078f, 0.10f}, {0.068f, 0.55f},
-                                 {0.066f, 0.62f}, {0.084f, 0.645f}, {0.086f, 0.675f}, {0.062f, 0.70f}, {0.056f, 0.73f},
-                                 {0.074f, 0.765f}, {0.082f, 0.805f}, {0.074f, 0.845f}, {0.046f, 0.872f}, {0.0f, 0.882f}}, 20);
+    kit[Slot::Iron].lathe(foot,
+                          {{0.105f, -0.02f},
+                           {0.105f, 0.05f},
+                           {0.085f, 0.075f},
+                           {0.078f, 0.10f},
+                           {0.068f, 0.55f},
+                           {0.066f, 0.62f},
+                           {0.084f, 0.645f},
+                           {0.086f, 0.675f},
+                           {0.062f, 0.70f},
+                           {0.056f, 0.73f},
+                           {0.074f, 0.765f},
+                           {0.082f, 0.805f},
+                           {0.074f, 0.845f},
+                           {0.046f, 0.872f},
+                           {0.0f, 0.882f}},
+                          20);
 }
 
 void add_bench(Kit& kit, const vec3& foot)
@@ -164,24 +45,39 @@ void add_bench(Kit& kit, const vec3& foot)
     constexpr float kLength = 1.5f;
     for (const float s : {-1.0f, 1.0f}) {
         const vec3 at = foot + vec3(0.0f, 0.0f, s * (0.5f * kLength - 0.16f));
-        iron.tube({at + vec3(0.40f, 0.0f, 0), at + vec3(0.36f, 0.20f, 0), at + vec3(0.37f, 0.40f, 0)}, 0.017f, 8);
-        iron.tube({at + vec3(0.02f, 0.0f, 0), at + vec3(0.06f, 0.22f, 0), at + vec3(0.05f, 0.42f, 0), at + vec3(-0.03f, 0.80f, 0)}, 0.017f, 8);
+        iron.tube(
+            {at + vec3(0.40f, 0.0f, 0), at + vec3(0.36f, 0.20f, 0), at + vec3(0.37f, 0.40f, 0)},
+            0.017f, 8);
+        iron.tube({at + vec3(0.02f, 0.0f, 0), at + vec3(0.06f, 0.22f, 0),
+                   at + vec3(0.05f, 0.42f, 0), at + vec3(-0.03f, 0.80f, 0)},
+                  0.017f, 8);
         iron.beam(at + vec3(0.03f, 0.405f, 0), at + vec3(0.40f, 0.395f, 0), 0.03f, 0.02f, 0.004f);
-        iron.tube({at + vec3(0.02f, 0.62f, 0), at + vec3(0.20f, 0.64f, 0), at + vec3(0.38f, 0.60f, 0), at + vec3(0.40f, 0.54f, 0), at + vec3(0.37f, 0.40f, 0)}, 0.013f, 8);
+        iron.tube(
+            {at + vec3(0.02f, 0.62f, 0), at + vec3(0.20f, 0.64f, 0), at + vec3(0.38f, 0.60f, 0),
+             at + vec3(0.40f, 0.54f, 0), at + vec3(0.37f, 0.40f, 0)},
+            0.013f, 8);
     }
     const auto slat = [&](vec3 centre, vec3 half, float tilt, std::uint32_t k) {
         const float c = std::cos(tilt), sn = std::sin(tilt);
-        wood.uv_offset_m = vec2(0.15f * static_cast<float>(k) + 0.075f, 0.37f * static_cast<float>(k));
+        wood.uv_offset_m =
+            vec2(0.15f * static_cast<float>(k) + 0.075f, 0.37f * static_cast<float>(k));
         const float light = 0.95f + 0.05f * hash_signed(k, 3);
         wood.color = vec4(light, 0.92f * light, 0.82f * light, 1.0f);
-        wood.box({.centre = foot + centre, .half = half, .bevel_m = 0.007f, .axes = glm::mat3(vec3(c, sn, 0), vec3(-sn, c, 0), vec3(0, 0, 1)), .grain = 2});
+        wood.box({.centre = foot + centre,
+                  .half = half,
+                  .bevel_m = 0.007f,
+                  .axes = glm::mat3(vec3(c, sn, 0), vec3(-sn, c, 0), vec3(0, 0, 1)),
+                  .grain = 2});
     };
     for (std::uint32_t k = 0; k < 4; ++k) {
-        slat(vec3(0.075f + 0.096f * static_cast<float>(k), 0.425f - 0.003f * static_cast<float>(k), 0), vec3(0.043f, 0.014f, 0.5f * kLength), -0.03f, k);
+        slat(vec3(0.075f + 0.096f * static_cast<float>(k), 0.425f - 0.003f * static_cast<float>(k),
+                  0),
+             vec3(0.043f, 0.014f, 0.5f * kLength), -0.03f, k);
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
         const float t = static_cast<float>(k);
-        slat(vec3(0.055f - 0.024f * t, 0.52f + 0.105f * t, 0), vec3(0.045f, 0.013f, 0.5f * kLength), 1.5707963f + 0.22f, k + 7u);
+        slat(vec3(0.055f - 0.024f * t, 0.52f + 0.105f * t, 0), vec3(0.045f, 0.013f, 0.5f * kLength),
+             1.5707963f + 0.22f, k + 7u);
     }
     wood.color = vec4(1.0f);
     wood.uv_offset_m = vec2(0.0f);
@@ -191,7 +87,9 @@ void add_barrel(Kit& kit, const vec3& foot, float radius, float height)
 {
     MeshBuilder& wood = kit[Slot::Timber];
     constexpr int kStaves = 20;
-    const auto bulge = [&](float t) { return radius * (0.84f + 0.16f * std::sin(3.14159265f * t)); };
+    const auto bulge = [&](float t) {
+        return radius * (0.84f + 0.16f * std::sin(3.14159265f * t));
+    };
     for (int s = 0; s < kStaves; ++s) {
         const std::uint32_t h = hash_cell(s, static_cast<int>(foot.z * 100.0f), kit.seed + 5u);
         const float light = 0.75f + 0.25f * hash_unit(h, 1);
@@ -201,57 +99,95 @@ void add_barrel(Kit& kit, const vec3& foot, float radius, float height)
         wood.grid(2, 8, [&](int i, int j) {
             // Each stave is a little rounded and set off from its neighbours.
             const float inner = i == 1 ? 0.004f : 0.0f;
-            const float angle = 6.2831853f * (static_cast<float>(s) + 0.03f + 0.47f * static_cast<float>(i)) / kStaves;
+            const float angle = 6.2831853f *
+                                (static_cast<float>(s) + 0.03f + 0.47f * static_cast<float>(i)) /
+                                kStaves;
             const float t = static_cast<float>(j) / 8.0f;
             const float r = bulge(t) + inner + proud;
             const float lean = 0.16f * radius * 3.14159265f * std::cos(3.14159265f * t) / height;
             const float tilted = angle + (static_cast<float>(i) - 1.0f) * 0.10f;
-            return MeshBuilder::Point{foot + vec3(r * std::cos(angle), t * height, r * std::sin(angle)),
-                                      glm::normalize(vec3(std::cos(tilted), -lean, std::sin(tilted))),
-                                      vec2(0.06f * static_cast<float>(i), -t * height), tint, vec4(1.0f)};
+            return MeshBuilder::Point{
+                foot + vec3(r * std::cos(angle), t * height, r * std::sin(angle)),
+                glm::normalize(vec3(std::cos(tilted), -lean, std::sin(tilted))),
+                vec2(0.06f * static_cast<float>(i), -t * height), tint, vec4(1.0f)};
         });
     }
     wood.uv_offset_m = vec2(0.0f);
     // Rim, inside and a dark sheet of water.
     const float top = bulge(1.0f);
     wood.color = vec4(0.8f, 0.76f, 0.7f, 1.0f);
-    wood.lathe(foot, {{top + 0.003f, height - 0.01f}, {top + 0.003f, height}, {top - 0.024f, height}, {top - 0.024f, height - 0.12f}}, 32);
+    wood.lathe(foot,
+               {{top + 0.003f, height - 0.01f},
+                {top + 0.003f, height},
+                {top - 0.024f, height},
+                {top - 0.024f, height - 0.12f}},
+               32);
     wood.color = vec4(1.0f);
     kit[Slot::Glass].lathe(foot, {{top, height - 0.055f}, {0.0f, height - 0.055f}}, 32);
     for (const float t : {0.07f, 0.27f, 0.73f, 0.93f}) {
         const float half = 0.018f / height;
         const float a = bulge(t - half) + 0.007f, b = bulge(t + half) + 0.007f;
-        kit[Slot::Iron].lathe(foot, {{a - 0.008f, (t - half) * height}, {a, (t - half) * height}, {b, (t + half) * height}, {b - 0.008f, (t + half) * height}}, 32);
+        kit[Slot::Iron].lathe(foot,
+                              {{a - 0.008f, (t - half) * height},
+                               {a, (t - half) * height},
+                               {b, (t + half) * height},
+                               {b - 0.008f, (t + half) * height}},
+                              32);
     }
 }
 
 void add_bucket(Kit& kit, const vec3& foot)
 {
     MeshBuilder& zinc = kit[Slot::Zinc];
-    zinc.lathe(foot, {{0.098f, 0.0f}, {0.102f, 0.004f}, {0.104f, 0.022f}, {0.100f, 0.026f}, {0.118f, 0.12f}, {0.121f, 0.124f}, {0.121f, 0.130f},
-                      {0.119f, 0.134f}, {0.142f, 0.262f}, {0.147f, 0.266f}, {0.149f, 0.272f}, {0.147f, 0.278f}, {0.141f, 0.277f},
-                      {0.139f, 0.270f}, {0.100f, 0.03f}, {0.0f, 0.028f}}, 28);
+    zinc.lathe(foot,
+               {{0.098f, 0.0f},
+                {0.102f, 0.004f},
+                {0.104f, 0.022f},
+                {0.100f, 0.026f},
+                {0.118f, 0.12f},
+                {0.121f, 0.124f},
+                {0.121f, 0.130f},
+                {0.119f, 0.134f},
+                {0.142f, 0.262f},
+                {0.147f, 0.266f},
+                {0.149f, 0.272f},
+                {0.147f, 0.278f},
+                {0.141f, 0.277f},
+                {0.139f, 0.270f},
+                {0.100f, 0.03f},
+                {0.0f, 0.028f}},
+               28);
     std::vector<vec3> handle;
     for (int k = 0; k <= 16; ++k) {
         const float angle = 3.14159265f * static_cast<float>(k) / 16.0f;
-        handle.push_back(foot + vec3(0.146f * std::cos(angle), 0.255f + 0.05f * std::sin(angle), 0.135f * std::sin(angle)));
+        handle.push_back(foot + vec3(0.146f * std::cos(angle), 0.255f + 0.05f * std::sin(angle),
+                                     0.135f * std::sin(angle)));
     }
     zinc.tube(handle, 0.0035f, 6);
     for (const float s : {-1.0f, 1.0f}) {
-        zinc.box({.centre = foot + vec3(0.146f * s, 0.25f, 0.0f), .half = vec3(0.006f, 0.022f, 0.022f), .bevel_m = 0.004f});
+        zinc.box({.centre = foot + vec3(0.146f * s, 0.25f, 0.0f),
+                  .half = vec3(0.006f, 0.022f, 0.022f),
+                  .bevel_m = 0.004f});
     }
 }
 
 void add_crate(Kit& kit, const vec3& foot, vec3 half, float turn)
 {
     MeshBuilder& wood = kit[Slot::Timber];
-    const glm::mat3 axes(vec3(std::cos(turn), 0, -std::sin(turn)), vec3(0, 1, 0), vec3(std::sin(turn), 0, std::cos(turn)));
+    const glm::mat3 axes(vec3(std::cos(turn), 0, -std::sin(turn)), vec3(0, 1, 0),
+                         vec3(std::sin(turn), 0, std::cos(turn)));
     const auto board = [&](vec3 centre, vec3 size, int grain, std::uint32_t k) {
-        const std::uint32_t h = hash_cell(static_cast<int>(k), static_cast<int>(foot.z * 50.0f), kit.seed + 6u);
+        const std::uint32_t h =
+            hash_cell(static_cast<int>(k), static_cast<int>(foot.z * 50.0f), kit.seed + 6u);
         const float light = 0.85f + 0.15f * hash_unit(h, 1);
         wood.color = vec4(light, light * 0.97f, light * 0.90f, 1.0f);
-        wood.uv_offset_m = vec2(0.15f * std::floor(8.0f * hash_unit(h, 2)) + 0.075f, hash_unit(h, 3));
-        wood.box({.centre = foot + axes * (centre + vec3(0, half.y, 0)), .half = size, .bevel_m = 0.004f, .axes = axes, .grain = grain});
+        wood.uv_offset_m =
+            vec2(0.15f * std::floor(8.0f * hash_unit(h, 2)) + 0.075f, hash_unit(h, 3));
+        wood.box({.centre = foot + axes * (centre + vec3(0, half.y, 0)),
+                  .half = size,
+                  .bevel_m = 0.004f,
+                  .axes = axes,
+                  .grain = grain});
     };
     std::uint32_t k = 0;
     const float pitch = 2.0f * half.y / 3.0f;
@@ -265,7 +201,8 @@ void add_crate(Kit& kit, const vec3& foot, vec3 half, float turn)
     }
     for (const float sx : {-1.0f, 1.0f}) {
         for (const float sz : {-1.0f, 1.0f}) {
-            board(vec3(sx * (half.x - 0.03f), 0, sz * (half.z - 0.028f)), vec3(0.018f, half.y, 0.014f), 1, k++);
+            board(vec3(sx * (half.x - 0.03f), 0, sz * (half.z - 0.028f)),
+                  vec3(0.018f, half.y, 0.014f), 1, k++);
         }
     }
     board(vec3(0, -half.y + 0.012f, 0), vec3(half.x - 0.016f, 0.008f, half.z - 0.016f), 0, k++);
@@ -282,7 +219,9 @@ void add_garden_wall(Kit& kit)
     stone.uv_scale = 2.4f;
     stone.weather = vec4(1.0f, 0.0f, 1.0f, 1.0f);
     stone.color = vec4(0.86f, 0.82f, 0.76f, 1.0f);
-    stone.box({.centre = vec3(kX, 0.5f * kHeight - 0.05f, 0.5f * (kNear + kGarden)), .half = vec3(0.16f, 0.5f * kHeight + 0.05f, 0.5f * (kNear - kGarden)), .bevel_m = 0.02f});
+    stone.box({.centre = vec3(kX, 0.5f * kHeight - 0.05f, 0.5f * (kNear + kGarden)),
+               .half = vec3(0.16f, 0.5f * kHeight + 0.05f, 0.5f * (kNear - kGarden)),
+               .bevel_m = 0.02f});
     stone.color = vec4(1.0f);
     stone.weather = vec4(1.0f);
     stone.uv_scale = 1.0f;
@@ -296,11 +235,13 @@ void add_garden_wall(Kit& kit)
         granite.color = vec4(light, light * 0.98f, light * 0.95f, 1.0f);
         granite.uv_offset_m = vec2(3.0f * hash_unit(h, 3), 3.0f * hash_unit(h, 4));
         const float tip = 0.02f * hash_signed(h, 5);
-        granite.box({.centre = vec3(kX + 0.008f * hash_signed(h, 6), kHeight + 0.045f + 0.006f * hash_signed(h, 7), z - 0.5f * length),
-                     .half = vec3(0.215f, 0.055f, 0.5f * length - 0.006f),
-                     .bevel_m = 0.022f,
-                     .axes = glm::mat3(vec3(1, tip, 0), vec3(-tip, 1, 0), vec3(0, 0, 1)),
-                     .grain = 2});
+        granite.box(
+            {.centre = vec3(kX + 0.008f * hash_signed(h, 6),
+                            kHeight + 0.045f + 0.006f * hash_signed(h, 7), z - 0.5f * length),
+             .half = vec3(0.215f, 0.055f, 0.5f * length - 0.006f),
+             .bevel_m = 0.022f,
+             .axes = glm::mat3(vec3(1, tip, 0), vec3(-tip, 1, 0), vec3(0, 0, 1)),
+             .grain = 2});
         granite.color = vec4(1.0f);
         granite.uv_offset_m = vec2(0.0f);
         z -= length;
@@ -312,15 +253,24 @@ void add_sign(Kit& kit, const vec3& at)
 {
     MeshBuilder& iron = kit[Slot::Iron];
     iron.tube({at, at + vec3(0.85f, 0.0f, 0.0f)}, 0.014f, 8);
-    iron.tube({at + vec3(0.0f, -0.35f, 0.0f), at + vec3(0.35f, -0.28f, 0.0f), at + vec3(0.62f, -0.01f, 0.0f)}, 0.010f, 8);
+    iron.tube({at + vec3(0.0f, -0.35f, 0.0f), at + vec3(0.35f, -0.28f, 0.0f),
+               at + vec3(0.62f, -0.01f, 0.0f)},
+              0.010f, 8);
     for (const float x : {0.30f, 0.74f}) {
         iron.tube({at + vec3(x, 0.0f, 0.0f), at + vec3(x, -0.09f, 0.0f)}, 0.006f, 6);
     }
     kit[Slot::Painted].color = vec4(0.33f, 0.09f, 0.055f, 1.0f);
-    kit[Slot::Painted].lathe(at + vec3(0.52f, -0.37f, -0.018f), {{0.0f, 0.0f}, {0.26f, 0.0f}, {0.28f, 0.008f}, {0.28f, 0.028f}, {0.26f, 0.036f}, {0.0f, 0.036f}}, 32,
-                             glm::mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0)));
+    kit[Slot::Painted].lathe(at + vec3(0.52f, -0.37f, -0.018f),
+                             {{0.0f, 0.0f},
+                              {0.26f, 0.0f},
+                              {0.28f, 0.008f},
+                              {0.28f, 0.028f},
+                              {0.26f, 0.036f},
+                              {0.0f, 0.036f}},
+                             32, glm::mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0)));
     kit[Slot::Painted].color = vec4(1.0f);
-    iron.lathe(at + vec3(0.52f, -0.37f, -0.024f), {{0.275f, 0.0f}, {0.295f, 0.006f}, {0.295f, 0.042f}, {0.275f, 0.048f}}, 32,
+    iron.lathe(at + vec3(0.52f, -0.37f, -0.024f),
+               {{0.275f, 0.0f}, {0.295f, 0.006f}, {0.295f, 0.042f}, {0.275f, 0.048f}}, 32,
                glm::mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0)));
 }
 
@@ -339,7 +289,8 @@ void add_furniture(Kit& kit)
     add_barrel(kit, vec3(kLeftWall + 0.42f, wall_foot - 0.005f, 1.02f), 0.30f, 0.92f);
     add_bucket(kit, vec3(kLeftWall + 0.78f, wall_foot - 0.008f, 0.62f));
     add_crate(kit, vec3(kLeftWall + 0.34f, wall_foot, -4.62f), vec3(0.25f, 0.17f, 0.20f), 0.15f);
-    add_crate(kit, vec3(kLeftWall + 0.32f, wall_foot + 0.34f, -4.60f), vec3(0.24f, 0.15f, 0.19f), -0.12f);
+    add_crate(kit, vec3(kLeftWall + 0.32f, wall_foot + 0.34f, -4.60f), vec3(0.24f, 0.15f, 0.19f),
+              -0.12f);
     add_barrel(kit, vec3(kLeftWall + 0.40f, wall_foot - 0.005f, -1.58f), 0.27f, 0.80f);
     add_garden_wall(kit);
     add_sign(kit, vec3(kLeftWall, 3.55f, -5.35f));

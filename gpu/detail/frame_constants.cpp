@@ -67,7 +67,9 @@ shared::SkyParams sky_params(const Frame& frame)
     const float white = std::clamp(frame.weather.snow_amount * 1.2f, 0.0f, 1.0f);
     const glm::vec3 albedo =
         glm::mix(glm::vec3(1.0f, 0.97f, 0.9f) * sky.ground_albedo, glm::vec3(0.75f), white);
-    p.ground_radiance = level * through * albedo / shared::kPi;
+    const float grey = glm::dot(level, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    p.ground_radiance =
+        glm::mix(level, glm::vec3(grey), p.cloud_cover) * through * albedo / shared::kPi;
     return p;
 }
 

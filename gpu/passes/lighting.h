@@ -13,6 +13,7 @@ struct LightingVariant {
     bool image_based_light = true;
     bool ambient_occlusion = true;
     bool emission = true;
+    bool all_lights = false;  ///< without lists: what they are tested against
 };
 
 // Screen-space ambient occlusion.

@@ -32,13 +32,16 @@ vec2 cloud_cover_at(SkyParams sky, vec3 direction)
     return vec2(max(mask, smoothstep(0.75, 1.0, sky.cloud_cover)), n);
 }
 
-// Radiance of a cloud. `clear` is the clear sky behind, `level_illuminance` what falls on level ground
-// under clear air.
+// Radiance of a cloud: `sun_at_ground` and `clear_zenith` are what clear air would let through and
+// send.
 vec3 cloud_radiance(SkyParams sky, vec3 direction, vec2 cover, vec3 sun_at_ground, vec3 clear_zenith)
 {
     const float c = sky.cloud_cover;
     const float sun_up = max(sky.sun_direction.y, 0.0);
-    const vec3 level = sun_at_ground * sun_up + clear_zenith * 3.14159265;
+    // Cloud scatters all colours alike: under it even a low, red sun gives a grey, slightly blue light.
+    const vec3 weights = vec3(0.2126, 0.7152, 0.0722);
+    const vec3 level = (dot(sun_at_ground, weights) * max(sun_up, 0.02) +
+                        dot(clear_zenith, weights) * 3.14159265) * vec3(0.95, 1.0, 1.07);
     // Kasten and Czeplak 1980: what an overcast sky lets through; CIE: brighter towards the zenith.
     const vec3 through = level * (1.0 - 0.75 * pow(c, 3.4));
     const vec3 overcast = through * (0.4092557 / 3.0) * (1.0 + 2.0 * max(direction.y, 0.0));

@@ -16,6 +16,7 @@ layout(constant_id = 1) const uint SHADOWS = 1u;
 layout(constant_id = 2) const uint IMAGE_BASED_LIGHT = 1u;
 layout(constant_id = 3) const uint AMBIENT_OCCLUSION = 1u;
 layout(constant_id = 4) const uint EMISSION = 1u;
+layout(constant_id = 5) const uint ALL_LIGHTS = 0u;  // 1: no lists; what they are tested against
 
 layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
@@ -186,9 +187,13 @@ void main()
             }
             const ivec2 tile = texel / LIGHT_TILE;
             const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
-            const uint count = min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
+            const uint count = ALL_LIGHTS != 0u
+                                   ? frame.light_count - frame.directional_count
+                                   : min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
             for (uint i = 0u; i < count; ++i) {
-                const int light = int(texelFetch(light_lists, list + 1 + int(i)).r) * 3;
+                const int light = ALL_LIGHTS != 0u
+                                      ? int(frame.directional_count + i) * 3
+                                      : int(texelFetch(light_lists, list + 1 + int(i)).r) * 3;
                 const vec4 sphere = texelFetch(lights, light);
                 const vec3 to_light = sphere.xyz - position;
                 const float d2 = dot(to_light, to_light);

@@ -218,7 +218,7 @@ void main()
             // On flat ground only the wind moves the water, a little.
             const float breeze = 0.05 + 0.03 * min(length(frame.wind_m_s), 6.0);
             flow = mix(flow,
-                       unpack_normal(mix(second, first, phases.blend), material.flow_normal_strength),
+                       unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength),
                        max(slope, breeze * saturate(geometric.y)) * water.anywhere);
         }
         const vec3 water_normal =

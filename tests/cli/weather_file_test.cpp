@@ -118,6 +118,7 @@ TEST_F(Presets, AllReadSolveAndChange)
 {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(fs::path(PETRICHOR_SOURCE_DIR) / "data/weather")) {
+        if (entry.path().extension() != ".toml") continue;
         SCOPED_TRACE(entry.path().string());
         const WeatherScript script = script_of(entry.path());
         EXPECT_EQ(script.name, entry.path().stem().string());

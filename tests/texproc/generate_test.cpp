@@ -25,9 +25,9 @@ constexpr int kSize = 192;
 
 std::vector<std::pair<const char*, const Image*>> images_of(const MaterialMaps& maps)
 {
-    return {{"albedo", &maps.albedo},       {"normal", &maps.normal},
-            {"height", &maps.height},       {"roughness", &maps.roughness},
-            {"occlusion", &maps.occlusion}, {"metallic", &maps.metallic},
+    return {{"albedo", &maps.albedo},          {"normal", &maps.normal},
+            {"height", &maps.height},          {"roughness", &maps.roughness},
+            {"occlusion", &maps.occlusion},    {"metallic", &maps.metallic},
             {"puddle_mask", &maps.puddle_mask}};
 }
 
@@ -122,7 +122,8 @@ TEST_P(Material, NormalsAreTheGradientOfTheHeight)
             std::array<double, 3> n{};
             double length = 0.0;
             for (int c = 0; c < 3; ++c) {
-                n[static_cast<std::size_t>(c)] = 2.0 * static_cast<double>(maps.normal.at(x, y, c)) - 1.0;
+                n[static_cast<std::size_t>(c)] =
+                    2.0 * static_cast<double>(maps.normal.at(x, y, c)) - 1.0;
                 length += n[static_cast<std::size_t>(c)] * n[static_cast<std::size_t>(c)];
             }
             ASSERT_NEAR(length, 1.0, 1e-5);
@@ -151,12 +152,14 @@ TEST_P(Material, HeightUsesItsRange)
 TEST_P(Material, PuddleMaskIsSmoothAndHasBothEnds)
 {
     const MaterialMaps maps = generate_material(GetParam().kind, kSize, 1, 2);
-    const auto [low, high] = std::minmax_element(maps.puddle_mask.pixels.begin(), maps.puddle_mask.pixels.end());
+    const auto [low, high] =
+        std::minmax_element(maps.puddle_mask.pixels.begin(), maps.puddle_mask.pixels.end());
     EXPECT_LT(*low, 0.2f);
     EXPECT_GT(*high, 0.8f);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 1; x < kSize; ++x) {
-            ASSERT_LT(std::abs(maps.puddle_mask.at(x, y, 0) - maps.puddle_mask.at(x - 1, y, 0)), 0.15f);
+            ASSERT_LT(std::abs(maps.puddle_mask.at(x, y, 0) - maps.puddle_mask.at(x - 1, y, 0)),
+                      0.15f);
         }
     }
 }
@@ -237,7 +240,8 @@ TEST(Noise, RepeatsAfterItsPeriod)
     for (int k = 0; k < 200; ++k) {
         const float x = 0.37f * static_cast<float>(k);
         const float y = 0.53f * static_cast<float>(k);
-        EXPECT_NEAR(gradient_noise(x, y, 5, 7, 3), gradient_noise(x + 5.0f, y - 7.0f, 5, 7, 3), 2e-4f);
+        EXPECT_NEAR(gradient_noise(x, y, 5, 7, 3), gradient_noise(x + 5.0f, y - 7.0f, 5, 7, 3),
+                    2e-4f);
         const CellPoint a = cell_noise(x, y, 5, 7, 3);
         const CellPoint b = cell_noise(x - 5.0f, y + 7.0f, 5, 7, 3);
         EXPECT_EQ(a.id, b.id);
@@ -252,7 +256,8 @@ TEST(Noise, IsCentredAndBounded)
     float largest = 0.0f;
     for (int j = 0; j < 300; ++j) {
         for (int i = 0; i < 300; ++i) {
-            const float v = gradient_noise(0.173f * static_cast<float>(i), 0.191f * static_cast<float>(j), 1 << 10, 1 << 10, 9);
+            const float v = gradient_noise(0.173f * static_cast<float>(i),
+                                           0.191f * static_cast<float>(j), 1 << 10, 1 << 10, 9);
             sum += static_cast<double>(v);
             largest = std::max(largest, std::abs(v));
         }
@@ -266,7 +271,8 @@ TEST(Noise, HashesAreSpreadEvenly)
 {
     std::array<int, 16> bins{};
     for (int y = 0; y < 128; ++y) {
-        for (int x = 0; x < 128; ++x) ++bins[static_cast<std::size_t>(hash_unit(hash_cell(x, y, 1)) * 16.0f)];
+        for (int x = 0; x < 128; ++x)
+            ++bins[static_cast<std::size_t>(hash_unit(hash_cell(x, y, 1)) * 16.0f)];
     }
     for (const int count : bins) EXPECT_NEAR(count, 1024, 140);
 }

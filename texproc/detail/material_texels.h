@@ -19,7 +19,7 @@ struct Texel {
 };
 
 /// A material in the making. Positions are metres from the upper left corner, y down, [0, tile_m).
-struct Surface {
+struct MaterialSurface {
     int size = 0;
     float tile_m = 1.0f;
     int threads = 1;
@@ -41,20 +41,20 @@ void for_rows(int count, int threads, const std::function<void(int, int)>& rows)
 
 /// Fractal noise over the whole tile, about [-1, 1]; octaves finer than two texels are left out.
 struct NoiseLayer {
-    float feature_x_m;     ///< size of a cell of the first octave
+    float feature_x_m;  ///< size of a cell of the first octave
     float feature_y_m;
     int octaves = 3;
-    float gain = 0.5f;     ///< amplitude of an octave over the one before
+    float gain = 0.5f;  ///< amplitude of an octave over the one before
     std::uint32_t salt = 0;
 };
-std::vector<float> noise_layer(const Surface& surface, const NoiseLayer& layer);
+std::vector<float> noise_layer(const MaterialSurface& surface, const NoiseLayer& layer);
 
 /// Mean over a (2 r + 1)^2 window that wraps, r in texels.
 std::vector<float> box_blur(const std::vector<float>& values, int size, int radius, int threads);
 
 /// Fills every texel: `shade(x, y, index)` gets the position in metres and the texel's index.
 template <typename Shade>
-void shade_texels(Surface& surface, const Shade& shade)
+void shade_texels(MaterialSurface& surface, const Shade& shade)
 {
     const float step = surface.texel_m();
     for_rows(surface.size, surface.threads, [&](int first, int last) {
@@ -62,9 +62,9 @@ void shade_texels(Surface& surface, const Shade& shade)
             const float y = (static_cast<float>(j) + 0.5f) * step;
             for (int i = 0; i < surface.size; ++i) {
                 const float x = (static_cast<float>(i) + 0.5f) * step;
-                const std::size_t index = static_cast<std::size_t>(j) *
-                                              static_cast<std::size_t>(surface.size) +
-                                          static_cast<std::size_t>(i);
+                const std::size_t index =
+                    static_cast<std::size_t>(j) * static_cast<std::size_t>(surface.size) +
+                    static_cast<std::size_t>(i);
                 surface.texels[index] = shade(x, y, index);
             }
         }
@@ -81,11 +81,11 @@ struct CourseStone {
 /// How stones lie in courses.
 struct CourseRule {
     int rows = 8;
-    float row_jitter = 0.0f;     ///< 0..0.9 of a row
-    float stone_length_m = 0.2f; ///< mean
-    float length_jitter = 0.0f;  ///< 0..0.9 of a length
-    float slant = 0.0f;          ///< largest dx/dy of a side
-    bool half_bond = false;      ///< every other row shifted by half a stone
+    float row_jitter = 0.0f;      ///< 0..0.9 of a row
+    float stone_length_m = 0.2f;  ///< mean
+    float length_jitter = 0.0f;   ///< 0..0.9 of a length
+    float slant = 0.0f;           ///< largest dx/dy of a side
+    bool half_bond = false;       ///< every other row shifted by half a stone
 };
 
 /// The layout of one tile: finds the stone at a position. Tiles in both directions.
@@ -108,25 +108,34 @@ private:
 /// Distance to the outline of a stone with rounded corners, positive inside, at most `radius`.
 float rounded_inside(float to_side_x, float to_side_y, float radius);
 
-inline float mix(float a, float b, float t) { return a + (b - a) * t; }
-inline glm::vec3 mix(const glm::vec3& a, const glm::vec3& b, float t) { return a + (b - a) * t; }
-inline float saturate(float x) { return std::clamp(x, 0.0f, 1.0f); }
+inline float mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+inline glm::vec3 mix(const glm::vec3& a, const glm::vec3& b, float t)
+{
+    return a + (b - a) * t;
+}
+inline float saturate(float x)
+{
+    return std::clamp(x, 0.0f, 1.0f);
+}
 
 // One function a kind. Each sets tile_m and fills texels (already size * size).
-void make_cobble(Surface& surface);
-void make_brick(Surface& surface);
-void make_asphalt(Surface& surface);
-void make_concrete(Surface& surface);
-void make_paving(Surface& surface);
-void make_granite(Surface& surface);
-void make_plank(Surface& surface);
-void make_roof_tile(Surface& surface);
-void make_soil(Surface& surface);
-void make_grass_ground(Surface& surface);
-void make_metal_plate(Surface& surface);
-void make_painted_iron(Surface& surface);
-void make_standing_seam(Surface& surface);
-void make_plaster(Surface& surface);
+void make_cobble(MaterialSurface& surface);
+void make_brick(MaterialSurface& surface);
+void make_asphalt(MaterialSurface& surface);
+void make_concrete(MaterialSurface& surface);
+void make_paving(MaterialSurface& surface);
+void make_granite(MaterialSurface& surface);
+void make_plank(MaterialSurface& surface);
+void make_roof_tile(MaterialSurface& surface);
+void make_soil(MaterialSurface& surface);
+void make_grass_ground(MaterialSurface& surface);
+void make_metal_plate(MaterialSurface& surface);
+void make_painted_iron(MaterialSurface& surface);
+void make_standing_seam(MaterialSurface& surface);
+void make_plaster(MaterialSurface& surface);
 
 }  // namespace petrichor::texproc::detail
 

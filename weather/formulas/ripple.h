@@ -47,7 +47,7 @@ SHARED_FN vec2 ripple_slope(vec4 source, float clock, float weight)
 struct FlowPhases {
     float first;   // 0..1
     float second;  // half a period apart
-    float blend;   // 0: only the second shows .. 1: only the first; 0 and 1 where a phase jumps
+    float blend;   // 0: only the first shows .. 1: only the second: each hides where it jumps
 };
 
 // interval_s: period of a phase; 0 is taken as a still surface.
