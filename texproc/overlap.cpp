@@ -175,8 +175,8 @@ Effort effort_at(int level, bool quick)
         const int half = std::max(80, samples / 2);
         return {half, half, 6, 6, 24, false, 4};
     }
-    if (level <= 1) return {samples, samples, 5, 5, 18, false, 4};
-    if (level == 2) return {samples, samples, 6, 6, 24, false, 5};
+    if (level <= 1) return {samples, 2 * samples, 5, 5, 18, false, 4};
+    if (level == 2) return {samples, 2 * samples, 8, 8, 32, false, 6};
     return {samples, samples, 10, 10, 36, level >= 5, 5};
 }
 
