@@ -175,8 +175,8 @@ Effort effort_at(int level, bool quick)
         const int half = std::max(80, samples / 2);
         return {half, half, 6, 6, 24, false, 4};
     }
-    if (level <= 1) return {samples, samples, 5, 5, 18, false, 4};
-    if (level == 2) return {samples, samples, 6, 6, 24, false, 5};
+    if (level <= 1) return {samples, 2 * samples, 5, 5, 18, false, 4};
+    if (level == 2) return {samples, 2 * samples, 8, 8, 32, false, 6};
     return {samples, samples, 10, 10, 36, level >= 5, 5};
 }
 
@@ -296,8 +296,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     }
     const float variance = slope_variance(cells.view(), mean_normal);
     FittedLobe out{mean_normal, plain_alpha2, false, {}, plain_alpha2, plain_alpha2};
-    if (variance < 0.02f * (means.alpha2 + light2) &&
-        widest - narrowest < 0.2f * (means.alpha2 + light2)) {
+    if (variance < 0.01f * (means.alpha2 + light2) &&
+        widest - narrowest < 0.1f * (means.alpha2 + light2)) {
         out.alpha2 = out.alpha2_x = out.alpha2_y = std::min(1.0f, means.alpha2 + variance);
         return out;
     }
