@@ -126,7 +126,9 @@ SHARED_FN vec3 air_radiance(float up, float sun_up, float sun_angle, vec3 sun_il
                             vec3(haze_scattering(turbidity) * density.y)) *
                            (0.0795775f * 0.45f);
         const float dusk = clamp(0.5f + 4.0f * local_sun, 0.0f, 1.0f);
-        sum += to_eye * (sun * single + again * (sun * 0.6f + vec3(0.08f * dusk * dusk))) * length_m;
+        // Its colour is that of the air above: blue, and blue still when the sun has gone.
+        const vec3 glow = vec3(0.07f, 0.11f, 0.20f) * (dusk * dusk);
+        sum += to_eye * (sun * single + again * (sun * 0.4f + glow)) * length_m;
         depth += extinction * length_m;
         before = after;
     }
