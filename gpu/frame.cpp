@@ -115,21 +115,21 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
-    const bool weather = weather_shows(frame, r.scene_has_constant_weather);
+    const VisibleWeather weather = visible_weather(frame, r.scene_has_constant_weather);
     const auto time_s = static_cast<float>(settings.time_s);
 
     if (!r.surface_maps->generated) {
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
-    if (weather) {
+    if (weather.any) {
         add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
         add_flow(graph, *r.surface_maps, time_s);
     }
-    add_depth_maps(graph, frame, sun, r, weather);
+    add_depth_maps(graph, frame, sun, r, weather.any);
     add_sky(graph, frame, sun, r);
 
-    const LightingVariant variant{weather, settings.shadows, settings.image_based_light,
+    const LightingVariant variant{weather.any, settings.shadows, settings.image_based_light,
                                   settings.ambient_occlusion, r.scene->emissive(),
                                   settings.all_lights};
     ConstantsRange constants{r.constants, 0};

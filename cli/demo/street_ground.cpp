@@ -84,11 +84,12 @@ vec4 ground_tint(const Kit& kit, float x, float z)
 struct Strip {
     float z_near, z_far, step_m;
 };
-constexpr Strip kStrips[] = {{kNear, 3.6f, 0.10f},
-                             {3.6f, -0.4f, 0.02f},
-                             {-0.4f, -4.4f, 0.04f},
-                             {-4.4f, -10.4f, 0.10f},
-                             {-10.4f, kFar, 0.40f}};
+// Steps divide the road's width. Triangles smaller than a few pixels cost more than they show.
+constexpr Strip kStrips[] = {{kNear, 3.6f, 0.11f},
+                             {3.6f, -0.4f, 0.0275f},
+                             {-0.4f, -4.4f, 0.055f},
+                             {-4.4f, -10.4f, 0.11f},
+                             {-10.4f, kFar, 0.44f}};
 
 float on_coarse_edge(const Kit& kit, float x, float z, float coarse_m)
 {

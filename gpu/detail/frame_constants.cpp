@@ -125,12 +125,16 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     return c;
 }
 
-bool weather_shows(const Frame& frame, bool scene_has_constant_weather)
+VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather)
 {
     const SurfaceWeather& w = frame.weather;
-    return scene_has_constant_weather || w.rain > 0.0f || w.flood_cracks > 0.0f ||
-           w.flood_puddles > 0.0f || w.film_albedo > 0.0f || w.film_smoothness > 0.0f ||
-           w.snow_amount > 0.0f || w.frost > 0.0f;
+    VisibleWeather visible;
+    visible.snow = scene_has_constant_weather || w.snow_amount > 0.0f;
+    visible.water =
+        scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;
+    visible.any = visible.snow || visible.water || w.rain > 0.0f || w.film_albedo > 0.0f ||
+                  w.film_smoothness > 0.0f || w.frost > 0.0f;
+    return visible;
 }
 
 }  // namespace petrichor::gpu

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_DETAIL_FRAME_CONSTANTS_H
 
 #include "gpu/detail/view.h"
+#include "gpu/passes/surface.h"
 #include "gpu/shaders/interface/sky_light.h"
 
 namespace petrichor::gpu {
@@ -23,8 +24,8 @@ shared::SkyParams sky_params(const Frame& frame);
 shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
                                        std::uint32_t sample_index);
 
-/// Whether anything of the weather can show: else the dry variants of the shaders are used.
-bool weather_shows(const Frame& frame, bool scene_has_constant_weather);
+/// What of the weather can show in a frame, constant water and snow of materials included.
+VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather);
 
 }  // namespace petrichor::gpu
 

@@ -268,6 +268,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         const Slots slots = slots_of(source);
         for (std::uint32_t slot = 0; slot < TEXTURE_SLOTS; ++slot) {
             if (c.flags & (1u << slot)) {
+                material.slots |= 1u << slot;
                 const auto t = static_cast<std::size_t>(slots.use[slot]->texture);
                 material.bindings.push_back(sampled(*images_[t], *image_samplers_[t]));
             } else {

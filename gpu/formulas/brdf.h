@@ -35,21 +35,53 @@ SHARED_FN vec3 schlick_fresnel(vec3 f0, float lh)
     return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
 }
 
+// What a lobe needs to know of the surface and the eye: the same for every light.
+struct Lobe {
+    vec3 normal;
+    vec3 view;
+    vec3 diffuse;  // albedo without its specular share, divided by pi
+    vec3 f0;       // reflectance at normal incidence; all zero switches the highlight off
+    float a2;      // alpha squared
+    float nv;
+    float view_term;  // of the visibility
+    float lit;
+};
+
+SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
+{
+    Lobe lobe;
+    lobe.normal = n;
+    lobe.view = v;
+    lobe.diffuse = diffuse * (1.0f / kPi);
+    lobe.f0 = f0;
+    lobe.a2 = alpha * alpha;
+    lobe.nv = clamp(abs(dot(n, v)), 1.0e-4f, 1.0f);
+    lobe.view_term = sqrt(lobe.nv * lobe.nv * (1.0f - lobe.a2) + lobe.a2);
+    lobe.lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
+    return lobe;
+}
+
 // Reflected radiance per unit irradiance on a facing plane, times nl.
+SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
+{
+    const float nl = clamp(dot(lobe.normal, l), 0.0f, 1.0f);
+    // Dot products of the half vector without the vector itself.
+    const float lv = dot(l, lobe.view);
+    const float q = inversesqrt(max(2.0f + 2.0f * lv, 1.0e-8f));
+    const float nh = clamp((dot(lobe.normal, l) + dot(lobe.normal, lobe.view)) * q, 0.0f, 1.0f);
+    const float lh = clamp((1.0f + lv) * q, 0.0f, 1.0f);
+    const float d = (nh * lobe.a2 - nh) * nh + 1.0f;
+    const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
+    const float specular = lobe.a2 * 0.5f * lobe.lit /
+                           max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-7f);
+    return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
+}
+
+// The same for one light alone.
 //   diffuse   albedo without its specular share
-//   f0        reflectance at normal incidence; all zero switches the highlight off
 SHARED_FN vec3 shade_direct(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float alpha)
 {
-    const float nl = clamp(dot(n, l), 0.0f, 1.0f);
-    const float nv = clamp(abs(dot(n, v)), 1.0e-4f, 1.0f);
-    const vec3 sum = l + v;
-    const vec3 h = sum * inversesqrt(max(dot(sum, sum), 1.0e-8f));
-    const float nh = clamp(dot(n, h), 0.0f, 1.0f);
-    const float lh = clamp(dot(l, h), 0.0f, 1.0f);
-    const float lobe = ggx_distribution(nh, alpha) * ggx_visibility(nl, nv, alpha);
-    const vec3 fresnel = schlick_fresnel(f0, lh);
-    const float lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
-    return (diffuse * (1.0f / kPi) + fresnel * (lobe * lit)) * nl;
+    return shade_lobe(make_lobe(n, v, diffuse, f0, alpha), l);
 }
 
 // Window of a punctual light: 1/d^2 that reaches 0 at the range (range 0: unlimited).

@@ -74,7 +74,8 @@ Binding frame_binding(const ConstantsRange& constants)
 
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                  SurfaceMaps& maps, DepthMaps& depth_maps, const ConstantsRange& constants,
-                 const glm::mat4& world_to_clip, const glm::vec3& camera_m, bool weather)
+                 const glm::mat4& world_to_clip, const glm::vec3& camera_m,
+                 const VisibleWeather& weather)
 {
     GBuffer& g = targets.gbuffer;
     const bool emission = scene.emissive();
@@ -94,11 +95,11 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             GBuffer& out = targets.gbuffer;
             std::vector<const GpuImage*> colors{out.color.get(), out.normals.get(),
                                                 out.material.get()};
-            if (weather) colors.push_back(out.weather.get());
+            if (weather.any) colors.push_back(out.weather.get());
             if (emission) colors.push_back(out.emission.get());
             GraphicsDesc desc;
             desc.vertex = "surface.vert";
-            desc.fragment = weather ? (emission ? "surface.frag" : "surface_dark.frag")
+            desc.fragment = weather.any ? (emission ? "surface.frag" : "surface_dark.frag")
                                     : (emission ? "surface_dry.frag" : "surface_lean.frag");
             desc.stride = sizeof(Vertex);
             desc.attributes = vertex_attributes();
@@ -161,7 +162,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                                  draw.vertex_offset, 0);
             };
             // Depth of the opaque things first, where shading is dear: then each pixel is shaded once.
-            const bool depth_first = weather;
+            const bool depth_first = weather.any;
             GraphicsDesc depth_only = desc;
             depth_only.vertex = "surface_depth.vert";
             depth_only.fragment.clear();
@@ -173,7 +174,10 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             for (const Draw* draw : draws) {
                 const bool holes = has_holes(scene, *draw);
                 GraphicsDesc shaded = desc;
-                shaded.specialization = {{1, holes ? 1u : 0u}};
+                shaded.specialization = {{1, holes ? 1u : 0u},
+                                         {2, scene.materials()[draw->material].slots},
+                                         {3, weather.water ? 1u : 0u},
+                                         {4, weather.snow ? 1u : 0u}};
                 shaded.depth_equal = depth_first && !holes;
                 record(shaded, *draw, true);
             }

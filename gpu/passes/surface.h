@@ -16,6 +16,13 @@ struct ConstantsRange {
 };
 Binding frame_binding(const ConstantsRange& constants);
 
+/// What of the weather can show in a frame; the rest is not compiled into its shaders.
+struct VisibleWeather {
+    bool any = false;    ///< anything at all, wet air and frost included
+    bool water = false;  ///< standing water
+    bool snow = false;
+};
+
 // Draws the scene into the G-buffer: dry material and weather.
 //
 //   reads    ripple, flow and snow maps, the shelter map
@@ -23,7 +30,8 @@ Binding frame_binding(const ConstantsRange& constants);
 //   variant  weather and emission: a target that nobody reads is not written
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                  SurfaceMaps& maps, DepthMaps& depth_maps, const ConstantsRange& constants,
-                 const glm::mat4& world_to_clip, const glm::vec3& camera_m, bool weather);
+                 const glm::mat4& world_to_clip, const glm::vec3& camera_m,
+                 const VisibleWeather& weather);
 
 }  // namespace petrichor::gpu
 

@@ -175,20 +175,21 @@ void main()
             const vec3 diffuse =
                 m.albedo * (1.0 - max(m.specular.r, max(m.specular.g, m.specular.b)));
 
+            const Lobe lobe = make_lobe(n, v, diffuse, m.specular, alpha);
             radiance = emission * m.emission_scale;
             const float sun_lit = dot(n, frame.sun_direction);
             if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
                 const float visible =
                     SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
                 if (visible > 0.0) {
-                    radiance += shade_direct(n, v, frame.sun_direction, diffuse, m.specular, alpha) *
+                    radiance += shade_lobe(lobe, frame.sun_direction) *
                                 frame.sun_illuminance * visible;
                 }
             }
             for (uint i = 0u; i < frame.directional_count; ++i) {
                 const vec4 color = texelFetch(lights, int(i * 3u + 1u));
                 const vec4 direction = texelFetch(lights, int(i * 3u + 2u));
-                radiance += shade_direct(n, v, -direction.xyz, diffuse, m.specular, alpha) * color.rgb;
+                radiance += shade_lobe(lobe, -direction.xyz) * color.rgb;
             }
             const ivec2 tile = texel / LIGHT_TILE;
             const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
@@ -212,7 +213,7 @@ void main()
                 if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
                     falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
                 }
-                radiance += shade_direct(n, v, l, diffuse, m.specular, alpha) * color.rgb * falloff;
+                radiance += shade_lobe(lobe, l) * color.rgb * falloff;
             }
 
             if (IMAGE_BASED_LIGHT != 0u) {

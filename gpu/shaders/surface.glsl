@@ -11,6 +11,10 @@
 #include "weather/formulas/ripple.h"
 #include "weather/formulas/surface_weather.h"
 
+// What a draw needs is known before it is compiled: a CPU driver runs both sides of every branch.
+layout(constant_id = 2) const uint SLOTS = 255u;    // texture slots that the material has, one bit each
+layout(constant_id = 3) const uint WATER = 1u;      // 0: no water stands anywhere in this frame
+layout(constant_id = 4) const uint SNOW = 1u;       // 0: no snow lies anywhere in this frame
 layout(constant_id = 1) const uint HOLES = 1u;    // 0: opaque, so that hidden pixels are never shaded
 
 layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
@@ -54,7 +58,7 @@ struct Uv {
 
 bool has(int slot)
 {
-    return (material.flags & (1u << slot)) != 0u;
+    return (SLOTS & (1u << slot)) != 0u;
 }
 
 // Coordinates of a texture slot with their screen derivatives; `shift` moves the lookup.
@@ -136,8 +140,13 @@ void main()
     snow.melt = 0.0;
     vec3 cover_normal = geometric;
     vec2 refraction = vec2(0.0);
+    vec3 mapped = vec3(0.0, 0.0, 1.0);  // tangent normal of the normal map
 
 #if SURFACE_WEATHER
+    if (has(TEXTURE_NORMAL)) {
+        const Uv at = coordinates(TEXTURE_NORMAL, in_uv, uv_dx, uv_dy, vec2(0.0));
+        mapped = unpack_normal(textureGrad(normal_map, at.at, at.dx, at.dy).xy, material.normal_scale);
+    }
     if (!sheltered) {
         const float open = exposure_to_sky(in_position, geometric);
         // Thin wetness creeps further than rain falls.
@@ -156,13 +165,6 @@ void main()
             const Uv at = coordinates(TEXTURE_SNOW_MASK, in_uv, uv_dx, uv_dy, vec2(0.0));
             unique_snow *= textureGrad(snow_mask_map, at.at, at.dx, at.dy).r;
         }
-        vec3 mapped = vec3(0.0, 0.0, 1.0);
-        if (has(TEXTURE_NORMAL)) {
-            const Uv at = coordinates(TEXTURE_NORMAL, in_uv, uv_dx, uv_dy, vec2(0.0));
-            mapped = unpack_normal(textureGrad(normal_map, at.at, at.dx, at.dy).xy,
-                                   material.normal_scale);
-        }
-
         // Snow, by amount, slope, height and the two-frequency mask.
         const float influence = material.snow_accumulation.y;
         const float constant = material.snow_accumulation.x;
@@ -174,7 +176,7 @@ void main()
         const vec2 xz = in_position.xz;
         const vec2 xz_dx = position_dx.xz;
         const vec2 xz_dy = position_dy.xz;
-        if (amount > 0.0) {
+        if (SNOW != 0u && amount > 0.0) {
             const float mask = textureGrad(snow_map, xz * frame.snow_tiling.z,
                                            xz_dx * frame.snow_tiling.z, xz_dy * frame.snow_tiling.z).b;
             const vec4 detail = textureGrad(snow_map, xz * frame.snow_tiling.w,
@@ -189,7 +191,7 @@ void main()
         const vec2 flood =
             frame.flood * open * vec2(material.water_accumulation.y, material.water_accumulation.w) +
             vec2(material.water_accumulation.x, material.water_accumulation.z);
-        water = water_cover(flood, height, puddle_mask, geometric.y, material.water_slope_damp);
+        if (WATER != 0u) water = water_cover(flood, height, puddle_mask, geometric.y, material.water_slope_damp);
         film = damp * saturate(smoothed_world.y + 1.0 - material.water_slope_damp);
         frost = frame.frost * open * saturate(geometric.y * 0.6 + 0.5) * (1.0 - water.anywhere);
 
@@ -198,7 +200,7 @@ void main()
         vec3 flow = vec3(0.0, 0.0, 1.0);
         const float dist = length(in_position - frame.camera_m);
         const float fade = pow(saturate((50.0 - dist) / 15.0), 2.0);
-        if (frame.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
+        if (WATER != 0u && frame.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
             const float t = frame.ripple_tiling;
             const vec2 xy = textureGrad(ripple_map, xz * t, xz_dx * t, xz_dy * t).xy;
             // A third of the slope in the map, as rings on a real puddle have (Lagarde 2013, 2b).
@@ -206,7 +208,7 @@ void main()
                          water.deep * saturate(geometric.y) * saturate(open * 2.0));
         }
         const float constant_puddle = material.water_accumulation.z;
-        if (flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
+        if (WATER != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
             const vec2 down = vec2(dot(vec3(0, 1, 0), tangent), dot(vec3(0, 1, 0), bitangent));
             const vec2 v = down * material.flow_speed *
                            saturate(1.0 - frame.freeze_exp + constant_puddle);
@@ -231,21 +233,25 @@ void main()
         const vec3 water_world = normalize(vec3(water_normal.x, 0.0, water_normal.y) +
                                            geometric * max(water_normal.z, 0.05));
 
-        // A snow cover has its own, softer relief.
-        const vec2 snow_xy =
-            textureGrad(snow_map, xz * frame.snow_tiling.x, xz_dx * frame.snow_tiling.x,
-                        xz_dy * frame.snow_tiling.x).xy;
-        const vec2 snow_detail_xy =
-            textureGrad(snow_map, xz * frame.snow_tiling.y, xz_dx * frame.snow_tiling.y,
-                        xz_dy * frame.snow_tiling.y).xy;
-        const vec3 snow_normal = unpack_normal(snow_xy, material.snow_normal_strength);
-        const vec3 snow_detail = unpack_normal(snow_detail_xy, material.snow_detail_strength * fade);
-        const vec3 snow_world = normalize(
-            vec3(snow_normal.x + snow_detail.x, 0.0, snow_normal.y + snow_detail.y) +
-            mix(smoothed_world, geometric, 0.3 + 0.7 * amount) * (snow_normal.z * snow_detail.z));
-        water.anywhere = melt_wetness(water.anywhere, snow.melt, frame.melt_exp);
-        const float snow_share = snow.snow / max(snow.snow + water.anywhere, 1.0e-4);
-        cover_normal = normalize(mix(water_world, snow_world, saturate(snow_share)));
+        cover_normal = water_world;
+        if (SNOW != 0u) {
+            // A snow cover has its own, softer relief.
+            const vec2 snow_xy =
+                textureGrad(snow_map, xz * frame.snow_tiling.x, xz_dx * frame.snow_tiling.x,
+                            xz_dy * frame.snow_tiling.x).xy;
+            const vec2 snow_detail_xy =
+                textureGrad(snow_map, xz * frame.snow_tiling.y, xz_dx * frame.snow_tiling.y,
+                            xz_dy * frame.snow_tiling.y).xy;
+            const vec3 snow_normal = unpack_normal(snow_xy, material.snow_normal_strength);
+            const vec3 snow_detail =
+                unpack_normal(snow_detail_xy, material.snow_detail_strength * fade);
+            const vec3 snow_world = normalize(
+                vec3(snow_normal.x + snow_detail.x, 0.0, snow_normal.y + snow_detail.y) +
+                mix(smoothed_world, geometric, 0.3 + 0.7 * amount) * (snow_normal.z * snow_detail.z));
+            water.anywhere = melt_wetness(water.anywhere, snow.melt, frame.melt_exp);
+            const float snow_share = snow.snow / max(snow.snow + water.anywhere, 1.0e-4);
+            cover_normal = normalize(mix(water_world, snow_world, saturate(snow_share)));
+        }
     }
 #endif
 
@@ -277,9 +283,11 @@ void main()
     }
     vec3 normal = geometric;
     if (has(TEXTURE_NORMAL)) {
-        const Uv at = coordinates(TEXTURE_NORMAL, in_uv, uv_dx, uv_dy, refraction);
-        const vec3 n = unpack_normal(textureGrad(normal_map, at.at, at.dx, at.dy).xy,
-                                     material.normal_scale);
+        vec3 n = mapped;
+        if (SURFACE_WEATHER == 0 || WATER != 0u) {  // seen through water: at another place
+            const Uv at = coordinates(TEXTURE_NORMAL, in_uv, uv_dx, uv_dy, refraction);
+            n = unpack_normal(textureGrad(normal_map, at.at, at.dx, at.dy).xy, material.normal_scale);
+        }
         normal = normalize(n.x * tangent + n.y * bitangent + n.z * geometric);
     }
 #if SURFACE_EMISSION
