@@ -1,7 +1,8 @@
 // Clear air: single scattering by molecules and haze, absorption by ozone.
 //
 // One text for C++ and GLSL. Coefficients per metre at sea level: Bucholtz 1995 (molecules), Bruneton
-// and Neyret 2008 (scale heights); ozone as a tent between 10 and 40 km.
+// and Neyret 2008 (scale heights); ozone as a tent between 10 and 40 km, at two fifths of its strength:
+// light scattered more than once, which would fill the green it takes, is only sketched here.
 #ifndef PETRICHOR_ATMOSPHERE_H
 #define PETRICHOR_ATMOSPHERE_H
 
@@ -54,7 +55,7 @@ SHARED_FN vec3 air_extinction(vec3 density, float turbidity)
 {
     return molecule_scattering() * density.x +
            vec3(1.1f * haze_scattering(turbidity) * density.y) +
-           vec3(0.650e-6f, 1.881e-6f, 0.085e-6f) * density.z;
+           vec3(0.260e-6f, 0.752e-6f, 0.034e-6f) * density.z;
 }
 
 // Share of light that reaches `height` from space along a direction; 0 behind the earth.
@@ -127,7 +128,7 @@ SHARED_FN vec3 air_radiance(float up, float sun_up, float sun_angle, vec3 sun_il
                            (0.0795775f * 0.45f);
         const float dusk = clamp(0.5f + 4.0f * local_sun, 0.0f, 1.0f);
         // Its colour is that of the air above: blue, and blue still when the sun has gone.
-        const vec3 glow = vec3(0.07f, 0.11f, 0.20f) * (dusk * dusk);
+        const vec3 glow = vec3(0.08f, 0.13f, 0.20f) * (dusk * dusk);
         sum += to_eye * (sun * single + again * (sun * 0.4f + glow)) * length_m;
         depth += extinction * length_m;
         before = after;
