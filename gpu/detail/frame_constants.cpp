@@ -104,6 +104,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     const float size_m = glm::length(scene.high - scene.low);
     c.ao_radius_m = std::clamp(0.03f * size_m, 0.01f, 0.7f);
     c.ao_strength = 1.0f;
+    c.shelter_spread_m = std::clamp(0.01f * size_m, 0.001f, 0.18f);
     c.ambient_scale = s.image_based_light ? 1.0f : 0.0f;
     c.sky_scale = 1.0f;
     // Koschmieder: 2 % contrast is left at the visibility. The veil is skylight: none without it.

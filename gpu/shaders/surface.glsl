@@ -87,19 +87,20 @@ vec3 unpack_normal(vec2 xy, float strength)
 float exposure_to_sky(vec3 position, vec3 normal)
 {
     if ((frame.flags & FRAME_SHELTER) == 0u) return 1.0;
-    const vec4 map = frame.shelter_from_world * vec4(position + normal * 0.05, 1.0);
+    const float spread = frame.shelter_spread_m;
+    const vec3 lifted = position + normal * (0.3 * spread);
+    const vec4 map = frame.shelter_from_world * vec4(lifted, 1.0);
     const float inside = step(abs(map.x - 0.5), 0.5) * step(abs(map.y - 0.5), 0.5);
-    // Splashes and drift soften the edge: sixteen taps over some decimetres.
+    // Splashes and drift soften the edge.
     const float turn = dither(ivec2(gl_FragCoord.xy), frame.sample_index) * 6.2831853;
     const vec2 axis = vec2(cos(turn), sin(turn));
     float open = 0.0;
-    const float spread = 0.18;
     for (int i = 0; i < 4; ++i) {
         const float radius = (float(i) + 0.5) * 0.25 * spread;
         const float angle = 2.3999632 * float(i);
         const vec2 d = vec2(cos(angle), sin(angle)) * radius;
         const vec2 offset = vec2(axis.x * d.x - axis.y * d.y, axis.y * d.x + axis.x * d.y);
-        const vec3 p = position + normal * 0.05 + vec3(offset.x, 0.0, offset.y);
+        const vec3 p = lifted + vec3(offset.x, 0.0, offset.y);
         const vec4 at = frame.shelter_from_world * vec4(p, 1.0);
         open += texture(shelter_map, vec3(at.xy, at.z));
     }

@@ -74,6 +74,7 @@ struct FrameConstants {
     float exposure_bias;     // linear factor
     float samples;
     float sun_angular_cos;   // cosine of the sun's angular radius
+    float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
 };
