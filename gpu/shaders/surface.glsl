@@ -88,7 +88,8 @@ float exposure_to_sky(vec3 position, vec3 normal)
 {
     if ((frame.flags & FRAME_SHELTER) == 0u) return 1.0;
     const float spread = frame.shelter_spread_m;
-    const vec3 lifted = position + normal * (0.3 * spread);
+    // Off the surface by the spread, so that no tap of a wall ends up inside it.
+    const vec3 lifted = position + vec3(normal.x, 0.3 * normal.y, normal.z) * spread;
     const vec4 map = frame.shelter_from_world * vec4(lifted, 1.0);
     const float inside = step(abs(map.x - 0.5), 0.5) * step(abs(map.y - 0.5), 0.5);
     // Splashes and drift soften the edge.
