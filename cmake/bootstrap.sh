@@ -130,5 +130,5 @@ build_target() {
         fi
         mv "$build/.building-$name" "$build/.built-$name"
     fi
-    exec 9>&- 2>/dev/null || true
+    { exec 9>&-; } 2>/dev/null || true  # not `exec ... 2>`: that would silence the program too
 }
