@@ -245,10 +245,10 @@ RenderResult Renderer::render(const Frame& frame)
     result.width = frame.settings.width;
     result.height = frame.settings.height;
     const auto pixels = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
-    result.beauty.resize(pixels * 4);
-    std::memcpy(result.beauty.data(), impl.targets.beauty->mapped, pixels * 8);
-    result.display.resize(pixels * 4);
-    std::memcpy(result.display.data(), impl.targets.display->mapped, pixels * 4);
+    const auto* beauty = reinterpret_cast<const std::uint16_t*>(impl.targets.beauty->mapped);
+    const auto* display = reinterpret_cast<const std::uint8_t*>(impl.targets.display->mapped);
+    result.beauty.assign(beauty, beauty + pixels * 4);
+    result.display.assign(display, display + pixels * 4);
     shared::SkyLight light{};
     std::memcpy(&light, impl.sky.light->mapped, sizeof(light));
     result.exposure = light.exposure;

@@ -25,9 +25,8 @@ void main()
     const vec3 exposed = mean.rgb * sky_light.exposure;
     const vec3 mapped = (frame.flags & FRAME_TONE_MAP) != 0u ? tone_map(exposed) : exposed;
     const vec3 encoded = vec3(srgb_encode(mapped.r), srgb_encode(mapped.g), srgb_encode(mapped.b));
-    // A triangle of half a step hides banding in soft gradients such as the sky.
-    const uint h = hash_u3(uint(texel.x), uint(texel.y), 5u);
-    const float noise = (hash_f(h) - hash_f(h + 1u)) * 0.5;
+    // Half a step of dither hides banding in soft gradients such as the sky.
+    const float noise = dither(texel, 0u) - 0.5;
     const uvec3 bytes = uvec3(clamp(encoded * 255.0 + 0.5 + noise, vec3(0.0), vec3(255.0)));
     display[index] = bytes.r | (bytes.g << 8) | (bytes.b << 16) | 0xff000000u;
 }

@@ -318,7 +318,12 @@ void main()
     base.rgb = mix(base.rgb, material.water_color.rgb, murk);
     metallic *= 1.0 - murk;
     out_color = vec4(sqrt(clamp(base.rgb, vec3(0.0), vec3(1.0))), mix(occlusion, 1.0, murk));
-    out_normals = vec4(octahedral_encode(normal), octahedral_encode(cover_normal));
+    const vec2 base_code = octahedral_encode(normal);
+#if SURFACE_WEATHER
+    out_normals = vec4(base_code, octahedral_encode(cover_normal));
+#else
+    out_normals = vec4(base_code, base_code);
+#endif
     out_material = vec4(roughness, metallic, porosity * (1.0 - murk), float(model) / 255.0);
 #if SURFACE_WEATHER
     out_weather = vec4(film, water.anywhere, snow.snow, frost);
