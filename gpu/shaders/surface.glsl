@@ -170,7 +170,9 @@ void main()
         // Snow, by amount, slope, height and the two-frequency mask.
         const float influence = material.snow_accumulation.y;
         const float constant = material.snow_accumulation.x;
-        const float amount_raw = frame.snow_amount * open * influence + constant;
+        // What falls does not cling to walls, whatever the slope damp of the material.
+        const float clinging = smooth_edge(0.0, 0.4, geometric.y);
+        const float amount_raw = frame.snow_amount * open * clinging * influence + constant;
         const float amount = saturate(amount_raw);
         const vec3 smoothed = normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)));
         const vec3 smoothed_world =
