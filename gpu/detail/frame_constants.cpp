@@ -81,7 +81,6 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     shared::FrameConstants c{};
     set_camera(c, frame.camera, s.width, s.height, sample_offset(sample_index, s.seed), scene);
     c.time_s = static_cast<float>(s.time_s);
-    c.seed = s.seed;
     c.sample_index = sample_index;
     c.sun_direction = sun.direction;
     c.sun_illuminance = sun.illuminance;
@@ -116,9 +115,6 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.samples = static_cast<float>(s.samples);
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
-    flag(s.shadows, FRAME_SHADOWS);
-    flag(s.ambient_occlusion, FRAME_AMBIENT_OCCLUSION);
-    flag(s.image_based_light, FRAME_IMAGE_BASED_LIGHT);
     flag(s.draw_sky, FRAME_SKY);
     flag(s.tone_map, FRAME_TONE_MAP);
     flag(s.shelter, FRAME_SHELTER);

@@ -182,7 +182,6 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
     for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
     key += "|" + std::to_string(desc.depth) + "|" +
-           std::to_string(desc.depth_bias_constant) + "|" + std::to_string(desc.depth_bias_slope) + "|" +
            std::to_string(desc.color_write) + std::to_string(desc.depth_equal);
     auto& slot = pipelines_[key];
     if (slot) return *slot;
@@ -225,9 +224,6 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     raster.polygonMode = VK_POLYGON_MODE_FILL;
     raster.lineWidth = 1.0f;
-    raster.depthBiasEnable = desc.depth_bias_constant != 0.0f || desc.depth_bias_slope != 0.0f;
-    raster.depthBiasConstantFactor = desc.depth_bias_constant;
-    raster.depthBiasSlopeFactor = desc.depth_bias_slope;
 
     VkPipelineMultisampleStateCreateInfo multisample{};
     multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;

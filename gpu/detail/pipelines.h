@@ -55,8 +55,6 @@ struct GraphicsDesc {
     VkFormat depth = VK_FORMAT_D32_SFLOAT;
     std::uint32_t stride = 0;
     std::vector<VertexAttribute> attributes;
-    float depth_bias_constant = 0.0f;
-    float depth_bias_slope = 0.0f;
     bool color_write = true;   ///< false: fills depth only
     bool depth_equal = false;  ///< draws where depth is already its own; does not write it
 };

@@ -12,7 +12,7 @@ struct GBuffer {
     std::unique_ptr<GpuImage> depth;     ///< reversed, infinite far plane
     std::unique_ptr<GpuImage> color;     ///< square root of base colour; ambient occlusion
     std::unique_ptr<GpuImage> normals;   ///< base normal, cover normal (water or snow), octahedral
-    std::unique_ptr<GpuImage> material;  ///< perceptual roughness, metallic, porosity, model
+    std::unique_ptr<GpuImage> material;  ///< perceptual roughness, metallic, porosity; model and reflectance
     std::unique_ptr<GpuImage> weather;   ///< film, standing water, snow, frost; each 0..1
     std::unique_ptr<GpuImage> emission;  ///< linear radiance
 };

@@ -5,6 +5,18 @@
 #include "gpu/formulas/octahedral.h"
 #include "gpu/shaders/interface/frame.h"
 
+// Reflectance in seven bits, by its root: 63 is 0.04, that of glass.
+uint encode_reflectance(float f0)
+{
+    return uint(sqrt(clamp(f0, 0.0, 0.16) / 0.16) * 126.0 + 0.5);
+}
+
+float decode_reflectance(uint code)
+{
+    const float root = float(code) / 126.0;
+    return 0.16 * root * root;
+}
+
 struct GBufferTexel {
     vec3 base_color;
     float occlusion;
@@ -13,6 +25,7 @@ struct GBufferTexel {
     float roughness;
     float metallic;
     float porosity;
+    float f0;      // reflectance of the dielectric part at normal incidence, 0..0.16
     uint model;
     vec4 weather;  // film, water, snow, frost
 };
@@ -27,7 +40,9 @@ GBufferTexel decode_gbuffer(vec4 color, vec4 normals, vec4 material, vec4 weathe
     texel.roughness = material.x;
     texel.metallic = material.y;
     texel.porosity = material.z;
-    texel.model = uint(material.w * 255.0 + 0.5);
+    const uint code = uint(material.w * 255.0 + 0.5);
+    texel.model = code & 1u;
+    texel.f0 = decode_reflectance(code >> 1);
     texel.weather = weather;
     return texel;
 }

@@ -64,7 +64,7 @@ float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
     // Off the surface by a texel, more at grazing light: no acne, little peter-panning.
     const float grazing = 1.0 - saturate(dot(normal, frame.sun_direction));
     const vec3 lifted = position + normal * (texel_m * (1.0 + 2.0 * grazing)) +
-                        frame.sun_direction * (texel_m * 0.5 + frame.shadow_bias_m);
+                        frame.sun_direction * (texel_m * 0.5);
     const vec4 map = frame.shadow_from_world[cascade] * vec4(lifted, 1.0);
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
     const vec2 step_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
@@ -142,10 +142,9 @@ void main()
         const float view_m = linear_depth(frame, depth);
 
         // Metallic to specular, then weather, then light.
-        const float dielectric = 0.04;
         WeatheredMaterial m;
         m.albedo = g.base_color * (1.0 - g.metallic);
-        m.specular = mix(vec3(dielectric), g.base_color, g.metallic);
+        m.specular = mix(vec3(g.f0), g.base_color, g.metallic);
         m.smoothness = 1.0 - g.roughness;
         m.occlusion = g.occlusion;
         m.emission_scale = 1.0;
@@ -155,9 +154,10 @@ void main()
         if (WEATHER != 0u) {
             const float film = g.weather.x;
             m = apply_frost(m, g.weather.w);
-            // Murk (the opacity of standing water) is part of the base colour already.
+            // Murk (the opacity of standing water) is part of the base colour already, and emission has
+            // been dimmed by it and by snow: both are the material's own business.
             m = apply_water(m, film * frame.film, g.weather.y, vec4(0.0), g.porosity);
-            m = apply_snow(m, g.weather.z, frame.snow_color, vec3(0.02), 0.35, 0.5);
+            m = apply_snow(m, g.weather.z, frame.snow_color, vec3(0.02), 0.35, 0.0);
             // A thin film follows the bumps, water that stands closes over them to a mirror.
             closed = smooth_edge(0.08, 0.55, g.weather.y) * (1.0 - g.weather.z);
             m.smoothness = mix(m.smoothness, 0.94, closed);

@@ -6,6 +6,7 @@
 //   SURFACE_EMISSION  1: radiance of materials that glow
 #include "gpu/formulas/octahedral.h"
 #include "gpu/shaders/interface/frame.h"
+#include "gpu/shaders/gbuffer.glsl"
 #include "gpu/shaders/interface/material.h"
 #include "gpu/shaders/noise.glsl"
 #include "weather/formulas/ripple.h"
@@ -300,7 +301,6 @@ void main()
         const Uv at = coordinates(TEXTURE_EMISSIVE, in_uv, uv_dx, uv_dy, refraction);
         emission *= textureGrad(emissive_map, at.at, at.dx, at.dy).rgb;
     }
-    out_emission = vec4(emission * frame.emissive_scale, 1.0);
 #endif
 
     // Curvature of the geometry inside a pixel widens the lobe (Tokuyoshi and Kaplanyan 2019).
@@ -326,8 +326,14 @@ void main()
 #else
     out_normals = vec4(base_code, base_code);
 #endif
-    out_material = vec4(roughness, metallic, porosity * (1.0 - murk), float(model) / 255.0);
+    out_material = vec4(roughness, metallic, porosity * (1.0 - murk),
+                        float(model | (encode_reflectance(material.f0) << 1)) / 255.0);
 #if SURFACE_WEATHER
     out_weather = vec4(film, water.anywhere, snow.snow, frost);
+#endif
+#if SURFACE_EMISSION
+    // Murk and snow cover what glows.
+    const float kept = (1.0 - murk) * mix(1.0, 1.0 - snow.snow * material.snow_opacity, snow.snow);
+    out_emission = vec4(emission * (frame.emissive_scale * kept), 1.0);
 #endif
 }

@@ -221,6 +221,46 @@ TEST_F(RendererTest, LightListsLoseNothing)
     }
 }
 
+// The index of refraction of a dielectric decides how much it mirrors: ((n - 1) / (n + 1))^2.
+TEST_F(RendererTest, AHigherIndexOfRefractionMirrorsMore)
+{
+    float mirrored[3];
+    int i = 0;
+    for (const float ior : {1.33f, 1.5f, 2.0f}) {
+        Material black = plain_material(glm::vec3(0.0f), 0.05f);
+        black.ior = ior;
+        renderer->load(scene_of({ground()}, {black}), {});
+        renderer->set_environment(constant_environment(1.0f));
+        Frame frame = small_frame(look({0, 3, 0.1f}, {0, 0, 0}, 0.4f));
+        frame.sky.sun_illuminance = 0.0f;
+        frame.settings.ambient_occlusion = false;
+        frame.weather.visibility_m = 1e9f;
+        mirrored[i++] = pixel(renderer->render(frame), 32, 18).g;
+    }
+    EXPECT_NEAR(mirrored[0], 0.0201f, 0.003f);
+    EXPECT_NEAR(mirrored[1], 0.04f, 0.003f);
+    EXPECT_NEAR(mirrored[2], 0.111f, 0.005f);
+}
+
+// Snow hides a lamp by the opacity of its material.
+TEST_F(RendererTest, SnowDimsWhatGlows)
+{
+    Material lamp = plain_material(glm::vec3(0.0f));
+    lamp.emissive = glm::vec3(10.0f);
+    float seen[2];
+    for (int i = 0; i < 2; ++i) {
+        lamp.weather.snow_opacity = i == 0 ? 0.2f : 0.9f;
+        renderer->load(scene_of({ground()}, {lamp}), {});
+        Frame frame = small_frame(look({0, 4, 0.1f}, {0, 0, 0}, 0.5f));
+        frame.settings.image_based_light = false;
+        frame.sky.sun_illuminance = 0.0f;
+        frame.weather = deep_snow();
+        seen[i] = pixel(renderer->render(frame), 32, 18).g;
+    }
+    EXPECT_NEAR(seen[0], 8.0f, 0.2f);
+    EXPECT_NEAR(seen[1], 1.0f, 0.2f);
+}
+
 // The picture is right way up and right way round.
 TEST_F(RendererTest, AxesAreWhereTheyBelong)
 {

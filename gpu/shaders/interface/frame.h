@@ -23,7 +23,6 @@ struct FrameConstants {
     vec3 camera_m;
     float time_s;
     vec3 ray_corner;  // perspective: direction through pixel (0, 0) corner, forward part 1 long
-    uint seed;
     vec3 ray_dx;      // change per pixel
     float near_m;
     vec3 ray_dy;
@@ -36,7 +35,6 @@ struct FrameConstants {
     vec3 sun_direction;  // towards the sun, unit
     float shadow_texel_m;    // of the first cascade
     vec3 sun_illuminance;    // lux by channel on a facing plane, after air and clouds
-    float shadow_bias_m;
     vec4 cascade_end_m;      // view distance where cascade i ends
     vec4 cascade_scale;      // texel size of cascade i relative to the first
 
@@ -81,14 +79,10 @@ struct FrameConstants {
 
 SHARED_END
 
-#define FRAME_SHADOWS 1u
-#define FRAME_AMBIENT_OCCLUSION 2u
-#define FRAME_IMAGE_BASED_LIGHT 4u
 #define FRAME_SKY 8u
 #define FRAME_TONE_MAP 16u
 #define FRAME_SHELTER 32u
 #define FRAME_ORTHOGRAPHIC 64u
 #define FRAME_SUN_DISC 128u
-#define FRAME_SKY_VISIBILITY 256u
 
 #endif
