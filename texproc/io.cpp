@@ -215,23 +215,33 @@ void write_image(const fs::path& path, const Image& image, const WriteOptions& o
     write_raw(path, texproc::to_raw(image, type), options);
 }
 
+std::vector<std::byte> encode_png8(int width, int height, int channels,
+                                   std::span<const std::uint8_t> pixels,
+                                   const std::vector<std::pair<std::string, std::string>>& metadata)
+{
+    const std::string shape = std::to_string(width) + " x " + std::to_string(height) + " x " +
+                              std::to_string(channels);
+    if (width < 1 || height < 1 || channels < 1 || channels > 4) {
+        throw Error("png: a picture of " + shape + " is not possible",
+                    "Give sides of at least 1 and 1 to 4 channels.");
+    }
+    const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                               static_cast<std::size_t>(channels);
+    if (pixels.size() != needed) {
+        throw Error("png: a picture of " + shape + " needs " + std::to_string(needed) +
+                        " bytes, got " + std::to_string(pixels.size()),
+                    "Pass one byte a channel of every pixel.");
+    }
+    return detail::encode_png(
+        {width, height, channels, 8, reinterpret_cast<const std::byte*>(pixels.data())}, metadata);
+}
+
 void write_png8(const fs::path& path, int width, int height, int channels,
                 std::span<const std::uint8_t> pixels,
                 const std::vector<std::pair<std::string, std::string>>& metadata)
 {
     check_shape(path, width, height, channels);
-    const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                               static_cast<std::size_t>(channels);
-    if (channels > 4 || pixels.size() != needed) {
-        throw Error("output " + path.string() + ": a PNG of " + std::to_string(width) + " x " +
-                        std::to_string(height) + " x " + std::to_string(channels) + " needs " +
-                        std::to_string(needed) + " bytes in 1..4 channels, got " +
-                        std::to_string(pixels.size()),
-                    "Pass one byte a channel of every pixel.");
-    }
-    write_bytes(path, detail::encode_png({width, height, channels, 8,
-                                          reinterpret_cast<const std::byte*>(pixels.data())},
-                                         metadata));
+    write_bytes(path, encode_png8(width, height, channels, pixels, metadata));
 }
 
 }  // namespace petrichor::texproc

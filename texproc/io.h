@@ -66,6 +66,14 @@ void write_exr(const std::filesystem::path& path, int width, int height,
                const std::vector<ExrChannel>& channels,
                const std::vector<std::pair<std::string, std::string>>& metadata);
 
+/// A PNG file in memory from interleaved bytes, row 0 at the top; fast rather than small.
+///
+///   channels  1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
+///   throws    Error when the bytes do not fit width * height * channels.
+std::vector<std::byte> encode_png8(
+    int width, int height, int channels, std::span<const std::uint8_t> pixels,
+    const std::vector<std::pair<std::string, std::string>>& metadata = {});
+
 /// Writes interleaved 8-bit sRGB bytes as PNG, whole or not at all. channels 1..4.
 void write_png8(const std::filesystem::path& path, int width, int height, int channels,
                 std::span<const std::uint8_t> pixels,

@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "cli/demo/png_encoder.h"
 #include "texproc/generate.h"
+#include "texproc/io.h"
 #include "texproc/noise.h"
 
 namespace petrichor::cli {
@@ -41,7 +41,7 @@ std::vector<std::byte> encode_data(const Image& image)
 {
     std::vector<std::uint8_t> bytes(image.pixels.size());
     std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), to_byte);
-    return encode_png(image.width, image.height, image.channels, bytes);
+    return texproc::encode_png8(image.width, image.height, image.channels, bytes);
 }
 
 std::vector<std::byte> encode_color(const Image& image, const std::vector<std::uint8_t>& table)
@@ -50,7 +50,7 @@ std::vector<std::byte> encode_color(const Image& image, const std::vector<std::u
     std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), [&](float x) {
         return table[static_cast<std::size_t>(std::clamp(x, 0.0f, 1.0f) * 65535.0f + 0.5f)];
     });
-    return encode_png(image.width, image.height, image.channels, bytes);
+    return texproc::encode_png8(image.width, image.height, image.channels, bytes);
 }
 
 // A multiple of `step`: noise below what can be seen costs a third of a PNG.
@@ -68,7 +68,7 @@ std::vector<std::byte> encode_normal(const Image& image)
     for (std::size_t k = 0; k < bytes.size(); ++k) {
         bytes[k] = k % 3 == 2 ? to_step(image.pixels[k], 3) : to_byte(image.pixels[k]);
     }
-    return encode_png(image.width, image.height, image.channels, bytes);
+    return texproc::encode_png8(image.width, image.height, image.channels, bytes);
 }
 
 // Occlusion, roughness and metallic in one picture, as glTF reads them.
@@ -81,7 +81,7 @@ std::vector<std::byte> encode_orm(const MaterialMaps& maps)
         bytes[3 * k + 1] = to_step(maps.roughness.pixels[k], 3);
         bytes[3 * k + 2] = to_byte(maps.metallic.pixels[k]);
     }
-    return encode_png(maps.roughness.width, maps.roughness.height, 3, bytes);
+    return texproc::encode_png8(maps.roughness.width, maps.roughness.height, 3, bytes);
 }
 
 // What shines out of a window at dusk, u and v from 0 to 1 over it: a warm room, brightest high up,

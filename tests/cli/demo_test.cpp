@@ -1,7 +1,6 @@
 #include "cli/demo/street.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +13,7 @@
 #include "base/error.h"
 #include "cli/demo/glb_writer.h"
 #include "cli/demo/mesh_builder.h"
-#include "cli/demo/png_encoder.h"
+#include "texproc/io.h"
 #include "cli/demo/street_parts.h"
 #include "gpu/gltf.h"
 
@@ -273,7 +272,7 @@ gpu::Scene small_scene()
     scene.name = "small";
     const std::vector<std::uint8_t> grey = {0, 64, 128, 255};
     scene.textures.push_back({.name = "grey",
-                              .bytes = encode_png(2, 2, 1, grey),
+                              .bytes = texproc::encode_png8(2, 2, 1, grey),
                               .wrap_u = gpu::Wrap::Clamp,
                               .wrap_v = gpu::Wrap::Mirror,
                               .nearest = true});
@@ -395,48 +394,6 @@ TEST(GlbWriter, RefusesWhatDoesNotFit)
     bad = small_scene();
     bad.instances[0].mesh = 1;
     EXPECT_THROW(write_glb(bad), Error);
-}
-
-TEST(PngEncoder, DecodesToTheSamePixels)
-{
-    for (const int channels : {1, 3, 4}) {
-        const int width = 37, height = 23;
-        std::vector<std::uint8_t> pixels;
-        for (int k = 0; k < width * height * channels; ++k) {
-            pixels.push_back(static_cast<std::uint8_t>((k * k * 7 + k / 5) & 0xff));
-        }
-        const std::vector<std::byte> png = encode_png(width, height, channels, pixels);
-        // One IDAT chunk after the 33 bytes of signature and header; rows of type 4, undone by
-        // hand.
-        const auto byte = [&](std::size_t at) { return std::to_integer<std::uint32_t>(png[at]); };
-        const std::size_t length = byte(33) << 24 | byte(34) << 16 | byte(35) << 8 | byte(36);
-        const std::size_t stride = static_cast<std::size_t>(width * channels);
-        std::vector<std::uint8_t> rows((stride + 1) * static_cast<std::size_t>(height));
-        uLongf size = rows.size();
-        ASSERT_EQ(
-            uncompress(rows.data(), &size, reinterpret_cast<const Bytef*>(png.data() + 41), length),
-            Z_OK);
-        ASSERT_EQ(size, rows.size());
-        std::vector<std::uint8_t> decoded(pixels.size());
-        const auto step = static_cast<std::size_t>(channels);
-        for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-            ASSERT_EQ(rows[y * (stride + 1)], 4);
-            for (std::size_t i = 0; i < stride; ++i) {
-                const int a = i >= step ? decoded[y * stride + i - step] : 0;
-                const int b = y > 0 ? decoded[(y - 1) * stride + i] : 0;
-                const int c = i >= step && y > 0 ? decoded[(y - 1) * stride + i - step] : 0;
-                const int p = a + b - c;
-                const int pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-                const int guess = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
-                decoded[y * stride + i] =
-                    static_cast<std::uint8_t>(rows[y * (stride + 1) + 1 + i] + guess);
-            }
-        }
-        EXPECT_EQ(decoded, pixels) << channels;
-    }
-    const std::vector<std::uint8_t> few(5);
-    EXPECT_THROW(encode_png(2, 2, 1, few), Error);
-    EXPECT_THROW(encode_png(0, 2, 1, {}), Error);
 }
 
 TEST(MeshBuilder, BoxIsClosed)

@@ -38,7 +38,7 @@ gpu::EncodedImage chequers(const std::string& name, std::vector<std::uint8_t> a,
     }
     gpu::EncodedImage image;
     image.name = name;
-    image.bytes = encode_png(kSize, kSize, 3, pixels);
+    image.bytes = texproc::encode_png8(kSize, kSize, 3, pixels);
     return image;
 }
 

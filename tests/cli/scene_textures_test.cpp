@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "cli/demo/png_encoder.h"
+#include "texproc/io.h"
 
 namespace petrichor::cli {
 namespace {
@@ -21,7 +21,7 @@ gpu::EncodedImage image_of(int size, const std::vector<std::uint8_t>& even, cons
     }
     gpu::EncodedImage image;
     image.name = "image";
-    image.bytes = encode_png(size, size, 3, pixels);
+    image.bytes = texproc::encode_png8(size, size, 3, pixels);
     return image;
 }
 

@@ -192,6 +192,27 @@ TEST_F(Io, ManyThreadsReadAtOnce)
     for (const int ok : good) EXPECT_EQ(ok, 1);
 }
 
+// What we encode, the image library decodes to the same pixels; bytes that do not fit are refused.
+TEST_F(Io, EncodedPngBytesDecodeToTheSamePixels)
+{
+    for (const int channels : {1, 2, 3, 4}) {
+        std::vector<std::uint8_t> pixels;
+        for (int k = 0; k < 37 * 23 * channels; ++k) {
+            pixels.push_back(static_cast<std::uint8_t>((k * k * 7 + k / 5) & 0xff));
+        }
+        const Image back = decode_image(encode_png8(37, 23, channels, pixels), "picture");
+        ASSERT_EQ(back.width, 37);
+        ASSERT_EQ(back.channels, channels);
+        for (std::size_t k = 0; k < pixels.size(); ++k) {
+            ASSERT_EQ(std::lround(back.pixels[k] * 255.0f), pixels[k]) << channels << " " << k;
+        }
+    }
+    const std::vector<std::uint8_t> few(5);
+    EXPECT_THROW(encode_png8(2, 2, 1, few), Error);
+    EXPECT_THROW(encode_png8(0, 2, 1, {}), Error);
+    EXPECT_THROW(encode_png8(1, 1, 5, few), Error);
+}
+
 // A file on which the image library itself aborts is an error, and the next file is read.
 TEST_F(Io, ACrashOfTheImageLibraryIsAnError)
 {
