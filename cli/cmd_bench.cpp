@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cli/camera.h"
+#include "cli/render/camera.h"
 #include "cli/commands.h"
-#include "cli/scene_file.h"
-#include "cli/scene_textures.h"
-#include "cli/sequence.h"
+#include "cli/render/scene_file.h"
+#include "cli/render/scene_textures.h"
+#include "cli/render/sequence.h"
 #include "gpu/renderer.h"
-#include "texproc/io.h"
+#include "texproc/files/io.h"
 
 namespace petrichor::cli {
 namespace {

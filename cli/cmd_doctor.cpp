@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/film.h"
+#include "cli/render/film.h"
 #include "cli/folders.h"
 #include "cli/words.h"
 #include "gpu/renderer.h"

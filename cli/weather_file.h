@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "weather/artist.h"
-#include "weather/artist_exact.h"
+#include "weather/artist/model.h"
+#include "weather/artist/exact.h"
 #include "weather/timeline.h"
 
 namespace petrichor::cli {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/constants.h"
-#include "weather/detail/portable_math.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/portable_math.h"
 #include "weather/physical_grid.h"
 
 namespace petrichor::weather {

@@ -5,10 +5,10 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "weather/constants.h"
-#include "weather/humidity.h"
-#include "weather/longwave.h"
-#include "weather/solar.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/humidity.h"
+#include "weather/physics/longwave.h"
+#include "weather/physics/solar.h"
 
 namespace petrichor::weather {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "weather/detail/portable_math.h"
+#include "weather/physics/detail/portable_math.h"
 
 namespace petrichor::weather {
 

@@ -1,9 +1,9 @@
 #ifndef PETRICHOR_WEATHER_MAPPING_H
 #define PETRICHOR_WEATHER_MAPPING_H
 
-#include "weather/cell_state.h"
-#include "weather/stores.h"
-#include "weather/surfaces.h"
+#include "weather/physics/cell_state.h"
+#include "weather/physics/stores.h"
+#include "weather/physics/surfaces.h"
 
 namespace petrichor::weather {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/constants.h"
-#include "weather/detail/cell_steps.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/cell_steps.h"
 
 namespace petrichor::weather {
 

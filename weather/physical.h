@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "weather/cell_state.h"
-#include "weather/exchange.h"
+#include "weather/physics/cell_state.h"
+#include "weather/physics/exchange.h"
 #include "weather/forcing.h"
-#include "weather/phase.h"
-#include "weather/snow.h"
-#include "weather/surfaces.h"
+#include "weather/physics/phase.h"
+#include "weather/physics/snow.h"
+#include "weather/physics/surfaces.h"
 
 namespace petrichor::weather {
 

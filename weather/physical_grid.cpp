@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "base/error.h"
-#include "weather/constants.h"
-#include "weather/detail/cell_steps.h"
-#include "weather/humidity.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/cell_steps.h"
+#include "weather/physics/humidity.h"
 
 namespace petrichor::weather {
 

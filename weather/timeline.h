@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weather/artist.h"
+#include "weather/artist/model.h"
 
 namespace petrichor::weather {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "texproc/generate.h"
-#include "texproc/io.h"
-#include "texproc/noise.h"
+#include "texproc/generate/generate.h"
+#include "texproc/files/io.h"
+#include "texproc/generate/noise.h"
 
 namespace petrichor::cli {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cli/demo/street_parts.h"
-#include "texproc/noise.h"
+#include "texproc/generate/noise.h"
 
 namespace petrichor::cli {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cli/demo/street_walls.h"
-#include "texproc/noise.h"
+#include "texproc/generate/noise.h"
 
 namespace petrichor::cli {
 

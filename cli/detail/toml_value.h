@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/keyed.h"
+#include "cli/render/keyed.h"
 
 namespace petrichor::cli {
 

@@ -1,7 +1,7 @@
 // How long the artist model takes: build/release/tests/bench/artist_bench
 #include <benchmark/benchmark.h>
 
-#include "weather/artist_exact.h"
+#include "weather/artist/exact.h"
 
 namespace petrichor::weather {
 namespace {

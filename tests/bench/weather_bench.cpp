@@ -13,7 +13,7 @@
 #include "tests/weather/winters.h"
 #include "weather/mapping.h"
 #include "weather/physical_grid.h"
-#include "weather/snow_simple.h"
+#include "weather/physics/snow_simple.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "cli/bridge.h"
+#include "cli/render/bridge.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "cli/demo/glb_writer.h"
 #include "cli/demo/mesh_builder.h"
-#include "texproc/io.h"
+#include "texproc/files/io.h"
 #include "cli/demo/street_parts.h"
 #include "gpu/gltf.h"
 

@@ -1,4 +1,4 @@
-#include "cli/frames_jsonl.h"
+#include "cli/render/frames_jsonl.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

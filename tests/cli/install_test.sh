@@ -23,7 +23,7 @@ END
 cat >"$scratch/consumer/main.cpp" <<'END'
 #include "gpu/renderer.h"
 #include "texproc/mips.h"
-#include "weather/artist.h"
+#include "weather/artist/model.h"
 int main()
 {
     const auto wet = petrichor::weather::step({.rain = 1.0}, {}, 12.0, 0.8, 0.02);

@@ -1,4 +1,4 @@
-#include "cli/keyed.h"
+#include "cli/render/keyed.h"
 
 #include <gtest/gtest.h>
 

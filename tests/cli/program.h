@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/demo/glb_writer.h"
-#include "texproc/io.h"
+#include "texproc/files/io.h"
 #include "gpu/scene.h"
 
 namespace petrichor::cli::testing_program {

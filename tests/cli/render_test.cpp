@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "cli/frames_jsonl.h"
+#include "cli/render/frames_jsonl.h"
 #include "gpu/renderer.h"
 
 namespace petrichor::cli {

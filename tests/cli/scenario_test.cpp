@@ -1,4 +1,4 @@
-#include "cli/scenario.h"
+#include "cli/render/scenario.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "cli/material_keys.h"
-#include "cli/starter.h"
+#include "cli/render/material_keys.h"
+#include "cli/render/starter.h"
 
 namespace petrichor::cli {
 namespace {

@@ -1,11 +1,11 @@
-#include "cli/scene_textures.h"
+#include "cli/render/scene_textures.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.h"
-#include "texproc/io.h"
+#include "texproc/files/io.h"
 
 namespace petrichor::cli {
 namespace {

@@ -1,10 +1,10 @@
-#include "cli/sequence.h"
+#include "cli/render/sequence.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "cli/camera.h"
-#include "cli/sun.h"
+#include "cli/render/camera.h"
+#include "cli/render/sun.h"
 
 namespace petrichor::cli {
 namespace {

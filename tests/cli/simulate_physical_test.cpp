@@ -1,5 +1,5 @@
 // The physical model behind `petrichor simulate`: columns, times, checkpoints, ensembles, the fit.
-#include "cli/simulate_physical.h"
+#include "cli/simulate/physical.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "cli/simulate_plot.h"
-#include "cli/simulate_report.h"
+#include "cli/simulate/plot.h"
+#include "cli/simulate/report.h"
 
 namespace petrichor::cli {
 namespace {

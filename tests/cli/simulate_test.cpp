@@ -11,10 +11,10 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/simulate_artist.h"
-#include "cli/simulate_plot.h"
-#include "cli/simulate_report.h"
-#include "weather/artist_csv.h"
+#include "cli/simulate/artist.h"
+#include "cli/simulate/plot.h"
+#include "cli/simulate/report.h"
+#include "weather/artist/csv.h"
 
 namespace petrichor::cli {
 namespace {

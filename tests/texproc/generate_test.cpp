@@ -1,4 +1,4 @@
-#include "texproc/generate.h"
+#include "texproc/generate/generate.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "texproc/noise.h"
+#include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {
 

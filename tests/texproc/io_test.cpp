@@ -1,4 +1,4 @@
-#include "texproc/io.h"
+#include "texproc/files/io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "texproc/detail/fft.h"
-#include "texproc/noise.h"
+#include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {
 namespace {

@@ -1,4 +1,4 @@
-#include "texproc/overlap.h"
+#include "texproc/prefilter/overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "texproc/rules.h"
-#include "texproc/score.h"
+#include "texproc/prefilter/rules.h"
+#include "texproc/prefilter/score.h"
 
 namespace petrichor::texproc {
 namespace {

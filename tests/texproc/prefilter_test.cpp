@@ -1,11 +1,11 @@
-#include "texproc/prefilter.h"
+#include "texproc/prefilter/prefilter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.h"
-#include "texproc/lux.h"
+#include "texproc/prefilter/lux.h"
 
 namespace petrichor::texproc {
 namespace {

@@ -1,4 +1,4 @@
-#include "texproc/rules.h"
+#include "texproc/prefilter/rules.h"
 
 #include <gtest/gtest.h>
 

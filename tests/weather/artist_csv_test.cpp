@@ -1,4 +1,4 @@
-#include "weather/artist_csv.h"
+#include "weather/artist/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "weather/artist_exact.h"
+#include "weather/artist/exact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "weather/artist.h"
+#include "weather/artist/model.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "weather/artist_math.h"
+#include "weather/artist/math.h"
 
 namespace petrichor::weather {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "tests/weather/winters.h"
-#include "weather/detail/cell_steps.h"
+#include "weather/physics/detail/cell_steps.h"
 #include "weather/mapping.h"
 #include "weather/physical_grid.h"
 

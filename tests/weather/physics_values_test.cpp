@@ -3,21 +3,21 @@
 
 #include <cmath>
 
-#include "weather/air.h"
-#include "weather/constants.h"
-#include "weather/detail/portable_math.h"
-#include "weather/drainage.h"
-#include "weather/evaporation.h"
-#include "weather/exchange.h"
-#include "weather/ground.h"
-#include "weather/humidity.h"
-#include "weather/longwave.h"
-#include "weather/phase.h"
-#include "weather/snow.h"
-#include "weather/snow_simple.h"
-#include "weather/solar.h"
-#include "weather/stores.h"
-#include "weather/surface_energy.h"
+#include "weather/physics/air.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/portable_math.h"
+#include "weather/physics/drainage.h"
+#include "weather/physics/evaporation.h"
+#include "weather/physics/exchange.h"
+#include "weather/physics/ground.h"
+#include "weather/physics/humidity.h"
+#include "weather/physics/longwave.h"
+#include "weather/physics/phase.h"
+#include "weather/physics/snow.h"
+#include "weather/physics/snow_simple.h"
+#include "weather/physics/solar.h"
+#include "weather/physics/stores.h"
+#include "weather/physics/surface_energy.h"
 
 namespace petrichor::weather {
 namespace {

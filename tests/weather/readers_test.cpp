@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/metar.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/detail/polynomial.h"
+#include "weather/artist/detail/polynomial.h"
 
 namespace petrichor::weather {
 namespace {

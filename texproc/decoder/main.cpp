@@ -20,7 +20,7 @@
 
 #include "texproc/decoder/oiio.h"
 #include "texproc/decoder/sniff.h"
-#include "texproc/detail/protocol.h"
+#include "texproc/files/detail/protocol.h"
 
 namespace petrichor::texproc::decoder {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "texproc/raw_image.h"
+#include "texproc/files/raw_image.h"
 
 namespace petrichor::texproc::decoder {
 

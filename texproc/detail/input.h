@@ -1,8 +1,8 @@
 #ifndef PETRICHOR_TEXPROC_DETAIL_INPUT_H
 #define PETRICHOR_TEXPROC_DETAIL_INPUT_H
 
-#include "texproc/detail/map_surface.h"
-#include "texproc/prefilter.h"
+#include "texproc/prefilter/detail/map_surface.h"
+#include "texproc/prefilter/prefilter.h"
 
 namespace petrichor::texproc::detail {
 

@@ -1,7 +1,7 @@
 // EnergyPlus weather: 8 header lines, then 35 columns. Hour 1 is 00:00 to 01:00 local standard time: its values hold
 // at 01:00, its sums for the hour before. Each column has its own code for "missing".
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/constants.h"
-#include "weather/humidity.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/humidity.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"

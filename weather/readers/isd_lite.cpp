@@ -2,7 +2,7 @@
 // (0.1 m/s), sky code, precipitation of 1 h and 6 h (0.1 mm). -9999 is missing, -1 is a trace. UTC.
 #include <cmath>
 
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

@@ -1,7 +1,7 @@
 // PVGIS CSV (typical year or series): a header block, a table that begins with time(UTC), a footer. No
 // precipitation. Times like 20180101:0000; the year of a typical year jumps.
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

@@ -2,7 +2,7 @@
 // hour, minute, decimal hour, zenith, then pairs of value and quality. -9999.9 is missing; quality 0 is good. UTC.
 #include <cmath>
 
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

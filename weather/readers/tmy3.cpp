@@ -1,7 +1,7 @@
 // NREL TMY3 CSV: a station line, a line of column names with units, 8760 rows. Time 01:00..24:00 local standard, the
 // end of the hour; -9900 is missing; months come from different years.
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "weather/constants.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {

@@ -1,0 +1,53 @@
+// petrichor init: writes a scenario to start from, every key explained.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "cli/commands.h"
+#include "cli/render/starter.h"
+
+namespace petrichor::cli {
+namespace {
+
+struct InitOptions {
+    std::string name;
+    std::string scene = "demo:street";
+    bool force = false;
+};
+
+void init(const InitOptions& options)
+{
+    std::filesystem::path file = options.name;
+    if (file.extension() != ".toml") file += ".toml";
+    const std::string name = file.stem().string();
+    if (name.empty() || name == ".toml") {
+        throw Error("init: a scenario needs a name, got \"" + options.name + "\"",
+                    "For example: petrichor init my-street");
+    }
+    if (std::filesystem::exists(file) && !options.force) {
+        throw Error("init: " + file.string() + " exists already",
+                    "Choose another name, or replace it with --force.");
+    }
+    write_text_file(file, starter_scenario(name, options.scene));
+    std::cout << "wrote " << file.string() << "\nrender it: petrichor render " << file.string() << " -o "
+              << name << "\n";
+}
+
+}  // namespace
+
+void add_init(CLI::App& app)
+{
+    auto options = std::make_shared<InitOptions>();
+    CLI::App* command = app.add_subcommand("init", "Write a scenario to start from, every key explained.");
+    command->add_option("NAME", options->name, "file to write; .toml is added")->required();
+    command->add_option("--scene", options->scene, "scene to put into it: a .glb or .gltf file");
+    command->add_flag("--force", options->force, "replace an existing file");
+    command->footer("Example: petrichor init my-street --scene street.glb && petrichor render my-street.toml");
+    command->callback([options] { init(*options); });
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,72 @@
+#include "cli/render/weather_source.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "cli/folders.h"
+#include "cli/weather_file.h"
+#include "cli/words.h"
+
+namespace petrichor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (!in || fs::is_directory(file)) {
+        throw Error("weather: cannot read " + file.string(), "Check the name of the file.");
+    }
+    return text;
+}
+
+WeatherSource from_script(WeatherScript script, std::string name)
+{
+    WeatherSource source;
+    source.name = std::move(name);
+    source.duration_s = script.duration_s;
+    const auto weather = std::make_shared<const weather::ArtistTimeline>(script.solve());
+    const auto shared = std::make_shared<const WeatherScript>(std::move(script));
+    source.at = [shared, weather](double time_s) { return weather_moment(*shared, *weather, time_s); };
+    return source;
+}
+
+// A preset by name, else a file beside the scenario or as given.
+WeatherSource named(const std::string& asked, const fs::path& folder)
+{
+    const auto presets = preset_names("weather");
+    for (const std::string& preset : presets) {
+        if (preset != asked) continue;
+        const fs::path file = data_folder() / "weather" / (preset + ".toml");
+        return from_script(read_weather_script(text_of(file), file.filename().string()), preset);
+    }
+    for (const fs::path& file : {folder / asked, fs::path(asked)}) {
+        std::error_code ignored;
+        if (!fs::is_regular_file(file, ignored)) continue;
+        return from_script(read_weather_script(text_of(file), asked), fs::path(asked).stem().string());
+    }
+    throw Error("weather: \"" + asked + "\" is neither a preset nor a file." + did_you_mean(asked, presets),
+                presets.empty() ? "Name a .toml file with a [weather] table."
+                                : "Presets: " + join_words(presets) + ".");
+}
+
+}  // namespace
+
+WeatherSource weather_source(const Scenario& scenario, const std::string& asked)
+{
+    if (!asked.empty()) return named(asked, fs::path());
+    if (!scenario.weather_preset.empty()) return named(scenario.weather_preset, scenario.folder);
+    if (scenario.has_weather) {
+        return from_script(read_weather_script(scenario.text, scenario.name),
+                           fs::path(scenario.name).stem().string());
+    }
+    return {"none", 0.0, [](double) { return WeatherMoment{}; }};
+}
+
+}  // namespace petrichor::cli

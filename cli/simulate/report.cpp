@@ -1,0 +1,202 @@
+#include "cli/simulate/report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/simulate/plot.h"
+
+namespace petrichor::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kMostRows = 4000;
+
+// What the script draws: times, panels with their values, events. Seven digits are plenty for pixels.
+std::string data_json(const SimulationTable& table)
+{
+    const auto rows = rows_to_draw(table, kMostRows);
+    const auto short_number = [](double value) {
+        return static_cast<double>(static_cast<float>(value));
+    };
+    ordered_json times = ordered_json::array();
+    for (std::size_t r : rows) times.push_back(table.rows[r][0]);
+    ordered_json panels = ordered_json::array();
+    for (const PlotPanel& panel : table.panels) {
+        const auto [low, high] = axis_range(table, panel);
+        ordered_json series = ordered_json::array();
+        for (const PlotSeries& line : panel.series) {
+            const std::size_t column = column_index(table, line.column);
+            if (column == table.columns.size()) continue;
+            ordered_json values = ordered_json::array();
+            for (std::size_t r : rows) values.push_back(short_number(table.rows[r][column]));
+            series.push_back({{"label", line.label},
+                              {"color", line.color},
+                              {"filled", line.filled},
+                              {"values", values}});
+        }
+        panels.push_back({{"title", panel.title},
+                          {"forcing", panel.forcing},
+                          {"low", low},
+                          {"high", high},
+                          {"series", series}});
+    }
+    ordered_json events = ordered_json::array();
+    for (const SimulationEvent& event : table.events) {
+        events.push_back({{"t", event.time_s}, {"text", event.text}});
+    }
+    std::string text =
+        ordered_json{{"times", times}, {"panels", panels}, {"events", events}}.dump();
+    for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
+        text.replace(at, 1, "\\u003c");  // a title must not end the script
+    }
+    return text;
+}
+
+constexpr const char* kStyle = R"css(
+:root{color-scheme:light dark;--ground:#f6f8fa;--card:#fff;--ink:#1b2430;--soft:#5b6977;--grid:#e4e9ef;--axis:#93a0ae;--mark:#8a97a6;--accent:#1d6fd1}
+@media (prefers-color-scheme:dark){:root{--ground:#10151b;--card:#19212a;--ink:#e6ebf0;--soft:#9aa8b6;--grid:#28323d;--axis:#5d6b79;--mark:#6d7b8a;--accent:#6fb1ff}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--ground);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;-webkit-text-size-adjust:100%}
+main{max-width:1080px;margin:0 auto;padding:16px}
+h1{font-size:1.35rem;line-height:1.25;margin:4px 0}
+.sub{color:var(--soft);margin:0 0 12px;overflow-wrap:anywhere}
+.card{background:var(--card);border-radius:12px;padding:12px;margin:0 0 14px;box-shadow:0 1px 2px rgba(0,0,0,.08)}
+.bar{position:sticky;top:0;z-index:2;background:var(--card);display:flex;gap:8px;align-items:center;justify-content:space-between;padding:4px 0 8px}
+#now{font-variant-numeric:tabular-nums;font-weight:600}
+.bar>span:last-child{flex:none;white-space:nowrap}
+button{font:inherit;color:var(--ink);background:none;border:1px solid var(--grid);border-radius:8px;min-width:40px;min-height:36px;padding:0 10px;cursor:pointer}
+button:hover{border-color:var(--accent)}
+.panel{margin:0 0 8px}
+.panel h2{font-size:.92rem;margin:0 0 2px}
+.legend{display:flex;flex-wrap:wrap;gap:2px 14px;font-size:.86rem;color:var(--soft);margin-bottom:2px}
+.legend span{white-space:nowrap}
+.legend i{display:inline-block;width:14px;height:4px;border-radius:2px;margin-right:6px;vertical-align:middle}
+.legend b{color:var(--ink);font-variant-numeric:tabular-nums;font-weight:600;display:inline-block;min-width:2.6em}
+canvas{display:block;width:100%;touch-action:pan-y;cursor:crosshair}
+ol{margin:0;padding-left:0;list-style:none;columns:2 300px;column-gap:24px}
+li{break-inside:avoid}
+li button{border:0;min-height:34px;padding:2px 4px;text-align:left;width:100%;display:grid;grid-template-columns:1.7em 5.4em 1fr;align-items:center}
+li .t{color:var(--soft);font-variant-numeric:tabular-nums}
+li .n{color:var(--soft)}
+footer{color:var(--soft);font-size:.86rem;overflow-wrap:anywhere}
+footer p{margin:2px 0}
+)css";
+
+constexpr const char* kScript = R"js(
+"use strict";
+const D=JSON.parse(document.getElementById("data").textContent);
+const T=D.times,N=T.length,t0=T[0],t1=T[N-1]>t0?T[N-1]:t0+1;
+let from=t0,to=t1,cursor=null,drawn=false;
+const $=id=>document.getElementById(id),charts=$("charts");
+const css=name=>getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const tidy=v=>{const s=v.toFixed(6);return s.replace(/\.?0+$/,"")||"0"};
+function steps(){const s=[];for(let p=-6;p<2;p++)for(const d of[1,2,5]){const v=d*10**p;if(v<50)s.push(v)}
+ s.push(60,120,300,600,1800,3600,7200,10800,21600,43200);for(const d of[1,2,5,10,20,50,100,200,500,1e3,5e3,2e4])s.push(86400*d);return s}
+const STEPS=steps();
+function ticks(a,b,most){const s=STEPS.find(v=>(b-a)/v<=most)||STEPS[STEPS.length-1],r=[];
+ for(let k=Math.ceil(a/s-1e-9);k*s<=b+1e-9*(b-a);k++)r.push(k*s);return[r,s]}
+function valueTicks(a,b,most){let s=1e12;for(let p=-6;p<=12;p++){for(const d of[1,2,5]){const v=d*10**p;if((b-a)/v<=most){s=v;p=99;break}}}
+ const r=[];for(let k=Math.ceil(a/s-1e-9);k*s<=b+1e-9*(b-a);k++)r.push(k*s);return r}
+function timeText(t,s){if(t===0)return"0";if(s>=86400)return tidy(t/86400)+" d";if(s>=3600)return tidy(t/3600)+" h";if(s>=60)return tidy(t/60)+" min";return tidy(t)+" s"}
+function nowText(t){if(t1-t0<600)return t.toFixed(2)+" s";const d=Math.floor(t/86400),h=Math.floor(t/3600)%24,m=Math.floor(t/60)%60,s=Math.floor(t%60),z=v=>String(v).padStart(2,"0");
+ return(d?d+" d ":"")+z(h)+":"+z(m)+":"+z(s)}
+function rowBefore(t){let a=0,b=N-1;while(a<b){const m=(a+b+1)>>1;T[m]<=t?a=m:b=m-1}return a}
+function valueAt(v,t){const i=rowBefore(t);if(i===N-1||t<=T[i])return v[i];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
+const panels=D.panels.map((p,index)=>{const box=document.createElement("div");box.className="panel";
+ const h=document.createElement("h2");h.textContent=p.title;box.append(h);
+ const legend=document.createElement("div");legend.className="legend";box.append(legend);
+ const reads=p.series.map(s=>{const e=document.createElement("span"),i=document.createElement("i"),b=document.createElement("b");
+  i.style.background=s.color;e.append(i,s.label+" ",b);legend.append(e);return b});
+ const canvas=document.createElement("canvas");canvas.setAttribute("role","img");canvas.setAttribute("aria-label",p.title);box.append(canvas);charts.append(box);
+ return{p,canvas,reads,last:index===D.panels.length-1}});
+const LEFT=38,RIGHT=10;
+function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink");
+ const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
+ const[tt,ts]=ticks(from,to,Math.max(2,Math.floor(inner/78)));
+ for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:8,top=6,ratio=window.devicePixelRatio||1;
+  canvas.style.height=h+foot+top+"px";canvas.width=Math.round(width*ratio);canvas.height=Math.round((h+foot+top)*ratio);
+  const c=canvas.getContext("2d");c.scale(ratio,ratio);c.clearRect(0,0,width,h+foot+top);c.font="12px system-ui,'DejaVu Sans',sans-serif";
+  const y=v=>top+h*(1-(Math.min(p.high,Math.max(p.low,v))-p.low)/(p.high-p.low));
+  c.lineWidth=1;c.strokeStyle=grid;c.fillStyle=soft;c.textAlign="right";c.textBaseline="middle";
+  for(const v of valueTicks(p.low,p.high,p.forcing?4:5)){c.beginPath();c.moveTo(LEFT,y(v));c.lineTo(width-RIGHT,y(v));c.stroke();c.fillText(tidy(v),LEFT-6,y(v))}
+  c.textAlign="center";c.textBaseline="top";
+  for(const t of tt){c.beginPath();c.moveTo(x(t),top);c.lineTo(x(t),top+h);c.stroke();
+   if(last){const s=timeText(t,ts),half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+22)}}
+  if(p.low<0&&p.high>0){c.strokeStyle=axis;c.beginPath();c.moveTo(LEFT,y(0));c.lineTo(width-RIGHT,y(0));c.stroke()}
+  c.save();c.beginPath();c.rect(LEFT,0,inner,h+top+1);c.clip();
+  const i0=rowBefore(from),i1=Math.min(N-1,rowBefore(to)+1);
+  for(const s of p.series){c.beginPath();for(let i=i0;i<=i1;i++){const X=x(T[i]),Y=y(s.values[i]);i===i0?c.moveTo(X,Y):c.lineTo(X,Y)}
+   c.strokeStyle=s.color;c.lineWidth=2;c.lineJoin="round";c.stroke();
+   if(s.filled){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
+  c.restore();
+  let lastX=-99;c.fillStyle=soft;c.textBaseline="top";
+  D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+(last?4:foot));c.stroke();c.setLineDash([]);
+   if(last&&X-lastX>14){lastX=X;c.fillText(String(i+1),X,top+h+6)}});
+  if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
+   for(const s of p.series){c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
+  p.series.forEach((s,i)=>{reads[i].textContent=cursor===null?"":valueAt(s.values,cursor).toFixed(p.high-p.low>5?1:3)})}
+ $("now").textContent=cursor===null?"point to read values":nowText(cursor);drawn=true}
+let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
+function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}
+function zoom(at,factor){view(at-(at-from)*factor,at+(to-at)*factor)}
+const timeOf=X=>{const box=charts.getBoundingClientRect();return from+(to-from)*(X-box.left-LEFT)/(box.width-LEFT-RIGHT)};
+const pointers=new Map();let grabbed=null;
+charts.addEventListener("pointerdown",e=>{if(e.target.tagName!=="CANVAS")return;pointers.set(e.pointerId,e.clientX);
+ if(e.pointerType==="mouse")e.target.setPointerCapture(e.pointerId);
+ grabbed={x:e.clientX,from,to,moved:false};if(e.pointerType!=="mouse"){cursor=Math.min(to,Math.max(from,timeOf(e.clientX)));redraw()}});
+charts.addEventListener("pointermove",e=>{const was=pointers.get(e.pointerId);
+ if(was!==undefined&&pointers.size===2){const other=[...pointers].find(p=>p[0]!==e.pointerId)[1],a=Math.abs(was-other),b=Math.abs(e.clientX-other);
+  if(a>8&&b>8)zoom(timeOf((e.clientX+other)/2),a/b)}
+ else if(was!==undefined&&e.pointerType==="mouse"&&grabbed){const inner=charts.clientWidth-LEFT-RIGHT,d=(e.clientX-grabbed.x)/inner*(grabbed.to-grabbed.from);view(grabbed.from-d,grabbed.to-d)}
+ else{cursor=Math.min(to,Math.max(from,timeOf(e.clientX)));redraw()}
+ if(was!==undefined)pointers.set(e.pointerId,e.clientX)});
+for(const end of["pointerup","pointercancel"])addEventListener(end,e=>{pointers.delete(e.pointerId);grabbed=null});
+charts.addEventListener("pointerleave",e=>{if(e.pointerType==="mouse"){cursor=null;redraw()}});
+charts.addEventListener("wheel",e=>{if(e.target.tagName!=="CANVAS"||!(e.ctrlKey||e.shiftKey||Math.abs(e.deltaY)<Math.abs(e.deltaX)||document.activeElement===charts))return;
+ e.preventDefault();if(Math.abs(e.deltaX)>Math.abs(e.deltaY)){const d=e.deltaX/charts.clientWidth*(to-from);view(from+d,to+d)}else zoom(timeOf(e.clientX),Math.exp(e.deltaY*.002))},{passive:false});
+charts.addEventListener("keydown",e=>{const s=(to-from)/40;if(cursor===null)cursor=(from+to)/2;
+ if(e.key==="ArrowLeft")cursor=Math.max(t0,cursor-s);else if(e.key==="ArrowRight")cursor=Math.min(t1,cursor+s);
+ else if(e.key==="+")zoom(cursor,.7);else if(e.key==="-")zoom(cursor,1/.7);else if(e.key==="Escape")view(t0,t1);else return;
+ e.preventDefault();if(cursor<from||cursor>to)view(cursor-(to-from)/2,cursor+(to-from)/2);redraw()});
+$("in").onclick=()=>zoom(cursor??(from+to)/2,.6);$("out").onclick=()=>zoom(cursor??(from+to)/2,1/.6);$("all").onclick=()=>view(t0,t1);
+D.events.forEach((e,i)=>{const li=document.createElement("li"),b=document.createElement("button"),n=document.createElement("span"),t=document.createElement("span");
+ n.className="n";n.textContent=i+1;t.className="t";t.textContent=nowText(e.t);const w=document.createElement("span");w.textContent=e.text;b.append(n,t,w);
+ b.onclick=()=>{cursor=e.t;const s=to-from;if(e.t<from||e.t>to)view(e.t-s/2,e.t+s/2);redraw();charts.scrollIntoView({block:"nearest",behavior:"smooth"})};li.append(b);$("events").append(li)});
+if(!D.events.length)$("eventcard").hidden=true;
+new ResizeObserver(redraw).observe(charts);matchMedia("(prefers-color-scheme:dark)").addEventListener("change",redraw);
+draw();document.documentElement.dataset.ready=String(drawn&&panels.every(p=>p.canvas.width>0))+":"+panels.length+":"+D.events.length+":"+(document.documentElement.scrollWidth<=innerWidth?"fits":"overflows");
+)js";
+
+}  // namespace
+
+std::string html_report(const SimulationTable& table)
+{
+    const std::string title = escaped(table.title.empty() ? "weather" : table.title);
+    std::string notes;
+    for (const std::string& note : table.notes) notes += "<p>" + escaped(note) + "</p>\n";
+    if (table.rows.size() > rows_to_draw(table, kMostRows).size()) {
+        notes += "<p>" + std::to_string(rows_to_draw(table, kMostRows).size()) + " of " +
+                 std::to_string(table.rows.size()) + " rows are drawn; the CSV holds all.</p>\n";
+    }
+    return std::string("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+           title + " - petrichor</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n" +
+           "<h1>" + title + "</h1>\n<p class=\"sub\">" + escaped(table.model) + " model, " +
+           escaped(table.mode) + "; state " + hash_text(table.state_hash) + "</p>\n" +
+           "<noscript>" + svg_plot(table) + "</noscript>\n" +
+           "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
+           "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "
+           "<button id=\"in\" aria-label=\"zoom in\">+</button> "
+           "<button id=\"all\">all</button></span></div>\n"
+           "<div id=\"charts\" tabindex=\"0\"></div></section>\n"
+           "<section class=\"card\" id=\"eventcard\"><h2 style=\"font-size:1rem;margin:0 0 6px\">"
+           "Events</h2><ol id=\"events\"></ol></section>\n<footer>" +
+           notes +
+           "<p>Drag to move, + and - or pinch to zoom (with a mouse: Shift and wheel); arrow keys "
+           "read values.</p></footer>\n</main>\n<script type=\"application/json\" id=\"data\">" +
+           data_json(table) + "</script>\n<script>" + kScript +
+           "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace petrichor::cli

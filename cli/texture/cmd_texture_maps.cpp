@@ -1,0 +1,227 @@
+// petrichor texture mips, normal, bake, unpack: one map in, other maps out.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "cli/texture/cmd_texture.h"
+#include "cli/texture/files.h"
+#include "texproc/bake.h"
+#include "texproc/mips.h"
+#include "texproc/normal.h"
+#include "texproc/pack.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+const std::map<std::string, texproc::MipFilter> kFilters{
+    {"box", texproc::MipFilter::Box},
+    {"kaiser", texproc::MipFilter::Kaiser},
+    {"lanczos3", texproc::MipFilter::Lanczos3},
+    {"mitchell", texproc::MipFilter::Mitchell}};
+
+struct MipsArguments {
+    std::string in, out, wrap_u = "wrap", wrap_v = "wrap";
+    bool color = false;
+    int bits = 8;
+    texproc::MipOptions options;
+};
+
+void run_mips(MipsArguments& a)
+{
+    level_name(a.out, 0);
+    a.options.wrap_u = a.wrap_u == "wrap";
+    a.options.wrap_v = a.wrap_v == "wrap";
+    a.options.mirror_u = a.wrap_u == "mirror";
+    a.options.mirror_v = a.wrap_v == "mirror";
+    const Image image = texproc::read_image(
+        a.in, {.space = a.color ? ColorSpace::Linear : ColorSpace::Data});
+    const std::vector<Image> chain = texproc::mip_chain(image, a.options);
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        texproc::write_image(level_name(a.out, static_cast<int>(k)), chain[k], {.bits = a.bits});
+    }
+    std::cout << chain.size() << " levels\n";
+}
+
+struct NormalArguments {
+    std::string in, out, height, blend, from = "rgb", to = "rgb";
+    bool flip = false, detect = false, from_height = false, to_height = false, renormalize = false;
+    float depth = 0.05f;
+    int bits = 16;
+};
+
+void run_normal(const NormalArguments& a)
+{
+    const Image image = texproc::read_image(a.in);
+    Image normal = a.from_height
+                       ? texproc::normal_from_height(image, {.depth = a.depth})
+                       : texproc::from_layout(image, texproc::normal_layout(a.from));
+    if (a.detect) {
+        const texproc::GreenDirection green =
+            a.height.empty() ? texproc::detect_green(normal)
+                             : texproc::detect_green(normal, texproc::read_image(a.height));
+        std::cout << "green " << (green.down ? "down (DirectX)" : "up (OpenGL)") << ", confidence "
+                  << green.confidence << "\n";
+        if (a.out.empty()) return;
+    }
+    if (a.out.empty()) throw Error("texture normal: --out is needed", "Give -o FILE.");
+    if (a.flip) texproc::flip_green(normal);
+    if (!a.blend.empty()) normal = texproc::blend_normals(normal, texproc::read_image(a.blend));
+    if (a.renormalize) texproc::renormalize(normal);
+    if (a.to_height) {
+        const texproc::IntegratedHeight height = texproc::height_from_normal(normal);
+        texproc::write_image(a.out, height.height, {.bits = a.bits});
+        std::cout << "depth " << height.depth << " of the width\n";
+        return;
+    }
+    texproc::write_image(a.out, texproc::to_layout(normal, texproc::normal_layout(a.to)),
+                         {.bits = a.bits});
+}
+
+struct BakeArguments {
+    std::string height, roughness, metallic, out;
+    int bits = 8, size = 256;
+    std::uint32_t seed = 1;
+    texproc::BakeOptions options;
+};
+
+// Number k: the share under water k / 64 of the deepest below the brim.
+std::string hypsometry(const texproc::Hollows& h)
+{
+    std::string text = "{\"deepest\": " + std::to_string(h.deepest) + ", \"covered\": [";
+    for (std::size_t k = 0; k < h.covered.size(); ++k) {
+        text += (k ? ", " : "") + std::to_string(h.covered[k]);
+    }
+    return text + "]}";
+}
+
+void run_bake(const BakeArguments& a)
+{
+    level_name(a.out, 0);  // the same rule for the pattern, with a name in the place of %d
+    const auto name = [&](const std::string& what) {
+        const std::size_t at = a.out.find('%');
+        return a.out.substr(0, at) + what + a.out.substr(a.out.find('d', at) + 1);
+    };
+    const texproc::WriteOptions writing{.bits = a.bits};
+    if (a.height.empty()) {
+        texproc::write_image(name("ripple"), texproc::ripple_drops(a.size, a.seed), writing);
+        texproc::write_image(name("snow_mask"), texproc::snow_mask(a.size, a.seed), writing);
+        texproc::write_image(name("snow_water_bump"), texproc::snow_water_bump(a.size, a.seed),
+                             writing);
+        return;
+    }
+    const Image height = texproc::read_image(a.height);
+    texproc::write_image(name("occlusion"), texproc::ambient_occlusion(height, a.options), writing);
+    texproc::write_image(name("cavity"), texproc::cavity(height, a.options), writing);
+    texproc::write_image(name("curvature"), texproc::curvature(height, a.options), writing);
+    texproc::write_image(name("flow"), texproc::flow_direction(height, a.options), writing);
+    const texproc::Hollows puddles = texproc::puddles(height, a.options);
+    const texproc::Hollows cracks = texproc::cracks(height, a.options);
+    texproc::write_image(name("puddle"), puddles.depth, writing);
+    texproc::write_image(name("crack"), cracks.depth, writing);
+    write_text_file(std::filesystem::path(name("hypsometry")).replace_extension(".json"),
+                    "{\"puddle\": " + hypsometry(puddles) + ",\n\"crack\": " + hypsometry(cracks) +
+                        "}\n");
+    if (!a.roughness.empty()) {
+        const Image metallic = a.metallic.empty() ? Image() : texproc::read_image(a.metallic);
+        texproc::write_image(name("porosity"),
+                             texproc::porosity(texproc::read_image(a.roughness), metallic), writing);
+    }
+}
+
+struct UnpackArguments {
+    std::string in, preset, out;
+};
+
+void run_unpack(const UnpackArguments& a)
+{
+    level_name(a.out, 0);
+    const std::size_t at = a.out.find('%');
+    for (const auto& [role, image] :
+         texproc::unpack(texproc::pack_preset(a.preset), texproc::read_raw(a.in))) {
+        const std::string name =
+            a.out.substr(0, at) + role + a.out.substr(a.out.find('d', at) + 1);
+        texproc::write_raw(name, image);
+        std::cout << name << "\n";
+    }
+}
+
+}  // namespace
+
+void add_texture_maps(CLI::App& texture)
+{
+    {
+        auto a = std::make_shared<MipsArguments>();
+        CLI::App* app = texture.add_subcommand("mips", "mip levels of one image");
+        app->add_option("image", a->in, "the largest level")->required();
+        app->add_option("-o,--out", a->out, "level k: 'out_%d.png'")->required();
+        app->add_option("--filter", a->options.filter, "box (exact area), kaiser, lanczos3, mitchell")
+            ->transform(CLI::CheckedTransformer(kFilters));
+        for (const auto& [axis, value] : {std::pair{"--wrap-u", &a->wrap_u}, {"--wrap-v", &a->wrap_v}}) {
+            app->add_option(axis, *value, "wrap, clamp or mirror")
+                ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
+                ->capture_default_str();
+        }
+        app->add_flag("--color", a->color, "sRGB colour: filtered in linear light");
+        app->add_flag("--normals", a->options.normals, "a normal map: unit length on every level");
+        app->add_flag("--keep-length", a->options.keep_length, "normals: leave them shortened");
+        app->add_option("--alpha-cutoff", a->options.alpha_cutoff,
+                        "keep the coverage of alpha above this");
+        app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}));
+        app->footer("Example:\n  petrichor texture mips albedo.png --color --filter kaiser -o 'albedo_%d.png'");
+        app->callback([a] { run_mips(*a); });
+    }
+    {
+        auto a = std::make_shared<NormalArguments>();
+        CLI::App* app = texture.add_subcommand("normal", "turn, detect, convert, blend normal maps");
+        app->add_option("image", a->in, "a normal map, or a height map with --from-height")->required();
+        app->add_option("-o,--out", a->out, "the result");
+        app->add_flag("--detect", a->detect, "say which way green points, and how sure that is");
+        app->add_option("--height", a->height, "--detect: the height map of the same surface");
+        app->add_flag("--flip-green", a->flip, "OpenGL to DirectX or back");
+        app->add_option("--from-layout", a->from, "rgb, rg, ag or rxgb")->capture_default_str();
+        app->add_option("--to-layout", a->to, "rgb, rg, ag or rxgb")->capture_default_str();
+        app->add_flag("--from-height", a->from_height, "make normals from a height map");
+        app->add_flag("--to-height", a->to_height, "integrate to a tileable height map");
+        app->add_option("--depth", a->depth, "--from-height: height 1 in units of the width")
+            ->capture_default_str();
+        app->add_option("--blend", a->blend, "add the bumps of another normal map");
+        app->add_flag("--renormalize", a->renormalize, "unit length");
+        app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}))->capture_default_str();
+        app->footer("Example:\n  petrichor texture normal wall_dx.png --flip-green -o wall_gl.png");
+        app->callback([a] { run_normal(*a); });
+    }
+    {
+        auto a = std::make_shared<BakeArguments>();
+        CLI::App* app = texture.add_subcommand(
+            "bake", "occlusion, cavity, curvature, puddles, cracks, flow from a height map");
+        app->add_option("--height", a->height,
+                        "height map, white is high; without it: ripple, snow mask, snow bump");
+        app->add_option("--roughness", a->roughness, "also makes a porosity map");
+        app->add_option("--metallic", a->metallic, "metals are not porous");
+        app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the name of the map")->required();
+        app->add_option("--depth", a->options.depth, "height 1 in units of the width")->capture_default_str();
+        app->add_option("--reach", a->options.reach, "how far it looks, in units of the width")
+            ->capture_default_str();
+        app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}))->capture_default_str();
+        app->add_option("--size", a->size, "of the weather textures")->capture_default_str();
+        app->add_option("--seed", a->seed, "of the weather textures")->capture_default_str();
+        app->footer("Example:\n  petrichor texture bake --height wall_h.png -o 'wall_%d.png'");
+        app->callback([a] { run_bake(*a); });
+    }
+    {
+        auto a = std::make_shared<UnpackArguments>();
+        CLI::App* app = texture.add_subcommand("unpack", "the maps back out of a packed image");
+        app->add_option("image", a->in, "the packed image")->required();
+        app->add_option("--preset", a->preset, "as it was packed")->required();
+        app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the role")->required();
+        app->footer("Example:\n  petrichor texture unpack mask.png --preset unity-hdrp-mask -o 'wall_%d.png'");
+        app->callback([a] { run_unpack(*a); });
+    }
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,135 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/texture/cmd_texture.h"
+#include "cli/texture/files.h"
+#include "cli/texture/prefilter_options.h"
+#include "texproc/prefilter/score.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+struct Arguments {
+    PrefilterInput input;
+    std::string chain, normal_chain;
+    texproc::ScoreOptions scoring;
+    bool self_test = false, json = false;
+};
+
+// Levels 1.. of a chain, as far as there are files.
+std::vector<Image> read_chain(const std::string& pattern, const texproc::ReadOptions& reading)
+{
+    std::vector<Image> levels(1);
+    const std::size_t colon = pattern.rfind(':');
+    const bool has_channel = colon != std::string::npos && pattern.find('%') < colon;
+    const std::string names = has_channel ? pattern.substr(0, colon) : pattern;
+    const std::string channel = has_channel ? pattern.substr(colon) : "";
+    for (int level = 1;; ++level) {
+        const std::string name = level_name(names, level);
+        if (!std::filesystem::exists(name)) break;
+        levels.push_back(texproc::to_image(read_map(name + channel, reading), ColorSpace::Data));
+    }
+    if (levels.size() == 1) {
+        throw Error("score: there is no " + level_name(names, 1),
+                    "Name the chain as 'out_%d.png', with level 1 as out_1.png.");
+    }
+    return levels;
+}
+
+void print_json(const texproc::Score& s)
+{
+    std::printf("{\"levels\": [");
+    const char* comma = "";
+    for (const texproc::LevelScore& l : s.levels) {
+        std::printf("%s\n  {\"level\": %d, \"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
+                    "\"energy\": %.5f}",
+                    comma, l.level, l.plain, l.best, l.tested, l.energy);
+        comma = ",";
+    }
+    std::printf("\n]");
+    const std::pair<const char*, texproc::RangeScore> ranges[] = {{"fine", s.fine()},
+                                                                  {"coarse", s.coarse()}};
+    for (const auto& [name, r] : ranges) {
+        std::printf(",\n\"%s\": {\"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
+                    "\"worst_over_plain\": %.5f}",
+                    name, r.plain, r.best, r.tested, r.levels ? r.worst_over_plain : 0.0);
+    }
+    std::printf("}\n");
+}
+
+void run(Arguments& a)
+{
+    if (a.self_test) {
+        bool good = true;
+        for (const texproc::SelfCheck& check : texproc::score_self_test()) {
+            std::printf("%-28s %8.4f  in %.3f..%.3f  %s\n", check.name.c_str(), check.value,
+                        check.low, check.high, check.good() ? "ok" : "WRONG");
+            good &= check.good();
+        }
+        if (!good) throw std::runtime_error("the yardstick does not measure what it should");
+        return;
+    }
+    if (a.chain.empty()) {
+        throw Error("score: no chain was given", "Give --chain 'out_%d.png', or --selftest.");
+    }
+    const PrefilterMaps maps = read_prefilter_maps(a.input);
+    texproc::Prefiltered chain;
+    chain.roughness = read_chain(a.chain, a.input.reading);
+    for (Image& level : chain.roughness) {
+        if (level.channels > 1) {
+            Image one(level.width, level.height, 1, level.space);
+            for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+                one.pixels[i] = level.pixels[i * static_cast<std::size_t>(level.channels)];
+            }
+            level = std::move(one);
+        }
+    }
+    if (!a.normal_chain.empty()) chain.normal = read_chain(a.normal_chain, a.input.reading);
+    for (std::size_t k = 1; k < chain.normal.size(); ++k) {
+        if (chain.normal[k].channels != 3) {
+            throw Error("score: level " + std::to_string(k) + " of the normals has " +
+                            std::to_string(chain.normal[k].channels) + " channels, 3 are needed",
+                        "Name a chain of three-channel normal maps.");
+        }
+    }
+    const texproc::Score s =
+        texproc::score(maps.normal, maps.map, chain, a.input.options, a.scoring);
+    if (a.json) {
+        print_json(s);
+    } else {
+        std::cout << to_text(s);
+    }
+}
+
+}  // namespace
+
+void add_texture_score(CLI::App& texture)
+{
+    auto a = std::make_shared<Arguments>();
+    CLI::App* app = texture.add_subcommand(
+        "score", "how much light the mips of any tool misplace (0 none .. 2 all)");
+    add_prefilter_input(*app, a->input);
+    app->add_option("--chain", a->chain, "roughness or smoothness of level k: 'out_%d.png'");
+    app->add_option("--normal-chain", a->normal_chain,
+                    "normals of level k; default: the mean normals");
+    app->add_option("--light", a->scoring.light, "alpha of the light: 0 the sun, 0.1 a window")
+        ->capture_default_str();
+    app->add_option("--texels", a->scoring.texels, "mip texels a level")->capture_default_str();
+    app->add_option("--points", a->scoring.points, "half-vectors a texel")->capture_default_str();
+    app->add_option("--seed", a->scoring.seed, "which texels and points")->capture_default_str();
+    app->add_flag("--json", a->json, "for machines");
+    app->add_flag("--selftest", a->self_test, "check the yardstick itself");
+    app->footer(
+        "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in brackets,\n"
+        "where there is little to gain, the excess over the best lobe.\n\nExample:\n"
+        "  petrichor texture score --normal n.png --roughness r.png --chain 'r_%d.png' "
+        "--normal-chain 'n_%d.png'");
+    app->callback([a] { run(*a); });
+}
+
+}  // namespace petrichor::cli

@@ -1,8 +1,0 @@
-#include "texproc/detail/lobe_kernel.inc"
-
-namespace petrichor::texproc::detail {
-
-const LobeKernel kLobeKernelAvx2{shade,       overlaps,   elliptic_overlap,
-                                 differences, reweighted, inside};
-
-}  // namespace petrichor::texproc::detail

@@ -1,0 +1,8 @@
+#include "texproc/prefilter/detail/lobe_kernel.inc"
+
+namespace petrichor::texproc::detail {
+
+const LobeKernel kLobeKernelAvx2{shade,       overlaps,   elliptic_overlap,
+                                 differences, reweighted, inside};
+
+}  // namespace petrichor::texproc::detail

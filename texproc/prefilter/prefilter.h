@@ -1,0 +1,57 @@
+#ifndef PETRICHOR_TEXPROC_PREFILTER_H
+#define PETRICHOR_TEXPROC_PREFILTER_H
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "texproc/files/raw_image.h"
+
+namespace petrichor::texproc {
+
+struct PrefilterOptions {
+    std::string rule = "moments";  ///< a name of rules(); "overlap" is the best
+    bool wrap_u = true;            ///< tileable along u (boxes never look past the edge)
+    bool wrap_v = true;
+    bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
+    int threads = 0;          ///< 0: all cores; the bytes do not depend on it
+
+    bool alpha = false;          ///< the second map holds alpha = p^2 (or 1 - alpha)
+    bool green_down = false;     ///< the normal map has +y down, in and out
+    bool rebuild_z = false;      ///< z from x and y, whatever the third channel holds
+    int normal_x = 0, normal_y = 1;  ///< channels of x and y
+    int channel = 0;             ///< of the second map
+
+    float design_light = 0.0f;   ///< overlap, student-t, median: alpha of the light to fit for
+    bool joint = true;           ///< overlap: may re-aim the normals; else only roughness changes
+    bool anisotropic = false;    ///< overlap: elliptic lobes where they help
+    bool quick = false;          ///< overlap: less search
+
+    std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
+};
+
+/// Mip chains that agree: level k of normal and of roughness belong together.
+struct Prefiltered {
+    std::vector<Image> normal;     ///< 3 channels, unit length, encoded 0.5 + 0.5 n
+    std::vector<Image> roughness;  ///< 1 channel, same meaning as the input
+    /// Only with anisotropic: R G = 0.5 + 0.5 the direction of largest roughness in tangent space,
+    /// B = strength as glTF defines it: alpha along = mix(alpha across, 1, strength^2); roughness
+    /// then holds the one across.
+    std::vector<Image> anisotropy;
+};
+
+/// Builds both chains down to 1 x 1 so that what minification takes from the normals is added to the
+/// roughness. normal: 3 channels encoded 0.5 + 0.5 n; roughness: 1 channel of the same size.
+/// Throws Error when the sizes differ or a channel is missing. Same bytes at any thread count.
+Prefiltered prefilter(const Image& normal, const Image& roughness,
+                      const PrefilterOptions& options = {});
+
+/// The same from the numbers of files, which need less memory. Level 0 is left empty in the result:
+/// it is the input.
+Prefiltered prefilter_raw(const RawImage& normal, const RawImage& roughness,
+                          const PrefilterOptions& options = {});
+
+}  // namespace petrichor::texproc
+
+#endif

@@ -1,0 +1,82 @@
+#ifndef PETRICHOR_TEXPROC_SCORE_H
+#define PETRICHOR_TEXPROC_SCORE_H
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "texproc/prefilter/prefilter.h"
+#include "texproc/files/raw_image.h"
+
+namespace petrichor::texproc {
+
+// The yardstick (texture-prefilter.md, 4): how far the light of one mip texel is from the mean light of
+// the texels of level 0 under it, over five views, as the share of light that is misplaced (0..2).
+
+struct ScoreOptions {
+    float light = 0.0f;  ///< alpha that widens every lobe on both sides: 0 the sun, 0.1 a window
+    int texels = 32;     ///< stratified mip texels a level
+    int points = 512;    ///< half-vectors a texel
+    std::uint32_t seed = 1;
+    int threads = 0;
+    int max_level = 99;
+};
+
+/// Errors of one level, means over its texels.
+struct LevelScore {
+    int level = 0;
+    double plain = 0.0;   ///< E of the plain mip
+    double best = 0.0;    ///< E of the best isotropic lobe about the mean normal
+    double tested = 0.0;  ///< E of the chain
+    double energy = 0.0;  ///< light of the tested lobe / light of the reference, - 1
+    double spread = 0.0;  ///< standard error of (tested - best) over the texels
+};
+
+/// Means over a range of levels, each level of equal weight.
+struct RangeScore {
+    double plain = 0.0, best = 0.0, tested = 0.0;
+    double worst_over_plain = 0.0;  ///< largest tested - plain of a level
+    int levels = 0;
+
+    double room() const { return plain - best; }
+    /// Share of the room closed, in percent; only where room() >= 0.02 does it mean anything.
+    double gap() const { return 100.0 * (plain - tested) / room(); }
+    double excess() const { return tested - best; }
+};
+
+struct Score {
+    std::vector<LevelScore> levels;
+    RangeScore fine() const;    ///< levels 1 to 5
+    RangeScore coarse() const;  ///< levels 6 and up
+};
+
+/// Scores a chain against level 0. `input` says how to read level 0 and, with the same meaning, the
+/// chain; levels of the chain that are empty are skipped. chain.normal may be empty: then the mean
+/// normals are used. Throws Error when sizes do not fit.
+Score score(const RawImage& normal, const RawImage& roughness, const Prefiltered& chain,
+            const PrefilterOptions& input, const ScoreOptions& options = {});
+
+/// Scores several chains on the same texels and points, which makes differences much tighter.
+std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
+                             const std::vector<Prefiltered>& chains, const PrefilterOptions& input,
+                             const ScoreOptions& options = {});
+
+/// Rounds a chain as a file of 8 or 16 bits does.
+void quantize(Prefiltered& chain, int bits);
+
+/// One line a level and the two ranges, for people.
+std::string to_text(const Score& score);
+
+/// What the yardstick must measure of itself: names, values, bounds.
+struct SelfCheck {
+    std::string name;
+    double value = 0.0, low = 0.0, high = 0.0;
+    bool good() const { return value >= low && value <= high; }
+};
+std::vector<SelfCheck> score_self_test();
+
+}  // namespace petrichor::texproc
+
+#endif

@@ -1,0 +1,155 @@
+#include "weather/physics/detail/cell_steps.h"
+
+#include <cmath>
+#include <algorithm>
+
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/block_kernel.h"
+#include "weather/physics/exchange.h"
+#include "weather/physical.h"
+
+namespace petrichor::weather::detail {
+
+namespace {
+
+double year_angle(std::int64_t time_us, bool south)
+{
+    const double days = static_cast<double>(time_us) / 86400e6;
+    return 2.0 * kPi * ((days - (south ? 21.0 : 204.0)) / 365.2425);
+}
+
+}  // namespace
+
+void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place, const CellConstants& k,
+                  const StepConstants& s)
+{
+    advance_step(cell, step, place, k, s);
+}
+
+void advance_block_16(CellBlock& block, const PlaceBlock& place, const StepForcing* steps, std::size_t count,
+                      const CellConstants& k, const StepConstants& s)
+{
+    advance_block<16>(block, place, steps, count, k, s);
+}
+
+bool machine_has_wide_registers()
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") != 0;
+#else
+    return false;
+#endif
+}
+
+AdvanceBlock fastest_advance_block()
+{
+    return machine_has_wide_registers() ? advance_block_32 : advance_block_16;
+}
+
+CellPlace<double> station_place(double sky_view, double precip_factor)
+{
+    CellPlace<double> place{};
+    place.pressure_factor = 1.0;
+    place.sky_view = sky_view;
+    place.normal_up = 1.0;
+    place.precip_factor = precip_factor;
+    place.wind_factor = 1.0;
+    place.shortwave_factor = 1.0;
+    return place;
+}
+
+YearlyWave yearly_wave(const ForcingTable& table)
+{
+    // Least squares for mean and amplitude of T = mean + amplitude cos(year - phase); the warmest day is
+    // 24 July in the north and 22 January in the south.
+    const bool south = table.site.latitude_deg < 0.0;
+    double n = 0.0, c1 = 0.0, cc = 0.0, t1 = 0.0, tc = 0.0;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double c = sine_cosine(year_angle(table.time_us[i], south)).cos;
+        const double t = table[Field::AirTemp][i] - kZeroCelsiusK;
+        n += 1.0;
+        c1 += c;
+        cc += c * c;
+        t1 += t;
+        tc += t * c;
+    }
+    const double days = static_cast<double>(table.time_us.back() - table.time_us.front()) / 86400e6;
+    YearlyWave wave;
+    wave.south = south;
+    wave.mean_c = t1 / n;
+    const double spread = cc / n - (c1 / n) * (c1 / n);
+    if (days >= 120.0 && spread > 0.02) {
+        wave.amplitude_k = clamped((tc / n - (t1 / n) * (c1 / n)) / spread, 0.0, 30.0);
+        wave.mean_c = t1 / n - wave.amplitude_k * c1 / n;
+    } else {
+        // Days or weeks say little about the year: do not invent permafrost from a cold spell.
+        wave.mean_c = std::max(wave.mean_c, 2.0);
+    }
+    return wave;
+}
+
+CellState initial_cell(const ForcingTable& table, const CellConstants& k)
+{
+    const YearlyWave wave = yearly_wave(table);
+    CellState c{};
+    c.snow_albedo = k.snow.albedo_max;
+    c.surface_temp_c = table[Field::AirTemp][0] - kZeroCelsiusK;
+    // The wave of the year goes down into the ground, fading and late by one radian in `damping`; near
+    // the surface the last days of air count.
+    const double diffusivity = k.surface.conductivity_w_m_k / k.surface.heat_capacity_j_m3_k;
+    const double damping = std::sqrt(diffusivity * 365.2425 * 86400.0 / kPi);
+    const double now = year_angle(table.time_us[0], wave.south);
+    double depth = 0.0;
+    for (std::size_t i = 0; i < kGroundLayers; ++i) {
+        const double z = (depth + 0.5 * kGroundThickness_m[i]) / damping;
+        c.ground_temp_c[i] = k.deep_temp_c + wave.amplitude_k * exponential(-z) * sine_cosine(now - z).cos;
+        depth += kGroundThickness_m[i];
+    }
+    c.infiltration_mm_h = k.surface.infiltration.first_mm_h;
+    return c;
+}
+
+CellConstants make_cell_constants(const PhysicalParams& params, const Site& site, double deep_temp_k)
+{
+    CellConstants k;
+    const Surface& s = params.surface;
+    k.surface = s;
+    k.snow = params.snow;
+    k.exchange = params.exchange;
+    k.phase = params.phase;
+    k.deep_temp_c = deep_temp_k - kZeroCelsiusK;
+    k.wind_height_m = site.wind_height_m;
+    k.albedo_dry = s.albedo_dry;
+    k.albedo_wet = s.albedo_wet;
+    k.emissivity = s.emissivity;
+    k.snow_emissivity = params.snow.emissivity;
+    k.log_roughness = logarithm(s.roughness_m);
+    k.log_snow_roughness = logarithm(params.snow.roughness_m);
+    k.log_wind_height = logarithm(site.wind_height_m);
+    k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
+    k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
+    k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
+    k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;
+    k.least_wind = std::max(params.exchange.min_wind_m_s, s.traffic_wind_m_s);
+    k.film_capacity = s.film_capacity_kg_m2;
+    k.inverse_film_capacity = 1.0 / s.film_capacity_kg_m2;
+    k.crack_capacity = s.cracks.capacity_kg_m2();
+    k.puddle_capacity = s.puddles.capacity_kg_m2();
+    k.permeable = s.infiltration.first_mm_h > 0.0;
+    return k;
+}
+
+StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s)
+{
+    StepConstants s;
+    s.dt_s = dt_s;
+    s.parts = std::max(1, static_cast<int>(std::ceil(dt_s / substep_s - 1e-9)));
+    s.ground_whole = make_ground_stack(k.surface.conductivity_w_m_k, k.surface.heat_capacity_j_m3_k, dt_s);
+    s.ground_part = make_ground_stack(k.surface.conductivity_w_m_k, k.surface.heat_capacity_j_m3_k, dt_s / s.parts);
+    s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
+    s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));
+    s.settling = exponential(-dt_s / (200.0 * 3600.0));
+    return s;
+}
+
+}  // namespace petrichor::weather::detail

@@ -1,0 +1,28 @@
+// The kernel on blocks of eight cells. Included by the files that are compiled for one kind of register.
+#ifndef PETRICHOR_WEATHER_DETAIL_BLOCK_KERNEL_H
+#define PETRICHOR_WEATHER_DETAIL_BLOCK_KERNEL_H
+
+#include <cstring>
+
+#include "weather/physics/detail/cell_steps.h"
+
+namespace petrichor::weather::detail {
+
+template <int kBytes>
+PETRICHOR_INLINE void advance_block(CellBlock& block, const PlaceBlock& place_block, const StepForcing* steps,
+                                    std::size_t count, const CellConstants& k, const StepConstants& s)
+{
+    using Real = Lanes<kBytes>;
+    static_assert(sizeof(CellVars<Real>) == sizeof(CellBlock));
+    static_assert(sizeof(CellPlace<Real>) == sizeof(PlaceBlock));
+    CellVars<Real> c;
+    CellPlace<Real> place;
+    std::memcpy(static_cast<void*>(&c), &block, sizeof block);
+    std::memcpy(static_cast<void*>(&place), &place_block, sizeof place_block);
+    for (std::size_t i = 0; i < count; ++i) advance_step(c, steps[i], place, k, s);
+    std::memcpy(static_cast<void*>(&block), &c, sizeof block);
+}
+
+}  // namespace petrichor::weather::detail
+
+#endif

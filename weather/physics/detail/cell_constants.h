@@ -1,0 +1,49 @@
+// What a kernel needs of the parameters, worked out once.
+#ifndef PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
+#define PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
+
+#include "weather/physics/exchange.h"
+#include "weather/physics/ground.h"
+#include "weather/physics/phase.h"
+#include "weather/physics/snow.h"
+#include "weather/physics/surfaces.h"
+
+namespace petrichor::weather {
+struct PhysicalParams;
+struct Site;
+}  // namespace petrichor::weather
+
+namespace petrichor::weather::detail {
+
+struct CellConstants {
+    Surface surface;
+    SnowParams snow;
+    ExchangeParams exchange;
+    PhaseParams phase;
+    double deep_temp_c = 8.0;
+    double wind_height_m = 10.0;
+    // surface
+    double albedo_dry, albedo_wet, emissivity, snow_emissivity;
+    double log_roughness, log_snow_roughness, log_wind_height, log_temp_height_10;
+    double root_z_bare, root_z_snow, inverse_cover_depth, least_wind;
+    // water
+    double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
+    bool permeable = false;
+};
+CellConstants make_cell_constants(const PhysicalParams& params, const Site& site, double deep_temp_k);
+
+// Factors that depend on the length of the step.
+struct StepConstants {
+    double dt_s = 0.0;
+    int parts = 1;  // substeps
+    GroundStack ground_whole, ground_part;
+    double albedo_cold = 1.0, albedo_melting = 1.0;  // ageing over the step
+    double settling = 1.0;                           // exponential law
+    double part_horton_decay = 1.0, part_horton_recovery = 1.0, whole_horton_decay = 1.0,
+           whole_horton_recovery = 1.0;
+};
+StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s);
+
+}  // namespace petrichor::weather::detail
+
+#endif

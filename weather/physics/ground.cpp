@@ -1,0 +1,63 @@
+#include "weather/physics/ground.h"
+
+#include <cmath>
+
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/ground_kernel.h"
+
+namespace petrichor::weather {
+
+GroundStack make_ground_stack(double conductivity, double heat_capacity, double dt_s)
+{
+    GroundStack stack;
+    // From the bottom up. `y`: conductance seen below a point, towards the equivalent temperature there.
+    double y = 0.0;
+    for (std::size_t i = kGroundLayers; i-- > 0;) {
+        const double half = 0.5 * kGroundThickness_m[i] / conductivity;
+        if (i + 1 == kGroundLayers) {
+            stack.share_down[i] = 0.0;
+            y = 1.0 / half;  // straight to the fixed temperature
+        } else {
+            stack.share_down[i] = 1.0 / (1.0 + y * half);
+            y = y * stack.share_down[i];
+        }
+        const double storage = heat_capacity * kGroundThickness_m[i] / dt_s;
+        const double total = y + storage;
+        stack.weight_below[i] = y / total;
+        stack.weight_own[i] = storage / total;
+        stack.share_top[i] = 1.0 / (1.0 + total * half);
+        y = total * stack.share_top[i];
+        stack.half_resistance_top = half;
+    }
+    stack.conductance_w_m2_k = y;
+    return stack;
+}
+
+GroundStep step_ground(const GroundStack& stack, const std::array<double, kGroundLayers>& temp_k,
+                       double surface_temp_k, double deep_temp_k)
+{
+    double equivalent[kGroundLayers];
+    const double seen = detail::ground_equivalent(stack, temp_k.data(), deep_temp_k, equivalent);
+    GroundStep step;
+    step.flux_w_m2 = stack.conductance_w_m2_k * (surface_temp_k - seen);
+    step.temp_k = temp_k;
+    detail::ground_update(stack, surface_temp_k, deep_temp_k, equivalent, step.temp_k.data());
+    return step;
+}
+
+double half_space_warming_k(double step_k, double depth_m, double diffusivity, double time_s)
+{
+    return step_k * std::erfc(depth_m / (2.0 * std::sqrt(diffusivity * time_s)));
+}
+
+double half_space_flux_w_m2(double step_k, double conductivity, double diffusivity, double time_s)
+{
+    return conductivity * step_k / std::sqrt(kPi * diffusivity * time_s);
+}
+
+double damping_depth_m(double diffusivity, double period_s)
+{
+    return std::sqrt(diffusivity * period_s / kPi);
+}
+
+}  // namespace petrichor::weather

@@ -1,0 +1,88 @@
+#include "weather/physics/solar.h"
+
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/formulas.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+double radians(double degrees)
+{
+    return degrees * (kPi / 180.0);
+}
+
+}  // namespace
+
+SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg)
+{
+    // Days since 2000-01-01 12:00 UTC; 946728000 s after 1970.
+    const double days = (static_cast<double>(unix_us) * 1e-6 - 946728000.0) / 86400.0;
+    const double mean_longitude = 280.460 + 0.9856474 * days;
+    const auto anomaly = detail::sine_cosine(radians(357.528 + 0.9856003 * days));
+    const double sin_2g = 2.0 * anomaly.sin * anomaly.cos;
+    const auto ecliptic = detail::sine_cosine(
+        radians(mean_longitude + 1.915 * anomaly.sin + 0.020 * sin_2g));
+    const auto tilt = detail::sine_cosine(radians(23.439 - 4.0e-7 * days));
+    const double sin_declination = tilt.sin * ecliptic.sin;
+
+    // Right ascension enters only through its sine and cosine: no arc tangent is needed.
+    const double cos_declination = std::sqrt(1.0 - sin_declination * sin_declination);
+    const double cos_ascension = ecliptic.cos / cos_declination;
+    const double sin_ascension = tilt.cos * ecliptic.sin / cos_declination;
+    const double sidereal_deg = 280.46062 + 360.98564737 * days + longitude_deg;
+    const double turns = sidereal_deg / 360.0;
+    const auto sidereal = detail::sine_cosine(2.0 * kPi * (turns - std::floor(turns)));
+    const double cos_hour = sidereal.cos * cos_ascension + sidereal.sin * sin_ascension;
+    const double sin_hour = sidereal.sin * cos_ascension - sidereal.cos * sin_ascension;
+
+    const auto latitude = detail::sine_cosine(radians(latitude_deg));
+    const double distance_au =
+        1.00014 - 0.01671 * anomaly.cos - 0.00014 * (2.0 * anomaly.cos * anomaly.cos - 1.0);
+    SunDirection sun;
+    sun.east = -cos_declination * sin_hour;
+    sun.north = latitude.cos * sin_declination - latitude.sin * cos_declination * cos_hour;
+    sun.up = latitude.sin * sin_declination + latitude.cos * cos_declination * cos_hour;
+    sun.extraterrestrial_w_m2 = 1361.0 / (distance_au * distance_au);
+    return sun;
+}
+
+double sine_of_elevation(double latitude_rad, double declination_rad, double solar_hour)
+{
+    const auto latitude = detail::sine_cosine(latitude_rad);
+    const auto declination = detail::sine_cosine(declination_rad);
+    return latitude.sin * declination.sin +
+           latitude.cos * declination.cos * detail::sine_cosine(radians(15.0 * (solar_hour - 12.0))).cos;
+}
+
+double clear_sky_w_m2(double sine_elevation)
+{
+    if (!(sine_elevation > 0.0)) return 0.0;
+    return 1098.0 * sine_elevation * detail::exponential(-0.057 / sine_elevation);
+}
+
+double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction)
+{
+    const double cloud = cloud_fraction > 0.0 ? detail::power(cloud_fraction, 3.4) : 0.0;
+    return clear_sky_w_m2(sine_elevation) * (1.0 - 0.75 * cloud);
+}
+
+double cloud_fraction_of(double shortwave_w_m2, double sine_elevation)
+{
+    const double clear = clear_sky_w_m2(sine_elevation);
+    if (!(clear > 0.0)) return 0.0;
+    const double lost = detail::unit_clamped((1.0 - shortwave_w_m2 / clear) / 0.75);
+    return lost > 0.0 ? detail::power(lost, 1.0 / 3.4) : 0.0;
+}
+
+double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double extraterrestrial_w_m2)
+{
+    // Near the horizon the index is meaningless: everything is diffuse.
+    if (!(sine_elevation > 0.05) || !(shortwave_w_m2 > 0.0)) return 1.0;
+    const double kt = detail::smaller(shortwave_w_m2 / (extraterrestrial_w_m2 * sine_elevation), 1.0);
+    if (kt <= 0.22) return 1.0 - 0.09 * kt;
+    if (kt > 0.80) return 0.165;
+    return 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
+}
+
+}  // namespace petrichor::weather

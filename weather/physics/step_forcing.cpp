@@ -1,0 +1,116 @@
+#include "weather/physics/detail/step_forcing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weather/physics/constants.h"
+#include "weather/physics/solar.h"
+
+namespace petrichor::weather::detail {
+
+namespace {
+
+// Mean of a column over [begin, end], rows `first` .. the row after the end.
+double mean_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin, std::int64_t end)
+{
+    const auto& v = table[field];
+    const auto& t = table.time_us;
+    const bool rate = field_info(field).is_rate;
+    double sum = 0.0;
+    std::int64_t at = begin;
+    std::size_t i = first;
+    while (at < end) {
+        // Piece from `at` to the next row or the end; beyond the last row values stay (rates: 0).
+        while (i + 1 < t.size() && t[i + 1] <= at) ++i;
+        const bool last = i + 1 >= t.size() || at < t[0];
+        std::int64_t to = last ? end : std::min(end, t[i + 1]);
+        if (at < t[0]) to = std::min(end, t[0]);
+        const double width = static_cast<double>(to - at);
+        if (rate) {
+            const bool inside = at >= t[0] && i + 1 < t.size();
+            // The last row's rate lasts as long as the row before it did.
+            const bool tail = i + 1 == t.size() && t.size() > 1 && at >= t[i] && at < t[i] + (t[i] - t[i - 1]);
+            if (inside || tail || t.size() == 1) sum += v[i] * width;
+        } else {
+            sum += 0.5 * (value_at(table, field, at) + value_at(table, field, to)) * width;
+        }
+        at = to;
+    }
+    return sum / static_cast<double>(end - begin);
+}
+
+Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin, std::int64_t end,
+               double offset)
+{
+    // The usual case: the step is the interval between two rows.
+    const auto& t = table.time_us;
+    if (first + 1 < t.size() && t[first] == begin && t[first + 1] == end) {
+        const auto& v = table[field];
+        return {v[first] + offset, v[first + 1] - v[first]};
+    }
+    const double a = value_at(table, field, begin);
+    const double b = value_at(table, field, end);
+    const double mean = mean_over(table, field, first, begin, end);
+    return {mean - 0.5 * (b - a) + offset, b - a};
+}
+
+// `first`: the last row at or before the beginning.
+StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin, std::int64_t length)
+{
+    const std::int64_t end = begin + length;
+    StepForcing step;
+    step.begin_us = begin;
+    step.dt_s = static_cast<double>(length) * 1e-6;
+    step.air_c = ramp_over(table, Field::AirTemp, first, begin, end, -kZeroCelsiusK);
+    step.rh_pct = ramp_over(table, Field::RelHumidity, first, begin, end, 0.0);
+    step.wind = ramp_over(table, Field::Wind, first, begin, end, 0.0);
+    step.pressure = ramp_over(table, Field::Pressure, first, begin, end, 0.0);
+    step.shortwave = ramp_over(table, Field::Shortwave, first, begin, end, 0.0);
+    step.longwave = ramp_over(table, Field::Longwave, first, begin, end, 0.0);
+    if (table.has(Field::Rain) || table.has(Field::Snow)) {
+        const double rain = table.has(Field::Rain) ? mean_over(table, Field::Rain, first, begin, end) : 0.0;
+        const double snow = table.has(Field::Snow) ? mean_over(table, Field::Snow, first, begin, end) : 0.0;
+        step.precip = rain + snow;
+        step.snow_share = step.precip > 0.0 ? snow / step.precip : 0.0;
+        step.phase_known = true;
+    } else {
+        step.precip = mean_over(table, Field::Precip, first, begin, end);
+    }
+    const bool place = !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
+    if (place) {
+        const SunDirection sun =
+            sun_direction(begin + length / 2, table.site.latitude_deg, table.site.longitude_deg);
+        step.sun_east = sun.east;
+        step.sun_north = sun.north;
+        step.sun_up = sun.up;
+        step.diffuse = diffuse_fraction(step.shortwave.at(0.5), sun.up, sun.extraterrestrial_w_m2);
+    }
+    return step;
+}
+
+}  // namespace
+
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length)
+{
+    const auto& t = table.time_us;
+    const auto upper = std::upper_bound(t.begin(), t.end(), begin);
+    return step_from(table, upper == t.begin() ? 0 : static_cast<std::size_t>(upper - t.begin()) - 1, begin, length);
+}
+
+std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us)
+{
+    std::vector<StepForcing> steps;
+    const std::int64_t begin = table.time_us.front();
+    // The last row's interval counts too: its precipitation falls after its time.
+    const std::int64_t tail = table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
+    const std::int64_t end = table.time_us.back() + tail;
+    steps.reserve(static_cast<std::size_t>((end - begin) / step_us + 1));
+    std::size_t first = 0;
+    for (std::int64_t at = begin; at < end; at += step_us) {
+        while (first + 1 < table.rows() && table.time_us[first + 1] <= at) ++first;
+        steps.push_back(step_from(table, first, at, std::min(step_us, end - at)));
+    }
+    return steps;
+}
+
+}  // namespace petrichor::weather::detail

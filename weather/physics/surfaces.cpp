@@ -1,0 +1,126 @@
+#include "weather/physics/surfaces.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+// One row a surface; depths of cracks and puddles in mm, infiltration in mm/h.
+struct Row {
+    const char* name;
+    double albedo_dry, albedo_wet, emissivity, roughness_m, film, cracks_mm, puddles_mm;
+    double infiltration_first, infiltration_last, conductivity, heat_capacity;
+};
+
+constexpr Row kRows[] = {
+    {"asphalt", 0.12, 0.08, 0.95, 0.005, 1.0, 1.5, 15.0, 0.0, 0.0, 0.75, 1.94e6},
+    {"concrete", 0.30, 0.20, 0.94, 0.003, 0.5, 0.8, 10.0, 0.0, 0.0, 1.5, 2.1e6},
+    {"paving_stones", 0.25, 0.17, 0.94, 0.005, 0.5, 4.0, 10.0, 50.0, 10.0, 1.2, 2.0e6},
+    {"cobblestone", 0.20, 0.13, 0.94, 0.01, 0.6, 8.0, 15.0, 50.0, 10.0, 1.5, 2.1e6},
+    {"brick", 0.28, 0.17, 0.93, 0.005, 0.8, 4.0, 8.0, 20.0, 5.0, 0.8, 1.7e6},
+    {"soil", 0.20, 0.11, 0.95, 0.01, 1.0, 5.0, 20.0, 50.0, 5.0, 1.0, 2.0e6},
+    {"sand", 0.35, 0.20, 0.94, 0.003, 1.0, 3.0, 15.0, 200.0, 60.0, 0.6, 1.6e6},
+    {"gravel", 0.22, 0.14, 0.93, 0.01, 1.0, 10.0, 15.0, 250.0, 100.0, 0.8, 1.7e6},
+    {"grass", 0.22, 0.20, 0.97, 0.03, 1.0, 10.0, 20.0, 80.0, 10.0, 1.0, 2.0e6},
+    {"roof_metal", 0.35, 0.33, 0.80, 0.002, 0.2, 0.3, 2.0, 0.0, 0.0, 0.2, 0.8e6},
+    {"roof_tile", 0.22, 0.14, 0.92, 0.01, 0.8, 2.0, 3.0, 0.0, 0.0, 0.7, 1.5e6},
+    {"wood", 0.30, 0.18, 0.92, 0.003, 0.6, 1.5, 5.0, 0.0, 0.0, 0.15, 1.0e6},
+    {"rock", 0.25, 0.17, 0.94, 0.01, 0.4, 3.0, 20.0, 0.0, 0.0, 2.5, 2.2e6},
+};
+
+std::vector<Surface> make_presets()
+{
+    std::vector<Surface> all;
+    for (const Row& row : kRows) {
+        Surface s;
+        s.name = row.name;
+        s.albedo_dry = row.albedo_dry;
+        s.albedo_wet = row.albedo_wet;
+        s.emissivity = row.emissivity;
+        s.roughness_m = row.roughness_m;
+        s.film_capacity_kg_m2 = row.film;
+        s.cracks = uniform_hypsometry(row.cracks_mm);
+        s.puddles = uniform_hypsometry(row.puddles_mm);
+        s.infiltration.first_mm_h = row.infiltration_first;
+        s.infiltration.last_mm_h = row.infiltration_last;
+        s.conductivity_w_m_k = row.conductivity;
+        s.heat_capacity_j_m3_k = row.heat_capacity;
+        all.push_back(std::move(s));
+    }
+    return all;
+}
+
+std::string plain(std::string_view name)
+{
+    std::string out;
+    for (const char c : name) {
+        if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
+        else if (c == ' ' || c == '-') out += '_';
+        else out += c;
+    }
+    return out;
+}
+
+void require(bool good, const Surface& s, const char* field, double found, const char* accepted)
+{
+    if (good) return;
+    throw Error("surface " + s.name + ": " + field + " must be " + accepted + ", got " +
+                    std::to_string(found),
+                std::string("Set ") + field + " to a value in the accepted range.");
+}
+
+}  // namespace
+
+const std::vector<Surface>& surface_presets()
+{
+    static const std::vector<Surface> presets = make_presets();
+    return presets;
+}
+
+Surface surface_preset(std::string_view name)
+{
+    const std::string wanted = plain(name);
+    std::string names;
+    for (const Surface& surface : surface_presets()) {
+        if (surface.name == wanted) return surface;
+        names += (names.empty() ? "" : ", ") + surface.name;
+    }
+    throw Error("surface: there is no preset named '" + std::string(name) + "'", "Use one of: " + names + ".");
+}
+
+void check_surface(const Surface& s)
+{
+    const auto unit = [](double v) { return v >= 0.0 && v <= 1.0; };
+    require(unit(s.albedo_dry), s, "albedo_dry", s.albedo_dry, "in 0..1");
+    require(unit(s.albedo_wet), s, "albedo_wet", s.albedo_wet, "in 0..1");
+    require(s.emissivity > 0.0 && s.emissivity <= 1.0, s, "emissivity", s.emissivity, "in (0, 1]");
+    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, s, "roughness_m", s.roughness_m, "in 1e-6..0.5");
+    require(s.film_capacity_kg_m2 >= 0.01 && s.film_capacity_kg_m2 <= 100.0, s, "film_capacity_kg_m2",
+            s.film_capacity_kg_m2, "in 0.01..100");
+    require(s.film_rate_1_s > 0.0 && s.film_rate_1_s <= 10.0, s, "film_rate_1_s", s.film_rate_1_s,
+            "in (0, 10]");
+    require(s.cracks.depth_mm > 0.0 && std::isfinite(s.cracks.depth_mm), s, "cracks.depth_mm",
+            s.cracks.depth_mm, "above 0");
+    require(s.puddles.depth_mm > 0.0 && std::isfinite(s.puddles.depth_mm), s, "puddles.depth_mm",
+            s.puddles.depth_mm, "above 0");
+    const HortonParams& h = s.infiltration;
+    require(h.last_mm_h >= 0.0, s, "infiltration.last_mm_h", h.last_mm_h, "0 or more");
+    require(h.first_mm_h >= h.last_mm_h && h.first_mm_h <= 1e5, s, "infiltration.first_mm_h", h.first_mm_h,
+            "last_mm_h or more");
+    require(h.decay_1_h > 0.0 && h.decay_1_h <= 1e4, s, "infiltration.decay_1_h", h.decay_1_h, "above 0");
+    require(h.recovery_1_h >= 0.0 && h.recovery_1_h <= 1e4, s, "infiltration.recovery_1_h", h.recovery_1_h,
+            "0 or more");
+    require(s.conductivity_w_m_k > 0.0 && s.conductivity_w_m_k < 1e3, s, "conductivity_w_m_k",
+            s.conductivity_w_m_k, "above 0");
+    require(s.heat_capacity_j_m3_k >= 1e4 && s.heat_capacity_j_m3_k < 1e8, s, "heat_capacity_j_m3_k",
+            s.heat_capacity_j_m3_k, "in 1e4..1e8");
+    require(s.traffic_loss_1_h >= 0.0 && s.traffic_loss_1_h < 1e3, s, "traffic_loss_1_h", s.traffic_loss_1_h,
+            "0 or more");
+    require(s.traffic_wind_m_s >= 0.0 && s.traffic_wind_m_s < 50.0, s, "traffic_wind_m_s",
+            s.traffic_wind_m_s, "0 or more");
+}
+
+}  // namespace petrichor::weather

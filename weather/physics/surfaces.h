@@ -1,0 +1,44 @@
+#ifndef PETRICHOR_WEATHER_SURFACES_H
+#define PETRICHOR_WEATHER_SURFACES_H
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "weather/physics/drainage.h"
+#include "weather/physics/stores.h"
+
+namespace petrichor::weather {
+
+/// What a surface is made of, as far as weather is concerned.
+struct Surface {
+    std::string name = "asphalt";
+    double albedo_dry = 0.12;
+    double albedo_wet = 0.08;
+    double emissivity = 0.95;
+    double roughness_m = 0.005;        ///< aerodynamic, z0
+    double film_capacity_kg_m2 = 1.0;  ///< held by pores and texture before it runs, > 0
+    double film_rate_1_s = 0.003;      ///< drainage above the capacity, > 0
+    Hypsometry cracks = {1.5, {}, {}};
+    Hypsometry puddles = {15.0, {}, {}};
+    HortonParams infiltration;
+    double conductivity_w_m_k = 0.75;      ///< of the ground
+    double heat_capacity_j_m3_k = 1.94e6;  ///< of the ground
+    double traffic_loss_1_h = 0.0;         ///< film sprayed away by vehicles, 0.1..1.5 on roads in use
+    double traffic_wind_m_s = 0.0;         ///< wind is raised to this; 0.4 by night, 1.5 by day on roads
+};
+
+/// Presets: asphalt, concrete, paving_stones, cobblestone, brick, soil, sand, gravel, grass,
+/// roof_metal, roof_tile, wood, rock. Each value is a default to start from, not a measurement.
+const std::vector<Surface>& surface_presets();
+
+/// Preset by name; spaces, hyphens and letter case do not matter.
+///   throws  Error that lists the names
+Surface surface_preset(std::string_view name);
+
+/// Throws Error that names the field when a value cannot be used.
+void check_surface(const Surface& surface);
+
+}  // namespace petrichor::weather
+
+#endif
