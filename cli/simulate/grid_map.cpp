@@ -91,11 +91,11 @@ Rgb cell_color(const std::string& surface, const CellState& c)
     color = mixed(color, {color[0] * 0.55, color[1] * 0.55, color[2] * 0.6}, weather::wetness_of_film({}, c.film));
     color = mixed(color, {0.72, 0.80, 0.88}, 0.6 * std::min(1.0, d.surface_ice_kg_m2 / 2.0));
     // Deep snow is white, wet snow greyer.
-    const double white = 0.55 + 0.5 * std::clamp(c.snow_albedo, 0.4, 0.9);
-    return mixed(color, {white * 0.98, white * 0.99, white}, std::tanh(d.snow_depth_m / 0.1));
+    const double white = 0.45 + 0.58 * std::clamp(c.snow_albedo, 0.4, 0.9);
+    return mixed(color, {white * 0.97, white * 0.985, white}, std::tanh(d.snow_depth_m / 0.1));
 }
 
-// Light from the north-west at 45 degrees, as on printed maps.
+// Light from the north-west, 60 degrees high, as on printed maps.
 double hillshade(const Terrain& t, double x, double y)
 {
     const auto height = [&](double u, double v) {
@@ -106,7 +106,7 @@ double hillshade(const Terrain& t, double x, double y)
     const double east = (height(x + 1, y) - height(x - 1, y)) / (2.0 * t.spacing_m);
     const double south = (height(x, y + 1) - height(x, y - 1)) / (2.0 * t.spacing_m);
     const double length = std::sqrt(1.0 + east * east + south * south);
-    return std::max(0.0, (0.5 * east + 0.5 * south + std::sqrt(0.5)) / length);
+    return std::max(0.0, (0.35 * east + 0.35 * south + 0.87) / length);
 }
 
 void write_preview(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map)
@@ -117,7 +117,7 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
         for (std::size_t x = 0; x < terrain.width; ++x) {
             const std::size_t i = y * terrain.width + x;
             if (!terrain.inside[i]) continue;
-            const double light = 0.35 + 0.92 * hillshade(terrain, static_cast<double>(x), static_cast<double>(y));
+            const double light = 0.30 + 0.72 * hillshade(terrain, static_cast<double>(x), static_cast<double>(y));
             for (std::size_t k = 0; k < 3; ++k) small[i][k] = cell_color(terrain.surfaces[terrain.surface[i]], map.states[i])[k] * light;
         }
     }
