@@ -13,6 +13,7 @@ void add_texture(CLI::App& app)
     texture->require_subcommand(1);
     add_texture_prefilter(*texture);
     add_texture_pack(*texture);
+    add_texture_convert(*texture);
     add_texture_score(*texture);
     add_texture_maps(*texture);
 }

@@ -15,11 +15,14 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "texproc/decoder/oiio.h"
+#include "texproc/decoder/psd.h"
 #include "texproc/decoder/sniff.h"
+#include "texproc/decoder/texture.h"
 #include "texproc/files/detail/protocol.h"
 
 namespace petrichor::texproc::decoder {
@@ -75,9 +78,9 @@ struct Fd {
 struct Mapping {
     void* at = MAP_FAILED;
     std::size_t size = 0;
-    Mapping(int fd, std::size_t bytes, int protection) : size(bytes)
+    Mapping(int fd, std::size_t bytes, int protection, int sharing = MAP_SHARED) : size(bytes)
     {
-        at = mmap(nullptr, bytes, protection, MAP_SHARED, fd, 0);
+        at = mmap(nullptr, bytes, protection, sharing, fd, 0);
         if (at == MAP_FAILED) throw std::bad_alloc();
     }
     Mapping(const Mapping&) = delete;
@@ -109,6 +112,26 @@ void check_size(const Header& h, const Request& request)
     limit_time(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
 }
 
+// Our own readers where the image library has none, loses channels or takes damaged files for good.
+void read_pixels(const std::string& path, int fd, const std::string& format, const Request& request,
+                 const Accept& accept)
+{
+    if (format == "dds" || format == "ktx2" || format == "psd") {
+        struct stat status {};
+        if (fstat(fd, &status) != 0) throw std::runtime_error(std::strerror(errno));
+        const Mapping file(fd, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
+        const std::span<const std::byte> bytes(static_cast<const std::byte*>(file.at), file.size);
+        if (format != "psd") {
+            read_gpu_texture(bytes, format,
+                             {.max_pixels = request.max_pixels, .max_bytes = request.max_bytes},
+                             accept);
+            return;
+        }
+        if (read_psd(bytes, accept)) return;
+    }
+    read_with_oiio(path, format, accept);
+}
+
 Fd decode(const Request& request, int input_fd, Reply& reply)
 {
     limit_time(kBaseSeconds);
@@ -130,7 +153,7 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
     Fd pixels(memfd_create("petrichor-pixels", MFD_CLOEXEC));
     if (pixels.fd < 0) throw std::runtime_error(std::strerror(errno));
     std::unique_ptr<Mapping> mapping;
-    read_with_oiio(path, format, [&](const Header& h) {
+    const Accept accept = [&](const Header& h) {
         check_size(h, request);
         const std::size_t bytes = h.bytes();
         if (ftruncate(pixels.fd, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
@@ -144,7 +167,8 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
         for (const std::string& n : h.channel_names) names += n + "\n";
         set_text(reply.text, names);
         return static_cast<std::byte*>(mapping->at);
-    });
+    };
+    read_pixels(path, file.fd, format, request, accept);
     return pixels;
 }
 

@@ -32,7 +32,7 @@ PixelType stored_type(const OIIO::ImageSpec& spec)
 }  // namespace
 
 void read_with_oiio(const std::string& path, const std::string& format,
-                    const std::function<std::byte*(const Header&)>& accept)
+                    const Accept& accept)
 {
     OIIO::attribute("threads", 1);  // several files at a time, each in a process of its own
     OIIO::attribute("exr_threads", -1);
