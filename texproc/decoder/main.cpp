@@ -1,5 +1,5 @@
-// petrichor-decode: the process that touches untrusted image files. The image library aborts or
-// loops on some damaged ones, so it runs here, with limits on memory and time, and the program only
+// petrichor-decode: the process that touches untrusted image files. The image library (loaded when a
+// file needs it) aborts or loops on some damaged ones, so it runs here, with limits on memory and time, and the program only
 // ever sees pixels or a reason. It serves requests on socket 3 until the other end closes, one at a
 // time; the program starts several for several files.
 #include <fcntl.h>
@@ -15,11 +15,15 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 
-#include "texproc/decoder/oiio.h"
+#include "texproc/decoder/image_library.h"
+#include "texproc/decoder/png.h"
+#include "texproc/decoder/psd.h"
 #include "texproc/decoder/sniff.h"
+#include "texproc/decoder/texture.h"
 #include "texproc/files/detail/protocol.h"
 
 namespace petrichor::texproc::decoder {
@@ -39,7 +43,7 @@ void limit_memory()
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t base = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    rlimit limit{base + kMemory, base + kMemory};
+    rlimit limit{base + kMemory, RLIM_INFINITY};  // set again when the image library has been loaded
     setrlimit(RLIMIT_AS, &limit);
     rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -75,9 +79,9 @@ struct Fd {
 struct Mapping {
     void* at = MAP_FAILED;
     std::size_t size = 0;
-    Mapping(int fd, std::size_t bytes, int protection) : size(bytes)
+    Mapping(int fd, std::size_t bytes, int protection, int sharing = MAP_SHARED) : size(bytes)
     {
-        at = mmap(nullptr, bytes, protection, MAP_SHARED, fd, 0);
+        at = mmap(nullptr, bytes, protection, sharing, fd, 0);
         if (at == MAP_FAILED) throw std::bad_alloc();
     }
     Mapping(const Mapping&) = delete;
@@ -109,6 +113,31 @@ void check_size(const Header& h, const Request& request)
     limit_time(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
 }
 
+// Other readers where the image library has none, loses channels, takes damaged files for good or is
+// slow to start.
+void read_pixels(const std::string& path, int fd, const std::string& format, const Request& request,
+                 const Accept& accept)
+{
+    if (format == "dds" || format == "ktx2" || format == "psd") {
+        struct stat status {};
+        if (fstat(fd, &status) != 0) throw std::runtime_error(std::strerror(errno));
+        const Mapping file(fd, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
+        const std::span<const std::byte> bytes(static_cast<const std::byte*>(file.at), file.size);
+        if (format != "psd") {
+            read_gpu_texture(bytes, format,
+                             {.max_pixels = request.max_pixels, .max_bytes = request.max_bytes},
+                             accept);
+            return;
+        }
+        if (read_psd(bytes, accept)) return;
+    }
+    if (format == "png") {
+        read_png(path, accept);
+    } else {
+        image_library(limit_memory).read(path, format, accept);
+    }
+}
+
 Fd decode(const Request& request, int input_fd, Reply& reply)
 {
     limit_time(kBaseSeconds);
@@ -130,7 +159,7 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
     Fd pixels(memfd_create("petrichor-pixels", MFD_CLOEXEC));
     if (pixels.fd < 0) throw std::runtime_error(std::strerror(errno));
     std::unique_ptr<Mapping> mapping;
-    read_with_oiio(path, format, [&](const Header& h) {
+    const Accept accept = [&](const Header& h) {
         check_size(h, request);
         const std::size_t bytes = h.bytes();
         if (ftruncate(pixels.fd, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
@@ -144,7 +173,8 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
         for (const std::string& n : h.channel_names) names += n + "\n";
         set_text(reply.text, names);
         return static_cast<std::byte*>(mapping->at);
-    });
+    };
+    read_pixels(path, file.fd, format, request, accept);
     return pixels;
 }
 
@@ -154,7 +184,7 @@ void encode(const Request& request, int input_fd)
     const Header header{request.width, request.height, request.channels,
                         static_cast<PixelType>(request.type), {}};
     const Mapping pixels(input_fd, header.bytes(), PROT_READ);
-    write_with_oiio(request.text, header, static_cast<const std::byte*>(pixels.at),
+    image_library(limit_memory).write(request.text, header, static_cast<const std::byte*>(pixels.at),
                     static_cast<int>(request.quality));
 }
 

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "texproc/decoder/image_library.h"
+
 namespace petrichor::texproc::decoder {
 
 namespace {
@@ -32,7 +34,7 @@ PixelType stored_type(const OIIO::ImageSpec& spec)
 }  // namespace
 
 void read_with_oiio(const std::string& path, const std::string& format,
-                    const std::function<std::byte*(const Header&)>& accept)
+                    const Accept& accept)
 {
     OIIO::attribute("threads", 1);  // several files at a time, each in a process of its own
     OIIO::attribute("exr_threads", -1);
@@ -74,3 +76,8 @@ void write_with_oiio(const std::string& path, const Header& header, const std::b
 }
 
 }  // namespace petrichor::texproc::decoder
+
+// What the program asks this module for.
+extern "C" __attribute__((visibility("default")))
+const petrichor::texproc::decoder::ImageLibrary petrichor_images{
+    petrichor::texproc::decoder::read_with_oiio, petrichor::texproc::decoder::write_with_oiio};

@@ -11,6 +11,7 @@
 #include "base/output_file.h"
 #include "texproc/files/detail/decoder_pool.h"
 #include "texproc/files/detail/png.h"
+#include "texproc/files/texture.h"
 
 namespace petrichor::texproc {
 
@@ -147,6 +148,11 @@ RawImage decode_raw(std::span<const std::byte> bytes, const std::string& name,
 
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes)
 {
+    write_bytes(path, std::vector<std::span<const std::byte>>{bytes});
+}
+
+void write_bytes(const fs::path& path, const std::vector<std::span<const std::byte>>& parts)
+{
     OutputFile file(path);
     const auto failed = [&] {
         return Error("output: cannot write " + path.string() + ": " + std::strerror(errno),
@@ -154,7 +160,10 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes)
     };
     std::FILE* out = std::fopen(file.temporary().c_str(), "wb");
     if (!out) throw failed();
-    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+    bool whole = true;
+    for (const std::span<const std::byte> bytes : parts) {
+        whole = whole && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+    }
     if (std::fclose(out) != 0 || !whole) throw failed();
     file.commit();
 }
@@ -168,6 +177,10 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
         write_exr_raw(path, image);
         return;
     }
+    if (extension == ".dds" || extension == ".ktx2") {
+        write_mip_chain(path, std::span(&image, 1), {.threads = options.threads});
+        return;
+    }
     const bool jpeg = extension == ".jpg" || extension == ".jpeg";
     const bool tiff = extension == ".tif" || extension == ".tiff";
     const bool png = extension == ".png";
@@ -175,7 +188,7 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
     if (!png && !tga && !tiff && !jpeg) {
         throw Error("output " + path.string() + ": cannot write " +
                         (integers ? "integers" : "floats") + " as '" + extension + "'",
-                    "Use one of png, tga, tif, jpg for integers, exr for halves and floats.");
+                    "Use one of png, tga, tif, jpg, dds, ktx2 for integers, exr, dds, ktx2 for halves and floats.");
     }
     const int most = jpeg ? 3 : tiff ? 1024 : 4;
     if (image.channels > most) {
@@ -212,7 +225,15 @@ void write_image(const fs::path& path, const Image& image, const WriteOptions& o
                            : options.bits == 8 ? PixelType::U8
                            : options.bits == 16 ? PixelType::U16
                                                 : PixelType::F32;
-    write_raw(path, texproc::to_raw(image, type), options);
+    const RawImage raw = texproc::to_raw(image, type, options.rounding);
+    const std::string extension = lower_extension(path);
+    if (extension == ".dds" || extension == ".ktx2") {  // which say that they hold colour
+        write_mip_chain(path, std::span(&raw, 1),
+                        {.srgb = image.space == ColorSpace::Linear && options.bits == 8,
+                         .threads = options.threads});
+        return;
+    }
+    write_raw(path, raw, options);
 }
 
 std::vector<std::byte> encode_png8(int width, int height, int channels,

@@ -43,14 +43,17 @@ struct WriteOptions {
     int bits = 8;      ///< 8 or 16 for PNG and TIFF; EXR is always half, unless 32
     int quality = 95;  ///< of JPEG, 1..100
     int threads = 0;   ///< 0: all cores; the bytes do not depend on it
+    Rounding rounding = Rounding::Nearest;  ///< to 8 bits; Ordered: dithered
 };
 
 /// Writes an image, whole or not at all; the format comes from the extension: png, tga, tif, tiff,
-/// exr, jpg, jpeg. Linear colour is sRGB-encoded in integer formats, data never.
+/// exr, jpg, jpeg, and dds and ktx2 with one level in plain numbers (write_mip_chain() in
+/// texproc/files/texture.h writes levels and blocks). Linear colour is sRGB-encoded in integer
+/// formats, data never.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const WriteOptions& options = {});
 
-/// Writes the numbers as they are (png, tga, tif: U8 or U16; exr: F16 or F32).
+/// Writes the numbers as they are (png, tga, tif: U8 or U16; exr: F16 or F32; dds, ktx2: all).
 void write_raw(const std::filesystem::path& path, const RawImage& image,
                const WriteOptions& options = {});
 
@@ -81,6 +84,9 @@ void write_png8(const std::filesystem::path& path, int width, int height, int ch
 
 /// Writes bytes under a temporary name and renames. Throws Error (disk full, read-only folder).
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// The same for parts that follow each other.
+void write_bytes(const std::filesystem::path& path,
+                 const std::vector<std::span<const std::byte>>& parts);
 
 }  // namespace petrichor::texproc
 

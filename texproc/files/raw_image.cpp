@@ -54,20 +54,44 @@ void codes_to_float(const std::byte* from, std::size_t values, int channels, Col
     }
 }
 
+// Thresholds of ordered dithering: Bayer's recursive pattern, the bits of x ^ y and y interleaved
+// from the lowest up. Within 1/128 .. 127/128, so that a code that is exact (to rounding) stays.
+float threshold(int x, int y, int channel)
+{
+    x += 3 * channel;  // the pattern of each channel lies elsewhere: no common grain
+    y += 5 * channel;
+    int rank = 0;
+    for (int bit = 0; bit < 3; ++bit) {
+        rank = 4 * rank + 2 * (((x ^ y) >> bit) & 1) + ((y >> bit) & 1);
+    }
+    return (static_cast<float>(rank) + 0.5f) / 64.0f;
+}
+
 template <class Code>
-void float_to_codes(const Image& image, std::byte* to)
+void float_to_codes(const Image& image, Rounding rounding, std::byte* to)
 {
     constexpr float kTop = static_cast<float>((1 << (8 * sizeof(Code))) - 1);
     const bool encode = image.space == ColorSpace::Linear;
-    int channel = 0;
+    const bool ordered = rounding == Rounding::Ordered && sizeof(Code) == 1;
+    float thresholds[8][8][4];
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            for (int c = 0; c < 4; ++c) thresholds[y][x][c] = threshold(x, y, c);
+        }
+    }
+    int channel = 0, x = 0, y = 0;
     for (const float value : image.pixels) {
         float v = value >= 0.0f ? value : 0.0f;  // written so that not-a-number becomes 0
         if (v > 1.0f) v = 1.0f;
         if (encode && !is_alpha(channel, image.channels)) v = linear_to_srgb(v);
-        const Code code = static_cast<Code>(v * kTop + 0.5f);
+        const Code code =
+            static_cast<Code>(v * kTop + (ordered ? thresholds[y & 7][x & 7][channel & 3] : 0.5f));
         std::memcpy(to, &code, sizeof(Code));
         to += sizeof(Code);
-        if (++channel == image.channels) channel = 0;
+        if (++channel == image.channels) {
+            channel = 0;
+            if (++x == image.width) x = 0, ++y;
+        }
     }
 }
 
@@ -114,16 +138,16 @@ Image to_image(const RawImage& raw, ColorSpace space)
     return image;
 }
 
-RawImage to_raw(const Image& image, PixelType type)
+RawImage to_raw(const Image& image, PixelType type, Rounding rounding)
 {
     RawImage raw{image.width, image.height, image.channels, type, {}, {}};
     raw.bytes.resize(image.pixels.size() * size_of(type));
     switch (type) {
         case PixelType::U8:
-            float_to_codes<std::uint8_t>(image, raw.bytes.data());
+            float_to_codes<std::uint8_t>(image, rounding, raw.bytes.data());
             break;
         case PixelType::U16:
-            float_to_codes<std::uint16_t>(image, raw.bytes.data());
+            float_to_codes<std::uint16_t>(image, rounding, raw.bytes.data());
             break;
         case PixelType::F16:
             for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -49,9 +49,17 @@ void to_float(const std::byte* from, PixelType type, std::size_t values, int cha
               ColorSpace space, float* to);
 Image to_image(const RawImage& raw, ColorSpace space);
 
+/// How a number becomes a code of 8 bits.
+enum class Rounding {
+    Nearest,
+    Ordered,  ///< up or down by an 8 x 8 pattern that tiles, so that the mean of a region is kept:
+              ///< slow ramps do not band. Each channel has the pattern at another place.
+};
+
 /// Rounds to the nearest code (U8, U16) or the nearest half. space Linear: integers are
 /// sRGB-encoded, except alpha. Values outside 0..1 and not-a-number become the nearest code, 0.
-RawImage to_raw(const Image& image, PixelType type);
+/// `rounding` is for U8 only. Codes themselves (k / 255) come back exactly either way.
+RawImage to_raw(const Image& image, PixelType type, Rounding rounding = Rounding::Nearest);
 
 /// The sRGB curve and its inverse, one value.
 float srgb_to_linear(float encoded);

@@ -1,0 +1,193 @@
+// petrichor texture convert: any image that can be read to any file that can be written.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/texture/cmd_texture.h"
+#include "cli/texture/files.h"
+#include "cli/words.h"
+#include "texproc/files/texture.h"
+#include "texproc/mips.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string in, out, format;
+    std::string wrap = "wrap";
+    bool srgb = false, linear = false, mips = false, normals = false, dither = false;
+    int bits = 0, jpeg_quality = 95, zstd = 0, threads = 0;
+    texproc::BlockQuality quality = texproc::BlockQuality::Normal;
+    texproc::MipFilter filter = texproc::MipFilter::Box;
+    texproc::ReadOptions reading;
+};
+
+const std::map<std::string, texproc::BlockQuality> kQualities{
+    {"fast", texproc::BlockQuality::Fast},
+    {"normal", texproc::BlockQuality::Normal},
+    {"best", texproc::BlockQuality::Best}};
+
+const std::map<std::string, texproc::MipFilter> kFilters{
+    {"box", texproc::MipFilter::Box},
+    {"kaiser", texproc::MipFilter::Kaiser},
+    {"lanczos3", texproc::MipFilter::Lanczos3},
+    {"mitchell", texproc::MipFilter::Mitchell}};
+
+std::string extension_of(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+bool is_container(const std::string& extension)
+{
+    return extension == ".dds" || extension == ".ktx2";
+}
+
+void check(const Arguments& a)
+{
+    const std::string extension = extension_of(a.out);
+    const bool container = is_container(extension);
+    if (a.srgb && a.linear) {
+        throw Error("texture convert: --srgb and --linear exclude each other", "Give one of them.");
+    }
+    if (!a.format.empty()) {
+        const auto names = texproc::texture_format_names();
+        if (std::find(names.begin(), names.end(), a.format) == names.end()) {
+            throw Error("texture convert: there is no format '" + a.format + "'." +
+                            did_you_mean(a.format, names),
+                        "Use one of " + join_words(names) + ".");
+        }
+    }
+    if (!container && !a.format.empty() && !(extension == ".exr" && a.mips)) {
+        throw Error("texture convert: --format is for .dds and .ktx2 (and .exr with --mips), not '" +
+                        extension + "'",
+                    "Use --bits 8 or 16 (png, tif), 16 or 32 (exr).");
+    }
+    if (a.mips && !container && extension != ".exr") {
+        throw Error("texture convert: '" + extension + "' does not hold mip levels",
+                    "Write .dds, .ktx2 or .exr; or: petrichor texture mips IN -o 'out_%d.png'.");
+    }
+    if (a.zstd && extension != ".ktx2") {
+        throw Error("texture convert: --zstd is for .ktx2, not '" + extension + "'", "Leave it out.");
+    }
+}
+
+texproc::PixelType type_for(const std::string& extension, int bits, texproc::PixelType own)
+{
+    using texproc::PixelType;
+    if (extension == ".exr") {
+        if (bits) return bits == 32 ? PixelType::F32 : PixelType::F16;
+        return own == PixelType::F32 ? PixelType::F32 : PixelType::F16;
+    }
+    if (bits == 8) return PixelType::U8;
+    if (bits == 16) return PixelType::U16;
+    if (bits == 32) return PixelType::F32;
+    if (is_container(extension)) return own;
+    const bool deep = own != PixelType::U8 && (extension == ".png" || extension == ".tif" ||
+                                               extension == ".tiff");
+    return deep ? PixelType::U16 : PixelType::U8;
+}
+
+// Levels filtered in linear light where the numbers are colour.
+std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
+{
+    Image image = texproc::to_image(raw, a.srgb ? ColorSpace::Linear : ColorSpace::Data);
+    return texproc::mip_chain(image, {.wrap_u = a.wrap == "wrap",
+                                      .wrap_v = a.wrap == "wrap",
+                                      .normals = a.normals,
+                                      .filter = a.filter,
+                                      .mirror_u = a.wrap == "mirror",
+                                      .mirror_v = a.wrap == "mirror",
+                                      .threads = a.threads});
+}
+
+void run(const Arguments& a)
+{
+    check(a);
+    const texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    const std::string extension = extension_of(a.out);
+    const texproc::PixelType type = type_for(extension, a.bits, raw.type);
+    const texproc::Rounding rounding =
+        a.dither ? texproc::Rounding::Ordered : texproc::Rounding::Nearest;
+    const ColorSpace space = a.srgb ? ColorSpace::Linear : ColorSpace::Data;
+    const texproc::TextureWriteOptions writing{.format = a.format,
+                                               .srgb = a.srgb,
+                                               .dither = a.dither,
+                                               .quality = a.quality,
+                                               .zstd = a.zstd,
+                                               .threads = a.threads};
+    // Integers stay as they are; a change of type goes through linear light when they are colour.
+    const auto stored = [&](const Image& level) { return texproc::to_raw(level, type, rounding); };
+    const auto first = [&] {
+        return raw.type == type ? raw : stored(texproc::to_image(raw, space));
+    };
+    if (!a.mips) {
+        const texproc::RawImage image = first();
+        if (is_container(extension)) {
+            texproc::write_mip_chain(a.out, std::vector<texproc::RawImage>{image}, writing);
+        } else {
+            texproc::write_raw(a.out, image, {.quality = a.jpeg_quality, .threads = a.threads});
+        }
+        return;
+    }
+    const std::vector<Image> chain = levels_of(a, raw);
+    std::vector<texproc::RawImage> levels{first()};
+    for (std::size_t k = 1; k < chain.size(); ++k) levels.push_back(stored(chain[k]));
+    texproc::write_mip_chain(a.out, levels, writing);
+    std::cout << levels.size() << " levels\n";
+}
+
+}  // namespace
+
+void add_texture_convert(CLI::App& texture)
+{
+    auto a = std::make_shared<Arguments>();
+    CLI::App* app = texture.add_subcommand(
+        "convert", "any image to another file: png, tga, tif, jpg, exr, dds, ktx2");
+    app->add_option("image", a->in, "PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2")
+        ->required();
+    app->add_option("-o,--out", a->out, "the extension decides")->required();
+    app->add_option("--format", a->format,
+                    "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; default: "
+                    "the numbers of the image");
+    app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
+    app->add_flag("--linear", a->linear, "it is data (default)");
+    app->add_flag("--mips", a->mips, "all levels down to 1 x 1 (dds, ktx2, exr)");
+    app->add_option("--filter", a->filter, "of the levels: box, kaiser, lanczos3, mitchell")
+        ->transform(CLI::CheckedTransformer(kFilters, CLI::ignore_case));
+    app->add_option("--wrap", a->wrap, "past the edges: wrap, clamp, mirror")
+        ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
+        ->capture_default_str();
+    app->add_flag("--normals", a->normals, "a normal map: levels are made unit length again");
+    app->add_option("--quality", a->quality, "of blocks: fast, normal, best")
+        ->transform(CLI::CheckedTransformer(kQualities, CLI::ignore_case));
+    app->add_option("--bits", a->bits, "8 or 16 (integers), 16 or 32 (exr); default: as the image")
+        ->check(CLI::IsMember({8, 16, 32}));
+    app->add_flag("--dither", a->dither, "to 8 bits by an ordered pattern in place of rounding");
+    app->add_option("--zstd", a->zstd, "ktx2: compress, 1 (fast) to 22 (small)")
+        ->check(CLI::Range(0, 22));
+    app->add_option("--jpeg-quality", a->jpeg_quality, "1 to 100")->check(CLI::Range(1, 100));
+    app->add_option("--threads", a->threads, "0: all cores; the bytes do not depend on it");
+    app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
+        ->capture_default_str();
+    app->footer(
+        "Examples:\n"
+        "  petrichor texture convert wall_color.png -o wall.dds --format bc7 --srgb --mips\n"
+        "  petrichor texture convert wall_normal.png -o wall_n.ktx2 --format bc5 --mips --normals "
+        "--zstd 18\n"
+        "  petrichor texture convert height.exr -o height.png --bits 16\n"
+        "  petrichor texture convert height.exr -o height_tx.exr --mips");
+    app->callback([a] { run(*a); });
+}
+
+}  // namespace petrichor::cli

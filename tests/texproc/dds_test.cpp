@@ -1,0 +1,179 @@
+#include "texproc/files/detail/dds.h"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/error.h"
+#include "tests/texproc/textures.h"
+
+namespace petrichor::texproc {
+namespace {
+
+std::vector<std::byte> whole_file(const MipTexture& texture)
+{
+    std::vector<std::byte> file = detail::dds_header(texture, texture.levels.size());
+    for (const auto& level : texture.levels) file.insert(file.end(), level.begin(), level.end());
+    return file;
+}
+
+class Dds : public TextureFiles {};
+
+TEST_F(Dds, KeepsEveryFormatBitForBit)
+{
+    for (const std::string& name : texture_format_names()) {
+        const bool srgb = name == "rgba8" || name == "bc1" || name == "bc3" || name == "bc7";
+        for (int label = 0; label <= (srgb ? 1 : 0); ++label) {
+            const MipTexture texture = make_texture(small_chain(21, 10, 4, PixelType::U8),
+                                                    {.format = name, .srgb = label == 1});
+            if (name == "rgb16" || name == "rgb16f") {  // which the container does not have
+                EXPECT_THROW(detail::dds_header(texture, 1), Error) << name;
+                continue;
+            }
+            const MipTexture back = detail::parse_dds(whole_file(texture), {});
+            EXPECT_EQ(back.width, 21);
+            EXPECT_EQ(back.height, 10);
+            EXPECT_EQ(back.levels, texture.levels) << name;
+            EXPECT_EQ(back.srgb, label == 1) << name;
+            EXPECT_EQ(back.format.block, texture.format.block) << name;
+            EXPECT_EQ(back.format.type, texture.format.type) << name;
+        }
+    }
+}
+
+TEST_F(Dds, GoesThroughTheOneReader)
+{
+    const auto chain = small_chain(20, 12, 4, PixelType::U8);
+    write_mip_chain(folder / "a.dds", chain);
+    EXPECT_EQ(read_raw(folder / "a.dds").bytes, chain[0].bytes);
+    EXPECT_EQ(read_texture(folder / "a.dds").levels.size(), 5u);
+    const auto deep = small_chain(8, 8, 2, PixelType::F16);
+    write_mip_chain(folder / "b.dds", deep);
+    const RawImage back = read_raw(folder / "b.dds");
+    EXPECT_EQ(back.type, PixelType::F16);
+    EXPECT_EQ(back.bytes, deep[0].bytes);
+    write_image(folder / "c.dds", Image(4, 4, 3, ColorSpace::Linear, 0.5f));
+    EXPECT_TRUE(read_texture(folder / "c.dds").srgb);
+    EXPECT_EQ(static_cast<int>(read_raw(folder / "c.dds").bytes[0]), 188);
+    EXPECT_THROW(write_mip_chain(folder / "c.png", chain), Error);
+    EXPECT_THROW(read_texture(folder / "none.dds"), Error);
+}
+
+TEST_F(Dds, DamagedFilesAreErrorsNotCrashes)
+{
+    for (const char* name : {"bc7", "bc1", "rgba8", "rgb8", "rg16f"}) {
+        const auto file = whole_file(make_texture(small_chain(9, 5, 4, PixelType::U8), {.format = name}));
+        const ReadOptions limits{.max_pixels = 1 << 16, .max_bytes = 1 << 20};
+        const int good = torture(file, [&](auto bytes) { (void)detail::parse_dds(bytes, limits); });
+        EXPECT_EQ(good, 0) << name << ": a cut file was taken for whole";
+    }
+}
+
+TEST_F(Dds, ATruncatedFileSaysSo)
+{
+    const auto file = whole_file(make_texture(small_chain(64, 64, 4, PixelType::U8), {.format = "bc3"}));
+    write_bytes(folder / "cut.dds", std::span(file).first(file.size() - 1));
+    try {
+        (void)read_raw(folder / "cut.dds");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("truncated"));
+    }
+}
+
+// Masks of the first version: 5:6:5, 10 bits, grey, blue first.
+TEST_F(Dds, ReadsTexelsWithMasks)
+{
+    const auto file = [](std::uint32_t flags, std::uint32_t bits, std::array<std::uint32_t, 4> masks,
+                         std::uint32_t texel) {
+        MipTexture texture{1, 1, texture_format("rgba8"), false, {std::vector<std::byte>(4)}};
+        std::vector<std::byte> bytes = whole_file(texture);
+        const auto put = [&](std::size_t at, std::uint32_t v) { std::memcpy(&bytes[at], &v, 4); };
+        put(80, flags);
+        put(88, bits);
+        for (std::size_t c = 0; c < 4; ++c) put(92 + 4 * c, masks[c]);
+        put(128, texel);
+        return decode_level(detail::parse_dds(bytes, {}), 0);
+    };
+    const auto code = [](const RawImage& image, std::size_t i) { return static_cast<int>(image.bytes[i]); };
+    const RawImage narrow = file(0x40, 16, {0xf800, 0x7e0, 0x1f, 0}, (10u << 11) | (63u << 5) | 31u);
+    ASSERT_EQ(narrow.channels, 3);
+    EXPECT_EQ(code(narrow, 0), std::lround(10 * 255 / 31.0));
+    EXPECT_EQ(code(narrow, 1), 255);
+    const RawImage bgra = file(0x41, 32, {0xff0000, 0xff00, 0xff, 0xff000000u}, 0x80112233u);
+    EXPECT_EQ(code(bgra, 0), 0x11);
+    EXPECT_EQ(code(bgra, 2), 0x33);
+    EXPECT_EQ(code(bgra, 3), 0x80);
+    const RawImage ten = file(0x41, 32, {0x3ff, 0xffc00, 0x3ff00000, 0xc0000000u}, 0xc00003ffu);
+    EXPECT_EQ(ten.type, PixelType::U16);
+    EXPECT_EQ(code(ten, 0) + 256 * code(ten, 1), 65535);
+    const RawImage grey = file(0x20000, 8, {0xff, 0, 0, 0}, 77);
+    EXPECT_EQ(grey.channels, 1);
+    EXPECT_EQ(code(grey, 0), 77);
+}
+
+// Decoded texels beside those of the picture that the files were made from.
+TEST_F(Dds, ReadsTheSharedFiles)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    const std::filesystem::path shared = std::filesystem::path(assets) / "formats/dds";
+    const MipTexture srgb = read_texture(shared / "dds_dxgi_bc7_srgb.dds");
+    EXPECT_TRUE(srgb.srgb);
+    EXPECT_EQ(read_raw(shared / "dds_dxgi_bc7_srgb.dds").channels, 4);
+    int read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(shared)) {
+        if (entry.path().extension() != ".dds") continue;
+        const RawImage image = read_raw(entry.path());
+        EXPECT_GT(image.width, 0);
+        ++read;
+    }
+    EXPECT_EQ(read, 9);
+}
+
+TEST_F(Dds, ChainsAreChecked)
+{
+    auto chain = small_chain(16, 8, 3, PixelType::U8);
+    EXPECT_EQ(make_texture(chain).format.channels, 4);
+    chain[2].width = 3;
+    EXPECT_THROW(make_texture(chain), Error);
+    EXPECT_THROW(make_texture({}), Error);
+    EXPECT_THROW(texture_format("bc9"), Error);
+    EXPECT_THROW(make_texture(small_chain(4, 4, 3, PixelType::U8), {.format = "bc6h"}), Error);
+}
+
+TEST_F(Dds, ExrHoldsLevelsToo)
+{
+    const auto chain = small_chain(100, 36, 3, PixelType::F32);
+    write_mip_chain(folder / "a.exr", chain);
+    const RawImage back = read_raw(folder / "a.exr");
+    EXPECT_EQ(back.bytes, chain[0].bytes);
+    write_mip_chain(folder / "h.exr", chain, {.format = "rgb16f"});
+    EXPECT_EQ(read_raw(folder / "h.exr").type, PixelType::F16);
+    EXPECT_THROW(write_mip_chain(folder / "b.exr", std::vector<RawImage>{chain[0]}), Error);
+    EXPECT_THROW(write_mip_chain(folder / "b.exr", chain, {.format = "bc7"}), Error);
+}
+
+// Dithering: exact codes stay, the mean of a ramp is kept, nothing is off by a whole code.
+TEST_F(Dds, OrderedDitheringKeepsTheMean)
+{
+    Image image(64, 64, 1, ColorSpace::Data, 100.25f / 255.0f);
+    const RawImage raw = to_raw(image, PixelType::U8, Rounding::Ordered);
+    int high = 0;
+    for (const std::byte b : raw.bytes) {
+        ASSERT_TRUE(b == std::byte{100} || b == std::byte{101});
+        high += b == std::byte{101};
+    }
+    EXPECT_EQ(high, 64 * 64 / 4);
+    Image codes(256, 8, 1, ColorSpace::Data);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 256; ++x) codes.at(x, y, 0) = static_cast<float>(x) / 255.0f;
+    }
+    EXPECT_EQ(to_raw(codes, PixelType::U8, Rounding::Ordered).bytes, to_raw(codes, PixelType::U8).bytes);
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

@@ -1,0 +1,30 @@
+// One source, two instruction sets, the same bits: the encoders of single blocks.
+#ifndef PETRICHOR_TEXPROC_BLOCKS_DETAIL_ENCODE_KERNEL_H
+#define PETRICHOR_TEXPROC_BLOCKS_DETAIL_ENCODE_KERNEL_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "texproc/blocks/blocks.h"
+
+namespace petrichor::texproc::detail {
+
+/// 16 texels as four planes of codes.
+struct BlockTexels {
+    alignas(16) std::uint8_t plane[4][16];
+};
+
+struct EncodeKernel {
+    /// `alpha`: texels below one half become transparent.
+    void (*bc1)(const BlockTexels&, const BlockOptions&, bool alpha, std::byte* to);
+    void (*bc4)(const std::uint8_t* values, BlockQuality, std::byte* to);
+    void (*bc7)(const BlockTexels&, const BlockOptions&, std::byte* to);
+};
+
+extern const EncodeKernel kEncodeKernelBase;
+extern const EncodeKernel kEncodeKernelAvx2;
+
+}  // namespace petrichor::texproc::detail
+
+#endif
