@@ -141,6 +141,8 @@ void add_texture_score(CLI::App& texture)
     app->add_option("--bits", a->protocol.bits, "for --protocol: of the files that would ship")
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
+    app->add_option("--seeds", a->protocol.seeds, "for --protocol: rolls of every map")
+        ->check(CLI::Range(1, 100));
     app->add_flag("!--no-hard", a->protocol.hard, "for --protocol: without the maps made from code");
     app->add_flag("!--no-puddles", a->protocol.puddles,
                   "for --protocol: no wet variant of sets with a height map");

@@ -29,16 +29,16 @@ struct Effort {
 Effort effort_at(int level, bool quick)
 {
     static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 640, 640};
-    const int samples = level >= 8 ? 1280 : kSamples[level];
+    const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
         // The finest levels hold most texels: there the cheapest of the fits, without a search.
         if (level <= 2) return {40, 0, 0, 0, 0, 0, false, 3, 16};
         const int half = std::max(80, samples / 2);
         if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
-        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 128};
+        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 1024};
     }
-    if (level <= 1) return {samples, samples, 5, 3, 8, 18, false, 4, 16};
-    if (level == 2) return {samples, samples, 6, 3, 8, 24, false, 4, 64};
+    if (level <= 1) return {samples, 2 * samples, 5, 3, 8, 18, false, 4, 16};
+    if (level == 2) return {samples, 2 * samples, 6, 3, 8, 24, false, 4, 64};
     if (level == 3) return {samples, samples, 8, 4, 10, 32, false, 5, 48};
     return {samples, samples, 10, 5, 10, 36, level >= 5, 5, level <= 4 ? 128 : 1024};
 }

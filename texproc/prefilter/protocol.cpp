@@ -34,7 +34,7 @@ bool ships_normals(const Variant& v)
            v.name == kPlainShipped;
 }
 
-std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<Variant>& variants,
+std::vector<Prefiltered> chains_at(const ScoredMaps& maps, const std::vector<Variant>& variants,
                                    const ScoreOptions& scoring)
 {
     std::vector<PrefilterOptions> some;
@@ -113,12 +113,12 @@ ProtocolOptions quick_protocol()
     return o;
 }
 
-std::vector<ProtocolRow> run_protocol(const std::vector<MaterialMaps>& materials,
+std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                                       const std::vector<Variant>& variants,
                                       const ProtocolOptions& options)
 {
     std::vector<ProtocolRow> rows;
-    for (const MaterialMaps& material : materials) {
+    for (const ScoredMaps& material : materials) {
         std::vector<Variant> fitting;
         for (const Variant& v : variants) {
             if (v.options.rule != "lux" || square_power_of_two(material.normal)) fitting.push_back(v);
@@ -135,7 +135,7 @@ std::vector<ProtocolRow> run_protocol(const std::vector<MaterialMaps>& materials
                 }
                 // An odd roll: other texels meet in every footprint.
                 const int dx = (seed - 1) * 341 + 1, dy = (seed - 1) * 173 + 3;
-                const MaterialMaps maps{material.name, rolled(material.normal, dx, dy),
+                const ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
                                         rolled(material.roughness, dx, dy)};
                 const ScoreOptions scoring{.light = light,
                                            .texels = options.texels,

@@ -174,9 +174,9 @@ void merge(Cells& cells, int limit)
     float ep = 0.02f;
     while (cells.count() > limit) {
         merge_round(cells, e, ep);
-        // Cells of a surface fall with the square of the edge: far from the limit in larger steps.
+        // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
-        const float growth = std::clamp(std::sqrt(over), 1.35f, 3.0f);
+        const float growth = std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
         e *= growth;
         if (e > 0.5f) ep *= growth;  // all normals in a few cells: only the gloss keeps them apart
     }
