@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +11,7 @@
 #include "cli/texture/files.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/score_protocol.h"
+#include "texproc/files/texture.h"
 #include "texproc/prefilter/score.h"
 
 namespace petrichor::cli {
@@ -23,9 +26,24 @@ struct Arguments {
     bool self_test = false, json = false;
 };
 
+// All levels of a texture file.
+std::vector<Image> read_chain_file(const std::string& name, const texproc::ReadOptions& reading)
+{
+    const texproc::MipTexture texture = texproc::read_texture(name, reading);
+    std::vector<Image> levels(1);
+    for (std::size_t k = 1; k < texture.levels.size(); ++k) {
+        levels.push_back(texproc::to_image(texproc::decode_level(texture, static_cast<int>(k)),
+                                           ColorSpace::Data));
+    }
+    return levels;
+}
+
 // Levels 1.. of a chain, as far as there are files.
 std::vector<Image> read_chain(const std::string& pattern, const texproc::ReadOptions& reading)
 {
+    if (pattern.find('%') == std::string::npos && texproc::holds_mip_chain(pattern)) {
+        return read_chain_file(pattern, reading);
+    }
     std::vector<Image> levels(1);
     const std::size_t colon = pattern.rfind(':');
     const bool has_channel = colon != std::string::npos && pattern.find('%') < colon;
@@ -41,6 +59,31 @@ std::vector<Image> read_chain(const std::string& pattern, const texproc::ReadOpt
                     "Name the chain as 'out_%d.png', with level 1 as out_1.png.");
     }
     return levels;
+}
+
+// Normals of any layout as x y z.
+Image three_channels(const Image& level, const texproc::PrefilterOptions& o, int number)
+{
+    const int needed = std::max({o.normal_x, o.normal_y, o.rebuild_z ? 0 : 2}) + 1;
+    if (level.channels < needed) {
+        throw Error("score: level " + std::to_string(number) + " of the normals has " +
+                        std::to_string(level.channels) + " channels, " + std::to_string(needed) +
+                        " are needed",
+                    "Name a chain of normal maps laid out as --normal-layout says.");
+    }
+    Image to(level.width, level.height, 3, ColorSpace::Data);
+    for (int y = 0; y < level.height; ++y) {
+        for (int x = 0; x < level.width; ++x) {
+            const float cx = level.at(x, y, o.normal_x), cy = level.at(x, y, o.normal_y);
+            const float nx = 2.0f * cx - 1.0f, ny = 2.0f * cy - 1.0f;
+            to.at(x, y, 0) = cx;
+            to.at(x, y, 1) = cy;
+            to.at(x, y, 2) = o.rebuild_z
+                                 ? 0.5f + 0.5f * std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny))
+                                 : level.at(x, y, 2);
+        }
+    }
+    return to;
 }
 
 void print_json(const texproc::Score& s)
@@ -97,11 +140,7 @@ void run(Arguments& a)
     }
     if (!a.normal_chain.empty()) chain.normal = read_chain(a.normal_chain, a.input.reading);
     for (std::size_t k = 1; k < chain.normal.size(); ++k) {
-        if (chain.normal[k].channels != 3) {
-            throw Error("score: level " + std::to_string(k) + " of the normals has " +
-                            std::to_string(chain.normal[k].channels) + " channels, 3 are needed",
-                        "Name a chain of three-channel normal maps.");
-        }
+        chain.normal[k] = three_channels(chain.normal[k], a.input.options, static_cast<int>(k));
     }
     const texproc::Score s =
         texproc::score(maps.normal, maps.map, chain, a.input.options, a.scoring);
@@ -120,7 +159,7 @@ void add_texture_score(CLI::App& texture)
     CLI::App* app = texture.add_subcommand(
         "score", "how much light the mips of any tool misplace (0 none .. 2 all)");
     add_prefilter_input(*app, a->input);
-    app->add_option("--chain", a->chain, "roughness or smoothness of level k: 'out_%d.png'");
+    app->add_option("--chain", a->chain, "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2");
     app->add_option("--normal-chain", a->normal_chain,
                     "normals of level k; default: the mean normals");
     app->add_option("--light", a->scoring.light, "alpha of the light: 0 the sun, 0.1 a window")

@@ -84,6 +84,15 @@ NormalPartner find_normal(const fs::path& map)
                 "Name it with --normal FILE.");
 }
 
+int named_channel(const fs::path& map)
+{
+    const std::string stem = map.stem().string();
+    for (const Pair& pair : pairs()) {
+        if (find_token(stem, pair.map) != std::string::npos) return pair.channel;
+    }
+    return 0;
+}
+
 std::optional<std::string> find_height(const fs::path& map)
 {
     static constexpr std::pair<const char*, const char*> kHeights[] = {

@@ -18,6 +18,9 @@ struct NormalPartner {
 };
 NormalPartner find_normal(const std::filesystem::path& map);
 
+/// The channel that the name of a map says: alpha of X_LuxSPEC, green of X_arm, else 0.
+int named_channel(const std::filesystem::path& map);
+
 /// The height map beside a map, by the same names, or nothing: "X_Displacement.jpg", "X_height.png",
 /// "X_alb_ht.png:a", ...
 std::optional<std::string> find_height(const std::filesystem::path& map);

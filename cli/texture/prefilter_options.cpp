@@ -37,12 +37,11 @@ PrefilterMaps read_prefilter_maps(PrefilterInput& input)
     }
     const MapFile map = parse_map_file(smooth ? input.smoothness : input.roughness);
     o.smoothness = smooth;
-    o.channel = std::max(0, map.channel);
+    o.channel = map.channel >= 0 ? map.channel : named_channel(map.path);
     if (input.normal.empty()) {
         const NormalPartner partner = find_normal(map.path);
         input.normal = partner.path.string();
         o.green_down |= partner.green_down;
-        if (map.channel < 0) o.channel = partner.channel;
     }
     o.rebuild_z = input.layout == "rg" || input.layout == "ag";
     if (input.layout == "ag" || input.layout == "rxgb") o.normal_x = 3;
@@ -52,6 +51,8 @@ PrefilterMaps read_prefilter_maps(PrefilterInput& input)
     maps.map_path = map.path;
     maps.map = texproc::read_raw(map.path, input.reading);
     maps.normal = normal.get();
+    // A grey map under the name of a packed one has its values in its only channel.
+    if (map.channel < 0 && maps.map.channels <= 2) o.channel = 0;
     return maps;
 }
 
