@@ -68,6 +68,7 @@ void read_png(const std::string& path, const Accept& accept)
     if (reader.png) reader.info = png_create_info_struct(reader.png);
     if (!reader.info) throw std::bad_alloc();
     png_set_user_limits(reader.png, 1 << 24, 1 << 24);  // accept() has the limit that counts
+    png_set_chunk_malloc_max(reader.png, 8 << 20);      // texts and profiles, which nobody reads
     if (!read_header(reader, file.get())) throw std::runtime_error(reader.problem);
 
     Header header;
