@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "base/error.h"
+#include "texproc/detail/parallel.h"
 
 namespace petrichor::texproc {
 
@@ -25,27 +28,144 @@ std::string trimmed(const std::string& s)
                 "separated by '|'.");
 }
 
-std::uint32_t code_at(const RawImage& image, std::size_t value)
+template <class Code>
+Code value_at(const std::byte* bytes, std::size_t value)
 {
-    if (image.type == PixelType::U8) return static_cast<std::uint32_t>(image.bytes[value]);
-    std::uint16_t code;
-    std::memcpy(&code, image.bytes.data() + 2 * value, 2);
+    Code code;
+    std::memcpy(&code, bytes + value * sizeof(Code), sizeof(Code));
     return code;
 }
 
-std::uint32_t top_of(PixelType type) { return type == PixelType::U8 ? 255u : 65535u; }
-
-// Integers of one depth in the other: exact upwards (x 257), nearest downwards.
-std::uint32_t recoded(std::uint32_t code, PixelType from, PixelType to)
+template <class Code>
+void put_at(std::byte* bytes, std::size_t value, Code code)
 {
-    if (from == to) return code;
-    return from == PixelType::U8 ? code * 257u : (code * 255u + 32767u) / 65535u;
+    std::memcpy(bytes + value * sizeof(Code), &code, sizeof(Code));
 }
 
-RawImage as_integers(const RawImage& image)
+// One number in the type of another: exact upwards (x 257), nearest downwards; floats are 0..1.
+template <class From, class To>
+To recoded(From value)
+{
+    if constexpr (std::is_same_v<From, To>) {
+        return value;
+    } else if constexpr (std::is_same_v<To, float>) {
+        return static_cast<float>(value) / static_cast<float>(std::numeric_limits<From>::max());
+    } else if constexpr (std::is_same_v<To, std::uint16_t>) {
+        return static_cast<To>(value * 257u);
+    } else {
+        return static_cast<To>((value * 255u + 32767u) / 65535u);
+    }
+}
+
+template <class From>
+From inverted(From value)
+{
+    if constexpr (std::is_same_v<From, float>) {
+        return 1.0f - value;
+    } else {
+        return static_cast<From>(std::numeric_limits<From>::max() - value);
+    }
+}
+
+// Copies one channel into its place among `width` others, for the pixels first .. last - 1.
+struct ChannelCopy {
+    const std::byte* from = nullptr;  ///< null: a constant
+    std::size_t step = 1, channel = 0;
+    bool invert = false;
+    double constant = 0.0;
+    PixelType type = PixelType::U8;
+};
+
+template <class From, class To>
+void copy_values(const ChannelCopy& source, std::size_t first, std::size_t last, std::byte* to,
+                 std::size_t width, std::size_t at)
+{
+    for (std::size_t i = first; i < last; ++i) {
+        From value = value_at<From>(source.from, i * source.step + source.channel);
+        if (source.invert) value = inverted(value);
+        put_at(to, i * width + at, recoded<From, To>(value));
+    }
+}
+
+template <class To>
+void copy_channel(const ChannelCopy& source, std::size_t first, std::size_t last, std::byte* to,
+                  std::size_t width, std::size_t at)
+{
+    if (!source.from) {
+        To value;
+        if constexpr (std::is_same_v<To, float>) {
+            value = static_cast<float>(source.constant);
+        } else {
+            value = static_cast<To>(std::lround(source.constant * std::numeric_limits<To>::max()));
+        }
+        for (std::size_t i = first; i < last; ++i) put_at(to, i * width + at, value);
+    } else if (source.type == PixelType::U8) {
+        copy_values<std::uint8_t, To>(source, first, last, to, width, at);
+    } else if constexpr (std::is_same_v<To, float>) {
+        source.type == PixelType::U16 ? copy_values<std::uint16_t, To>(source, first, last, to, width, at)
+                                      : copy_values<float, To>(source, first, last, to, width, at);
+    } else {
+        copy_values<std::uint16_t, To>(source, first, last, to, width, at);
+    }
+}
+
+// Floats in the type that can be packed into `type`: codes for integers, singles for floats.
+RawImage converted(const RawImage& image, PixelType type)
 {
     if (image.type == PixelType::U8 || image.type == PixelType::U16) return {};
-    return to_raw(to_image(image, ColorSpace::Data), PixelType::U16);
+    if (type == PixelType::F32 && image.type == PixelType::F32) return {};
+    return to_raw(to_image(image, ColorSpace::Data),
+                  type == PixelType::F32 ? PixelType::F32 : PixelType::U16);
+}
+
+std::string size_text(const RawImage& image)
+{
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+// The maps all have one size; the first of them.
+const RawImage& check_sizes(const std::map<std::string, RawImage>& maps)
+{
+    if (maps.empty()) {
+        throw Error("pack: no map was given", "Name at least one, such as --roughness R.png.");
+    }
+    const auto& [first_role, first] = *maps.begin();
+    for (const auto& [role, map] : maps) {
+        if (map.width == first.width && map.height == first.height) continue;
+        throw Error("pack: " + first_role + " is " + size_text(first) + ", " + role + " is " +
+                        size_text(map),
+                    "Resample one of them: all maps must have the same size.");
+    }
+    return first;
+}
+
+PixelType packed_type(const std::map<std::string, RawImage>& maps, int bits)
+{
+    if (bits == 8) return PixelType::U8;
+    if (bits == 16) return PixelType::U16;
+    if (bits == 32) return PixelType::F32;
+    if (bits != 0) {
+        throw Error("pack: bits must be 8, 16 or 32, got " + std::to_string(bits),
+                    "Use 8 or 16 for integers, 32 for floats.");
+    }
+    const bool deep = std::any_of(maps.begin(), maps.end(),
+                                  [](const auto& m) { return m.second.type != PixelType::U8; });
+    return deep ? PixelType::U16 : PixelType::U8;
+}
+
+// The first alternative that is there. A map with too few channels counts only when it is the last.
+const PackSource* chosen_source(const PackChannel& alternatives,
+                                const std::map<std::string, RawImage>& maps)
+{
+    const PackSource* fallback = nullptr;
+    for (const PackSource& source : alternatives) {
+        if (source.role.empty()) return &source;
+        const auto map = maps.find(source.role);
+        if (map == maps.end()) continue;
+        if (source.channel < map->second.channels) return &source;
+        if (!fallback) fallback = &source;
+    }
+    return fallback;
 }
 
 }  // namespace
@@ -117,8 +237,8 @@ const std::vector<PackPreset>& pack_presets()
          {"metallic | 0", kRough, "occlusion | 1"}, {}},
         {"terrain-layer-mask", "R metallic, G occlusion, B height, A smoothness; linear",
          {"metallic | 0", "occlusion | 1", "height | 0.5", kSmooth}, {}},
-        {"weather-mask", "R porosity, G puddle height, B flow or cavity, A smoothness; linear",
-         {"porosity | 0.5", "puddle | height | 1", "flow | cavity | 0.5", kSmooth}, {}},
+        {"weather-mask", "R porosity, G where puddles stand, B flow or cavity, A smoothness; linear",
+         {"porosity | 0.5", "puddle | 1 - height | 1", "flow | cavity | 0.5", kSmooth}, {}},
         {"normal-ag", "R 1, G y, B 1, A x (two-channel normals of older engines)",
          {"1", "normal.g", "1", "normal.r"}, {}},
         {"normal-rg", "R x, G y", {"normal.r", "normal.g", "0"}, {}},
@@ -154,81 +274,79 @@ RawImage channel_of(const RawImage& image, int channel)
     return one;
 }
 
-RawImage pack(const PackPreset& preset, const std::map<std::string, RawImage>& maps, int bits)
+RawImage pack(const PackPreset& preset, const std::map<std::string, RawImage>& maps, int bits,
+              int threads)
 {
     if (preset.channels.empty() || preset.channels.size() > 4) {
         throw Error("pack: preset " + preset.name + " has " +
                         std::to_string(preset.channels.size()) + " channels",
                     "Give it 1 to 4.");
     }
-    const RawImage* first = nullptr;
-    std::string first_role;
-    bool deep = false;
-    for (const auto& [role, map] : maps) {
-        if (!first) {
-            first = &map;
-            first_role = role;
-        }
-        if (map.width != first->width || map.height != first->height) {
-            throw Error("pack: " + first_role + " is " + std::to_string(first->width) + " x " +
-                            std::to_string(first->height) + ", " + role + " is " +
-                            std::to_string(map.width) + " x " + std::to_string(map.height),
-                        "Resample one of them: all maps must have the same size.");
-        }
-        deep |= map.type != PixelType::U8;
-    }
-    if (!first) throw Error("pack: no map was given", "Name at least one, such as --roughness R.png.");
-    if (bits != 0 && bits != 8 && bits != 16) {
-        throw Error("pack: bits must be 8 or 16, got " + std::to_string(bits), "Use 8 or 16.");
-    }
-    const PixelType type = bits == 16 || (bits == 0 && deep) ? PixelType::U16 : PixelType::U8;
-    RawImage out{first->width, first->height, static_cast<int>(preset.channels.size()), type, {}, {}};
-    const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
-    out.bytes.resize(out.values() * size_of(type));
+    const RawImage& first = check_sizes(maps);
+    const PixelType type = packed_type(maps, bits);
     const std::size_t width = preset.channels.size();
+    std::vector<ChannelCopy> copies;
+    std::vector<RawImage> kept(width);  // floats as codes
     for (std::size_t c = 0; c < width; ++c) {
         const PackChannel alternatives = parse_pack_channel(preset.channels[c]);
-        const auto found = std::find_if(alternatives.begin(), alternatives.end(), [&](const auto& s) {
-            return s.role.empty() || maps.count(s.role);
-        });
-        if (found == alternatives.end()) {
+        const PackSource* source = chosen_source(alternatives, maps);
+        if (!source) {
             throw Error("pack: nothing for channel " + std::to_string(c) + " of " + preset.name +
                             " ('" + preset.channels[c] + "')",
                         "Give one of these maps.");
         }
-        const auto put = [&](std::size_t i, std::uint32_t code) {
-            if (type == PixelType::U8) {
-                out.bytes[i * width + c] = static_cast<std::byte>(code);
-            } else {
-                const std::uint16_t code16 = static_cast<std::uint16_t>(code);
-                std::memcpy(&out.bytes[2 * (i * width + c)], &code16, 2);
+        ChannelCopy copy;
+        copy.constant = source->constant;
+        copy.invert = source->invert;
+        copy.channel = static_cast<std::size_t>(source->channel);
+        if (!source->role.empty()) {
+            const RawImage& given = maps.at(source->role);
+            if (source->channel >= given.channels) {
+                throw Error("pack: " + preset.name + " needs channel " +
+                                std::to_string(source->channel) + " of " + source->role +
+                                ", which has " + std::to_string(given.channels),
+                            "Give a map with more channels.");
             }
-        };
-        if (found->role.empty()) {
-            const auto code = static_cast<std::uint32_t>(
-                std::lround(found->constant * static_cast<double>(top_of(type))));
-            for (std::size_t i = 0; i < pixels; ++i) put(i, code);
-            continue;
+            kept[c] = converted(given, type);
+            const RawImage& map = kept[c].bytes.empty() ? given : kept[c];
+            copy.from = map.bytes.data();
+            copy.type = map.type;
+            copy.step = static_cast<std::size_t>(map.channels);
         }
-        const RawImage& given = maps.at(found->role);
-        const RawImage converted = as_integers(given);
-        const RawImage& map = converted.bytes.empty() ? given : converted;
-        if (found->channel >= map.channels) {
-            throw Error("pack: " + preset.name + " needs channel " +
-                            std::to_string(found->channel) + " of " + found->role +
-                            ", which has " + std::to_string(map.channels),
-                        "Give a map with more channels.");
+        copies.push_back(copy);
+    }
+    RawImage out{first.width, first.height, static_cast<int>(width), type, {}, {}};
+    out.bytes.resize(out.values() * size_of(type));
+    // Row by row, so that all channels of a row are written while it lies in the cache.
+    const std::size_t row = static_cast<std::size_t>(out.width);
+    detail::parallel_for(static_cast<std::size_t>(out.height), threads, [&](std::size_t y) {
+        for (std::size_t c = 0; c < width; ++c) {
+            const auto copy = [&](auto zero) {
+                copy_channel<decltype(zero)>(copies[c], y * row, (y + 1) * row, out.bytes.data(),
+                                             width, c);
+            };
+            if (type == PixelType::U8) {
+                copy(std::uint8_t{});
+            } else if (type == PixelType::U16) {
+                copy(std::uint16_t{});
+            } else {
+                copy(float{});
+            }
         }
-        const std::size_t step = static_cast<std::size_t>(map.channels);
-        const std::uint32_t top = top_of(map.type);
-        const auto at = static_cast<std::size_t>(found->channel);
-        for (std::size_t i = 0; i < pixels; ++i) {
-            std::uint32_t code = code_at(map, i * step + at);
-            if (found->invert) code = top - code;
-            put(i, recoded(code, map.type, type));
+    });
+    return out;
+}
+
+// Every code subtracted from the largest.
+static void invert(RawImage& image)
+{
+    for (std::size_t i = 0; i < image.values(); ++i) {
+        if (image.type == PixelType::U8) {
+            put_at(image.bytes.data(), i, inverted(value_at<std::uint8_t>(image.bytes.data(), i)));
+        } else {
+            put_at(image.bytes.data(), i, inverted(value_at<std::uint16_t>(image.bytes.data(), i)));
         }
     }
-    return out;
 }
 
 std::map<std::string, RawImage> unpack(const PackPreset& preset, const RawImage& packed)
@@ -241,18 +359,7 @@ std::map<std::string, RawImage> unpack(const PackPreset& preset, const RawImage&
             throw Error("unpack: the image holds floats", "Unpack 8- or 16-bit images.");
         }
         RawImage one = channel_of(packed, static_cast<int>(c));
-        if (source.invert) {
-            const std::uint32_t top = top_of(one.type);
-            for (std::size_t i = 0; i < one.values(); ++i) {
-                const std::uint32_t code = top - code_at(one, i);
-                if (one.type == PixelType::U8) {
-                    one.bytes[i] = static_cast<std::byte>(code);
-                } else {
-                    const std::uint16_t code16 = static_cast<std::uint16_t>(code);
-                    std::memcpy(&one.bytes[2 * i], &code16, 2);
-                }
-            }
-        }
+        if (source.invert) invert(one);
         const std::string suffix = source.channel ? std::string(".") + "rgba"[source.channel] : "";
         maps.emplace(source.role + suffix, std::move(one));
     }

@@ -9,7 +9,8 @@
 
 namespace petrichor::texproc {
 
-/// Where the numbers of one packed channel come from: the first alternative whose role is there.
+/// Where the numbers of one packed channel come from: the first alternative whose map is there and
+/// has that channel.
 ///
 /// Text form, alternatives separated by '|':  "smoothness | 1 - roughness | 0.5"
 ///   role, role.g   a map by role, its first channel or the one named (r g b a)
@@ -40,9 +41,11 @@ const PackPreset& pack_preset(const std::string& name);
 
 /// Packs maps by role into one image. Codes of the same depth are copied, never recomputed.
 ///
-///   maps    all the same size; Throws Error when not, or when a channel has no source
-///   bits    8 or 16; 0: the deepest of the maps
-RawImage pack(const PackPreset& preset, const std::map<std::string, RawImage>& maps, int bits = 0);
+///   maps     all the same size; Throws Error when not, or when a channel has no source
+///   bits     8 or 16, 32 for floats (codes become 0..1); 0: 16 when a map has more than 8, else 8
+///   threads  0: all cores; the bytes do not depend on it
+RawImage pack(const PackPreset& preset, const std::map<std::string, RawImage>& maps, int bits = 0,
+              int threads = 0);
 
 /// The inverse: one single-channel image for each role that a channel of the preset names first
 /// (inverted back where the preset inverts). Throws Error when channels are missing.

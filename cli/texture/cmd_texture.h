@@ -8,6 +8,10 @@ class App;
 namespace petrichor::cli {
 
 // One function for each subcommand of `petrichor texture`.
+void add_texture_build(CLI::App& texture);
+void add_texture_compare(CLI::App& texture);
+void add_texture_generate(CLI::App& texture);
+void add_texture_inspect(CLI::App& texture);
 void add_texture_prefilter(CLI::App& texture);
 void add_texture_pack(CLI::App& texture);
 void add_texture_convert(CLI::App& texture);

@@ -1,12 +1,15 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <future>
 #include <iostream>
 #include <memory>
-#include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
-#include "texproc/pack.h"
+#include "cli/texture/pack_file.h"
+#include "cli/words.h"
 
 namespace petrichor::cli {
 
@@ -18,37 +21,75 @@ constexpr const char* kRoles[] = {"albedo",    "normal",     "height",   "roughn
 
 struct Arguments {
     std::map<std::string, std::string> files;
+    std::vector<std::string> others;  // ROLE=FILE
     std::string preset, out;
     int bits = 0;
     bool list = false;
     texproc::ReadOptions reading;
 };
 
-void list_presets()
+void show(const texproc::PackPreset& preset)
 {
-    for (const texproc::PackPreset& preset : texproc::pack_presets()) {
-        std::cout << preset.name << ": " << preset.note << "\n";
-        for (std::size_t c = 0; c < preset.channels.size(); ++c) {
-            std::cout << "    " << "RGBA"[c] << " = " << preset.channels[c] << "\n";
-        }
+    std::cout << preset.name << ": " << preset.note << "\n";
+    for (std::size_t c = 0; c < preset.channels.size(); ++c) {
+        std::cout << "    " << "RGBA"[c] << " = " << preset.channels[c] << "\n";
     }
+}
+
+void list_presets(const Arguments& a)
+{
+    if (!a.preset.empty()) {
+        show(pack_preset_or_file(a.preset));
+        return;
+    }
+    for (const texproc::PackPreset& preset : texproc::pack_presets()) show(preset);
+}
+
+// Where each role of the preset comes from. A map that the preset has no use for is a mistake.
+std::map<std::string, std::string> files_by_role(const Arguments& a,
+                                                 const texproc::PackPreset& preset)
+{
+    std::map<std::string, std::string> files;
+    for (const auto& [role, file] : a.files) {
+        if (!file.empty()) files[role] = file;
+    }
+    for (const std::string& text : a.others) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw Error("texture pack: --map '" + text + "' is not ROLE=FILE",
+                        "Write for example --map wetness=wet.png.");
+        }
+        files[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+    const std::vector<std::string> roles = preset_roles(preset);
+    for (const auto& [role, file] : files) {
+        if (std::find(roles.begin(), roles.end(), role) != roles.end()) continue;
+        throw Error("texture pack: preset " + preset.name + " has no channel for '" + role + "' (" +
+                        file + ")",
+                    "Leave it out; the preset takes: " + join_words(roles) + ".");
+    }
+    return files;
 }
 
 void run(const Arguments& a)
 {
     if (a.list) {
-        list_presets();
+        list_presets(a);
         return;
     }
     if (a.preset.empty() || a.out.empty()) {
         throw Error("texture pack: --preset and --out are needed",
                     "See the presets with: petrichor texture pack --list");
     }
-    const texproc::PackPreset& preset = texproc::pack_preset(a.preset);
-    std::map<std::string, texproc::RawImage> maps;
-    for (const auto& [role, file] : a.files) {
-        if (!file.empty()) maps.emplace(role, read_map(file, a.reading));
+    const texproc::PackPreset preset = pack_preset_or_file(a.preset);
+    const std::map<std::string, std::string> files = files_by_role(a, preset);
+    std::vector<std::pair<std::string, std::future<texproc::RawImage>>> reading;
+    for (const auto& [role, file] : files) {
+        reading.emplace_back(role, std::async(std::launch::async,
+                                              [&a, &text = file] { return read_map(text, a.reading); }));
     }
+    std::map<std::string, texproc::RawImage> maps;
+    for (auto& [role, image] : reading) maps.emplace(role, image.get());
     texproc::write_raw(a.out, texproc::pack(preset, maps, a.bits));
 }
 
@@ -58,19 +99,24 @@ void add_texture_pack(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
     CLI::App* app = texture.add_subcommand("pack", "several maps into the channels of one");
-    app->add_option("--preset", a->preset, "what goes where; --list shows all");
+    app->add_option("--preset", a->preset, "what goes where: a name of --list, or a file of yours (.toml)");
     for (const char* role : kRoles) {
         app->add_option(std::string("--") + role, a->files[role], "FILE or FILE:g (one channel)");
     }
+    app->add_option("--map", a->others, "ROLE=FILE, for a role of a preset of yours");
     app->add_option("-o,--out", a->out, "the packed image");
     app->add_option("--bits", a->bits, "8 or 16; default: the deepest input")
         ->check(CLI::IsMember({8, 16}));
-    app->add_flag("--list", a->list, "show the presets");
+    app->add_flag("--list", a->list, "show the presets, or the one of --preset");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
     app->footer(
         "Example:\n  petrichor texture pack --preset unity-hdrp-mask --metallic m.png "
-        "--occlusion ao.png --roughness r.png -o mask.png");
+        "--occlusion ao.png --roughness r.png -o mask.png\n\n"
+        "A preset of yours, mine.toml:\n"
+        "  note = \"R wetness, G occlusion, B 1 - roughness\"\n"
+        "  channels = [\"wetness | 0\", \"occlusion | 1\", \"smoothness | 1 - roughness\"]\n"
+        "  petrichor texture pack --preset mine.toml --map wetness=w.png --roughness r.png -o m.png");
     app->callback([a] { run(*a); });
 }
 

@@ -27,6 +27,7 @@ struct PrefilterOptions {
     bool joint = true;           ///< overlap: may re-aim the normals; else only roughness changes
     bool anisotropic = false;    ///< overlap: elliptic lobes where they help
     bool quick = false;          ///< overlap: less search
+    int bits = 0;                ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
 };

@@ -25,7 +25,10 @@ Chosen chosen_texels(const RawImage& map, const ScoreOptions& scoring)
 }
 
 // Files without normals beside them are read with the mean normals.
-bool ships_normals(const PrefilterOptions& o) { return o.rule == "overlap" || o.rule == "student-t"; }
+bool ships_normals(const PrefilterOptions& o)
+{
+    return (o.rule == "overlap" && o.joint) || o.rule == "student-t";
+}
 
 std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<Variant>& variants,
                                    const ScoreOptions& scoring)
@@ -35,6 +38,7 @@ std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<V
         some.push_back(v.options);
         some.back().design_light = scoring.light;
         some.back().threads = scoring.threads;
+        some.back().bits = ships_normals(v.options) ? v.bits : 0;
     }
     const Chosen chosen = chosen_texels(maps.normal, scoring);
     const std::vector<LevelSize> sizes = level_sizes(maps.normal.width, maps.normal.height);

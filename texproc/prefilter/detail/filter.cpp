@@ -10,7 +10,10 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-float perceptual(float alpha2) { return std::sqrt(std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))); }
+StoredAs stored_as(const PrefilterOptions& o)
+{
+    return {o.bits, o.smoothness, o.alpha, o.green_down, o.rebuild_z};
+}
 
 std::uint32_t seed_of(int level, int x, int y)
 {
@@ -25,7 +28,8 @@ Direction mean_normal(const Means& m) { return normalized({m.nx, m.ny, m.nz}); }
 
 Filter::Filter(const PrefilterOptions& options)
     : options_(options), kind_(rule_named(options.rule).kind),
-      overlap_{options.design_light, options.joint, options.anisotropic, options.quick}
+      overlap_{options.design_light, options.joint, options.anisotropic, options.quick,
+               stored_as(options)}
 {
     if (!(options.design_light >= 0.0f && options.design_light <= 1.0f)) {
         throw Error("prefilter: the design light must be in 0..1, got " +
@@ -103,14 +107,12 @@ void store(const FittedLobe& lobe, const MipTexel& t, const PrefilterOptions& op
            Prefiltered& out)
 {
     const std::size_t k = static_cast<std::size_t>(t.level);
-    float* n = &out.normal[k].at(t.x, t.y, 0);
-    n[0] = 0.5f + 0.5f * lobe.normal.x;
-    n[1] = 0.5f + 0.5f * (options.green_down ? -lobe.normal.y : lobe.normal.y);
-    n[2] = 0.5f + 0.5f * lobe.normal.z;
-    float alpha2 = lobe.elliptic ? std::min(lobe.alpha2_x, lobe.alpha2_y) : lobe.alpha2;
-    float p = perceptual(alpha2);
-    if (options.alpha) p *= p;
-    out.roughness[k].at(t.x, t.y, 0) = options.smoothness ? 1.0f - p : p;
+    const float alpha2 = lobe.elliptic ? std::min(lobe.alpha2_x, lobe.alpha2_y) : lobe.alpha2;
+    StoredAs exact = stored_as(options);
+    exact.bits = 0;
+    const Codes codes = lobe.codes ? *lobe.codes : rounded(lobe.normal, alpha2, exact);
+    std::copy(codes.normal.begin(), codes.normal.end(), &out.normal[k].at(t.x, t.y, 0));
+    out.roughness[k].at(t.x, t.y, 0) = codes.rough;
     if (!options.anisotropic) return;
     float* a = &out.anisotropy[k].at(t.x, t.y, 0);
     Direction d = lobe.tangent;

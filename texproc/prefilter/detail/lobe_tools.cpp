@@ -67,34 +67,52 @@ std::array<float, kTable * kTable> make_albedo_table()
 
 namespace {
 
-const std::array<float, kTable * kTable>& albedo_table()
+// The table as bilinear patches: c0 + c1 y + x (c2 + c3 y), one load each.
+struct Patch {
+    float c0, c1, c2, c3;
+};
+constexpr int kPatches = kTable - 1;
+
+std::array<Patch, kPatches * kPatches> make_patches()
 {
-    static const std::array<float, kTable * kTable> table = make_albedo_table();
-    return table;
+    const auto table = make_albedo_table();
+    std::array<Patch, kPatches * kPatches> patches;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        for (std::size_t j = 0; j < kPatches; ++j) {
+            const float* t = &table[i * kTable + j];
+            patches[i * kPatches + j] = {t[0], t[1] - t[0], t[kTable] - t[0],
+                                         (t[kTable + 1] - t[kTable]) - (t[1] - t[0])};
+        }
+    }
+    return patches;
+}
+
+const Patch* patches()
+{
+    static const std::array<Patch, kPatches * kPatches> all = make_patches();
+    return all.data();
 }
 
 // Row of the table for a width, and how far towards the next.
 struct Row {
-    const float* row;
+    const Patch* row;
     float share;
 };
 Row albedo_row(float alpha2)
 {
-    const float x = std::min(1.0f, std::sqrt(std::sqrt(alpha2))) * (kTable - 1);
-    const int i = std::min(kTable - 2, static_cast<int>(x));
-    return {&albedo_table()[static_cast<std::size_t>(i * kTable)], x - static_cast<float>(i)};
+    const float x = std::sqrt(std::sqrt(alpha2)) * kPatches;
+    const int i = std::min(kPatches - 1, static_cast<int>(x));
+    return {patches() + i * kPatches, std::min(1.0f, x - static_cast<float>(i))};
 }
 
 float albedo_at(const Row& r, float mu)
 {
-    if (!(mu > 0.0f)) return 0.0f;
-    const float y = std::min(1.0f, mu) * (kTable - 1);
-    const int j = std::min(kTable - 2, static_cast<int>(y));
+    const float y = std::max(0.0f, mu) * kPatches;
+    const int j = std::min(kPatches - 1, static_cast<int>(y));
     const float fy = y - static_cast<float>(j);
-    const float* t = r.row + j;
-    const float a = t[0] + fy * (t[1] - t[0]);
-    const float b = t[kTable] + fy * (t[kTable + 1] - t[kTable]);
-    return a + r.share * (b - a);
+    const Patch& p = r.row[j];
+    const float value = (p.c0 + fy * p.c1) + r.share * (p.c2 + fy * p.c3);
+    return mu > 0.0f ? value : 0.0f;
 }
 
 }  // namespace

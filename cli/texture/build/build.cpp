@@ -1,0 +1,245 @@
+#include "cli/texture/build/build.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "cli/folders.h"
+#include "cli/progress.h"
+#include "cli/signals.h"
+#include "cli/texture/build/material.h"
+#include "cli/texture/build/sha256.h"
+#include "cli/texture/build/state.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Part of every key: raise it when the bytes of an output change for the same input.
+constexpr int kEncoder = 1;
+
+std::string program() { return "petrichor " PETRICHOR_VERSION " encoder " + std::to_string(kEncoder); }
+
+// Sources, options and program decide the outputs, and so the key.
+std::string key_of(const PlannedMaterial& material, BuildState& state)
+{
+    std::string text = program() + "\n" + material.name + "\n" + options_text(*material.recipe) + "green " +
+                       std::to_string(static_cast<int>(material.files.green)) + "\n";
+    for (const auto& [role, map] : material.files.inputs) {
+        text += role + " " + state.hash_of(map.path) + " " + map.channels + "\n";
+    }
+    return sha256(text);
+}
+
+ordered_json error_json(const texproc::RangeScore& range)
+{
+    return {{"levels", range.levels}, {"plain", range.plain}, {"best_isotropic", range.best},
+            {"shipped", range.tested}};
+}
+
+std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& made, BuildState& state,
+                           const fs::path& out)
+{
+    ordered_json entry{{"name", material.name}};
+    for (const MadeSource& source : made.sources) {
+        const InputMap& map = material.files.inputs.at(source.role);
+        entry["sources"].push_back({{"role", source.role}, {"file", map.path.filename().string()},
+                                    {"part", map.channels.empty() ? "all" : map.channels},
+                                    {"sha256", state.hash_of(map.path)}, {"width", source.width},
+                                    {"height", source.height}, {"channels", source.channels},
+                                    {"bits", source.bits}});
+    }
+    if (!made.green.empty()) entry["normal_green"] = made.green;
+    entry["baked"] = material.baked;
+    entry["options"] = options_text(*material.recipe);
+    for (std::size_t i = 0; i < made.outputs.size(); ++i) {
+        const OutputRule& rule = material.outputs[i].rule;
+        ordered_json output{{"format", rule.format}, {"compression", rule.compression},
+                            {"bits", rule.bits}, {"srgb", rule.srgb()},
+                            {"channels", rule.channels.channels}, {"width", made.outputs[i].width},
+                            {"height", made.outputs[i].height}, {"levels", made.outputs[i].levels},
+                            {"prefiltered", material.outputs[i].prefiltered}};
+        for (const std::string& file : made.outputs[i].files) {
+            output["files"].push_back({{"file", file}, {"bytes", fs::file_size(out / file)},
+                                       {"sha256", state.hash_of(out / file)}});
+        }
+        entry["outputs"].push_back(output);
+    }
+    if (made.lobe_error) {
+        entry["lobe_error"] = {{"rule", material.recipe->rule},
+                               {"levels_1_to_5", error_json(made.lobe_error->fine())},
+                               {"levels_6_up", error_json(made.lobe_error->coarse())}};
+    }
+    return entry.dump();
+}
+
+// A folder inside OUT that is removed at the end, whatever happens.
+class Staging {
+public:
+    Staging(const fs::path& out, std::size_t number)
+        : path_(out / (".petrichor-" + std::to_string(::getpid()) + "-" + std::to_string(number)))
+    {
+    }
+    Staging(const Staging&) = delete;
+    Staging& operator=(const Staging&) = delete;
+    ~Staging()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+// All files are whole by now: renaming them is all that is left.
+void publish(const fs::path& staging, const fs::path& out, const std::vector<std::string>& files)
+{
+    for (const std::string& file : files) {
+        std::error_code failed;
+        fs::create_directories((out / file).parent_path(), failed);
+        if (!failed) fs::rename(staging / file, out / file, failed);
+        if (failed) {
+            throw Error("output: cannot write " + (out / file).string() + ": " + failed.message(),
+                        "Check that the folder is writable and that no folder has this name.");
+        }
+    }
+}
+
+class Builder {
+public:
+    Builder(const std::vector<PlannedMaterial>& plan, const BuildOptions& options)
+        : plan_(plan), options_(options), state_(options.out)
+    {
+    }
+
+    BuildResult run()
+    {
+        for (const PlannedMaterial& material : plan_) check(material);
+        if (options_.dry_run) return result_;
+        if (!waiting_.empty()) require_writable_folder(options_.out);
+        work();
+        finish();
+        return result_;
+    }
+
+private:
+    struct Waiting {
+        const PlannedMaterial* material;
+        std::string key;
+    };
+
+    void check(const PlannedMaterial& material)
+    {
+        std::string status = "up to date";
+        try {
+            const std::string key = key_of(material, state_);
+            if (options_.force || !state_.is_current(material.name, key)) {
+                waiting_.push_back({&material, key});
+                status = "to build";
+            } else {
+                ++result_.current;
+            }
+        } catch (const Error& error) {
+            fail(material, error);
+            status = "cannot be built";
+        }
+        if (options_.dry_run) std::cout << to_text(material) << "  " << status << "\n";
+    }
+
+    void work()
+    {
+        const std::size_t cores = options_.threads > 0
+                                      ? static_cast<std::size_t>(options_.threads)
+                                      : std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t workers = std::min(cores, waiting_.size());
+        if (workers == 0) return;
+        // Cores that have no material of their own help inside the others.
+        const int inner = static_cast<int>(std::max<std::size_t>(1, cores / workers));
+        Progress progress("texture build", static_cast<int>(waiting_.size()));
+        std::atomic<std::size_t> next{0};
+        std::atomic<int> done{0};
+        const auto loop = [&] {
+            for (std::size_t i = next++; i < waiting_.size() && !interrupted(); i = next++) {
+                make(i, inner);
+                const std::lock_guard lock(mutex_);
+                progress.update(++done);
+            }
+        };
+        std::vector<std::thread> pool;
+        for (std::size_t t = 1; t < workers; ++t) pool.emplace_back(loop);
+        loop();
+        for (std::thread& thread : pool) thread.join();
+        result_.stopped = done < static_cast<int>(waiting_.size());
+    }
+
+    void make(std::size_t number, int threads)
+    {
+        const PlannedMaterial& material = *waiting_[number].material;
+        try {
+            const Staging staging(options_.out, number);
+            const MadeMaterial made = make_material(material, staging.path(), threads);
+            BuiltSet set{waiting_[number].key, {}, ""};
+            for (const MadeOutput& output : made.outputs) {
+                set.outputs.insert(set.outputs.end(), output.files.begin(), output.files.end());
+            }
+            publish(staging.path(), options_.out, set.outputs);
+            const std::lock_guard lock(mutex_);
+            set.manifest = manifest_entry(material, made, state_, options_.out);
+            result_.files += static_cast<int>(set.outputs.size());
+            ++result_.built;
+            state_.remember(material.name, std::move(set));
+        } catch (const Error& error) {
+            const std::lock_guard lock(mutex_);
+            fail(material, error);
+        }
+    }
+
+    void fail(const PlannedMaterial& material, const Error& error)
+    {
+        result_.failures.push_back(material.name + ": " + error.what() + "\n  " + error.fix());
+    }
+
+    void finish()
+    {
+        std::vector<std::string> names;
+        for (const PlannedMaterial& material : plan_) names.push_back(material.name);
+        std::sort(result_.failures.begin(), result_.failures.end());
+        if (result_.built == 0 && state_.sets().empty()) return;
+        state_.save(names);
+        ordered_json manifest{{"program", program()}, {"sets", ordered_json::array()}};
+        for (const auto& [name, set] : state_.sets()) {
+            manifest["sets"].push_back(ordered_json::parse(set.manifest));
+        }
+        const fs::path file = options_.out / "manifest.json";
+        if (result_.built > 0 || !fs::exists(file)) write_text_file(file, manifest.dump(1) + "\n");
+    }
+
+    const std::vector<PlannedMaterial>& plan_;
+    const BuildOptions& options_;
+    BuildState state_;
+    std::vector<Waiting> waiting_;
+    BuildResult result_;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+BuildResult build(const std::vector<PlannedMaterial>& plan, const BuildOptions& options)
+{
+    return Builder(plan, options).run();
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,36 @@
+#ifndef PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_H
+#define PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_H
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/texture/build/plan.h"
+#include "texproc/prefilter/score.h"
+
+namespace petrichor::cli {
+
+struct MadeSource {
+    std::string role;
+    int width = 0, height = 0, channels = 0, bits = 0;
+};
+struct MadeOutput {
+    std::vector<std::string> files;  ///< relative to the folder; one, or one a level
+    int width = 0, height = 0, levels = 0;
+};
+struct MadeMaterial {
+    std::vector<MadeSource> sources;  ///< the maps that were read
+    std::vector<MadeOutput> outputs;  ///< in the order of the plan
+    std::string green;                ///< what was done to the normal map: "up", "down, turned, ..."
+    std::optional<texproc::Score> lobe_error;
+};
+
+/// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread count.
+/// Throws Error that names the file at fault.
+MadeMaterial make_material(const PlannedMaterial& material, const std::filesystem::path& folder,
+                           int threads);
+
+}  // namespace petrichor::cli
+
+#endif

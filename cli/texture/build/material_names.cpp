@@ -1,0 +1,272 @@
+#include "cli/texture/build/material_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Phrase {
+    std::vector<std::string> words;
+    std::vector<std::pair<std::string, std::string>> roles;  // role, channels
+    Green green = Green::Auto;
+};
+
+const std::vector<Phrase>& phrases()
+{
+    static const std::vector<Phrase> all = [] {
+        std::vector<Phrase> list;
+        const auto add = [&](const std::string& role, const std::vector<std::vector<std::string>>& names) {
+            for (const auto& words : names) list.push_back({words, {{role, ""}}});
+        };
+        add("albedo", {{"albedo"}, {"base", "color"}, {"basecolor"}, {"base", "colour"}, {"color"},
+                       {"colour"}, {"col"}, {"diff"}, {"diffuse"}, {"alb"}, {"base", "map"}});
+        add("normal", {{"normal"}, {"normals"}, {"nor"}, {"nrm"}, {"norm"}, {"lux", "nrm"}, {"normal", "map"}});
+        for (const char* normal : {"normal", "nor", "nrm"}) {
+            for (const char* gl : {"gl", "ogl", "opengl"}) {
+                list.push_back({{normal, gl}, {{"normal", ""}}, Green::Up});
+            }
+            for (const char* dx : {"dx", "directx"}) {
+                list.push_back({{normal, dx}, {{"normal", ""}}, Green::Down});
+            }
+        }
+        list.push_back({{"normal", "open", "gl"}, {{"normal", ""}}, Green::Up});
+        list.push_back({{"normal", "direct", "x"}, {{"normal", ""}}, Green::Down});
+        add("roughness", {{"roughness"}, {"rough"}, {"rgh"}});
+        add("smoothness", {{"smoothness"}, {"smooth"}, {"gloss"}, {"glossiness"}});
+        add("height", {{"height"}, {"displacement"}, {"disp"}, {"bump"}, {"height", "map"}});
+        add("occlusion", {{"ao"}, {"occlusion"}, {"occ"}, {"ambient", "occlusion"},
+                          {"ambientocclusion"}});
+        add("metallic", {{"metallic"}, {"metalness"}, {"metal"}});
+        add("specular", {{"specular"}, {"spec"}});
+        add("emission", {{"emission"}, {"emissive"}, {"emit"}});
+        add("opacity", {{"opacity"}, {"alpha"}, {"transparency"}});
+        add("porosity", {{"porosity"}});
+        add("cavity", {{"cavity"}});
+        add("puddle", {{"puddle"}, {"puddles"}});
+        const std::vector<std::pair<std::string, std::string>> orm{
+            {"occlusion", "r"}, {"roughness", "g"}, {"metallic", "b"}};
+        list.push_back({{"arm"}, orm});
+        list.push_back({{"orm"}, orm});
+        list.push_back({{"rma"}, {{"roughness", "r"}, {"metallic", "g"}, {"occlusion", "b"}}});
+        list.push_back({{"mra"}, {{"metallic", "r"}, {"roughness", "g"}, {"occlusion", "b"}}});
+        list.push_back({{"mask", "map"},
+                        {{"metallic", "r"}, {"occlusion", "g"}, {"detail", "b"}, {"smoothness", "a"}}});
+        list.push_back({{"metallic", "smoothness"}, {{"metallic", "r"}, {"smoothness", "a"}}});
+        list.push_back({{"specular", "smoothness"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
+        list.push_back({{"lux", "spec"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
+        list.push_back({{"alb", "ht"}, {{"albedo", "rgb"}, {"height", "a"}}});
+        list.push_back({{"nrm", "rgh"}, {{"normal", "rgb"}, {"roughness", "a"}}});
+        return list;
+    }();
+    return all;
+}
+
+// A word of a name and where it stands.
+struct Word {
+    std::string text;  // lower case
+    std::size_t begin, end;
+};
+
+bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
+bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
+
+// Splits at everything that is no letter or digit, and where a capital follows a small letter.
+std::vector<Word> words_of(const std::string& stem)
+{
+    std::vector<Word> words;
+    for (std::size_t i = 0; i < stem.size(); ++i) {
+        if (!is_letter_or_digit(stem[i])) continue;
+        const bool starts = i == 0 || !is_letter_or_digit(stem[i - 1]) ||
+                            (is_upper(stem[i]) && is_lower(stem[i - 1]));
+        if (starts) words.push_back({"", i, i});
+        words.back().text += static_cast<char>(std::tolower(static_cast<unsigned char>(stem[i])));
+        words.back().end = i + 1;
+    }
+    return words;
+}
+
+// "2k", "4096", "jpg": marks of resolution and format that are no part of a material's name.
+bool is_mark(const std::string& word)
+{
+    static const std::set<std::string> formats{"jpg", "jpeg", "png", "exr", "tif", "tiff", "tga"};
+    if (formats.count(word)) return true;
+    const std::size_t digits = word.find_first_not_of("0123456789");
+    return digits == word.size() - 1 && digits > 0 && word[digits] == 'k';
+}
+
+std::string trimmed(const std::string& text)
+{
+    std::size_t a = 0, b = text.size();
+    while (a < b && !is_letter_or_digit(text[a])) ++a;
+    while (b > a && !is_letter_or_digit(text[b - 1])) --b;
+    return text.substr(a, b - a);
+}
+
+std::string without_marks(const std::string& name)
+{
+    std::vector<Word> words = words_of(name);
+    std::size_t end = name.size();
+    while (words.size() > 1 && is_mark(words.back().text)) {
+        end = words.back().begin;
+        words.pop_back();
+    }
+    return trimmed(name.substr(0, end));
+}
+
+int rank_of(const fs::path& path)
+{
+    static const std::vector<std::string> best{".exr", ".tif", ".tiff", ".png", ".tga", ".psd"};
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return static_cast<int>(std::find(best.begin(), best.end(), extension) - best.begin());
+}
+
+bool is_image(const fs::path& path)
+{
+    static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".exr",
+                                             ".hdr", ".psd", ".bmp",  ".webp", ".dds", ".ktx2"};
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return known.count(extension) != 0;
+}
+
+// A map of its own is better than a channel of a packed one, green up better than down, and a file
+// format that loses nothing better than one that does.
+struct Candidate {
+    InputMap map;
+    Green green;
+    auto order() const
+    {
+        return std::tuple(map.channels.size() == 1, green == Green::Down, rank_of(map.path), map.path);
+    }
+};
+
+struct Group {
+    std::string short_name;
+    std::map<std::string, std::vector<Candidate>> roles;
+};
+
+}  // namespace
+
+InputMap parse_input_map(const std::string& text)
+{
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) return {text, ""};
+    const std::string letters = text.substr(colon + 1);
+    if (letters.find_first_not_of("rgba") != std::string::npos) return {text, ""};
+    return {text.substr(0, colon), letters};
+}
+
+const std::vector<std::string>& map_roles()
+{
+    static const std::vector<std::string> roles{
+        "albedo", "normal",   "height", "roughness", "smoothness", "metallic", "occlusion", "specular",
+        "detail", "porosity", "puddle", "crack",     "flow",       "cavity",   "emission",  "opacity"};
+    return roles;
+}
+
+NamedMaps maps_named(const std::string& stem)
+{
+    const std::vector<Word> words = words_of(stem);
+    const Phrase* best = nullptr;
+    std::size_t best_at = 0;
+    for (const Phrase& phrase : phrases()) {
+        for (std::size_t at = 0; at + phrase.words.size() <= words.size(); ++at) {
+            const bool here = std::equal(phrase.words.begin(), phrase.words.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
+                                         [](const std::string& a, const Word& b) { return a == b.text; });
+            if (!here) continue;
+            const std::size_t longest = best ? best->words.size() : 0;
+            const std::size_t end = at + phrase.words.size();
+            // The longest phrase; of equals the one that ends last.
+            if (phrase.words.size() > longest ||
+                (phrase.words.size() == longest && end > best_at + longest)) {
+                best = &phrase;
+                best_at = at;
+            }
+        }
+    }
+    if (!best) return {};
+    NamedMaps named;
+    const std::string before = trimmed(stem.substr(0, words[best_at].begin));
+    const std::string after = trimmed(stem.substr(words[best_at + best->words.size() - 1].end));
+    named.material = before + (before.empty() || after.empty() ? "" : "_") + after;
+    named.short_name = without_marks(named.material);
+    if (words_of(named.short_name).size() == 1 && is_mark(words_of(named.short_name)[0].text)) {
+        named.short_name.clear();
+    }
+    for (const auto& [role, channels] : best->roles) named.roles[role] = channels;
+    named.green = best->green;
+    return named;
+}
+
+std::vector<MaterialFiles> find_materials(const fs::path& folder)
+{
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed)) {
+        throw Error("texture build: " + folder.string() + " is not a folder",
+                    "Name a folder with maps, or a recipe (.toml).");
+    }
+    std::map<std::pair<fs::path, std::string>, Group> groups;  // folder and name
+    fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, failed);
+    if (failed) {
+        throw Error("texture build: cannot read the folder " + folder.string() + ": " + failed.message(),
+                    "Make it readable, or name another.");
+    }
+    for (const fs::directory_entry& entry : walk) {
+        const fs::path& path = entry.path();
+        if (path.filename().string().front() == '.') {
+            if (entry.is_directory(failed)) walk.disable_recursion_pending();
+            continue;
+        }
+        if (!is_image(path) || !entry.is_regular_file(failed)) continue;
+        const NamedMaps named = maps_named(path.stem().string());
+        if (named.roles.empty()) continue;
+        Group& group = groups[{path.parent_path(), named.material}];
+        group.short_name = named.short_name;
+        for (const auto& [role, channels] : named.roles) {
+            group.roles[role].push_back({{path, channels}, named.green});
+        }
+    }
+    if (groups.empty()) {
+        throw Error("texture build: no map in " + folder.string() + " has a name that says what it is",
+                    "Name them as X_albedo.png, X_normal.png, X_roughness.png, ..., or write a recipe.");
+    }
+    std::map<std::pair<fs::path, std::string>, int> uses;
+    for (const auto& [key, group] : groups) ++uses[{key.first, group.short_name}];
+    std::vector<MaterialFiles> found;
+    for (auto& [key, group] : groups) {
+        MaterialFiles material;
+        const bool alone = uses[{key.first, group.short_name}] == 1;
+        material.name = alone ? group.short_name : key.second;
+        if (material.name.empty()) {
+            material.name = fs::weakly_canonical(key.first).filename().string();
+        }
+        material.folder = fs::relative(key.first, folder, failed);
+        if (material.folder == ".") material.folder.clear();
+        for (auto& [role, candidates] : group.roles) {
+            std::sort(candidates.begin(), candidates.end(),
+                      [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
+            material.inputs[role] = candidates.front().map;
+            if (role == "normal") material.green = candidates.front().green;
+            for (std::size_t i = 1; i < candidates.size(); ++i) {
+                material.notes.push_back(candidates[i].map.path.filename().string() + " is left out: " +
+                                         candidates.front().map.path.filename().string() + " is the " +
+                                         role + " map");
+            }
+        }
+        found.push_back(std::move(material));
+    }
+    return found;
+}
+
+}  // namespace petrichor::cli

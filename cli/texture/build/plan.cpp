@@ -1,0 +1,209 @@
+#include "cli/texture/build/plan.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "cli/words.h"
+#include "texproc/prefilter/rules.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool contains(const std::vector<std::string>& list, const std::string& word)
+{
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+// The maps a role can be baked from; the first group whose maps are all there is taken.
+bool can_bake(const std::string& role, const MaterialFiles& files, const Recipe& recipe)
+{
+    if (!contains(recipe.bake, role)) return false;
+    const auto given = [&](const char* name) { return files.inputs.count(name) > 0; };
+    if (role == "porosity") return given("roughness") || given("smoothness");
+    if (role == "height") return given("normal");
+    return given("height");
+}
+
+// The outputs of a rule for a material, or none when no map of it is there.
+std::optional<PlannedOutput> planned(const OutputRule& rule, const PlannedMaterial& material)
+{
+    PlannedOutput out;
+    out.rule = rule;
+    std::string name = rule.file;
+    name.replace(name.find("{name}"), 6, material.files.name);
+    out.stem = (fs::path(rule.folder) / material.files.folder / name).generic_string();
+    const Recipe& recipe = *material.recipe;
+    for (const std::string& text : rule.channels.channels) {
+        for (const texproc::PackSource& source : texproc::parse_pack_channel(text)) {
+            if (source.role.empty()) break;
+            const bool there = material.files.inputs.count(source.role) > 0;
+            if (!there && !can_bake(source.role, material.files, recipe)) continue;
+            if (!contains(out.roles, source.role)) out.roles.push_back(source.role);
+            break;
+        }
+    }
+    if (out.roles.empty()) return std::nullopt;
+    const auto& inputs = material.files.inputs;
+    const bool pair = inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"));
+    out.prefiltered = rule.prefilter && recipe.rule != "none" && pair &&
+                      (rule.has_levels() || rule.size > 0) &&
+                      (contains(out.roles, "roughness") || contains(out.roles, "smoothness") ||
+                       contains(out.roles, "normal"));
+    return out;
+}
+
+void check_files(const PlannedMaterial& material)
+{
+    for (const auto& [role, map] : material.files.inputs) {
+        std::error_code failed;
+        if (fs::is_regular_file(map.path, failed)) continue;
+        throw Error("texture build: " + material.name + ": its " + role + " map " + map.path.string() +
+                        " does not exist",
+                    "Correct the path in " +
+                        (material.recipe->file.empty() ? std::string("the recipe")
+                                                       : material.recipe->file.string()) +
+                        "; it is relative to the recipe.");
+    }
+}
+
+PlannedMaterial plan_material(const MaterialFiles& files, const std::shared_ptr<const Recipe>& recipe)
+{
+    PlannedMaterial material;
+    material.files = files;
+    material.recipe = recipe;
+    material.name = (files.folder / files.name).generic_string();
+    check_files(material);
+    for (const OutputRule& rule : recipe->outputs) {
+        if (auto output = planned(rule, material)) {
+            for (const std::string& role : output->roles) {
+                if (!files.inputs.count(role) && !contains(material.baked, role)) {
+                    material.baked.push_back(role);
+                }
+            }
+            material.outputs.push_back(*std::move(output));
+        } else {
+            material.left_out.push_back(rule.file + "." + rule.format);
+        }
+    }
+    return material;
+}
+
+void apply(const BuildChoice& choice, Recipe& recipe)
+{
+    if (!choice.engines.empty()) {
+        recipe.engines = choice.engines;
+        recipe.outputs = engine_outputs(choice.engines);
+    }
+    if (!choice.rule.empty()) {
+        if (choice.rule != "none") texproc::rule_named(choice.rule);
+        recipe.rule = choice.rule;
+    }
+    if (!choice.quality.empty()) recipe.quick = choice.quality == "quick";
+    if (choice.no_score) recipe.score = false;
+    for (OutputRule& output : recipe.outputs) {
+        if (choice.size > 0) output.size = choice.size;
+        if (choice.format.empty()) continue;
+        output.format = choice.format;
+        if (choice.format != "dds" && choice.format != "ktx2") output.compression = "none";
+        if (choice.format == "exr") output.bits = std::max(output.bits, 16);
+        if (choice.format == "tga") output.bits = 8;
+    }
+}
+
+std::vector<MaterialFiles> materials_of(const Recipe& recipe)
+{
+    if (!recipe.folder.empty()) return find_materials(recipe.folder);
+    MaterialFiles files;
+    files.name = recipe.name;
+    files.inputs = recipe.inputs;
+    const auto normal = files.inputs.find("normal");
+    if (normal != files.inputs.end()) {
+        files.green = maps_named(normal->second.path.stem().string()).green;
+    }
+    return {files};
+}
+
+void check_names(const std::vector<PlannedMaterial>& plan)
+{
+    std::map<std::string, std::string> owner;
+    std::set<std::string> names;
+    for (const PlannedMaterial& material : plan) {
+        if (!names.insert(material.name).second) {
+            throw Error("texture build: two materials are called " + material.name,
+                        "Write another name = \"...\" into one of the recipes.");
+        }
+        for (const PlannedOutput& output : material.outputs) {
+            const auto [at, fresh] = owner.emplace(output.file(), material.name);
+            if (fresh) continue;
+            throw Error("texture build: " + output.file() + " would be written twice, for " + at->second +
+                            " and for " + material.name,
+                        "Give the outputs or the materials different names.");
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs, const BuildChoice& choice)
+{
+    std::vector<PlannedMaterial> plan;
+    for (const fs::path& input : inputs) {
+        Recipe recipe;
+        if (input.extension() == ".toml") {
+            recipe = read_recipe(input);
+        } else {
+            recipe.folder = input;
+        }
+        apply(choice, recipe);
+        if (recipe.outputs.empty()) {
+            throw Error("texture build: " + input.string() + ": nothing says what to make",
+                        "Give --engine NAME (see --list), or write engines = [\"...\"] or [[output]] "
+                        "into a recipe.");
+        }
+        const auto shared = std::make_shared<const Recipe>(recipe);
+        for (const MaterialFiles& files : materials_of(recipe)) {
+            PlannedMaterial material = plan_material(files, shared);
+            if (material.outputs.empty() && recipe.folder.empty()) {
+                throw Error("texture build: " + input.string() + ": none of its outputs has a map",
+                            "Name the maps that the outputs take, or choose other outputs.");
+            }
+            if (!material.outputs.empty()) plan.push_back(std::move(material));
+        }
+        if (plan.empty()) {
+            throw Error("texture build: no material in " + input.string() + " has maps for these outputs",
+                        "Choose another engine or other outputs.");
+        }
+    }
+    check_names(plan);
+    return plan;
+}
+
+std::string to_text(const PlannedMaterial& material)
+{
+    std::string text = material.name + "\n";
+    for (const auto& [role, map] : material.files.inputs) {
+        text += "  " + role + std::string(std::max<std::size_t>(1, 12 - role.size()), ' ') + map.text();
+        if (role == "normal" && material.files.green == Green::Down) text += "  (green down: turned)";
+        text += "\n";
+    }
+    if (!material.baked.empty()) text += "  baked       " + join_words(material.baked) + "\n";
+    for (const std::string& note : material.files.notes) text += "  note        " + note + "\n";
+    for (const PlannedOutput& output : material.outputs) {
+        const OutputRule& rule = output.rule;
+        text += "  -> " + output.file() + "  " + std::to_string(rule.bits) + " bits" +
+                (rule.srgb() ? " sRGB" : "") + (rule.compression == "none" ? "" : " " + rule.compression) +
+                (rule.has_levels() ? " mips" : "") + (output.prefiltered ? " prefiltered" : "") + "\n";
+        for (std::size_t c = 0; c < rule.channels.channels.size(); ++c) {
+            text += std::string("       ") + "RGBA"[c] + " = " + rule.channels.channels[c] + "\n";
+        }
+    }
+    for (const std::string& file : material.left_out) text += "  left out    " + file + ": its maps are not there\n";
+    return text;
+}
+
+}  // namespace petrichor::cli

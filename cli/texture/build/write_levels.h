@@ -1,0 +1,21 @@
+#ifndef PETRICHOR_CLI_TEXTURE_BUILD_WRITE_LEVELS_H
+#define PETRICHOR_CLI_TEXTURE_BUILD_WRITE_LEVELS_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/texture/build/recipe.h"
+#include "texproc/files/raw_image.h"
+
+namespace petrichor::cli {
+
+/// Writes the levels of one output in the format of its rule: one file, or one a level. Returns the
+/// names relative to `folder`. Throws Error (disk full, read-only folder, ...).
+std::vector<std::string> write_levels(const std::filesystem::path& folder, const std::string& stem,
+                                      const OutputRule& rule, std::vector<texproc::RawImage> levels,
+                                      int threads);
+
+}  // namespace petrichor::cli
+
+#endif

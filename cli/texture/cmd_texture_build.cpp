@@ -1,0 +1,189 @@
+// petrichor texture build: maps in, everything that an engine wants out.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/exit.h"
+#include "cli/folders.h"
+#include "cli/signals.h"
+#include "cli/texture/build/build.h"
+#include "cli/texture/build/watch.h"
+#include "cli/texture/cmd_texture.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string out;
+    BuildChoice choice;
+    BuildOptions options;
+    bool list = false, watch = false;
+};
+
+void list_engines()
+{
+    for (const EngineInfo& engine : engines()) {
+        std::cout << engine.name << ": " << engine.note << "\n";
+        for (const OutputRule& output : engine.outputs) {
+            std::cout << "    " << output.file << "." << output.format
+                      << (output.compression == "none" ? "" : " " + output.compression);
+            for (std::size_t c = 0; c < output.channels.channels.size(); ++c) {
+                std::cout << (c ? ", " : "  ") << "RGBA"[c] << " = " << output.channels.channels[c];
+            }
+            std::cout << "\n";
+        }
+    }
+}
+
+// A recipe by path; a bare name may also be a recipe in the folder one is in.
+std::vector<fs::path> input_paths(const Arguments& a)
+{
+    if (a.inputs.empty()) {
+        throw Error("texture build: no recipe and no folder", "Name one; --help shows an example.");
+    }
+    return {a.inputs.begin(), a.inputs.end()};
+}
+
+void report(const BuildResult& result, double seconds)
+{
+    std::printf("%d built (%d files), %d up to date, %zu failed, %.2f s\n", result.built, result.files,
+                result.current, result.failures.size(), seconds);
+    std::fflush(stdout);
+    for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
+}
+
+BuildResult build_once(const Arguments& a)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const BuildResult result = build(plan_build(input_paths(a), a.choice), a.options);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    if (!a.options.dry_run) report(result, took.count());
+    return result;
+}
+
+std::set<fs::path> watched_folders(const Arguments& a)
+{
+    std::vector<fs::path> files, trees;
+    for (const fs::path& input : input_paths(a)) {
+        (input.extension() == ".toml" ? files : trees).push_back(input);
+    }
+    try {
+        for (const PlannedMaterial& material : plan_build(input_paths(a), a.choice)) {
+            if (!material.recipe->folder.empty()) trees.push_back(material.recipe->folder);
+            for (const auto& [role, map] : material.files.inputs) files.push_back(map.path);
+        }
+    } catch (const Error&) {
+        // A recipe that is broken right now is watched until it is mended.
+    }
+    std::set<fs::path> folders = folders_of(files, trees);
+    // What we write ourselves must not wake us.
+    std::erase_if(folders, [&](const fs::path& folder) {
+        const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(a.options.out));
+        return !relative.empty() && *relative.begin() != "..";
+    });
+    return folders;
+}
+
+void watch(const Arguments& a)
+{
+    while (!interrupted()) {
+        FolderWatch changes(watched_folders(a));  // before the build: nothing is missed meanwhile
+        try {
+            build_once(a);
+        } catch (const Error& error) {
+            std::cerr << "error " << error.what() << "\n  " << error.fix() << "\n";
+        }
+        std::cout << "watching; Ctrl-C ends" << std::endl;
+        if (!changes.wait()) break;
+    }
+}
+
+void run(Arguments& a)
+{
+    if (a.list) {
+        list_engines();
+        return;
+    }
+    if (a.out.empty() && !a.options.dry_run) {
+        throw Error("texture build: no output folder", "Give -o FOLDER.");
+    }
+    a.options.out = a.out;
+    watch_for_interrupt();
+    if (a.watch) {
+        watch(a);
+        return;
+    }
+    const BuildResult result = build_once(a);
+    if (result.stopped) {
+        throw Interrupted("texture build: stopped; what was finished is kept, the same command goes on");
+    }
+    if (!result.failures.empty()) {
+        if (a.options.dry_run) {
+            for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
+        }
+        throw ExitCode{kExitUser};
+    }
+}
+
+constexpr const char* kFooter =
+    "A folder: maps are recognised by their names (X_albedo, X_diff_2k, X_Color, X_normal, X_nor_gl,\n"
+    "X_NormalDX, X_rough, X_smoothness, X_height, X_Displacement, X_ao, X_arm, X_LuxSPEC, ...).\n"
+    "What is up to date is not made again: OUT/.petrichor-build.json remembers sources, options and\n"
+    "outputs by content. OUT/manifest.json says what every file is, with hashes and measured error.\n"
+    "\n"
+    "Examples:\n"
+    "  petrichor texture build textures/ --engine unity-hdrp -o Assets/Textures\n"
+    "  petrichor texture build wall.toml -o out --watch\n"
+    "\n"
+    "wall.toml:\n"
+    "  engines = [\"unity-hdrp\"]         # outputs of --list; [[output]] adds others\n"
+    "  [inputs]                         # or folder = \"textures\", for every material in it\n"
+    "  albedo    = \"wall_diff.png\"\n"
+    "  normal    = \"wall_nor_dx.png\"    # green direction: from the name, else from the map\n"
+    "  roughness = \"wall_arm.png:g\"     # one channel\n"
+    "  occlusion = \"wall_arm.png:r\"\n"
+    "  [prefilter]\n"
+    "  rule = \"overlap\"                 # none: plain mips\n"
+    "  quality = \"full\"                 # quick\n"
+    "  [mips]\n"
+    "  filter = \"kaiser\"                # box, lanczos3, mitchell; wrap_u, wrap_v, alpha_cutoff\n"
+    "  [[output]]\n"
+    "  file = \"{name}_wet\"\n"
+    "  channels = [\"porosity\", \"1 - roughness\"]\n"
+    "  format = \"ktx2\"                  # png, tga, tif, exr, dds, ktx2\n"
+    "  compression = \"bc5\"              # bc1, bc3, bc4, bc5, bc7\n"
+    "  size = 1024";
+
+}  // namespace
+
+void add_texture_build(CLI::App& texture)
+{
+    auto a = std::make_shared<Arguments>();
+    CLI::App* app = texture.add_subcommand("build", "a recipe or a folder of maps into engine-ready files");
+    app->add_option("inputs", a->inputs, "recipes (.toml) and folders of maps");
+    app->add_option("-o,--out", a->out, "the folder to write into");
+    app->add_option("--engine", a->choice.engines, "outputs of this engine (see --list), in place of the recipe's");
+    app->add_option("--rule", a->choice.rule, "prefilter: overlap, median, ..., or none");
+    app->add_option("--quality", a->choice.quality, "prefilter: full or quick")
+        ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option("--format", a->choice.format, "of all outputs")
+        ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
+    app->add_option("--size", a->choice.size, "longest side at most this")->check(CLI::Range(1, 65536));
+    app->add_flag("--no-score", a->choice.no_score, "do not measure the lobe error");
+    app->add_option("--threads", a->options.threads, "0: all cores; the bytes do not depend on it");
+    app->add_flag("--dry-run", a->options.dry_run, "print what would be made");
+    app->add_flag("--force", a->options.force, "make what is up to date as well");
+    app->add_flag("--watch", a->watch, "go on, and build again when a map or a recipe changes");
+    app->add_flag("--list", a->list, "show the engines and their outputs");
+    app->footer(kFooter);
+    app->callback([a] { run(*a); });
+}
+
+}  // namespace petrichor::cli
