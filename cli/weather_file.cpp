@@ -29,6 +29,8 @@ std::vector<Quantity> quantities()
     for (const auto& parameter : weather::artist_parameters()) {
         all.push_back({std::string(parameter.name), parameter.low, parameter.high});
     }
+    all.push_back({"script_controlled", 0.0, 1.0});
+    for (const auto& state : weather::hand_set_states()) all.push_back({std::string(state.name), 0.0, 1.0});
     return all;
 }
 
@@ -41,6 +43,9 @@ Channel& channel_of(WeatherScript& script, const std::string& name)
     if (name == "wind_m_s") return script.wind_m_s;
     if (name == "wind_from_deg") return script.wind_from_deg;
     if (name == "visibility_m") return script.visibility_m;
+    for (const auto& state : weather::hand_set_states()) {
+        if (state.name == name) return script.timeline.states[name];
+    }
     return script.timeline.parameters[name];
 }
 
@@ -69,7 +74,8 @@ void read_keys(const TomlValue& keys, weather::Interpolation interpolation, Weat
             Channel& channel = channel_of(script, name);
             if (std::find(started.begin(), started.end(), name) == started.end()) {
                 started.push_back(name);
-                channel = {.times = {}, .values = {}, .interpolation = interpolation};
+                const bool hold = name == "script_controlled";  // a switch
+                channel = {.times = {}, .values = {}, .interpolation = hold ? weather::Interpolation::Hold : interpolation};
             }
             channel.times.push_back(*time);
             channel.values.push_back(value.number(quantity->low, quantity->high));
@@ -188,15 +194,17 @@ WeatherScript read_weather_script(std::string_view toml_text, const std::string&
     return script;
 }
 
-ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file)
+ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file, double time_scale)
 {
     const toml::table root = parse_toml(toml_text, file);
     ArtistSettings settings;
+    settings.params.time_scale = time_scale;
     for (const auto& [key, node] : root) {
         const std::string name(key.str());
         const TomlValue value(node, file, name);
-        if (name != "artist") refuse_name(value.place(), "table", name, {"artist"});
-        settings = artist_settings_from(value);
+        if (name == "site") continue;
+        if (name != "artist") refuse_name(value.place(), "table", name, {"artist", "site"});
+        settings = artist_settings_from(value, settings);
     }
     return settings;
 }

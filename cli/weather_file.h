@@ -33,7 +33,8 @@ namespace petrichor::cli {
 /// A key holds time_s (ascending) and any of: temperature_c (-100..60), rainfall (0..1: rain or snow),
 /// cloud_cover (0 clear .. 1 overcast), wind_m_s (0..80), wind_from_deg (where it comes from; 0 north,
 /// 90 east; may pass 360 to keep turning), visibility_m (20..200000, 2 % contrast), and any number of
-/// [artist]. Each quantity is interpolated between the keys that name it; one that no key names keeps
+/// [artist]; script_controlled (1 on, 0 off: the state is set by hand) and, for while it is off, wetness,
+/// cracks, puddles, snow, water_to_snow (0..1). Each quantity is interpolated between the keys that name it; one that no key names keeps
 /// the default below, or the parameter's own value.
 struct WeatherScript {
     std::string name;
@@ -59,12 +60,13 @@ struct WeatherScript {
 /// Throws Error for syntax, unknown names (with the nearest that exists), types, ranges and order.
 WeatherScript read_weather_script(std::string_view toml_text, const std::string& file);
 
-/// [artist] and [artist.initial] of a parameter file (petrichor simulate --params).
+/// [artist] and [artist.initial] of a parameter file (petrichor simulate --params); a [site] is left to others.
+/// `time_scale` is that of the model where the file does not say.
 struct ArtistSettings {
     weather::ArtistParams params;
     weather::ArtistState initial;
 };
-ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file);
+ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file, double time_scale = 1.0);
 
 }  // namespace petrichor::cli
 

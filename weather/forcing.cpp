@@ -39,7 +39,8 @@ FieldReport& report_of(ReadReport& report, Field field)
     for (FieldReport& f : report.fields) {
         if (f.name == name) return f;
     }
-    report.fields.push_back({name, 0, 0, 0, 0, ""});
+    report.fields.push_back({});
+    report.fields.back().name = name;
     return report.fields.back();
 }
 
@@ -95,7 +96,7 @@ void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOpti
         }
         i = end;
     }
-    note_filled(report, field, short_gaps, rate ? "taken as 0" : "line between neighbours");
+    note_filled(report, field, short_gaps, rate ? "the file gives no amount, taken as 0" : "line between neighbours");
     note_filled(report, field, long_gaps, "line across a long gap");
 }
 
@@ -188,6 +189,18 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     note_filled(report, Field::Longwave, made_lw, "air and cloud (Prata 1996)");
 }
 
+// Rows in which the file says how much fell.
+std::vector<bool> known_precipitation(const ForcingTable& table)
+{
+    std::vector<bool> known(table.rows(), false);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        for (const Field f : {Field::Precip, Field::Rain, Field::Snow}) {
+            if (table.has(f) && !std::isnan(table[f][i])) known[i] = true;
+        }
+    }
+    return known;
+}
+
 void fill_precipitation(ForcingTable& table, ReadReport& report)
 {
     const std::size_t n = table.rows();
@@ -209,6 +222,48 @@ void fill_precipitation(ForcingTable& table, ReadReport& report)
         total.assign(n, 0.0);
         note_filled(report, Field::Precip, n, "no precipitation in the file, taken as 0");
     }
+}
+
+// A sky from which it may well fall. Humidity alone must be higher where the sight is not known.
+bool sky_for_precipitation(const ForcingTable& table, std::size_t row)
+{
+    const auto& sight = table[Field::Visibility];
+    const bool sight_known = !sight.empty() && !std::isnan(sight[row]) && sight[row] < 700.0e3;
+    return table[Field::Cloud][row] >= 0.95 && table[Field::RelHumidity][row] >= (sight_known ? 85.0 : 92.0) &&
+           (!sight_known || sight[row] < 16.0e3);
+}
+
+// Needs humidity and cloud; `known` tells which rows had an amount.
+void estimate_precipitation(ForcingTable& table, ReadReport& report, const std::vector<bool>& known)
+{
+    auto& precip = table[Field::Precip];
+    double fallen = 0.0;
+    std::size_t skies = 0, filled = 0;
+    for (std::size_t i = 0; i < precip.size(); ++i) {
+        if (!known[i]) continue;
+        fallen += precip[i];
+        skies += sky_for_precipitation(table, i);
+    }
+    const bool from_file = skies >= 10 && fallen > 0.0;
+    const double rate = from_file ? fallen / static_cast<double>(skies) : 0.5 / 3600.0;
+    for (std::size_t i = 0; i < precip.size(); ++i) {
+        if (known[i] || !sky_for_precipitation(table, i)) continue;
+        precip[i] = rate;
+        ++filled;
+    }
+    char how[160];
+    std::snprintf(how, sizeof how, "of these, estimated as %.2f mm/h under overcast, humid, hazy sky%s", rate * 3600.0,
+                  from_file ? ", the rate of the rows with an amount" : "");
+    note_filled(report, Field::Precip, filled, how);
+}
+
+void warn_of_dry_gaps(ReadReport& report, const std::vector<bool>& known, bool estimated)
+{
+    const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end(), false));
+    if (unknown == 0) return;
+    report.add({ReadNote::Kind::Warning, 0, "precipitation",
+                std::to_string(unknown) + " of " + std::to_string(known.size()) + " rows have no amount in the file: " +
+                    (estimated ? "estimated from cloud, humidity and sight" : "taken as dry")});
 }
 
 std::string quoted(const std::string& text)
@@ -237,6 +292,7 @@ const char* kind_name(ReadNote::Kind kind)
         case ReadNote::Kind::OutOfRange: return "out of range";
         case ReadNote::Kind::BadRow: return "bad row";
         case ReadNote::Kind::Time: return "time";
+        case ReadNote::Kind::Warning: return "warning";
         case ReadNote::Kind::Info: break;
     }
     return "info";
@@ -263,6 +319,7 @@ std::string to_text(const ReadReport& report)
     for (const FieldReport& f : report.fields) {
         out += "  " + f.name + ": " + std::to_string(f.present) + " read";
         if (f.missing) out += ", " + std::to_string(f.missing) + " missing";
+        if (f.first_missing_line) out += " (first in line " + std::to_string(f.first_missing_line) + ")";
         if (f.out_of_range) out += ", " + std::to_string(f.out_of_range) + " out of range";
         if (!f.filled_by.empty()) out += "; filled: " + f.filled_by;
         out += "\n";
@@ -298,6 +355,7 @@ std::string to_json(const ReadReport& report)
         text("name", f.name);
         number("present", f.present);
         number("missing", f.missing);
+        number("first_missing_line", f.first_missing_line);
         number("out_of_range", f.out_of_range);
         number("filled", f.filled);
         out.append(",");
@@ -356,6 +414,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     bridge(table, report, Field::Cloud, options);
     bridge(table, report, Field::Shortwave, options);
     bridge(table, report, Field::Longwave, options);
+    const std::vector<bool> precip_known = known_precipitation(table);
     bridge(table, report, Field::Rain, options);
     bridge(table, report, Field::Snow, options);
     if (!table.has(Field::Rain) && !table.has(Field::Snow)) bridge(table, report, Field::Precip, options);
@@ -368,6 +427,9 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     fill_pressure(table, report);
     fill_precipitation(table, report);
     fill_radiation(table, report, options);
+    const bool estimate = options.missing_precip == MissingPrecip::Estimate && !table.has(Field::Rain) && !table.has(Field::Snow);
+    if (estimate) estimate_precipitation(table, report, precip_known);
+    warn_of_dry_gaps(report, precip_known, estimate);
 }
 
 double value_at(const ForcingTable& table, Field field, std::int64_t time_us)

@@ -71,7 +71,7 @@ struct ForcingTable {
 
 /// One thing a reader or the filling noticed. `line` is 1-based, 0 when it concerns the whole file.
 struct ReadNote {
-    enum class Kind : std::uint8_t { Info, Filled, OutOfRange, BadRow, Time };
+    enum class Kind : std::uint8_t { Info, Filled, OutOfRange, BadRow, Time, Warning };
     Kind kind = Kind::Info;
     std::size_t line = 0;
     std::string field;
@@ -82,6 +82,7 @@ struct FieldReport {
     std::string name{};
     std::size_t present = 0;       ///< values read
     std::size_t missing = 0;       ///< rows without a value
+    std::size_t first_missing_line = 0;  ///< of the file, where the file says that a value is missing; else 0
     std::size_t out_of_range = 0;  ///< values refused
     std::size_t filled = 0;        ///< rows filled afterwards
     std::string filled_by;         ///< how
@@ -102,8 +103,14 @@ std::string to_text(const ReadReport& report);
 /// The same as a JSON object.
 std::string to_json(const ReadReport& report);
 
+/// What to do where a file gives no amount of precipitation.
+enum class MissingPrecip : std::uint8_t {
+    Dry,       ///< 0, with a warning in the report
+    Estimate,  ///< a rate where the sky is overcast and the air near saturation; see fill_forcing
+};
 struct FillOptions {
     double default_cloud = 0.5;  ///< where neither radiation nor cloud is known
+    MissingPrecip missing_precip = MissingPrecip::Dry;
     std::int64_t longest_gap_us = 6LL * 3600 * 1000000;  ///< bridged by a line; longer gaps are noted
 };
 
@@ -113,6 +120,10 @@ struct FillOptions {
 /// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70 %;
 /// pressure from the elevation; cloud from shortwave; shortwave from sun and cloud; longwave from
 /// humidity and cloud (Prata 1996). Every fill is added to the report.
+///
+/// Precipitation without an amount is 0 and warned of, or estimated: in rows with cloud of 0.95 or more, humidity
+/// of 85 % or more and visibility below 16 km (humidity of 92 % where that is unknown), at the rate that the rows of
+/// the file with a known amount have under the same sky, else 0.5 mm/h.
 ///   throws  Error when there are no rows, times do not increase, or air temperature is missing throughout
 void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include "weather/timeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -182,6 +183,7 @@ TimeUs Timeline::end() const
     extend(temperature_c);
     extend(rainfall);
     for (const auto& [name, channel] : parameters) extend(channel);
+    for (const auto& [name, channel] : states) extend(channel);
     return last;
 }
 
@@ -201,6 +203,37 @@ void check_timeline(const Timeline& timeline)
         }
         check_channel(channel, name, true);
     }
+    for (const auto& entry : timeline.states) {
+        const auto known = hand_set_states();
+        if (std::none_of(known.begin(), known.end(), [&](const HandSetState& s) { return s.name == entry.first; })) {
+            throw Error("timeline: no state that can be set by hand is named " + entry.first,
+                        "Use wetness, cracks, puddles, snow or water_to_snow.");
+        }
+        check_channel(entry.second, entry.first, true);
+    }
+}
+
+std::span<const HandSetState> hand_set_states()
+{
+    using S = ArtistState;
+    static constexpr std::array<HandSetState, 5> kStates{{{"wetness", &S::wetness},
+                                                          {"cracks", &S::cracks},
+                                                          {"puddles", &S::puddles},
+                                                          {"snow", &S::snow},
+                                                          {"water_to_snow", &S::water_to_snow}}};
+    return kStates;
+}
+
+ArtistState hand_set(const Timeline& timeline, ArtistState state, double time_us, bool before)
+{
+    for (const auto& [name, channel] : timeline.states) {
+        const double first = key_time(channel, 0);
+        if (before ? time_us <= first : time_us < first) continue;
+        for (const HandSetState& s : hand_set_states()) {
+            if (s.name == name) state.*s.member = interpolated(channel, time_us, before);
+        }
+    }
+    return state;
 }
 
 ArtistParams params_at(const Timeline& timeline, const ArtistParams& base, double time_us)

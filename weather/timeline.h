@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,10 @@ ChannelCubic cubic_at(const Channel& channel, double time_us);
 struct Timeline {
     Channel temperature_c;
     Channel rainfall;  ///< 0..1
-    std::map<std::string, Channel, std::less<>> parameters;
+    std::map<std::string, Channel, std::less<>> parameters{};
+    /// States set by hand, 0..1, by the names of hand_set_states(). They count while script control is
+    /// off, each from its first key on; when the script takes over again it goes on from them.
+    std::map<std::string, Channel, std::less<>> states{};
 
     /// Time of the last key of any channel; 0 without keys.
     TimeUs end() const;
@@ -69,6 +73,17 @@ struct Timeline {
 /// Throws Error when a channel is not as Channel says (order, lengths, finite values), when a
 /// parameter has a name that ArtistParams has not, or when an input has no key.
 void check_timeline(const Timeline& timeline);
+
+/// A state that can be set by hand: all but rain, snowfall and water (lux-weather 2).
+struct HandSetState {
+    std::string_view name;
+    double ArtistState::* member;
+};
+std::span<const HandSetState> hand_set_states();
+
+/// `state` with what is set by hand at a time (or, `before`, until it); the caller has found script
+/// control to be off.
+ArtistState hand_set(const Timeline& timeline, ArtistState state, double time_us, bool before = false);
 
 /// The parameters in force from (or, `before`, until) a time: `base`, with what the timeline keys.
 ArtistParams params_at(const Timeline& timeline, const ArtistParams& base, double time_us);

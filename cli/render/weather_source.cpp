@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "cli/folders.h"
+#include "cli/simulate/inputs.h"
+#include "cli/simulate/weather_input.h"
 #include "cli/weather_file.h"
 #include "cli/words.h"
 
@@ -37,6 +39,15 @@ WeatherSource from_script(WeatherScript script, std::string name)
     return source;
 }
 
+// An hour of a weather file is a second of the film.
+constexpr double kFileSpeed = 3600.0;
+
+WeatherSource from_weather_file(const fs::path& file, const std::string& name)
+{
+    const auto read = read_forcing(read_inputs({file.string()}), {});
+    return from_script(faster_script(script_of_forcing(read.table, name), kFileSpeed), name);
+}
+
 // A preset by name, else a file beside the scenario or as given.
 WeatherSource named(const std::string& asked, const fs::path& folder)
 {
@@ -49,10 +60,12 @@ WeatherSource named(const std::string& asked, const fs::path& folder)
     for (const fs::path& file : {folder / asked, fs::path(asked)}) {
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) continue;
-        return from_script(read_weather_script(text_of(file), asked), fs::path(asked).stem().string());
+        const std::string name = fs::path(asked).stem().string();
+        if (file.extension() == ".toml") return from_script(read_weather_script(text_of(file), asked), name);
+        return from_weather_file(file, name);
     }
     throw Error("weather: \"" + asked + "\" is neither a preset nor a file." + did_you_mean(asked, presets),
-                presets.empty() ? "Name a .toml file with a [weather] table."
+                presets.empty() ? "Name a .toml file with a [weather] table, or a weather file."
                                 : "Presets: " + join_words(presets) + ".");
 }
 

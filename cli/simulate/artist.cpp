@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -63,6 +62,10 @@ std::uint64_t fingerprint(const WeatherScript& script, const ArtistRun& run)
     add_channel(script.timeline.temperature_c);
     add_channel(script.timeline.rainfall);
     for (const auto& [name, channel] : script.timeline.parameters) {
+        for (char c : name) add(c);
+        add_channel(channel);
+    }
+    for (const auto& [name, channel] : script.timeline.states) {
         for (char c : name) add(c);
         add_channel(channel);
     }
@@ -138,26 +141,19 @@ struct Tabulation {
 std::vector<PlotPanel> artist_panels()
 {
     return {
-        {"temperature, \u00b0C", true, {{"temperature_c", "temperature", "#d9541e", false}}, 0.0, 0.0},
-        {"precipitation, 0..1",
-         true,
-         {{"rain", "rain", "#1d6fd1", true}, {"snowfall", "snowfall", "#7a8aa8", true}},
-         0.0,
-         1.0},
-        {"water, 0..1",
-         false,
-         {{"wetness", "film", "#0e9f8e", false},
-          {"cracks", "cracks", "#9162d6", false},
-          {"puddles", "puddles", "#3b6fe0", false}},
-         0.0,
-         1.0},
-        {"snow and phase, 0..1",
-         false,
-         {{"snow_amount", "snow shown", "#8fb3d9", true},
-          {"snow", "snow on the ground", "#4a80bd", false},
-          {"water_to_snow", "frozen", "#d97706", false}},
-         0.0,
-         1.0},
+        {.title = "temperature, \u00b0C", .forcing = true,
+         .series = {{.column = "temperature_c", .label = "", .color = "#d9541e"}}, .low = 0.0, .high = 0.0, .group = "weather"},
+        {.title = "precipitation, 0..1", .forcing = true,
+         .series = {{.column = "rain", .label = "rain", .color = "#1d6fd1", .filled = true},
+                    {.column = "snowfall", .label = "snowfall", .color = "#7a8aa8", .filled = true}}, .group = "weather"},
+        {.title = "water, 0..1",
+         .series = {{.column = "wetness", .label = "film", .color = "#0e9f8e"},
+                    {.column = "cracks", .label = "cracks", .color = "#9162d6"},
+                    {.column = "puddles", .label = "puddles", .color = "#3b6fe0"}}, .group = "water"},
+        {.title = "snow and phase, 0..1",
+         .series = {{.column = "snow_amount", .label = "snow shown", .color = "#8fb3d9", .filled = true},
+                    {.column = "snow", .label = "snow on the ground", .color = "#4a80bd"},
+                    {.column = "water_to_snow", .label = "frozen", .color = "#d97706"}}, .group = "snow"},
     };
 }
 
@@ -224,8 +220,9 @@ void run_stepped(const WeatherScript& script, const ArtistRun& run, Window windo
         if (resumed && wanted <= start.position) continue;
         for (; done < wanted; ++done) {
             input_us = time_us_of(done, run.step_s);
-            state = weather::step(state, weather::params_at(timeline, script.params, input_us),
-                                  weather::value_at(timeline.temperature_c, input_us),
+            const auto params = weather::params_at(timeline, script.params, input_us);
+            if (!params.script_controlled) state = weather::hand_set(timeline, state, input_us);
+            state = weather::step(state, params, weather::value_at(timeline.temperature_c, input_us),
                                   weather::value_at(timeline.rainfall, input_us), dt_s);
         }
         out.add(time_s_of(m, run.every_s), state,
@@ -237,43 +234,6 @@ void run_stepped(const WeatherScript& script, const ArtistRun& run, Window windo
 }
 
 }  // namespace
-
-Fraction parse_fraction(std::string_view text, const std::string& option)
-{
-    const auto refuse = [&]() -> Fraction {
-        throw Error(option + ": \"" + std::string(text) +
-                        "\" is not a number of seconds above 0, like 0.5 or 1/60",
-                    "Give a decimal number or a fraction of two whole numbers.");
-    };
-    const auto whole = [&](std::string_view digits) -> std::int64_t {
-        std::int64_t value = -1;
-        const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (result.ec != std::errc() || result.ptr != digits.data() + digits.size() ||
-            digits.size() > 9 || digits.front() == '-') {
-            refuse();
-        }
-        return value;
-    };
-    Fraction fraction;
-    const std::size_t stroke = text.find('/');
-    const std::size_t point = text.find('.');
-    if (text.empty()) return refuse();
-    if (stroke != text.npos) {
-        if (stroke == 0 || stroke + 1 == text.size()) return refuse();
-        fraction = {whole(text.substr(0, stroke)), whole(text.substr(stroke + 1))};
-    } else if (point != text.npos) {
-        const std::string_view decimals = text.substr(point + 1);
-        if (point == 0 && decimals.empty()) return refuse();
-        for (std::size_t i = 0; i < decimals.size(); ++i) fraction.denominator *= 10;
-        if (decimals.size() > 9) return refuse();
-        fraction.numerator = (point > 0 ? whole(text.substr(0, point)) : 0) * fraction.denominator +
-                             (decimals.empty() ? 0 : whole(decimals));
-    } else {
-        fraction.numerator = whole(text);
-    }
-    if (fraction.numerator <= 0 || fraction.denominator <= 0) return refuse();
-    return fraction;
-}
 
 SimulationTable run_artist(const WeatherScript& script, const ArtistRun& run)
 {

@@ -7,23 +7,10 @@
 #include <string_view>
 
 #include "cli/simulate/table.h"
+#include "cli/simulate/times.h"
 #include "cli/weather_file.h"
 
 namespace petrichor::cli {
-
-/// A positive number of seconds without rounding: 1/60 is 1/60.
-struct Fraction {
-    std::int64_t numerator = 1;
-    std::int64_t denominator = 1;
-
-    double value() const
-    {
-        return static_cast<double>(numerator) / static_cast<double>(denominator);
-    }
-};
-/// "0.25", "2", "1/60"; at most 9 digits on either side of the stroke or point. Throws Error that
-/// names `option` for anything else, and for zero.
-Fraction parse_fraction(std::string_view text, const std::string& option);
 
 /// How the artist model is run and which rows are wanted.
 struct ArtistRun {

@@ -42,6 +42,14 @@ struct SvgWriter {
         return "<polygon points=\"" + points_text(area.points) + "\" fill=\"" + area.color +
                "\" fill-opacity=\"" + number(area.opacity) + "\"/>\n";
     }
+    std::string operator()(const DrawnDots& dots) const
+    {
+        std::string svg = "<g fill=\"" + dots.color + "\">\n";
+        for (const DrawnPoint& p : dots.points) {
+            svg += "<circle cx=\"" + number(p.x) + "\" cy=\"" + number(p.y) + "\" r=\"" + number(dots.radius) + "\"/>\n";
+        }
+        return svg + "</g>\n";
+    }
     std::string operator()(const DrawnText& text) const
     {
         const char* const anchors[] = {"start", "middle", "end"};
@@ -108,6 +116,11 @@ public:
                 blend(x, y, color, cover[static_cast<std::size_t>(x)] * area.opacity);
             }
         }
+    }
+
+    void operator()(const DrawnDots& dots)
+    {
+        for (const DrawnPoint& p : dots.points) segment(p, p, 2.0 * dots.radius, rgb_of(dots.color));
     }
 
     void operator()(const DrawnText& text)
@@ -216,6 +229,11 @@ std::string escaped(const std::string& text)
         }
     }
     return result;
+}
+
+double text_width(const std::string& text, double size)
+{
+    return size / 9.0 * stroke_text_width(text);
 }
 
 std::string to_svg(const Drawing& drawing)

@@ -26,6 +26,11 @@ struct DrawnArea {
     std::string color;
     double opacity = 1.0;
 };
+struct DrawnDots {
+    std::vector<DrawnPoint> points;
+    std::string color;
+    double radius = 2.0;
+};
 enum class Anchor { Start, Middle, End };
 struct DrawnText {
     DrawnPoint at;  ///< on the base line
@@ -35,13 +40,16 @@ struct DrawnText {
     Anchor anchor = Anchor::Start;
     bool bold = false;
 };
-using DrawnShape = std::variant<DrawnLine, DrawnArea, DrawnText>;
+using DrawnShape = std::variant<DrawnLine, DrawnArea, DrawnDots, DrawnText>;
 
 struct Drawing {
     double width = 0.0;
     double height = 0.0;
     std::vector<DrawnShape> shapes;  ///< first at the bottom, on white ground
 };
+
+/// How wide a text of a size is, about: the font of the viewer decides.
+double text_width(const std::string& text, double size);
 
 /// Self-contained SVG with real text.
 std::string to_svg(const Drawing& drawing);

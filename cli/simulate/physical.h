@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "cli/simulate/table.h"
+#include "cli/simulate/weather_input.h"
 #include "weather/physical.h"
 #include "weather/readers/read_weather.h"
 
@@ -16,35 +16,38 @@ class App;
 
 namespace petrichor::cli {
 
-/// How the physical model is run. What is not given comes from the file, then from defaults.
+/// How the physical model is run.
 struct PhysicalRun {
-    std::optional<double> latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m;
-    std::string surface = "asphalt";
+    SiteOptions site;
     std::string phase = "linear";    ///< linear, humidity, wet-bulb, threshold
-    std::string station;             ///< of a METAR file
-    std::string month;               ///< "2024-02": of METAR reports, which name only the day
-    std::string fetch_params;        ///< text of a TOML with [site], or empty
+    std::optional<weather::Hypsometry> cracks, puddles;  ///< of a height map, instead of the surface's own
     double step_s = 3600.0;
     double every_s = 3600.0;
-    std::optional<double> from_s, to_s;
+    std::optional<double> from_s, to_s;  ///< of the rows; the run itself begins with the file
     std::string resume;              ///< text of a checkpoint, or empty
     std::string* checkpoint = nullptr;
     int members = 0;                 ///< > 0: an ensemble, percentiles instead of one state
     std::uint64_t seed = 1;
-    int threads = 1;
-    bool sensitivity = false;        ///< adds the sensitivity table to the notes
-    bool fit_artist = false;         ///< adds the fitted rates to the notes
-    std::string* report_json = nullptr;  ///< where to put the read report as JSON, or null
+    int threads = 0;                 ///< 0 becomes all cores at the command line; else >= 1
+    bool sensitivity = false;        ///< adds the sensitivity table to notes and JSON
+    std::string observed;            ///< text of observations to compare with, or empty
+    std::string observed_file;       ///< its name
 };
 
-/// Reads a weather file of any kind and runs the physical model over it.
+/// Parameters of the model that a run asks for. Throws Error for a surface or phase law that does not exist.
+weather::PhysicalParams physical_params(const PhysicalRun& run);
+
+/// Runs the physical model over a weather file that has been read.
 ///
-/// The notes hold what was read, missing and filled. Row 0 is the initial state. Columns: time_s, the forcing, every
-/// state in SI, fluxes, running totals and residuals, then the 0..1 masks; time_utc is written beside time_s.
-SimulationTable run_physical(std::string_view text, const std::string& name, const PhysicalRun& run);
+/// The notes hold what was read, missing and filled, and so does the JSON (key "read"). Row 0 is the initial state.
+/// Columns: physical_table.h; time_utc is written beside time_s.
+SimulationTable run_physical(const weather::ReadResult& read, const std::string& name, const PhysicalRun& run);
 
 /// The fitted rates as a TOML [artist] table with the residuals as comments.
-std::string fitted_artist_toml(std::string_view text, const PhysicalRun& run);
+std::string fitted_artist_toml(const weather::ReadResult& read, const PhysicalRun& run);
+
+/// Notes, warnings and JSON of what was read, for any model.
+void add_read_report(SimulationTable& table, const weather::ReadResult& read);
 
 /// Declares the options above on a command.
 void add_physical_options(CLI::App& command, PhysicalRun& run);

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+
+#include "base/error.h"
+#include "cli/simulate/time_axis.h"
+#include "cli/words.h"
 
 namespace petrichor::cli {
 namespace {
@@ -15,7 +20,7 @@ constexpr double kPanelGap = 44.0;
 constexpr double kForcingHeight = 110.0;
 constexpr double kStateHeight = 180.0;
 constexpr double kBottom = 46.0;
-constexpr std::size_t kMostPoints = 3000;
+constexpr std::size_t kMostPoints = 3000;  // more rows than this are thinned
 constexpr std::size_t kMostEvents = 40;
 
 std::string number(double value, int decimals = 2)
@@ -34,6 +39,7 @@ constexpr const char* kInk = "#1b2430";
 constexpr const char* kSoft = "#51606f";
 constexpr const char* kGrid = "#e3e8ee";
 constexpr const char* kMark = "#8b98a7";
+constexpr const char* kWarning = "#a8480a";
 
 void add_line(Drawing& drawing, DrawnPoint a, DrawnPoint b, const char* color, bool dashed = false)
 {
@@ -55,47 +61,118 @@ struct TimeAxis {
     }
 };
 
-void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
-               const TimeAxis& time, const std::vector<double>& time_ticks, double top, double height)
+// A curve as pixels can show it: of many rows in one place only the lowest and the highest.
+std::vector<DrawnPoint> curve_points(const SimulationTable& table, const TimeAxis& time, const std::vector<double>& y)
+{
+    std::vector<DrawnPoint> points;
+    const std::size_t count = y.size();
+    const std::size_t bucket = count <= kMostPoints ? 1 : (2 * count + kMostPoints - 1) / kMostPoints;  // two points each
+    for (std::size_t begin = 0; begin < count; begin += bucket) {
+        const std::size_t end = std::min(begin + bucket, count);
+        const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin), y.begin() + static_cast<std::ptrdiff_t>(end));
+        std::size_t first = static_cast<std::size_t>(low - y.begin()), second = static_cast<std::size_t>(high - y.begin());
+        if (first > second) std::swap(first, second);
+        points.push_back({time.x(table.rows[first][0]), y[first]});
+        if (second != first) points.push_back({time.x(table.rows[second][0]), y[second]});
+    }
+    if (count > 0 && points.back().x < time.x(table.rows.back()[0])) points.push_back({time.x(table.rows.back()[0]), y.back()});
+    return points;
+}
+
+// Title at the left with its score, legend at the right.
+void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel, double top)
+{
+    drawing.shapes.push_back(DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
+    double title_end = kLeft + 1.08 * text_width(panel.title, 13.0) + 18.0;
+    for (const Score& score : table.scores) {
+        const bool here = !panel.dots.empty() && std::any_of(panel.series.begin(), panel.series.end(), [&](const PlotSeries& s) { return s.column == score.column; });
+        if (!here) continue;
+        char text[120];
+        std::snprintf(text, sizeof text, "RMSE %.3g %s, bias %+.2g", score.rmse, score.unit.c_str(), score.bias);
+        add_label(drawing, {title_end, top - 10}, Anchor::Start, text);
+    }
+    double legend_x = kWidth - kRight;
+    for (auto dots = panel.dots.rbegin(); dots != panel.dots.rend(); ++dots) {
+        add_label(drawing, {legend_x, top - 10}, Anchor::End, dots->label);
+        legend_x -= text_width(dots->label, 12.0) + 10.0;
+        drawing.shapes.push_back(DrawnDots{{{legend_x, top - 14}}, dots->color, 3.0});
+        legend_x -= 22.0;
+    }
+    for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
+        if (series->label.empty()) continue;
+        add_label(drawing, {legend_x, top - 10}, Anchor::End, series->label);
+        legend_x -= text_width(series->label, 12.0) + 8.0;
+        drawing.shapes.push_back(DrawnLine{{{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
+        legend_x -= 34.0;
+    }
+}
+
+void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series, const TimeAxis& time,
+                const std::function<double(double)>& y, double bottom)
+{
+    const auto heights = [&](const std::string& name) {
+        std::vector<double> values;
+        const std::size_t column = column_index(table, name);
+        if (column == table.columns.size()) return values;
+        for (const auto& row : table.rows) values.push_back(y(series.scale * row[column]));
+        return values;
+    };
+    if (!series.band_low.empty()) {
+        DrawnArea band{curve_points(table, time, heights(series.band_low)), series.color, 0.25};
+        const auto upper = curve_points(table, time, heights(series.band_high));
+        band.points.insert(band.points.end(), upper.rbegin(), upper.rend());
+        if (!band.points.empty()) drawing.shapes.push_back(std::move(band));
+    }
+    DrawnLine curve{curve_points(table, time, heights(series.column)), series.color, table.rows.size() > 1500 ? 1.3 : 2.0, false};
+    if (curve.points.empty()) return;
+    if (series.filled) {
+        DrawnArea area{curve.points, series.color, 0.22};
+        area.points.insert(area.points.begin(), {curve.points.front().x, bottom});
+        area.points.push_back({curve.points.back().x, bottom});
+        drawing.shapes.push_back(std::move(area));
+    }
+    drawing.shapes.push_back(std::move(curve));
+}
+
+void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel, const TimeAxis& time,
+               const std::vector<TimeTick>& time_ticks, double top, double height)
 {
     const auto [low, high] = axis_range(table, panel);
     const auto y = [&, low = low, high = high](double value) {
         return top + height * (1.0 - (std::clamp(value, low, high) - low) / (high - low));
     };
     const double right = kWidth - kRight;
-    drawing.shapes.push_back(
-        DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
-    double legend_x = right;
-    for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
-        add_label(drawing, {legend_x, top - 10}, Anchor::End, series->label);
-        legend_x -= 7.5 * static_cast<double>(series->label.size()) + 6.0;
-        drawing.shapes.push_back(
-            DrawnLine{{{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
-        legend_x -= 30.0;
-    }
-    for (double tick : axis_ticks(low, high, panel.forcing ? 4 : 5, false)) {
+    add_heading(drawing, table, panel, top);
+    const auto ticks = axis_ticks(low, high, panel.forcing ? 4 : 5, false);
+    for (double tick : ticks) {
         add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
-        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End, number(tick));
+        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End, number(tick, decimals_of(ticks)));
     }
-    for (double tick : time_ticks) {
-        add_line(drawing, {time.x(tick), top}, {time.x(tick), top + height}, kGrid);
-    }
+    for (const TimeTick& tick : time_ticks) add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
     if (low < 0.0 && high > 0.0) add_line(drawing, {kLeft, y(0)}, {right, y(0)}, kMark);
+    for (std::size_t i = 0; i < std::min(table.events.size(), kMostEvents); ++i) {
+        const double x = time.x(table.events[i].time_s);
+        add_line(drawing, {x, top}, {x, top + height}, kMark, true);
+    }
+    for (const PlotSeries& series : panel.series) add_series(drawing, table, series, time, y, y(low));
+    for (const PlotDots& dots : panel.dots) {
+        DrawnDots drawn{{}, dots.color, dots.values.size() > 150 ? 1.7 : 2.4};
+        for (std::size_t i = 0; i < dots.values.size(); ++i) drawn.points.push_back({time.x(dots.time_s[i]), y(dots.values[i])});
+        drawing.shapes.push_back(std::move(drawn));
+    }
+}
+
+bool shows_something(const SimulationTable& table, const PlotPanel& panel)
+{
+    if (panel.forcing || !panel.dots.empty()) return true;
     for (const PlotSeries& series : panel.series) {
         const std::size_t column = column_index(table, series.column);
-        if (column == table.columns.size() || table.rows.empty()) continue;
-        DrawnLine curve{{}, series.color, 2.0, false};
-        for (std::size_t r : rows_to_draw(table, kMostPoints)) {
-            curve.points.push_back({time.x(table.rows[r][0]), y(table.rows[r][column])});
+        if (column == table.columns.size()) continue;
+        for (const auto& row : table.rows) {
+            if (std::abs(series.scale * row[column]) > 1e-6) return true;
         }
-        if (series.filled) {
-            DrawnArea area{curve.points, series.color, 0.22};
-            area.points.insert(area.points.begin(), {curve.points.front().x, y(low)});
-            area.points.push_back({curve.points.back().x, y(low)});
-            drawing.shapes.push_back(std::move(area));
-        }
-        drawing.shapes.push_back(std::move(curve));
     }
+    return false;
 }
 
 }  // namespace
@@ -163,25 +240,100 @@ std::pair<double, double> axis_range(const SimulationTable& table, const PlotPan
     if (panel.low != panel.high) return {panel.low, panel.high};
     double low = 0.0;
     double high = 0.0;
+    const auto widen = [&](double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    };
     for (const PlotSeries& series : panel.series) {
-        const std::size_t column = column_index(table, series.column);
-        if (column == table.columns.size()) continue;
-        for (const auto& row : table.rows) {
-            low = std::min(low, row[column]);
-            high = std::max(high, row[column]);
+        for (const std::string& name : {series.column, series.band_low, series.band_high}) {
+            const std::size_t column = column_index(table, name);
+            if (column == table.columns.size()) continue;
+            for (const auto& row : table.rows) widen(series.scale * row[column]);
         }
     }
-    if (low == high) return {low - 1.0, high + 1.0};
+    for (const PlotDots& dots : panel.dots) {
+        for (double value : dots.values) widen(value);
+    }
+    if (low == high) return {0.0, 1.0};
     const auto ticks = axis_ticks(low, high, 4, false);
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
     return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9)};
 }
 
+int decimals_of(const std::vector<double>& ticks)
+{
+    if (ticks.size() < 2) return 2;
+    return std::clamp(static_cast<int>(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9)), 0, 9);
+}
+
+std::vector<PlotPanel> chosen_panels(const SimulationTable& table, const std::string& wish)
+{
+    std::vector<PlotPanel> chosen;
+    if (wish == "all") return table.panels;
+    if (wish == "auto") {
+        for (const PlotPanel& panel : table.panels) {
+            if (shows_something(table, panel)) chosen.push_back(panel);
+        }
+        return chosen;
+    }
+    std::vector<std::string> groups, asked;
+    for (const PlotPanel& panel : table.panels) {
+        if (!panel.group.empty() && std::find(groups.begin(), groups.end(), panel.group) == groups.end()) groups.push_back(panel.group);
+    }
+    for (std::size_t at = 0; at <= wish.size();) {
+        const std::size_t end = std::min(wish.find(',', at), wish.size());
+        asked.push_back(wish.substr(at, end - at));
+        at = end + 1;
+        if (std::find(groups.begin(), groups.end(), asked.back()) == groups.end()) {
+            throw Error("--plot: there is no \"" + asked.back() + "\"", "Use auto, all, or some of: " + join_words(groups) + ".");
+        }
+    }
+    for (const PlotPanel& panel : table.panels) {
+        const bool named = std::find(asked.begin(), asked.end(), panel.group) != asked.end();
+        if (named || panel.group == "weather") chosen.push_back(panel);
+    }
+    return chosen;
+}
+
+namespace {
+
+std::string subtitle(const SimulationTable& table)
+{
+    if (!table.dated || table.rows.empty()) return "";
+    return time_text(table, table.rows.front()[0]) + " to " + time_text(table, table.rows.back()[0]) + " UTC";
+}
+
+// The numbered list of events below the panels, in two columns, and their numbers under the time axis.
+void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& time, double numbers_y, double list_top)
+{
+    const std::size_t count = std::min(table.events.size(), kMostEvents);
+    const std::size_t half = (count + 1) / 2;
+    double label_x = -1e9;
+    for (std::size_t i = 0; i < count; ++i) {
+        const SimulationEvent& event = table.events[i];
+        const double x = time.x(event.time_s);
+        if (x - label_x >= 14.0) {  // the list below has them all
+            label_x = x;
+            add_label(drawing, {x, numbers_y}, Anchor::Middle, std::to_string(i + 1));
+        }
+        const double list_x = i < half ? kLeft : kLeft + 440.0;
+        const double list_y = list_top + 10.0 + 18.0 * static_cast<double>(i < half ? i : i - half);
+        add_label(drawing, {list_x + 14, list_y}, Anchor::End, std::to_string(i + 1));
+        const bool dated = table.dated;  // dates are equally long, numbers are not
+        add_label(drawing, {list_x + (dated ? 28 : 98), list_y}, dated ? Anchor::Start : Anchor::End, time_text(table, event.time_s));
+        add_label(drawing, {list_x + (dated ? 152 : 112), list_y}, Anchor::Start, event.text);
+    }
+}
+
+}  // namespace
+
 Drawing plot_of(const SimulationTable& table)
 {
     Drawing drawing;
     drawing.width = kWidth;
-    drawing.height = kTop + kBottom - kPanelGap + 22.0;
+    const std::string under = subtitle(table);
+    const double head = kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
+    drawing.height = head + kBottom - kPanelGap + 22.0;
     for (const PlotPanel& panel : table.panels) {
         drawing.height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
     }
@@ -194,38 +346,29 @@ Drawing plot_of(const SimulationTable& table)
         time.first_s = table.rows.front()[0];
         time.last_s = table.rows.back()[0];
     }
-    const auto ticks = axis_ticks(time.first_s, time.last_s, 12, true);
-    const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
-
+    const auto ticks = table.dated ? calendar_ticks(table.utc_start_us, time.first_s, time.last_s, 12)
+                                   : elapsed_ticks(time.first_s, time.last_s, 12);
     drawing.shapes.push_back(
         DrawnText{{kLeft, 26}, table.title + " (" + table.model + " model, " + table.mode + ")",
                   kInk, 17.0, Anchor::Start, true});
-    double top = kTop + 18.0;
-    const double first_top = top;
+    if (!under.empty()) add_label(drawing, {kLeft, 46}, Anchor::Start, under);
+    double line_y = under.empty() ? 46.0 : 63.0;
+    for (const std::string& warning : table.warnings) {
+        drawing.shapes.push_back(DrawnText{{kLeft, line_y}, warning, kWarning, 12.0, Anchor::Start, false});
+        line_y += 17.0;
+    }
+    double top = head + 18.0;
     for (const PlotPanel& panel : table.panels) {
         const double height = panel.forcing ? kForcingHeight : kStateHeight;
         add_panel(drawing, table, panel, time, ticks, top, height);
         top += height + kPanelGap;
     }
     const double bottom = top - kPanelGap;
-    double label_x = -1e9;
-    for (std::size_t i = 0; i < 2 * half && i < table.events.size(); ++i) {
-        const SimulationEvent& event = table.events[i];
-        const double x = time.x(event.time_s);
-        add_line(drawing, {x, first_top}, {x, bottom}, kMark, true);
-        if (x - label_x >= 14.0) {  // the list below has them all
-            label_x = x;
-            add_label(drawing, {x, bottom + 14}, Anchor::Middle, std::to_string(i + 1));
-        }
-        const double list_x = i < half ? kLeft : kLeft + 440.0;
-        const double list_y = list_top + 10.0 + 18.0 * static_cast<double>(i < half ? i : i - half);
-        add_label(drawing, {list_x + 14, list_y}, Anchor::End, std::to_string(i + 1));
-        add_label(drawing, {list_x + 96, list_y}, Anchor::End, number(event.time_s, 3) + " s");
-        add_label(drawing, {list_x + 110, list_y}, Anchor::Start, event.text);
+    for (const TimeTick& tick : ticks) {
+        const double room = 0.5 * text_width(tick.label, 12.0);
+        add_label(drawing, {std::clamp(time.x(tick.time_s), room, kWidth - room - 2.0), bottom + 34}, Anchor::Middle, tick.label);
     }
-    for (double tick : ticks) {
-        add_label(drawing, {time.x(tick), bottom + 34}, Anchor::Middle, time_label(tick, spacing));
-    }
+    add_events(drawing, table, time, bottom + 14, list_top);
     return drawing;
 }
 

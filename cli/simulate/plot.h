@@ -10,8 +10,8 @@
 
 namespace petrichor::cli {
 
-/// A plot of the panels of a table, forcing above, state below, over one time axis with the first 40
-/// events as numbered dashed lines. 960 units wide.
+/// A plot of the panels of a table, forcing above, state below, over one time axis (dates where the table has them)
+/// with the first 40 events as numbered dashed lines, and its warnings under the title. 960 units wide.
 Drawing plot_of(const SimulationTable& table);
 /// The same as self-contained SVG.
 std::string svg_plot(const SimulationTable& table);
@@ -25,6 +25,14 @@ std::string time_label(double time_s, double spacing_s);
 
 /// The range of a panel's axis: fixed, or that of the data with 0 inside and rounded outwards.
 std::pair<double, double> axis_range(const SimulationTable& table, const PlotPanel& panel);
+
+/// Decimals that tell the ticks of an axis apart.
+int decimals_of(const std::vector<double>& ticks);
+
+/// The panels that `wish` asks for: "all"; "auto", without those of a state that never shows anything; else the groups
+/// named, separated by commas, and those of the weather above them.
+///   throws  Error that lists the groups for any other word
+std::vector<PlotPanel> chosen_panels(const SimulationTable& table, const std::string& wish);
 
 /// Index of a column; the number of columns when there is none.
 std::size_t column_index(const SimulationTable& table, const std::string& name);

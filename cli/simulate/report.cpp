@@ -1,6 +1,7 @@
 #include "cli/simulate/report.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/simulate/plot.h"
@@ -28,25 +29,38 @@ std::string data_json(const SimulationTable& table)
         for (const PlotSeries& line : panel.series) {
             const std::size_t column = column_index(table, line.column);
             if (column == table.columns.size()) continue;
-            ordered_json values = ordered_json::array();
-            for (std::size_t r : rows) values.push_back(short_number(table.rows[r][column]));
-            series.push_back({{"label", line.label},
-                              {"color", line.color},
-                              {"filled", line.filled},
-                              {"values", values}});
+            const auto numbers = [&](const std::string& name) {
+                ordered_json out = ordered_json::array();
+                const std::size_t at = column_index(table, name);
+                for (std::size_t r : rows) out.push_back(short_number(line.scale * table.rows[r][at]));
+                return out;
+            };
+            ordered_json entry{{"label", line.label}, {"color", line.color}, {"filled", line.filled}, {"values", numbers(line.column)}};
+            if (!line.band_low.empty()) {
+                entry["low"] = numbers(line.band_low);
+                entry["high"] = numbers(line.band_high);
+            }
+            series.push_back(std::move(entry));
+        }
+        ordered_json dots = ordered_json::array();
+        for (const PlotDots& d : panel.dots) {
+            dots.push_back({{"label", d.label}, {"times", d.time_s}, {"values", d.values}});
         }
         panels.push_back({{"title", panel.title},
                           {"forcing", panel.forcing},
                           {"low", low},
                           {"high", high},
-                          {"series", series}});
+                          {"series", series},
+                          {"dots", dots}});
     }
     ordered_json events = ordered_json::array();
     for (const SimulationEvent& event : table.events) {
         events.push_back({{"t", event.time_s}, {"text", event.text}});
     }
-    std::string text =
-        ordered_json{{"times", times}, {"panels", panels}, {"events", events}}.dump();
+    ordered_json all{{"times", times}, {"panels", panels}, {"events", events}};
+    // Milliseconds since 1970 of time 0, for the names of days.
+    if (table.dated) all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3;
+    std::string text = all.dump();
     for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");  // a title must not end the script
     }
@@ -54,8 +68,8 @@ std::string data_json(const SimulationTable& table)
 }
 
 constexpr const char* kStyle = R"css(
-:root{color-scheme:light dark;--ground:#f6f8fa;--card:#fff;--ink:#1b2430;--soft:#5b6977;--grid:#e4e9ef;--axis:#93a0ae;--mark:#8a97a6;--accent:#1d6fd1}
-@media (prefers-color-scheme:dark){:root{--ground:#10151b;--card:#19212a;--ink:#e6ebf0;--soft:#9aa8b6;--grid:#28323d;--axis:#5d6b79;--mark:#6d7b8a;--accent:#6fb1ff}}
+:root{color-scheme:light dark;--ground:#f6f8fa;--card:#fff;--ink:#1b2430;--soft:#5b6977;--grid:#e4e9ef;--axis:#93a0ae;--mark:#8a97a6;--accent:#1d6fd1;--warn:#a8480a;--dot:#111827}
+@media (prefers-color-scheme:dark){:root{--ground:#10151b;--card:#19212a;--ink:#e6ebf0;--soft:#9aa8b6;--grid:#28323d;--axis:#5d6b79;--mark:#6d7b8a;--accent:#6fb1ff;--warn:#f0a868;--dot:#f3f4f6}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--ground);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;-webkit-text-size-adjust:100%}
 main{max-width:1080px;margin:0 auto;padding:16px}
@@ -72,13 +86,19 @@ button:hover{border-color:var(--accent)}
 .legend{display:flex;flex-wrap:wrap;gap:2px 14px;font-size:.86rem;color:var(--soft);margin-bottom:2px}
 .legend span{white-space:nowrap}
 .legend i{display:inline-block;width:14px;height:4px;border-radius:2px;margin-right:6px;vertical-align:middle}
+.legend i.dot{width:7px;height:7px;border-radius:4px;background:var(--dot)}
 .legend b{color:var(--ink);font-variant-numeric:tabular-nums;font-weight:600;display:inline-block;min-width:2.6em}
 canvas{display:block;width:100%;touch-action:pan-y;cursor:crosshair}
 ol{margin:0;padding-left:0;list-style:none;columns:2 300px;column-gap:24px}
 li{break-inside:avoid}
-li button{border:0;min-height:34px;padding:2px 4px;text-align:left;width:100%;display:grid;grid-template-columns:1.7em 5.4em 1fr;align-items:center}
+li button{border:0;min-height:34px;padding:2px 4px;text-align:left;width:100%;display:grid;grid-template-columns:1.7em var(--when,5.4em) 1fr;align-items:center}
 li .t{color:var(--soft);font-variant-numeric:tabular-nums}
 li .n{color:var(--soft)}
+.warn{color:var(--warn);margin:0 0 12px;overflow-wrap:anywhere}
+table.scores{border-collapse:collapse;font-size:.9rem;margin:0 0 4px}
+.scores td,.scores th{padding:2px 14px 2px 0;text-align:left;font-weight:400}
+.scores th{color:var(--soft)}
+details{margin:6px 0}
 footer{color:var(--soft);font-size:.86rem;overflow-wrap:anywhere}
 footer p{margin:2px 0}
 )css";
@@ -99,7 +119,21 @@ function ticks(a,b,most){const s=STEPS.find(v=>(b-a)/v<=most)||STEPS[STEPS.lengt
 function valueTicks(a,b,most){let s=1e12;for(let p=-6;p<=12;p++){for(const d of[1,2,5]){const v=d*10**p;if((b-a)/v<=most){s=v;p=99;break}}}
  const r=[];for(let k=Math.ceil(a/s-1e-9);k*s<=b+1e-9*(b-a);k++)r.push(k*s);return r}
 function timeText(t,s){if(t===0)return"0";if(s>=86400)return tidy(t/86400)+" d";if(s>=3600)return tidy(t/3600)+" h";if(s>=60)return tidy(t/60)+" min";return tidy(t)+" s"}
-function nowText(t){if(t1-t0<600)return t.toFixed(2)+" s";const d=Math.floor(t/86400),h=Math.floor(t/3600)%24,m=Math.floor(t/60)%60,s=Math.floor(t%60),z=v=>String(v).padStart(2,"0");
+const S=D.start_ms,MONTHS="Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec".split(" "),two=v=>String(v).padStart(2,"0");
+const dateOf=t=>new Date(S+t*1000),DAY=86400;
+const dayText=d=>d.getUTCDate()+" "+MONTHS[d.getUTCMonth()],clockText=d=>two(d.getUTCHours())+":"+two(d.getUTCMinutes());
+// Round dates: clock times, days of a month, months, years; as in the static plot.
+function dateTicks(a,b,most){const span=b-a,r=[];let step=0;
+ for(const m of[1,2,5,10,15,30,60,120,180,360,720])if(!step&&span/(60*m)<=most)step=60*m;
+ if(step){const o=S/1000;for(let k=Math.ceil((a+o)/step);k*step-o<=b;k++){const t=k*step-o,d=dateOf(t);r.push([t,d.getUTCHours()||d.getUTCMinutes()?clockText(d):dayText(d)])}return r}
+ for(const n of[1,2,5,10,15])if(!step&&span/(DAY*n)<=most)step=n;
+ if(step){const o=S/1000;for(let k=Math.ceil((a+o)/DAY);k*DAY-o<=b;k++){const t=k*DAY-o,d=dateOf(t),n=d.getUTCDate();if((n-1)%step===0&&!(step>1&&n>31-step))r.push([t,dayText(d)])}return r}
+ for(const n of[1,2,3,6,12,24,60,120,600])if(!step&&span/(30.4*DAY*n)<=most)step=n;step=step||1200;
+ const first=dateOf(a);let m=first.getUTCFullYear()*12+first.getUTCMonth();m-=m%step;
+ for(;;m+=step){const t=(Date.UTC(Math.floor(m/12),m%12,1)-S)/1000;if(t>b)break;if(t>=a)r.push([t,m%12?MONTHS[m%12]:String(m/12)])}return r}
+function timeTicks(a,b,most){if(S!==undefined&&b-a>=60){const r=dateTicks(a,b,most);if(r.length)return r}const[t,s]=ticks(a,b,most);return t.map(v=>[v,timeText(v,s)])}
+function nowText(t){if(S!==undefined){const d=dateOf(t);return d.getUTCFullYear()+"-"+two(d.getUTCMonth()+1)+"-"+two(d.getUTCDate())+" "+clockText(d)}
+ if(t1-t0<600)return t.toFixed(2)+" s";const d=Math.floor(t/86400),h=Math.floor(t/3600)%24,m=Math.floor(t/60)%60,s=Math.floor(t%60),z=v=>String(v).padStart(2,"0");
  return(d?d+" d ":"")+z(h)+":"+z(m)+":"+z(s)}
 function rowBefore(t){let a=0,b=N-1;while(a<b){const m=(a+b+1)>>1;T[m]<=t?a=m:b=m-1}return a}
 function valueAt(v,t){const i=rowBefore(t);if(i===N-1||t<=T[i])return v[i];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
@@ -107,13 +141,14 @@ const panels=D.panels.map((p,index)=>{const box=document.createElement("div");bo
  const h=document.createElement("h2");h.textContent=p.title;box.append(h);
  const legend=document.createElement("div");legend.className="legend";box.append(legend);
  const reads=p.series.map(s=>{const e=document.createElement("span"),i=document.createElement("i"),b=document.createElement("b");
-  i.style.background=s.color;e.append(i,s.label+" ",b);legend.append(e);return b});
+  i.style.background=s.color;e.append(i,(s.label?s.label+" ":""),b);legend.append(e);return b});
+ for(const d of p.dots){const e=document.createElement("span"),i=document.createElement("i");i.className="dot";e.append(i,d.label+" ");legend.append(e)}
  const canvas=document.createElement("canvas");canvas.setAttribute("role","img");canvas.setAttribute("aria-label",p.title);box.append(canvas);charts.append(box);
  return{p,canvas,reads,last:index===D.panels.length-1}});
-const LEFT=38,RIGHT=10;
-function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink");
+const LEFT=44,RIGHT=10;
+function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink"),dot=css("--dot");
  const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
- const[tt,ts]=ticks(from,to,Math.max(2,Math.floor(inner/78)));
+ const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/78)));
  for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:8,top=6,ratio=window.devicePixelRatio||1;
   canvas.style.height=h+foot+top+"px";canvas.width=Math.round(width*ratio);canvas.height=Math.round((h+foot+top)*ratio);
   const c=canvas.getContext("2d");c.scale(ratio,ratio);c.clearRect(0,0,width,h+foot+top);c.font="12px system-ui,'DejaVu Sans',sans-serif";
@@ -121,14 +156,17 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   c.lineWidth=1;c.strokeStyle=grid;c.fillStyle=soft;c.textAlign="right";c.textBaseline="middle";
   for(const v of valueTicks(p.low,p.high,p.forcing?4:5)){c.beginPath();c.moveTo(LEFT,y(v));c.lineTo(width-RIGHT,y(v));c.stroke();c.fillText(tidy(v),LEFT-6,y(v))}
   c.textAlign="center";c.textBaseline="top";
-  for(const t of tt){c.beginPath();c.moveTo(x(t),top);c.lineTo(x(t),top+h);c.stroke();
-   if(last){const s=timeText(t,ts),half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+22)}}
+  for(const[t,s]of tt){c.beginPath();c.moveTo(x(t),top);c.lineTo(x(t),top+h);c.stroke();
+   if(last){const half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+22)}}
   if(p.low<0&&p.high>0){c.strokeStyle=axis;c.beginPath();c.moveTo(LEFT,y(0));c.lineTo(width-RIGHT,y(0));c.stroke()}
   c.save();c.beginPath();c.rect(LEFT,0,inner,h+top+1);c.clip();
   const i0=rowBefore(from),i1=Math.min(N-1,rowBefore(to)+1);
-  for(const s of p.series){c.beginPath();for(let i=i0;i<=i1;i++){const X=x(T[i]),Y=y(s.values[i]);i===i0?c.moveTo(X,Y):c.lineTo(X,Y)}
-   c.strokeStyle=s.color;c.lineWidth=2;c.lineJoin="round";c.stroke();
+  const crowd=i1-i0>1500?1.2:2;
+  for(const s of p.series){if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
+   c.beginPath();for(let i=i0;i<=i1;i++){const X=x(T[i]),Y=y(s.values[i]);i===i0?c.moveTo(X,Y):c.lineTo(X,Y)}
+   c.strokeStyle=s.color;c.lineWidth=crowd;c.lineJoin="round";c.stroke();
    if(s.filled){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
+  for(const d of p.dots){c.fillStyle=dot;for(let i=0;i<d.times.length;i++)if(d.times[i]>=from&&d.times[i]<=to){c.beginPath();c.arc(x(d.times[i]),y(d.values[i]),d.times.length>150&&to-from>.5*(t1-t0)?1.6:2.6,0,7);c.fill()}}
   c.restore();
   let lastX=-99;c.fillStyle=soft;c.textBaseline="top";
   D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+(last?4:foot));c.stroke();c.setLineDash([]);
@@ -164,17 +202,37 @@ D.events.forEach((e,i)=>{const li=document.createElement("li"),b=document.create
  n.className="n";n.textContent=i+1;t.className="t";t.textContent=nowText(e.t);const w=document.createElement("span");w.textContent=e.text;b.append(n,t,w);
  b.onclick=()=>{cursor=e.t;const s=to-from;if(e.t<from||e.t>to)view(e.t-s/2,e.t+s/2);redraw();charts.scrollIntoView({block:"nearest",behavior:"smooth"})};li.append(b);$("events").append(li)});
 if(!D.events.length)$("eventcard").hidden=true;
+if(S!==undefined)document.documentElement.style.setProperty("--when","9.6em");
+// #t=3600 (seconds) or #t=2005-12-01T06:00 sets the cursor, for links to a moment.
+function fromHash(){const m=/[#&]t=([^&]+)/.exec(location.hash);if(!m)return;const word=decodeURIComponent(m[1]);let t=Number(word);
+ if(Number.isNaN(t)&&S!==undefined)t=(Date.parse(/[zZ]|[+-]\d\d:\d\d$/.test(word)||!word.includes("T")?word:word+"Z")-S)/1000;
+ if(!Number.isNaN(t)){cursor=Math.min(t1,Math.max(t0,t));if(cursor<from||cursor>to)view(cursor-(to-from)/2,cursor+(to-from)/2)}}
+fromHash();addEventListener("hashchange",()=>{fromHash();redraw()});
 new ResizeObserver(redraw).observe(charts);matchMedia("(prefers-color-scheme:dark)").addEventListener("change",redraw);
 draw();document.documentElement.dataset.ready=String(drawn&&panels.every(p=>p.canvas.width>0))+":"+panels.length+":"+D.events.length+":"+(document.documentElement.scrollWidth<=innerWidth?"fits":"overflows");
 )js";
+
+// Model against observation, where there is any.
+std::string scores_table(const SimulationTable& table)
+{
+    if (table.scores.empty()) return "";
+    std::string html = "<table class=\"scores\"><tr><th>against observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
+    for (const Score& s : table.scores) {
+        char cells[160];
+        std::snprintf(cells, sizeof cells, "<td>%.3g %s</td><td>%+.2g</td><td>%zu</td></tr>\n", s.rmse, s.unit.c_str(), s.bias, s.count);
+        html += "<tr><td>" + escaped(s.column) + " (" + escaped(s.how) + ")</td>" + cells;
+    }
+    return html + "</table>\n";
+}
 
 }  // namespace
 
 std::string html_report(const SimulationTable& table)
 {
     const std::string title = escaped(table.title.empty() ? "weather" : table.title);
-    std::string notes;
+    std::string notes, warnings;
     for (const std::string& note : table.notes) notes += "<p>" + escaped(note) + "</p>\n";
+    for (const std::string& warning : table.warnings) warnings += "<p class=\"warn\">" + escaped(warning) + "</p>\n";
     if (table.rows.size() > rows_to_draw(table, kMostRows).size()) {
         notes += "<p>" + std::to_string(rows_to_draw(table, kMostRows).size()) + " of " +
                  std::to_string(table.rows.size()) + " rows are drawn; the CSV holds all.</p>\n";
@@ -184,16 +242,16 @@ std::string html_report(const SimulationTable& table)
            title + " - petrichor</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n" +
            "<h1>" + title + "</h1>\n<p class=\"sub\">" + escaped(table.model) + " model, " +
            escaped(table.mode) + "; state " + hash_text(table.state_hash) + "</p>\n" +
-           "<noscript>" + svg_plot(table) + "</noscript>\n" +
+           warnings + scores_table(table) + "<noscript>" + svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "
            "<button id=\"in\" aria-label=\"zoom in\">+</button> "
            "<button id=\"all\">all</button></span></div>\n"
            "<div id=\"charts\" tabindex=\"0\"></div></section>\n"
            "<section class=\"card\" id=\"eventcard\"><h2 style=\"font-size:1rem;margin:0 0 6px\">"
-           "Events</h2><ol id=\"events\"></ol></section>\n<footer>" +
+           "Events</h2><ol id=\"events\"></ol></section>\n<footer><details><summary>What was read, filled and left out</summary>" +
            notes +
-           "<p>Drag to move, + and - or pinch to zoom (with a mouse: Shift and wheel); arrow keys "
+           "</details><p>Drag to move, + and - or pinch to zoom (with a mouse: Shift and wheel); arrow keys "
            "read values.</p></footer>\n</main>\n<script type=\"application/json\" id=\"data\">" +
            data_json(table) + "</script>\n<script>" + kScript +
            "</script>\n</body>\n</html>\n";

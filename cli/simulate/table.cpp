@@ -18,14 +18,25 @@ ordered_json head_of(const SimulationTable& table)
     for (const SimulationEvent& event : table.events) {
         events.push_back({{"time_s", event.time_s}, {"event", event.text}});
     }
-    return {{"title", table.title},
-            {"model", table.model},
-            {"mode", table.mode},
-            {"rows_written", table.rows.size()},
-            {"state_hash", hash_text(table.state_hash)},
-            {"table_hash", hash_text(table.table_hash)},
-            {"notes", table.notes},
-            {"events", events}};
+    ordered_json json{{"title", table.title},
+                      {"model", table.model},
+                      {"mode", table.mode},
+                      {"rows_written", table.rows.size()},
+                      {"state_hash", hash_text(table.state_hash)},
+                      {"table_hash", hash_text(table.table_hash)},
+                      {"warnings", table.warnings},
+                      {"notes", table.notes}};
+    if (table.dated) json["utc_start"] = weather::iso_from_us(table.utc_start_us);
+    for (const auto& [key, text] : table.json_parts) json[key] = ordered_json::parse(text);
+    if (!table.scores.empty()) {
+        ordered_json scores = ordered_json::object();
+        for (const Score& s : table.scores) {
+            scores[s.column] = {{"rmse", s.rmse}, {"bias", s.bias}, {"unit", s.unit}, {"count", s.count}, {"how", s.how}};
+        }
+        json["scores"] = scores;
+    }
+    json["events"] = events;
+    return json;
 }
 
 }  // namespace
@@ -37,6 +48,15 @@ std::string hash_text(std::uint64_t hash)
         digits[static_cast<std::size_t>(i)] = "0123456789abcdef"[hash & 15u];
     }
     return digits;
+}
+
+std::string time_text(const SimulationTable& table, double time_s)
+{
+    if (!table.dated) return weather::number_17(std::round(time_s * 1e3) / 1e3) + " s";
+    const auto us = table.utc_start_us + static_cast<std::int64_t>(std::llround(time_s * 1e6));
+    std::string text = weather::iso_from_us(us).substr(0, 16);
+    text[10] = ' ';
+    return text;
 }
 
 std::string csv_text(const SimulationTable& table, bool with_hash)

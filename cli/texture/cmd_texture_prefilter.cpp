@@ -38,7 +38,11 @@ void run(Arguments& a)
     o.quick = a.quality == "quick";
     o.anisotropic = !a.anisotropy_out.empty();
     // Re-aimed normals are of use only where they are written.
-    if (a.normal_out.empty()) o.joint = false;
+    if (a.normal_out.empty()) {
+        o.joint = false;
+    } else {
+        o.bits = a.bits;
+    }
     PrefilterMaps maps = read_prefilter_maps(a.input);
     texproc::Prefiltered chains = texproc::prefilter_raw(maps.normal, maps.map, o);
     if (a.score) {

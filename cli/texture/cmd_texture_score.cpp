@@ -8,6 +8,7 @@
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
 #include "cli/texture/prefilter_options.h"
+#include "cli/texture/score_protocol.h"
 #include "texproc/prefilter/score.h"
 
 namespace petrichor::cli {
@@ -18,6 +19,7 @@ struct Arguments {
     PrefilterInput input;
     std::string chain, normal_chain;
     texproc::ScoreOptions scoring;
+    ProtocolRequest protocol;
     bool self_test = false, json = false;
 };
 
@@ -74,6 +76,10 @@ void run(Arguments& a)
         if (!good) throw std::runtime_error("the yardstick does not measure what it should");
         return;
     }
+    if (!a.protocol.effort.empty()) {
+        run_score_protocol(a.protocol, a.input.reading, a.input.options.threads);
+        return;
+    }
     if (a.chain.empty()) {
         throw Error("score: no chain was given", "Give --chain 'out_%d.png', or --selftest.");
     }
@@ -124,11 +130,25 @@ void add_texture_score(CLI::App& texture)
     app->add_option("--seed", a->scoring.seed, "which texels and points")->capture_default_str();
     app->add_flag("--json", a->json, "for machines");
     app->add_flag("--selftest", a->self_test, "check the yardstick itself");
+    app->add_option("--protocol", a->protocol.effort,
+                    "score every rule on the named sets and on hard maps made from code: full (3 rolls "
+                    "of each map, 64 texels a level) or quick")
+        ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option("SETS", a->protocol.sets, "for --protocol: roughness maps, or folders of materials");
+    app->add_option("--rules", a->protocol.rules, "for --protocol: only these")->delimiter(',');
+    app->add_option("--bits", a->protocol.bits, "for --protocol: of the files that would ship")
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
+    app->add_flag("!--no-hard", a->protocol.hard, "for --protocol: without the maps made from code");
+    app->add_flag("!--no-puddles", a->protocol.puddles,
+                  "for --protocol: no wet variant of sets with a height map");
+    app->add_option("--csv", a->protocol.csv, "for --protocol: every level of every row");
     app->footer(
         "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in brackets,\n"
         "where there is little to gain, the excess over the best lobe.\n\nExample:\n"
         "  petrichor texture score --normal n.png --roughness r.png --chain 'r_%d.png' "
-        "--normal-chain 'n_%d.png'");
+        "--normal-chain 'n_%d.png'\n"
+        "  petrichor texture score --protocol quick materials/Rock020 materials/Tiles036");
     app->callback([a] { run(*a); });
 }
 

@@ -1,5 +1,7 @@
 #include "cli/texture/naming.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -29,6 +31,7 @@ const std::vector<Pair>& pairs()
         {"arm", {"nor_gl", "normal_gl", "nor", "normal", "nor_dx"}, false, 1},
         {"orm", {"normal_gl", "normal", "nor_gl", "normal_dx"}, false, 1},
         {"ORM", {"Normal", "NormalGL", "NormalDX", "N"}, false, 1},
+        {"nrm_rgh", {"nrm_rgh"}, false, 3},
         {"R", {"N"}, false, 0},
         {"r", {"n"}, false, 0},
     };
@@ -79,6 +82,50 @@ NormalPartner find_normal(const fs::path& map)
     throw Error("texture: no normal map beside " + map.string() +
                     (tried.empty() ? ": its name follows no known pair" : " (tried " + tried + ")"),
                 "Name it with --normal FILE.");
+}
+
+std::optional<std::string> find_height(const fs::path& map)
+{
+    static constexpr std::pair<const char*, const char*> kHeights[] = {
+        {"Displacement", ""}, {"Height", ""}, {"height", ""}, {"disp", ""}, {"alb_ht", ":a"}};
+    const std::string stem = map.stem().string();
+    for (const Pair& pair : pairs()) {
+        const std::size_t at = find_token(stem, pair.map);
+        if (at == std::string::npos) continue;
+        for (const auto& [height, channel] : kHeights) {
+            const std::string name =
+                stem.substr(0, at) + height + stem.substr(at + std::string(pair.map).size());
+            for (const char* extension : {".png", ".jpg", ".tif", ".exr", ".tga"}) {
+                const fs::path path = map.parent_path() / (name + extension);
+                std::error_code ignored;
+                if (fs::is_regular_file(path, ignored)) return path.string() + channel;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+fs::path find_material(const fs::path& folder)
+{
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    std::vector<fs::path> found;
+    for (const fs::path& file : files) {
+        try {
+            find_normal(file);
+            found.push_back(file);
+        } catch (const Error&) {
+            // Not the roughness of a pair.
+        }
+    }
+    if (found.size() == 1) return found.front();
+    throw Error("texture: " + folder.string() + " holds " +
+                    (found.empty() ? "no" : std::to_string(found.size())) +
+                    " roughness or smoothness maps with a normal map beside them",
+                "Name the roughness map itself.");
 }
 
 }  // namespace petrichor::cli

@@ -2,6 +2,7 @@
 #define PETRICHOR_CLI_TEXTURE_NAMING_H
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace petrichor::cli {
@@ -16,6 +17,14 @@ struct NormalPartner {
     int channel = 0;          ///< of the map: LuxSPEC keeps smoothness in alpha
 };
 NormalPartner find_normal(const std::filesystem::path& map);
+
+/// The height map beside a map, by the same names, or nothing: "X_Displacement.jpg", "X_height.png",
+/// "X_alb_ht.png:a", ...
+std::optional<std::string> find_height(const std::filesystem::path& map);
+
+/// The map of a folder whose normal map find_normal() finds: what one means who names the folder of a
+/// material. Throws Error when there is none or several of equal right.
+std::filesystem::path find_material(const std::filesystem::path& folder);
 
 }  // namespace petrichor::cli
 

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
+#include <string>
 
 #include "base/error.h"
 #include "cli/simulate/plot.h"
+#include "weather/physics/stores.h"
 #include "cli/simulate/report.h"
 
 namespace petrichor::cli {
@@ -31,10 +32,17 @@ std::string weather_csv()
 PhysicalRun city()
 {
     PhysicalRun run;
-    run.latitude_deg = 47;
-    run.longitude_deg = 8;
-    run.elevation_m = 450;
+    run.site.latitude_deg = 47;
+    run.site.longitude_deg = 8;
+    run.site.elevation_m = 450;
+    run.threads = 1;
     return run;
+}
+
+// Reads and runs.
+SimulationTable simulated(const std::string& csv, const PhysicalRun& run)
+{
+    return run_physical(read_forcing({{"x", "x.csv", InputKind::Weather, csv}}, run.site), "x", run);
 }
 
 std::size_t at(const SimulationTable& t, const char* name)
@@ -46,7 +54,7 @@ std::size_t at(const SimulationTable& t, const char* name)
 
 TEST(SimulatePhysical, TableHasTheContractedColumns)
 {
-    const SimulationTable t = run_physical(weather_csv(), "ten days", city());
+    const SimulationTable t = simulated(weather_csv(), city());
     EXPECT_EQ(t.rows.size(), 241u);
     const std::string csv = csv_text(t);
     EXPECT_EQ(csv.rfind("time_s,time_utc,air_temp_c,", 0), 0u);
@@ -77,15 +85,15 @@ TEST(SimulatePhysical, TableHasTheContractedColumns)
 TEST(SimulatePhysical, WindowsAndCheckpointsGiveTheSameRows)
 {
     const std::string csv = weather_csv();
-    const SimulationTable whole = run_physical(csv, "x", city());
+    const SimulationTable whole = simulated(csv, city());
     PhysicalRun first = city();
     std::string checkpoint;
     first.to_s = 100 * 3600;
     first.checkpoint = &checkpoint;
-    run_physical(csv, "x", first);
+    simulated(csv, first);
     PhysicalRun rest = city();
     rest.resume = checkpoint;
-    const SimulationTable tail = run_physical(csv, "x", rest);
+    const SimulationTable tail = simulated(csv, rest);
     ASSERT_EQ(tail.rows.size(), 141u);
     EXPECT_EQ(tail.state_hash, whole.state_hash);
     const std::size_t film = at(whole, "film_kg_m2"), depth = at(whole, "snow_depth_m");
@@ -94,22 +102,24 @@ TEST(SimulatePhysical, WindowsAndCheckpointsGiveTheSameRows)
         EXPECT_EQ(tail.rows[i][depth], whole.rows[i + 100][depth]);
     }
     rest.resume = "nonsense";
-    EXPECT_THROW(run_physical(csv, "x", rest), Error);
+    EXPECT_THROW(simulated(csv, rest), Error);
 }
 
 TEST(SimulatePhysical, SiteTableAndBadNames)
 {
     PhysicalRun run;
-    run.fetch_params = "[site]\nlatitude = 47\nlongitude = 8\nelevation_m = 450\nsurface = \"grass\"\n";
-    EXPECT_EQ(run_physical(weather_csv(), "x", run).mode, "grass");
-    run.fetch_params = "[site]\nlattitude = 47\n";
-    EXPECT_THROW(run_physical(weather_csv(), "x", run), Error);
+    run.site = with_site_table({}, "[site]\nlatitude = 47\nlongitude = 8\nelevation_m = 450\nsurface = \"grass\"\n[artist]\n");
+    EXPECT_EQ(simulated(weather_csv(), run).mode, "grass");
+    EXPECT_EQ(with_site_table(city().site, "[site]\nlatitude = 10\n").latitude_deg, 47) << "the command line wins";
+    EXPECT_THROW(with_site_table({}, "[site]\nlattitude = 47\n"), Error);
+    EXPECT_THROW(with_site_table({}, "[site]\nlatitude = 470\n"), Error);
+    EXPECT_THROW(with_site_table({}, "[place]\nlatitude = 47\n"), Error);
     run = city();
-    run.surface = "lava";
-    EXPECT_THROW(run_physical(weather_csv(), "x", run), Error);
+    run.site.surface = "lava";
+    EXPECT_THROW(simulated(weather_csv(), run), Error);
     run = city();
     run.phase = "maybe";
-    EXPECT_THROW(run_physical(weather_csv(), "x", run), Error);
+    EXPECT_THROW(simulated(weather_csv(), run), Error);
 }
 
 TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
@@ -117,9 +127,9 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
     PhysicalRun run = city();
     run.members = 20;
     run.every_s = 6 * 3600;
-    const SimulationTable a = run_physical(weather_csv(), "x", run);
+    const SimulationTable a = simulated(weather_csv(), run);
     run.threads = 3;
-    const SimulationTable b = run_physical(weather_csv(), "x", run);
+    const SimulationTable b = simulated(weather_csv(), run);
     EXPECT_EQ(a.rows, b.rows);
     const std::size_t low = at(a, "swe_kg_m2_p10"), middle = at(a, "swe_kg_m2_p50"), high = at(a, "swe_kg_m2_p90");
     double widest = 0;
@@ -129,17 +139,25 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
         widest = std::max(widest, row[high] - row[low]);
     }
     EXPECT_GT(widest, 2.0);
-    run.members = 0;
+    // The window holds for ensembles too.
+    run.from_s = 86400;
+    run.to_s = 3 * 86400;
+    const SimulationTable window = simulated(weather_csv(), run);
+    ASSERT_EQ(window.rows.size(), 9u);
+    EXPECT_EQ(window.rows.front(), a.rows[4]);
+    EXPECT_NE(svg_plot(a).find("polygon"), std::string::npos) << "a band between the percentiles";
+    run = city();
     run.sensitivity = true;
-    const SimulationTable s = run_physical(weather_csv(), "x", run);
+    const SimulationTable s = simulated(weather_csv(), run);
     std::string notes;
     for (const auto& n : s.notes) notes += n + "\n";
     EXPECT_NE(notes.find("precipitation up"), std::string::npos);
+    EXPECT_NE(json_summary(s).find("\"peak_swe_kg_m2\""), std::string::npos);
 }
 
 TEST(SimulatePhysical, FittedRatesArePlausible)
 {
-    const std::string toml = fitted_artist_toml(weather_csv(), city());
+    const std::string toml = fitted_artist_toml(read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site), city());
     EXPECT_NE(toml.find("time_scale = 0.00027777"), std::string::npos) << toml;
     const auto rate = [&](const std::string& key) { return std::stod(toml.substr(toml.find(key) + key.size() + 3)); };
     EXPECT_GT(rate("accumulation_rate_wetness"), 0.3);
@@ -148,6 +166,113 @@ TEST(SimulatePhysical, FittedRatesArePlausible)
     EXPECT_GT(rate("evaporation_rate_wetness"), 1e-4);
     EXPECT_GT(rate("evaporation_rate_puddles"), rate("evaporation_rate_wetness"));
     EXPECT_NE(toml.find("residual"), std::string::npos);
+}
+
+TEST(SimulatePhysical, ReliefOfAHeightMapReplacesTheStores)
+{
+    PhysicalRun run = city();
+    run.puddles = weather::uniform_hypsometry(0.5);
+    const SimulationTable shallow = simulated(weather_csv(), run);
+    const SimulationTable deep = simulated(weather_csv(), city());
+    const std::size_t puddle = at(deep, "puddle_kg_m2");
+    const auto most = [&](const SimulationTable& t) {
+        double m = 0;
+        for (const auto& row : t.rows) m = std::max(m, row[puddle]);
+        return m;
+    };
+    EXPECT_NEAR(most(shallow), 0.25, 0.01) << "half of the depth is the capacity";
+    EXPECT_GT(most(deep), 1.0);
+}
+
+TEST(SimulatePhysical, TheReadReportIsInNotesAndJson)
+{
+    std::string csv = weather_csv();
+    const std::size_t line = csv.find("2024-02-03T05:00Z");
+    csv.replace(line, csv.find('\n', line) - line, "2024-02-03T05:00Z,-99,95,3,NA,1.0");
+    csv.insert(csv.find("2024-02-04T00"), "garbage,1,2\n");
+    const SimulationTable t = simulated(csv, city());
+    std::string notes;
+    for (const auto& n : t.notes) notes += n + "\n";
+    const std::string json = json_summary(t);
+    for (const char* part : {"'-99' means no value", "'NA' means no value", "bad row"}) {
+        EXPECT_NE(notes.find(part), std::string::npos) << part << "\n" << notes;
+        EXPECT_NE(json.find(part), std::string::npos) << part;
+    }
+    EXPECT_NE(notes.find("bad row line 74"), std::string::npos) << notes;
+    EXPECT_NE(notes.find("air_temp: 239 read, 1 missing (first in line 55); filled: line between neighbours"), std::string::npos) << notes;
+    EXPECT_NE(json.find("\"line\": 74"), std::string::npos);
+    EXPECT_NE(json.find("\"first_missing_line\": 55"), std::string::npos);
+    ASSERT_EQ(t.warnings.size(), 1u);
+    EXPECT_NE(t.warnings.front().find("taken as dry"), std::string::npos);
+}
+
+TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
+{
+    // The model's own values come back with no error: depth at 12 h, the surface as the mean of the day.
+    const SimulationTable t = simulated(weather_csv(), city());
+    const std::size_t depth = at(t, "snow_depth_m"), surface = at(t, "surface_temp_c");
+    std::string csv = "date;depth_m;surface_temp_c\n";
+    for (std::size_t day = 0; day < 10; ++day) {
+        double mean = 0;
+        for (std::size_t h = 0; h < 24; ++h) mean += t.rows[day * 24 + h][surface] / 24;
+        char line[100];
+        std::snprintf(line, sizeof line, "2024-02-%02zu;%.17g;%.17g\n", day + 1, t.rows[day * 24 + 12][depth] + 0.25, mean - 1.0);
+        csv += line;
+    }
+    PhysicalRun run = city();
+    run.observed = csv + "2024-02-20;nonsense;-99\n";
+    run.observed_file = "obs.csv";
+    for (const double every : {3600.0, 86400.0}) {
+        run.every_s = every;
+        const SimulationTable scored = simulated(weather_csv(), run);
+        ASSERT_EQ(scored.scores.size(), 2u);
+        EXPECT_EQ(scored.scores[0].column, "snow_depth_m");
+        EXPECT_EQ(scored.scores[0].count, 10u);
+        EXPECT_NEAR(scored.scores[0].rmse, 0.25, 1e-12);
+        EXPECT_NEAR(scored.scores[0].bias, -0.25, 1e-12);
+        EXPECT_NEAR(scored.scores[1].rmse, 1.0, 1e-9);
+        EXPECT_NE(json_summary(scored).find("\"rmse\""), std::string::npos);
+        EXPECT_NE(svg_plot(scored).find("<circle"), std::string::npos);
+        EXPECT_NE(html_report(scored).find("against observation"), std::string::npos);
+    }
+    for (const char* bad : {"", "date,colour\n2024-02-01,3\n", "nothing here\n", "date,swe_kg_m2\nx,1\ny,2\n"}) {
+        run.observed = std::string(bad) + "\n";
+        EXPECT_THROW(simulated(weather_csv(), run), Error) << bad;
+    }
+}
+
+TEST(SimulatePhysical, PanelsAreChosen)
+{
+    SimulationTable t = simulated(weather_csv(), city());
+    const auto titles = [&](const std::string& wish) {
+        std::string all;
+        for (const auto& panel : chosen_panels(t, wish)) all += panel.title + "|";
+        return all;
+    };
+    EXPECT_EQ(titles("masks"), "air temperature, \u00b0C|precipitation, mm/h|water masks, 0..1|snow masks, 0..1|");
+    EXPECT_NE(titles("snow,water").find("water on the ground"), std::string::npos);
+    EXPECT_EQ(titles("all").find("precipitation, mm/h"), titles("auto").find("precipitation, mm/h"));
+    EXPECT_THROW(chosen_panels(t, "masks,hail"), Error);
+    for (auto& row : t.rows) row[at(t, "snow_depth_m")] = 0.0;
+    EXPECT_EQ(titles("auto").find("snow depth"), std::string::npos) << "nothing to see";
+}
+
+TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
+{
+    const auto read = read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site);
+    const WeatherScript script = script_of_forcing(read.table, "x");
+    EXPECT_EQ(script.duration_s, 239 * 3600.0);
+    const auto& rain = script.timeline.rainfall;
+    EXPECT_NEAR(weather::value_at(rain, 3600e6), std::log(3.0) / std::log(51.0), 1e-12) << "2 mm/h";
+    EXPECT_EQ(weather::value_at(rain, 10 * 3600e6), 0.0);
+    EXPECT_NEAR(weather::value_at(script.timeline.temperature_c, 4.0 * 3600e6), 10.0, 1e-9);
+    const auto wet = script.solve().state_at(weather::to_time_us(8 * 3600));
+    EXPECT_GT(wet.wetness, 0.5);
+    EXPECT_GT(script.solve().state_at(weather::to_time_us(125 * 3600)).snow, 0.1);
+    // A film of it: an hour is a second, the states are the same.
+    const WeatherScript film = faster_script(script, 3600.0);
+    EXPECT_NEAR(film.duration_s, 239.0, 1e-9);
+    EXPECT_NEAR(film.solve().state_at(weather::to_time_us(8)).wetness, wet.wetness, 1e-9);
 }
 
 }  // namespace

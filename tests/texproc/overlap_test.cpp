@@ -163,12 +163,8 @@ TEST(OverlapKernel, BothBuildsGiveTheSameBits)
         cells.add(n.x, n.y, n.z, 0.01f + 0.02f * uniform(i, 3, 0), 1.0f / 37.0f);
     }
     Samples a, b;
-    draw(cells.view(), 320, 5, a);
-    draw(cells.view(), 320, 5, b);
-    kLobeKernelBase.shade(cells.view(), a.view());
-    kLobeKernelAvx2.shade(cells.view(), b.view());
-    weigh(a);
-    weigh(b);
+    a.draw(cells.view(), 320, 5, kLobeKernelBase);
+    b.draw(cells.view(), 320, 5, kLobeKernelAvx2);
     EXPECT_EQ(std::memcmp(a.view().radiance, b.view().radiance, 320 * sizeof(float)), 0);
     const float alpha2s[3] = {0.01f, 0.05f, 0.3f};
     float x[kViews * 3], y[kViews * 3];

@@ -1,4 +1,5 @@
 #include "weather/artist/csv.h"
+#include "weather/artist/exact.h"
 
 #include <gtest/gtest.h>
 
@@ -129,6 +130,15 @@ TEST(Csv, ProblemListsAreCut)
     const std::vector<Problem> many(30, {4, "x", "bad"});
     const std::string text = list_problems(many, 3);
     EXPECT_EQ(text, "line 4, x: bad\nline 4, x: bad\nline 4, x: bad\n... and 27 more");
+}
+
+TEST(TimelineCsv, HandSetStatesAreColumns)
+{
+    const auto reading = parse_timeline_csv("time_s,temperature_c,rainfall,script_controlled,wetness\n0,5,0,1,\n2,5,0,0,0.25\n4,5,0,0,0.75\n",
+                                            Interpolation::Linear);
+    ASSERT_EQ(reading.timeline.states.size(), 1u);
+    EXPECT_DOUBLE_EQ(ArtistTimeline(reading.timeline, {}, {}).state_at(to_time_us(3)).wetness, 0.5);
+    EXPECT_THROW(parse_timeline_csv("time_s,temperature_c,rainfall,wetness\n0,5,0,1.5\n", Interpolation::Hold), Error);
 }
 
 }  // namespace

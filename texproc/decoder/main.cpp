@@ -1,5 +1,5 @@
-// petrichor-decode: the process that touches untrusted image files. The image library aborts or
-// loops on some damaged ones, so it runs here, with limits on memory and time, and the program only
+// petrichor-decode: the process that touches untrusted image files. The image library (loaded when a
+// file needs it) aborts or loops on some damaged ones, so it runs here, with limits on memory and time, and the program only
 // ever sees pixels or a reason. It serves requests on socket 3 until the other end closes, one at a
 // time; the program starts several for several files.
 #include <fcntl.h>
@@ -19,7 +19,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "texproc/decoder/oiio.h"
+#include "texproc/decoder/image_library.h"
+#include "texproc/decoder/png.h"
 #include "texproc/decoder/psd.h"
 #include "texproc/decoder/sniff.h"
 #include "texproc/decoder/texture.h"
@@ -42,7 +43,7 @@ void limit_memory()
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t base = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    rlimit limit{base + kMemory, base + kMemory};
+    rlimit limit{base + kMemory, RLIM_INFINITY};  // set again when the image library has been loaded
     setrlimit(RLIMIT_AS, &limit);
     rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -112,7 +113,8 @@ void check_size(const Header& h, const Request& request)
     limit_time(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
 }
 
-// Our own readers where the image library has none, loses channels or takes damaged files for good.
+// Other readers where the image library has none, loses channels, takes damaged files for good or is
+// slow to start.
 void read_pixels(const std::string& path, int fd, const std::string& format, const Request& request,
                  const Accept& accept)
 {
@@ -129,7 +131,11 @@ void read_pixels(const std::string& path, int fd, const std::string& format, con
         }
         if (read_psd(bytes, accept)) return;
     }
-    read_with_oiio(path, format, accept);
+    if (format == "png") {
+        read_png(path, accept);
+    } else {
+        image_library(limit_memory).read(path, format, accept);
+    }
 }
 
 Fd decode(const Request& request, int input_fd, Reply& reply)
@@ -178,7 +184,7 @@ void encode(const Request& request, int input_fd)
     const Header header{request.width, request.height, request.channels,
                         static_cast<PixelType>(request.type), {}};
     const Mapping pixels(input_fd, header.bytes(), PROT_READ);
-    write_with_oiio(request.text, header, static_cast<const std::byte*>(pixels.at),
+    image_library(limit_memory).write(request.text, header, static_cast<const std::byte*>(pixels.at),
                     static_cast<int>(request.quality));
 }
 

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "texproc/decoder/image_library.h"
+
 namespace petrichor::texproc::decoder {
 
 namespace {
@@ -74,3 +76,8 @@ void write_with_oiio(const std::string& path, const Header& header, const std::b
 }
 
 }  // namespace petrichor::texproc::decoder
+
+// What the program asks this module for.
+extern "C" __attribute__((visibility("default")))
+const petrichor::texproc::decoder::ImageLibrary petrichor_images{
+    petrichor::texproc::decoder::read_with_oiio, petrichor::texproc::decoder::write_with_oiio};

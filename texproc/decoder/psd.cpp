@@ -59,6 +59,36 @@ void unpack_row(Bytes from, std::span<std::byte> to)
     }
 }
 
+// A negative number of layers says that the first channel after the colours is the transparency of the
+// merged picture, whose colours are then stored as they look on white.
+bool merged_on_white(Bytes layers, int wide)
+{
+    Cursor in(layers);
+    if (layers.size() < static_cast<std::size_t>(wide) + 2) return false;
+    in.take(static_cast<std::uint64_t>(wide));
+    return static_cast<std::int16_t>(in.number(2)) < 0;
+}
+
+// Takes the white away again: colour = (seen - (1 - alpha)) / alpha.
+template <class Code>
+void remove_white(std::byte* pixels, std::size_t count, std::size_t channels, std::size_t own)
+{
+    constexpr std::uint32_t kTop = static_cast<Code>(~Code{0});
+    std::vector<Code> texel(channels);
+    for (std::size_t p = 0; p < count; ++p, pixels += channels * sizeof(Code)) {
+        std::memcpy(texel.data(), pixels, channels * sizeof(Code));
+        const std::uint32_t alpha = texel[own];
+        if (alpha == 0 || alpha == kTop) continue;
+        for (std::size_t c = 0; c < own; ++c) {
+            const std::uint32_t white = kTop - alpha;
+            const std::uint64_t above = texel[c] > white ? texel[c] - white : 0;
+            texel[c] = static_cast<Code>(
+                std::min<std::uint64_t>(kTop, (above * kTop + alpha / 2) / alpha));
+        }
+        std::memcpy(pixels, texel.data(), channels * sizeof(Code));
+    }
+}
+
 // One row of one channel to its places among the interleaved numbers, in the byte order of here.
 void scatter(std::span<const std::byte> row, std::size_t size, std::size_t channel,
              std::size_t channels, std::byte* to)
@@ -95,7 +125,7 @@ bool read_psd(std::span<const std::byte> file, const Accept& accept)
     const int wide = version == 2 ? 8 : 4;
     in.take(in.number(4));     // palette
     in.take(in.number(4));     // resources
-    in.take(in.number(wide));  // layers
+    const bool on_white = merged_on_white(in.take(in.number(wide)), wide) && channels > own;
     const std::uint64_t coding = in.number(2);
     if (coding > 1) return false;
 
@@ -134,6 +164,14 @@ bool read_psd(std::span<const std::byte> file, const Accept& accept)
             scatter(from, size, static_cast<std::size_t>(c), static_cast<std::size_t>(channels),
                     pixels + static_cast<std::size_t>(y * width * channels) * size);
         }
+    }
+    const std::size_t count = static_cast<std::size_t>(width * height);
+    if (on_white && depth == 8) {
+        remove_white<std::uint8_t>(pixels, count, static_cast<std::size_t>(channels),
+                                   static_cast<std::size_t>(own));
+    } else if (on_white && depth == 16) {
+        remove_white<std::uint16_t>(pixels, count, static_cast<std::size_t>(channels),
+                                    static_cast<std::size_t>(own));
     }
     return true;
 }

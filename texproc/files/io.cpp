@@ -178,7 +178,7 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
         return;
     }
     if (extension == ".dds" || extension == ".ktx2") {
-        write_mip_chain(path, std::vector<RawImage>{image}, {.threads = options.threads});
+        write_mip_chain(path, std::span(&image, 1), {.threads = options.threads});
         return;
     }
     const bool jpeg = extension == ".jpg" || extension == ".jpeg";
@@ -228,7 +228,7 @@ void write_image(const fs::path& path, const Image& image, const WriteOptions& o
     const RawImage raw = texproc::to_raw(image, type, options.rounding);
     const std::string extension = lower_extension(path);
     if (extension == ".dds" || extension == ".ktx2") {  // which say that they hold colour
-        write_mip_chain(path, std::vector<RawImage>{raw},
+        write_mip_chain(path, std::span(&raw, 1),
                         {.srgb = image.space == ColorSpace::Linear && options.bits == 8,
                          .threads = options.threads});
         return;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "texproc/files/detail/texture_shape.h"
 
 namespace petrichor::texproc {
 
@@ -155,7 +156,7 @@ std::size_t level_bytes(const TextureFormat& format, int width, int height)
            static_cast<std::size_t>(format.channels) * size_of(format.type);
 }
 
-MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOptions& options)
+MipTexture detail::texture_shape(std::span<const RawImage> levels, const TextureWriteOptions& options)
 {
     if (levels.empty() || levels[0].width < 1 || levels[0].height < 1) {
         throw Error("texture: it has no levels", "Give at least level 0, with at least one pixel.");
@@ -169,26 +170,40 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
                         ", which has " + std::to_string(most),
                     "Stop at 1 x 1.");
     }
+    for (std::size_t k = 0; k < levels.size(); ++k) check_level(levels[k], first, static_cast<int>(k));
     const TextureFormat format =
         options.format.empty() ? own_format(first) : texture_format(options.format);
     check_writable(format);
     // Halves and floats hold linear light: only integers can be marked.
     const bool srgb = options.srgb && (format.block || format.type == PixelType::U8);
-    MipTexture texture{first.width, first.height, format, srgb, {}};
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-        check_level(levels[k], first, static_cast<int>(k));
+    return {first.width, first.height, format, srgb, {}};
+}
+
+detail::LevelBytes detail::level_bytes_of(const MipTexture& texture)
+{
+    return {texture.levels.begin(), texture.levels.end()};
+}
+
+MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOptions& options)
+{
+    MipTexture texture = detail::texture_shape(levels, options);
+    const TextureFormat& format = texture.format;
+    for (const RawImage& level : levels) {
         if (!format.block) {
-            texture.levels.push_back(
-                converted(levels[k], format.type, format.channels, options).bytes);
+            texture.levels.push_back(converted(level, format.type, format.channels, options).bytes);
             continue;
         }
-        const int channels = std::min(first.channels, 4);
-        texture.levels.push_back(encode_blocks(
-            converted(levels[k], PixelType::U8, channels, options), *format.block,
-            {.quality = options.quality,
-             .weights = options.weights,
-             .punch_through = *format.block == Block::Bc1 && format.channels == 4,
-             .threads = options.threads}));
+        const BlockOptions blocks{
+            .quality = options.quality,
+            .weights = options.weights,
+            .punch_through = *format.block == Block::Bc1 && format.channels == 4,
+            .threads = options.threads};
+        const int channels = std::min(level.channels, 4);
+        texture.levels.push_back(
+            level.type == PixelType::U8 && level.channels == channels
+                ? encode_blocks(level, *format.block, blocks)
+                : encode_blocks(converted(level, PixelType::U8, channels, options), *format.block,
+                                blocks));
     }
     return texture;
 }

@@ -69,6 +69,8 @@ RawImage decode_level(const MipTexture& texture, int level, int threads = 0);
 /// Writes a whole chain into one file, whole or not at all; the extension decides: .dds, .ktx2, or
 /// .exr (tiled with mip levels, half or float: what texture systems of film renderers read; needs all
 /// levels down to 1 x 1). Other extensions hold no levels: throws Error that says to write '%d'.
+void write_mip_chain(const std::filesystem::path& path, std::span<const RawImage> levels,
+                     const TextureWriteOptions& options = {});
 void write_mip_chain(const std::filesystem::path& path, const std::vector<RawImage>& levels,
                      const TextureWriteOptions& options = {});
 

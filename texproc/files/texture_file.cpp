@@ -8,6 +8,7 @@
 #include "texproc/files/detail/dds.h"
 #include "texproc/files/detail/exr_mips.h"
 #include "texproc/files/detail/ktx2.h"
+#include "texproc/files/detail/texture_shape.h"
 #include "texproc/files/texture.h"
 
 namespace petrichor::texproc {
@@ -32,7 +33,7 @@ void check_holds_levels(const fs::path& path)
                 "Write .dds, .ktx2 or .exr, or one file a level with %d in the name: 'out_%d.png'.");
 }
 
-void write_exr_chain(const fs::path& path, const std::vector<RawImage>& levels,
+void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
                      const TextureWriteOptions& options)
 {
     TextureWriteOptions plain = options;
@@ -77,7 +78,7 @@ bool holds_mip_chain(const fs::path& path)
     return extension == ".dds" || extension == ".ktx2" || extension == ".exr";
 }
 
-void write_mip_chain(const fs::path& path, const std::vector<RawImage>& levels,
+void write_mip_chain(const fs::path& path, std::span<const RawImage> levels,
                      const TextureWriteOptions& options)
 {
     check_holds_levels(path);
@@ -86,18 +87,34 @@ void write_mip_chain(const fs::path& path, const std::vector<RawImage>& levels,
         write_exr_chain(path, levels, options);
         return;
     }
-    const MipTexture texture = make_texture(levels, options);
-    if (extension == ".ktx2") {
-        write_bytes(path, detail::ktx2_file(texture, options.zstd));
-        return;
-    }
-    if (options.zstd) {
+    if (options.zstd && extension == ".dds") {
         throw Error("output " + path.string() + ": DDS has no zstd compression", "Write .ktx2.");
     }
-    const std::vector<std::byte> header = detail::dds_header(texture);
-    std::vector<std::span<const std::byte>> parts{header};
-    for (const auto& level : texture.levels) parts.emplace_back(level);
-    write_bytes(path, parts);
+    // Levels that are stored as they are need no copy.
+    MipTexture texture = detail::texture_shape(levels, options);
+    detail::LevelBytes bytes;
+    const bool kept = !texture.format.block && texture.format.type == levels[0].type &&
+                      texture.format.channels == levels[0].channels;
+    if (kept) {
+        for (const RawImage& level : levels) bytes.emplace_back(level.bytes);
+    } else {
+        texture = make_texture(levels, options);
+        bytes = detail::level_bytes_of(texture);
+    }
+    if (extension == ".ktx2") {
+        const detail::Ktx2Parts file = detail::ktx2_parts(texture, bytes, options.zstd);
+        write_bytes(path, file.parts);
+        return;
+    }
+    const std::vector<std::byte> header = detail::dds_header(texture, bytes.size());
+    bytes.insert(bytes.begin(), header);
+    write_bytes(path, bytes);
+}
+
+void write_mip_chain(const fs::path& path, const std::vector<RawImage>& levels,
+                     const TextureWriteOptions& options)
+{
+    write_mip_chain(path, std::span(levels), options);
 }
 
 void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,

@@ -2,8 +2,10 @@
 #define PETRICHOR_TEXPROC_OVERLAP_H
 
 #include <cstdint>
+#include <optional>
 
 #include "texproc/prefilter/detail/cells.h"
+#include "texproc/prefilter/detail/codes.h"
 #include "texproc/prefilter/detail/lobe_tools.h"
 
 namespace petrichor::texproc {
@@ -13,6 +15,7 @@ struct OverlapOptions {
     bool joint = true;         ///< may re-aim the normal; else roughness only
     bool anisotropic = false;  ///< also fits an elliptic lobe
     bool quick = false;        ///< fewer samples and no search on the finest levels
+    detail::StoredAs stored{};  ///< 8 bits: also chooses the codes of the file
 };
 
 /// One lobe for a footprint.
@@ -23,6 +26,8 @@ struct FittedLobe {
     bool elliptic = false;
     detail::Direction tangent{1.0f, 0.0f, 0.0f};
     float alpha2_x = 0.0f, alpha2_y = 0.0f;
+    /// The codes to store, where rounding would cost light.
+    std::optional<detail::Codes> codes{};
 };
 
 /// The lobe that shares most light with a footprint (texture-prefilter.md, "the lobe of largest

@@ -3,121 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "base/error.h"
 #include "texproc/area.h"
 #include "texproc/detail/input.h"
+#include "texproc/prefilter/detail/filter.h"
 #include "texproc/prefilter/detail/walk.h"
 #include "texproc/prefilter/lux.h"
-#include "texproc/prefilter/overlap.h"
-#include "texproc/prefilter/rules.h"
 
 namespace petrichor::texproc {
 
 namespace {
 
 using namespace detail;
-
-float perceptual(float alpha2) { return std::sqrt(std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))); }
-
-std::uint32_t seed_of(int level, int x, int y)
-{
-    std::uint32_t h = 2166136261u;
-    for (const int v : {level, x, y}) h = (h ^ static_cast<std::uint32_t>(v)) * 16777619u;
-    return h ^ (h >> 15);
-}
-
-// The lobe that a rule gives to a texel.
-class Filter {
-public:
-    explicit Filter(const PrefilterOptions& options) : o_(options), kind_(rule_named(o_.rule).kind)
-    {
-        overlap_ = {o_.design_light, o_.joint, o_.anisotropic, o_.quick};
-        if (o_.rule == "lux") plain_ = true;  // replaced by codes afterwards
-    }
-
-    bool needs_cells() const { return kind_ != RuleKind::Moments; }
-
-    FittedLobe operator()(const MipTexel& t) const
-    {
-        const Means& m = t.means;
-        const Direction mean = normalized({m.nx, m.ny, m.nz});
-        if (kind_ == RuleKind::Search) {
-            return fit_overlap(*t.cells, m, t.level, seed_of(t.level, t.x, t.y), overlap_);
-        }
-        FittedLobe lobe{mean, 0.0f, false, {}, 0.0f, 0.0f};
-        if (kind_ == RuleKind::Moments) {
-            const float length = std::sqrt(m.nx * m.nx + m.ny * m.ny + m.nz * m.nz);
-            const float own = std::sqrt(m.vx * m.vx + m.vy * m.vy + m.vz * m.vz);
-            const float p =
-                rule_roughness(plain_ ? "none" : o_.rule, m.p, m.alpha2, length, own);
-            lobe.alpha2 = (p * p) * (p * p);
-            return lobe;
-        }
-        if (o_.rule == "lean") {
-            lobe.alpha2 = m.alpha2 + slope_variance(t.cells->view(), mean);
-            return lobe;
-        }
-        // median and student-t fit under the design light and take it off again.
-        const float light2 = o_.design_light * o_.design_light;
-        thread_local Cells lit;
-        const Cells* cells = t.cells;
-        float narrowest = 1.0f;
-        for (const float a2 : cells->alpha2) narrowest = std::min(narrowest, a2);
-        if (light2 > 0.0f) {
-            lit = *cells;
-            for (float& a2 : lit.alpha2) a2 += light2;
-            cells = &lit;
-        }
-        const float median = median_alpha2(cells->view(), mean, lobe_kernel());
-        lobe.alpha2 = median;
-        if (o_.rule == "student-t") {
-            const RobustFit fit =
-                student_t(cells->view(), mean, median, 3, 12, false, lobe_kernel());
-            lobe.normal = fit.normal;
-            lobe.alpha2 = fit.alpha2;
-        }
-        if (light2 > 0.0f) lobe.alpha2 = std::max(narrowest, lobe.alpha2 - light2);
-        return lobe;
-    }
-
-private:
-    const PrefilterOptions& o_;
-    RuleKind kind_;
-    OverlapOptions overlap_;
-    bool plain_ = false;
-};
-
-void store(const FittedLobe& lobe, const MipTexel& t, const PrefilterOptions& options, Prefiltered& out)
-{
-    const std::size_t k = static_cast<std::size_t>(t.level);
-    float* n = &out.normal[k].at(t.x, t.y, 0);
-    n[0] = 0.5f + 0.5f * lobe.normal.x;
-    n[1] = 0.5f + 0.5f * (options.green_down ? -lobe.normal.y : lobe.normal.y);
-    n[2] = 0.5f + 0.5f * lobe.normal.z;
-    float alpha2 = lobe.elliptic ? std::min(lobe.alpha2_x, lobe.alpha2_y) : lobe.alpha2;
-    float p = perceptual(alpha2);
-    if (options.alpha) p *= p;
-    out.roughness[k].at(t.x, t.y, 0) = options.smoothness ? 1.0f - p : p;
-    if (!options.anisotropic) return;
-    float* a = &out.anisotropy[k].at(t.x, t.y, 0);
-    Direction d = lobe.tangent;
-    if (lobe.elliptic && lobe.alpha2_x < lobe.alpha2_y) {  // the wide axis is the other one
-        const Direction& z = lobe.normal;
-        const Direction& x = lobe.tangent;
-        d = {z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
-    }
-    const float length = std::max(1e-6f, std::sqrt(d.x * d.x + d.y * d.y));
-    const float wide = std::sqrt(std::max(lobe.alpha2_x, lobe.alpha2_y));
-    const float slim = std::sqrt(alpha2);
-    const float strength =
-        lobe.elliptic && slim < 1.0f
-            ? std::sqrt(std::clamp((wide - slim) / (1.0f - slim), 0.0f, 1.0f))
-            : 0.0f;
-    a[0] = 0.5f + 0.5f * d.x / length;
-    a[1] = 0.5f + 0.5f * (options.green_down ? -d.y : d.y) / length;
-    a[2] = strength;
-}
 
 std::uint8_t code(float v)
 {
@@ -162,33 +61,39 @@ void lux_roughness(const MapSurface& surface, const PrefilterOptions& options, P
     }
 }
 
+using Wanted = std::function<bool(int, int, int)>;
+
+// All variants in one walk; `wanted` empty: every texel.
+std::vector<Prefiltered> filtered(const MapSurface& surface,
+                                  const std::vector<PrefilterOptions>& variants, const Wanted& wanted)
+{
+    const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
+    std::vector<Filter> filters;
+    std::vector<Prefiltered> chains;
+    WalkOptions walking;
+    walking.wanted = wanted;
+    for (const PrefilterOptions& o : variants) {
+        filters.emplace_back(o);
+        chains.push_back(empty_chain(sizes, o));
+        walking.cells |= filters.back().needs_cells();
+        walking.own_lobes |= o.rule == "vmf";
+    }
+    walking.threads = variants.front().threads;
+    walking.progress = variants.front().progress;
+    walk(surface, walking, [&](const MipTexel& texel) {
+        for (std::size_t i = 0; i < filters.size(); ++i) {
+            store(filters[i](texel), texel, variants[i], chains[i]);
+        }
+    });
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        if (variants[i].rule == "lux") lux_roughness(surface, variants[i], chains[i]);
+    }
+    return chains;
+}
+
 Prefiltered filtered(const MapSurface& surface, const PrefilterOptions& options)
 {
-    if (!(options.design_light >= 0.0f && options.design_light <= 1.0f)) {
-        throw Error("prefilter: the design light must be in 0..1, got " +
-                        std::to_string(options.design_light),
-                    "Use 0 for the sun, 0.1 for a window.");
-    }
-    if (options.anisotropic && options.rule != "overlap") {
-        throw Error("prefilter: the rule '" + options.rule + "' has no anisotropic output",
-                    "Use the rule overlap, or leave --anisotropic out.");
-    }
-    const Filter filter(options);
-    const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
-    Prefiltered out;
-    out.normal.resize(sizes.size());
-    out.roughness.resize(sizes.size());
-    if (options.anisotropic) out.anisotropy.resize(sizes.size());
-    for (std::size_t k = 1; k < sizes.size(); ++k) {
-        const auto [width, height] = sizes[k];
-        out.normal[k] = Image(width, height, 3, ColorSpace::Data);
-        out.roughness[k] = Image(width, height, 1, ColorSpace::Data);
-        if (options.anisotropic) out.anisotropy[k] = Image(width, height, 3, ColorSpace::Data);
-    }
-    walk(surface, {filter.needs_cells(), options.rule == "vmf", options.threads, options.progress},
-         [&](const MipTexel& texel) { store(filter(texel), texel, options, out); });
-    if (options.rule == "lux") lux_roughness(surface, options, out);
-    return out;
+    return std::move(filtered(surface, std::vector{options}, {}).front());
 }
 
 }  // namespace
@@ -229,6 +134,14 @@ Prefiltered prefilter_raw(const RawImage& normal, const RawImage& roughness,
                           const PrefilterOptions& options)
 {
     return filtered(make_surface(ref(normal), ref(roughness), options), options);
+}
+
+std::vector<Prefiltered> prefilter_some(const RawImage& normal, const RawImage& roughness,
+                                        const std::vector<PrefilterOptions>& variants,
+                                        const Wanted& wanted)
+{
+    if (variants.empty()) return {};
+    return filtered(make_surface(ref(normal), ref(roughness), variants.front()), variants, wanted);
 }
 
 }  // namespace petrichor::texproc

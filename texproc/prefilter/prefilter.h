@@ -27,6 +27,7 @@ struct PrefilterOptions {
     bool joint = true;           ///< overlap: may re-aim the normals; else only roughness changes
     bool anisotropic = false;    ///< overlap: elliptic lobes where they help
     bool quick = false;          ///< overlap: less search
+    int bits = 0;                ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
 };
@@ -51,6 +52,13 @@ Prefiltered prefilter(const Image& normal, const Image& roughness,
 /// it is the input.
 Prefiltered prefilter_raw(const RawImage& normal, const RawImage& roughness,
                           const PrefilterOptions& options = {});
+
+/// Several variants of the same maps in one walk, filling only the texels for which
+/// wanted(level, x, y) holds, which is all that a score looks at; the others stay 0. All variants
+/// must read the maps alike. wanted is called from several threads. The rule lux needs every texel.
+std::vector<Prefiltered> prefilter_some(const RawImage& normal, const RawImage& roughness,
+                                        const std::vector<PrefilterOptions>& variants,
+                                        const std::function<bool(int, int, int)>& wanted);
 
 }  // namespace petrichor::texproc
 

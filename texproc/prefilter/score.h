@@ -7,13 +7,17 @@
 #include <vector>
 
 #include "base/image.h"
-#include "texproc/prefilter/prefilter.h"
+#include "texproc/area.h"
 #include "texproc/files/raw_image.h"
+#include "texproc/prefilter/prefilter.h"
 
 namespace petrichor::texproc {
 
 // The yardstick (texture-prefilter.md, 4): how far the light of one mip texel is from the mean light of
 // the texels of level 0 under it, over five views, as the share of light that is misplaced (0..2).
+
+/// Below this room a gap is a ratio of two noises.
+inline constexpr double kSmallestRoom = 0.02;
 
 struct ScoreOptions {
     float light = 0.0f;  ///< alpha that widens every lobe on both sides: 0 the sun, 0.1 a window
@@ -41,9 +45,10 @@ struct RangeScore {
     int levels = 0;
 
     double room() const { return plain - best; }
-    /// Share of the room closed, in percent; only where room() >= 0.02 does it mean anything.
+    /// Share of the room closed, in percent; only where has_room() does it mean anything.
     double gap() const { return 100.0 * (plain - tested) / room(); }
     double excess() const { return tested - best; }
+    bool has_room() const { return room() >= kSmallestRoom; }
 };
 
 struct Score {
@@ -62,6 +67,10 @@ Score score(const RawImage& normal, const RawImage& roughness, const Prefiltered
 std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
                              const std::vector<Prefiltered>& chains, const PrefilterOptions& input,
                              const ScoreOptions& options = {});
+
+/// The texels of a level that a score looks at, as y * width + x: strata of equal texel counts in row
+/// order, one at random in each.
+std::vector<std::int64_t> score_texels(LevelSize size, int level, const ScoreOptions& options);
 
 /// Rounds a chain as a file of 8 or 16 bits does.
 void quantize(Prefiltered& chain, int bits);

@@ -33,6 +33,7 @@ std::vector<Column> columns_of(const CsvTable& table, std::vector<Problem>& prob
         known.push_back({std::string(parameter.name), 0, height ? -20000.0 : 0.0,
                          std::max(1000.0, parameter.high)});
     }
+    for (const HandSetState& state : hand_set_states()) known.push_back({std::string(state.name), 0, 0.0, 1.0});
     std::vector<Column> found;
     for (Column& column : known) {
         const auto index = table.column(column.name);
@@ -46,7 +47,7 @@ std::vector<Column> columns_of(const CsvTable& table, std::vector<Problem>& prob
     for (const std::string& name : table.header) {
         if (std::none_of(known.begin(), known.end(),
                          [&](const Column& c) { return c.name == lower_case(name); })) {
-            problems.push_back({0, name, "no input or parameter of the model has this name"});
+            problems.push_back({0, name, "no input, parameter or state of the model has this name"});
         }
     }
     return found;
@@ -56,6 +57,9 @@ Channel& channel_of(Timeline& timeline, const std::string& name)
 {
     if (name == "temperature_c") return timeline.temperature_c;
     if (name == "rainfall") return timeline.rainfall;
+    for (const HandSetState& state : hand_set_states()) {
+        if (state.name == name) return timeline.states[name];
+    }
     return timeline.parameters[name];
 }
 

@@ -22,7 +22,8 @@ struct TimelineReading {
 ///
 /// Columns, letter case ignored: time_s (>= 0, ascending), temperature_c (-100..100), rainfall (0..1),
 /// and any parameter of ArtistParams (>= 0; snow_start_height_m any; script_controlled 0 or 1, always
-/// held). An empty cell is no key of that column.
+/// held), and the states wetness, cracks, puddles, snow, water_to_snow (0..1), which count while
+/// script_controlled is 0. An empty cell is no key of that column.
 ///
 /// Throws Error with the list of problems (line, column) for an empty, binary or differently separated
 /// text, missing or unknown columns, times out of order or twice, or bad cells. Where bad rows are at

@@ -21,7 +21,8 @@ namespace petrichor::weather {
 // Between two keys temperature and rainfall are polynomials of time, so W is one too; water and snow
 // follow from integrals of polynomials and one exponential. Events split the time axis exactly:
 // temperature through 0, W reaching 0 or 1, and the turns of the film while it dries and is fed by
-// melting snow. Parameters that change smoothly are sampled: 1 s of scaled time a piece, at its middle.
+// melting snow. Parameters that change smoothly are sampled at the middle of pieces of 1/256 s of scaled
+// time and longer, the slower they change: within 4e-5 of the limit.
 
 /// Where an exact run can be taken up again: see ArtistTimeline::checkpoint_at.
 struct ArtistCheckpoint {

@@ -12,6 +12,15 @@ double radians(double degrees)
     return degrees * (kPi / 180.0);
 }
 
+// Sun on a plane that faces it through very clear mountain air: 0.78^(m^0.678) in the manner of Meinel 1976, air mass m
+// by Rozenberg 1966.
+double clearest_beam_w_m2(double sine_elevation, double extraterrestrial_w_m2)
+{
+    const double air_mass = 1.0 / (sine_elevation + 0.025 * detail::exponential(-11.0 * sine_elevation));
+    const double path = detail::exponential(0.678 * detail::logarithm(air_mass));
+    return extraterrestrial_w_m2 * detail::exponential(path * detail::logarithm(0.78));
+}
+
 }  // namespace
 
 SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg)
@@ -80,9 +89,12 @@ double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double ext
     // Near the horizon the index is meaningless: everything is diffuse.
     if (!(sine_elevation > 0.05) || !(shortwave_w_m2 > 0.0)) return 1.0;
     const double kt = detail::smaller(shortwave_w_m2 / (extraterrestrial_w_m2 * sine_elevation), 1.0);
-    if (kt <= 0.22) return 1.0 - 0.09 * kt;
-    if (kt > 0.80) return 0.165;
-    return 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
+    double diffuse = 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
+    if (kt <= 0.22) diffuse = 1.0 - 0.09 * kt;
+    if (kt > 0.80) diffuse = 0.165;
+    // A hill that faces a low sun must not see more of it than very clear air lets through.
+    const double beam = clearest_beam_w_m2(sine_elevation, extraterrestrial_w_m2);
+    return detail::larger(diffuse, 1.0 - beam * sine_elevation / shortwave_w_m2);
 }
 
 }  // namespace petrichor::weather

@@ -20,6 +20,21 @@ std::string number_text(double value)
     return out;
 }
 
+// Values known `after_s` after each time become values at the times, along lines between them.
+void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>& column, double after_s)
+{
+    const std::vector<double> was = column;
+    const double after_us = after_s * 1e6;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        const std::size_t other = after_s > 0.0 ? i - 1 : i + 1;
+        if (other >= column.size()) continue;  // the first or last row keeps its value
+        const double apart = static_cast<double>(time_us[i] - time_us[other]);
+        const double share = after_us / apart;
+        if (std::isnan(was[i]) || std::isnan(was[other]) || !(share > 0.0 && share <= 1.0)) continue;
+        column[i] = was[i] + (was[other] - was[i]) * share;
+    }
+}
+
 }  // namespace
 
 RowCollector::RowCollector(std::string format)
@@ -93,7 +108,9 @@ void RowCollector::set(Field field, double value)
 
 void RowCollector::missing(Field field)
 {
-    if (in_row_) report_index(field);
+    if (!in_row_) return;
+    FieldReport& f = report_.fields[report_index(field)];
+    if (f.first_missing_line == 0) f.first_missing_line = line_;
 }
 
 void RowCollector::unreadable(Field field, std::string_view text)
@@ -224,6 +241,7 @@ ForcingTable RowCollector::finish()
                 if (!std::isnan(column[i]) && !std::isnan(column[i + 1])) column[i] = 0.5 * (column[i] + column[i + 1]);
             }
         }
+        if (held_after_s_[f] != 0.0) move_in_time(table.time_us, column, held_after_s_[f]);
     }
     spread_amounts(table);
     for (std::size_t f = 0; f < kFieldCount; ++f) {

@@ -35,6 +35,8 @@ public:
     void fell_before(Field field, double amount_kg_m2, double hours);
     /// Values of this field are means of the interval that ends at the row's time.
     void means_of_past(Field field) { past_mean_[static_cast<std::size_t>(field)] = true; }
+    /// Values of this field hold `seconds` after (or, negative, before) the row's time.
+    void holds_after(Field field, double seconds) { held_after_s_[static_cast<std::size_t>(field)] = seconds; }
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
 
     std::size_t rows() const { return times_.size(); }
@@ -61,6 +63,7 @@ private:
     std::array<std::vector<double>, kFieldCount> values_;
     std::array<std::size_t, kFieldCount> report_of_{};
     std::array<bool, kFieldCount> past_mean_{};
+    std::array<double, kFieldCount> held_after_s_{};
     std::vector<Fallen> fallen_;
     std::vector<std::string> problems_;
     std::size_t line_ = 0;

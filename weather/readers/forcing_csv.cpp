@@ -2,6 +2,7 @@
 // the most frequent one of the header; # begins a comment. Column names: units.cpp.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
@@ -21,11 +22,20 @@ bool is_time_name(std::string_view name)
            low == "date_time" || low == "time(utc)";
 }
 
+// Codes that data loggers and archives write for "no value"; none of them is a possible value of a column here.
 bool is_missing_word(std::string_view text)
 {
     const std::string low = lower(trimmed(text));
-    return low.empty() || low == "na" || low == "nan" || low == "null" || low == "none" || low == "-" || low == "-9999" ||
-           low == "-9999.0" || low == "-999" || low == "-999.0" || low == "-99.00";
+    for (const char* word : {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "m", "missing"}) {
+        if (low == word) return true;
+    }
+    if (low.front() != '-') return false;
+    const auto value = to_number(low);
+    if (!value) return false;
+    for (const double code : {-99.0, -99.9, -99.99, -999.0, -999.9, -999.99, -6999.0, -7999.0, -9999.0, -9999.9, -9999.99, -99999.0}) {
+        if (*value == code) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -101,6 +111,7 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
     }
     const double seconds = static_cast<double>(usual_us) * 1e-6;
 
+    std::map<std::string, std::size_t> missing_codes;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty() || t.front() == '#') continue;
@@ -122,6 +133,8 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             const bool field = !m.percent_snow && !m.vapour_pressure;
             if (is_missing_word(f[i])) {
                 if (field) rows.missing(m.field);
+                const std::string code(trimmed(f[i]));
+                ++missing_codes[code.empty() ? "an empty cell" : "'" + shown(code) + "'"];
                 continue;
             }
             const auto value = to_number(f[i]);
@@ -150,6 +163,9 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             rows.set(Field::Snow, precip * snow_share);
             rows.set(Field::Rain, precip * (1.0 - snow_share));
         }
+    }
+    for (const auto& [code, count] : missing_codes) {
+        rows.note(ReadNote::Kind::Info, 0, "missing", std::string(code).append(" means no value, ").append(std::to_string(count)).append(" times"));
     }
 }
 

@@ -259,6 +259,7 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
         const MetarReport& r = *t.report;
         put_report(rows, r, elevation);
         if (!std::isnan(r.hour_precip_mm)) rows.fell_before(Field::Precip, r.hour_precip_mm, 1.0);
+        else if (amounts && rows.rows() > 1) rows.fell_before(Field::Precip, 0.0, 1.0);  // such stations report only what fell
         if (!std::isnan(r.six_hour_precip_mm)) rows.fell_before(Field::Precip, r.six_hour_precip_mm, 6.0);
         if (!amounts) {
             // No measured amounts at this station: rates from present weather, until the next report.

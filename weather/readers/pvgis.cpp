@@ -1,5 +1,7 @@
 // PVGIS CSV (typical year or series): a header block, a table that begins with time(UTC), a footer. No
 // precipitation. Times like 20180101:0000; the year of a typical year jumps.
+#include <cmath>
+
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
@@ -37,6 +39,7 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     std::vector<std::string_view> names;
+    double sun_offset_h = 0.0;  // radiation holds this long after the time of its row
     while (const auto line = lines.next()) {
         const std::string low = lower(*line);
         const auto colon = line->rfind(':');
@@ -44,6 +47,7 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
         if (low.rfind("latitude", 0) == 0) rows.site().latitude_deg = value;
         else if (low.rfind("longitude", 0) == 0) rows.site().longitude_deg = value;
         else if (low.rfind("elevation", 0) == 0) rows.site().elevation_m = value;
+        else if (low.rfind("irradiance time offset", 0) == 0 && std::abs(value) <= 1.0) sun_offset_h = value;
         else if (low.rfind("time", 0) == 0) {
             names = split(*line, ',', 64);
             break;
@@ -64,6 +68,12 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
     }
     typical.decide(rows);
     rows.note(ReadNote::Kind::Info, 0, "precip", "PVGIS has no precipitation");
+    if (sun_offset_h != 0.0) {
+        rows.note(ReadNote::Kind::Time, 0, "sw_down",
+                  std::string("irradiance is instantaneous ").append(std::to_string(std::lround(sun_offset_h * 60.0)))
+                      .append(" min after the time of its row; moved to the row along a line"));
+        for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse}) rows.holds_after(f, sun_offset_h * 3600.0);
+    }
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty()) break;  // the footer explains the columns

@@ -73,6 +73,7 @@ constexpr std::array kGlyphs{
     Glyph{'*', 4, "2733 2337 0545"},   Glyph{'|', 2, "1119"},
     Glyph{'@', 5, "4324142537364453121203071848"},
     Glyph{' ', 3, ""},                 Glyph{'\x01', 3, "0718271607"},
+    Glyph{'\x03', 3, "0819280525"},
 };
 
 constexpr double kGap = 1.5;
@@ -85,7 +86,7 @@ const Glyph* glyph_of(char character)
     return nullptr;
 }
 
-// UTF-8 to the characters of the font: the degree sign is 1, anything else beyond ASCII is 2.
+// UTF-8 to the characters of the font: the degree sign is 1, superscript two 3, anything else beyond ASCII 2.
 std::vector<char> characters_of(std::string_view utf8)
 {
     std::vector<char> characters;
@@ -94,9 +95,8 @@ std::vector<char> characters_of(std::string_view utf8)
         if (byte < 0x80) {
             characters.push_back(utf8[i]);
         } else if (byte >= 0xC0) {
-            const bool degree = byte == 0xC2 && i + 1 < utf8.size() &&
-                                static_cast<unsigned char>(utf8[i + 1]) == 0xB0;
-            characters.push_back(degree ? '\x01' : '\x02');
+            const int next = byte == 0xC2 && i + 1 < utf8.size() ? static_cast<unsigned char>(utf8[i + 1]) : 0;
+            characters.push_back(next == 0xB0 ? '\x01' : next == 0xB2 ? '\x03' : '\x02');
         }
     }
     return characters;

@@ -237,7 +237,7 @@ void Maps::bake()
 
 void Maps::prefilter()
 {
-    bool needed = false, joint = false;
+    bool needed = false, joint = false, all_eight = true;
     int bits = 0;
     for (const PlannedOutput& output : plan_.outputs) {
         needed = needed || output.prefiltered;
@@ -245,6 +245,7 @@ void Maps::prefilter()
         // Re-aimed normals are of use only where they are written with the roughness.
         joint = joint || std::count(output.roles.begin(), output.roles.end(), "normal") > 0;
         bits = std::max(bits, output.rule.bits);
+        all_eight = all_eight && output.rule.bits == 8;
     }
     if (!needed) return;
     const std::string role = find("roughness") ? "roughness" : "smoothness";
@@ -262,6 +263,7 @@ void Maps::prefilter()
     options.design_light = recipe_.design_light;
     options.quick = recipe_.quick;
     options.joint = joint;
+    options.bits = all_eight ? 8 : 0;  // codes chosen for the files that ship
     options.wrap_u = recipe_.mips.wrap_u;
     options.wrap_v = recipe_.mips.wrap_v;
     options.threads = threads_;

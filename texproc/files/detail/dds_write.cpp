@@ -44,7 +44,7 @@ OldFormat old_format(const TextureFormat& format)
 
 }  // namespace
 
-std::vector<std::byte> dds_header(const MipTexture& texture)
+std::vector<std::byte> dds_header(const MipTexture& texture, std::size_t levels)
 {
     const TextureFormat& format = texture.format;
     OldFormat old = texture.srgb || format.is_signed ? OldFormat{} : old_format(format);
@@ -58,13 +58,13 @@ std::vector<std::byte> dds_header(const MipTexture& texture)
     }
     if (extended) old = {4, code_of("DX10")};
 
-    const bool many = texture.levels.size() > 1;
+    const bool many = levels > 1;
     std::uint32_t flags = 0x1007, caps = 0x1000;  // size, format; texture
     if (many) {
         flags |= 0x20000;
         caps |= 0x400008;
     }
-    std::size_t pitch = texture.levels.at(0).size();
+    std::size_t pitch = level_bytes(format, texture.width, texture.height);
     if (format.block) {
         flags |= 0x80000;  // bytes of level 0
     } else {
@@ -79,7 +79,7 @@ std::vector<std::byte> dds_header(const MipTexture& texture)
     put_u32(file, static_cast<std::uint32_t>(texture.width));
     put_u32(file, pitch);
     put_u32(file, 0);  // depth
-    put_u32(file, texture.levels.size());
+    put_u32(file, levels);
     for (int i = 0; i < 11; ++i) put_u32(file, 0);
     put_u32(file, 32);
     put_u32(file, old.flags);

@@ -124,7 +124,7 @@ std::vector<std::byte> key_values()
     return to;
 }
 
-std::vector<std::byte> compressed(const std::vector<std::byte>& level, int quality)
+std::vector<std::byte> compressed(std::span<const std::byte> level, int quality)
 {
     std::vector<std::byte> to(ZSTD_compressBound(level.size()));
     const std::size_t size = ZSTD_compress(to.data(), to.size(), level.data(), level.size(), quality);
@@ -135,7 +135,7 @@ std::vector<std::byte> compressed(const std::vector<std::byte>& level, int quali
 
 }  // namespace
 
-std::vector<std::byte> ktx2_file(const MipTexture& texture, int zstd)
+Ktx2Parts ktx2_parts(const MipTexture& texture, const LevelBytes& levels, int zstd)
 {
     const std::uint32_t vulkan = vulkan_code(texture.format, texture.srgb);
     if (vulkan == 0) {
@@ -147,10 +147,13 @@ std::vector<std::byte> ktx2_file(const MipTexture& texture, int zstd)
         throw Error("ktx2: zstd level " + std::to_string(zstd) + " is outside 0..22",
                     "Use 0 (none) or a level such as 5 or 18.");
     }
-    const std::size_t count = texture.levels.size();
-    std::vector<std::vector<std::byte>> packed(count);
-    for (std::size_t k = 0; zstd && k < count; ++k) packed[k] = compressed(texture.levels[k], zstd);
-    const auto& stored = zstd ? packed : texture.levels;
+    const std::size_t count = levels.size();
+    Ktx2Parts file;
+    file.own.resize(2 * count + 1);  // header; packed levels; padding
+    LevelBytes stored = levels;
+    for (std::size_t k = 0; zstd && k < count; ++k) {
+        stored[k] = file.own[1 + k] = compressed(levels[k], zstd);
+    }
 
     const auto dfd = descriptor(texture);
     const auto pairs = key_values();
@@ -160,43 +163,53 @@ std::vector<std::byte> ktx2_file(const MipTexture& texture, int zstd)
     std::vector<std::size_t> at(count);
     std::size_t end = pairs_at + pairs.size();
     for (std::size_t k = count; k-- > 0;) {
-        end = (end + align - 1) / align * align;
-        at[k] = end;
-        end += stored[k].size();
+        at[k] = (end + align - 1) / align * align;
+        file.own[1 + count + k].resize(at[k] - end);
+        end = at[k] + stored[k].size();
     }
 
     static constexpr unsigned char kIdentifier[12] = {0xab, 'K', 'T', 'X', ' ', '2',
                                                       '0',  0xbb, '\r', '\n', 0x1a, '\n'};
-    std::vector<std::byte> file;
-    file.reserve(end);
-    for (const unsigned char c : kIdentifier) file.push_back(static_cast<std::byte>(c));
-    put_u32(file, vulkan);
-    put_u32(file, texture.format.block ? 1 : size_of(texture.format.type));
-    put_u32(file, static_cast<std::uint32_t>(texture.width));
-    put_u32(file, static_cast<std::uint32_t>(texture.height));
-    put_u32(file, 0);  // depth
-    put_u32(file, 0);  // layers
-    put_u32(file, 1);  // faces
-    put_u32(file, count);
-    put_u32(file, zstd ? 2 : 0);
-    put_u32(file, dfd_at);
-    put_u32(file, dfd.size());
-    put_u32(file, pairs_at);
-    put_u32(file, pairs.size());
-    put_little(file, 0, 8);  // no global data
-    put_little(file, 0, 8);
+    std::vector<std::byte>& head = file.own[0];
+    for (const unsigned char c : kIdentifier) head.push_back(static_cast<std::byte>(c));
+    put_u32(head, vulkan);
+    put_u32(head, texture.format.block ? 1 : size_of(texture.format.type));
+    put_u32(head, static_cast<std::uint32_t>(texture.width));
+    put_u32(head, static_cast<std::uint32_t>(texture.height));
+    put_u32(head, 0);  // depth
+    put_u32(head, 0);  // layers
+    put_u32(head, 1);  // faces
+    put_u32(head, count);
+    put_u32(head, zstd ? 2 : 0);
+    put_u32(head, dfd_at);
+    put_u32(head, dfd.size());
+    put_u32(head, pairs_at);
+    put_u32(head, pairs.size());
+    put_little(head, 0, 8);  // no global data
+    put_little(head, 0, 8);
     for (std::size_t k = 0; k < count; ++k) {
-        put_little(file, at[k], 8);
-        put_little(file, stored[k].size(), 8);
-        put_little(file, texture.levels[k].size(), 8);
+        put_little(head, at[k], 8);
+        put_little(head, stored[k].size(), 8);
+        put_little(head, levels[k].size(), 8);
     }
-    file.insert(file.end(), dfd.begin(), dfd.end());
-    file.insert(file.end(), pairs.begin(), pairs.end());
+    head.insert(head.end(), dfd.begin(), dfd.end());
+    head.insert(head.end(), pairs.begin(), pairs.end());
+    file.parts.emplace_back(head);
     for (std::size_t k = count; k-- > 0;) {
-        file.resize(at[k]);
-        file.insert(file.end(), stored[k].begin(), stored[k].end());
+        file.parts.emplace_back(file.own[1 + count + k]);
+        file.parts.emplace_back(stored[k]);
     }
     return file;
+}
+
+std::vector<std::byte> ktx2_file(const MipTexture& texture, int zstd)
+{
+    const Ktx2Parts file = ktx2_parts(texture, level_bytes_of(texture), zstd);
+    std::vector<std::byte> whole;
+    for (const std::span<const std::byte> bytes : file.parts) {
+        whole.insert(whole.end(), bytes.begin(), bytes.end());
+    }
+    return whole;
 }
 
 }  // namespace petrichor::texproc::detail

@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "texproc/detail/parallel.h"
@@ -89,14 +90,16 @@ void deflate_block(Block& block, const std::uint8_t* data, std::size_t size,
     z_stream z{};
     if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_FILTERED) != Z_OK) throw std::bad_alloc();
     if (before_size) deflateSetDictionary(&z, before, static_cast<uInt>(before_size));
-    block.deflated.resize(deflateBound(&z, static_cast<uLong>(size)) + 16);
+    const std::size_t most = deflateBound(&z, static_cast<uLong>(size)) + 16;
+    const auto scratch = std::make_unique_for_overwrite<Bytef[]>(most);  // far more than is kept
     z.next_in = const_cast<Bytef*>(data);
     z.avail_in = static_cast<uInt>(size);
-    z.next_out = reinterpret_cast<Bytef*>(block.deflated.data());
-    z.avail_out = static_cast<uInt>(block.deflated.size());
+    z.next_out = scratch.get();
+    z.avail_out = static_cast<uInt>(most);
     const int result = deflate(&z, last ? Z_FINISH : Z_SYNC_FLUSH);
     const bool ok = z.avail_in == 0 && (last ? result == Z_STREAM_END : result == Z_OK);
-    block.deflated.resize(block.deflated.size() - z.avail_out);
+    const auto* written = reinterpret_cast<const std::byte*>(scratch.get());
+    block.deflated.assign(written, written + (most - z.avail_out));
     deflateEnd(&z);
     if (!ok) throw std::runtime_error("png: deflate failed");
     block.adler = adler32_z(1, data, size);

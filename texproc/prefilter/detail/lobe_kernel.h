@@ -28,10 +28,21 @@ struct CellsView {
 struct SamplesView {
     int per_view;
     float *hx, *hy, *hz;
-    float *lx, *ly, *lz;
+    float* vh2;  ///< 2 (v.h): the light is l = vh2 h - v
     float* weight;
     float* density;   ///< of the half-vector in the footprint: sum of w D (n.h)
     float* radiance;  ///< of the footprint: sum of w f (n.l)
+};
+
+/// Points of a rank-1 lattice, view after view, `per_view` at most of each; the second coordinate as
+/// an angle.
+struct LatticeView {
+    int per_view;
+    const float *u, *cosine, *sine;
+};
+/// What moves the lattice from texel to texel: a shift of u and a turn of the angle.
+struct Turn {
+    float shift, cosine, sine;
 };
 
 /// One lobe to test; elliptic when alpha2_x and alpha2_y differ, tx ty tz is then its x axis.
@@ -58,8 +69,14 @@ struct SlopeSums {
 };
 
 struct LobeKernel {
+    /// Half-vectors from the lobes of the footprint: sample k from the cell cell[k]. Fills hx hy hz,
+    /// vh2 and weight = +-4 (v.h).
+    void (*place)(const CellsView& cells, const Turn& turn, const LatticeView& lattice,
+                  const int* cell, const SamplesView& samples);
     /// Fills density and radiance of every sample.
     void (*shade)(const CellsView& cells, const SamplesView& samples);
+    /// Divides the weights by density and number, after shade().
+    void (*weigh)(const SamplesView& samples);
     /// out[v * count + k], for lobes that share a normal: the sum over the samples of view v of
     /// 2 weight min(radiance, lobe k) above the horizon and of -weight lobe k below it.
     void (*overlaps)(const SamplesView& samples, const Lobe& lobe, const float* alpha2s, int count,

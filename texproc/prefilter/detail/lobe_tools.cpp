@@ -67,34 +67,52 @@ std::array<float, kTable * kTable> make_albedo_table()
 
 namespace {
 
-const std::array<float, kTable * kTable>& albedo_table()
+// The table as bilinear patches: c0 + c1 y + x (c2 + c3 y), one load each.
+struct Patch {
+    float c0, c1, c2, c3;
+};
+constexpr int kPatches = kTable - 1;
+
+std::array<Patch, kPatches * kPatches> make_patches()
 {
-    static const std::array<float, kTable * kTable> table = make_albedo_table();
-    return table;
+    const auto table = make_albedo_table();
+    std::array<Patch, kPatches * kPatches> patches;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        for (std::size_t j = 0; j < kPatches; ++j) {
+            const float* t = &table[i * kTable + j];
+            patches[i * kPatches + j] = {t[0], t[1] - t[0], t[kTable] - t[0],
+                                         (t[kTable + 1] - t[kTable]) - (t[1] - t[0])};
+        }
+    }
+    return patches;
+}
+
+const Patch* patches()
+{
+    static const std::array<Patch, kPatches * kPatches> all = make_patches();
+    return all.data();
 }
 
 // Row of the table for a width, and how far towards the next.
 struct Row {
-    const float* row;
+    const Patch* row;
     float share;
 };
 Row albedo_row(float alpha2)
 {
-    const float x = std::min(1.0f, std::sqrt(std::sqrt(alpha2))) * (kTable - 1);
-    const int i = std::min(kTable - 2, static_cast<int>(x));
-    return {&albedo_table()[static_cast<std::size_t>(i * kTable)], x - static_cast<float>(i)};
+    const float x = std::sqrt(std::sqrt(alpha2)) * kPatches;
+    const int i = std::min(kPatches - 1, static_cast<int>(x));
+    return {patches() + i * kPatches, std::min(1.0f, x - static_cast<float>(i))};
 }
 
 float albedo_at(const Row& r, float mu)
 {
-    if (!(mu > 0.0f)) return 0.0f;
-    const float y = std::min(1.0f, mu) * (kTable - 1);
-    const int j = std::min(kTable - 2, static_cast<int>(y));
+    const float y = std::max(0.0f, mu) * kPatches;
+    const int j = std::min(kPatches - 1, static_cast<int>(y));
     const float fy = y - static_cast<float>(j);
-    const float* t = r.row + j;
-    const float a = t[0] + fy * (t[1] - t[0]);
-    const float b = t[kTable] + fy * (t[kTable + 1] - t[kTable]);
-    return a + r.share * (b - a);
+    const Patch& p = r.row[j];
+    const float value = (p.c0 + fy * p.c1) + r.share * (p.c2 + fy * p.c3);
+    return mu > 0.0f ? value : 0.0f;
 }
 
 }  // namespace
@@ -114,28 +132,29 @@ void Samples::resize(int per_view)
 {
     assert(per_view % kLanes == 0);
     per_view_ = per_view;
-    data_.resize(static_cast<std::size_t>(9 * kViews * per_view));
+    data_.resize(static_cast<std::size_t>(7 * kViews * per_view));
+    cell_.resize(static_cast<std::size_t>(kViews * per_view));
 }
 
 SamplesView Samples::view()
 {
     const std::size_t n = static_cast<std::size_t>(kViews * per_view_);
     float* d = data_.data();
-    return {per_view_, d,         d + n,     d + 2 * n, d + 3 * n,
-            d + 4 * n, d + 5 * n, d + 6 * n, d + 7 * n, d + 8 * n};
+    return {per_view_, d, d + n, d + 2 * n, d + 3 * n, d + 4 * n, d + 5 * n, d + 6 * n};
 }
 
 namespace {
 
 constexpr int kMostSamples = 2560;
 
-// Points of the rank-1 lattice; the turn of a point by a texel's own angle is a rotation.
+// Sample j of the rank-1 lattice serves view j mod kViews.
 struct Lattice {
+    static constexpr int kPerView = kMostSamples / kViews;
     std::array<float, kMostSamples> u, cosine, sine;
     Lattice()
     {
         for (int j = 0; j < kMostSamples; ++j) {
-            const std::size_t k = static_cast<std::size_t>(j);
+            const auto k = static_cast<std::size_t>(j % kViews * kPerView + j / kViews);
             const double a = 0.7548776662466927 * j, b = 0.5698402909980532 * j;
             u[k] = static_cast<float>(a - std::floor(a));
             const double phi = 6.283185307179586 * (b - std::floor(b));
@@ -144,10 +163,10 @@ struct Lattice {
         }
     }
 };
-const Lattice& lattice()
+LatticeView lattice()
 {
-    static const Lattice the_lattice;
-    return the_lattice;
+    static const Lattice points;
+    return {Lattice::kPerView, points.u.data(), points.cosine.data(), points.sine.data()};
 }
 
 float unit_float(std::uint32_t& state)
@@ -162,64 +181,30 @@ float unit_float(std::uint32_t& state)
 
 }  // namespace
 
-void draw(const CellsView& cells, int total, std::uint32_t seed, Samples& samples)
+void Samples::draw(const CellsView& cells, int total, std::uint32_t seed, const LobeKernel& kernel)
 {
     assert(total % (kViews * kLanes) == 0 && total <= kMostSamples);
-    samples.resize(total / kViews);
-    const SamplesView s = samples.view();
-    const Lattice& points = lattice();
+    resize(total / kViews);
     std::uint32_t state = seed * 0x9e3779b9u + 0x85ebca6bu;
     const float shift = unit_float(state);
     const float shift_u = unit_float(state);
     const float angle = 6.2831853f * unit_float(state);
-    const float turn_c = std::cos(angle), turn_s = std::sin(angle);
+    // Systematic choice of the cells by cumulated weight.
     float whole = 0.0f;
     for (int i = 0; i < cells.count; ++i) whole += cells.weight[i];
     const float step = whole / static_cast<float>(total);
     int cell = 0;
     float reached = cells.weight[0];
-    Frame frame = frame_about({cells.nx[0], cells.ny[0], cells.nz[0]});
-    for (int j = 0; j < total; ++j) {
-        const float target = (static_cast<float>(j) + shift) * step;
-        if (reached <= target && cell + 1 < cells.count) {
-            do {
-                reached += cells.weight[++cell];
-            } while (reached <= target && cell + 1 < cells.count);
-            frame = frame_about({cells.nx[cell], cells.ny[cell], cells.nz[cell]});
-        }
-        const std::size_t k = static_cast<std::size_t>(j);
-        float u = points.u[k] + shift_u;
-        u = std::min(u >= 1.0f ? u - 1.0f : u, 0.99999f);
-        const float tan2 = cells.alpha2[cell] * u / (1.0f - u);
-        const float c = 1.0f / std::sqrt(1.0f + tan2);
-        const float r = std::sqrt(tan2) * c;
-        const float x = r * (points.cosine[k] * turn_c - points.sine[k] * turn_s);
-        const float y = r * (points.sine[k] * turn_c + points.cosine[k] * turn_s);
-        const int v = j % kViews;
-        const int at = v * s.per_view + j / kViews;
-        s.hx[at] = frame.t.x * x + frame.b.x * y + frame.n.x * c;
-        s.hy[at] = frame.t.y * x + frame.b.y * y + frame.n.y * c;
-        s.hz[at] = frame.t.z * x + frame.b.z * y + frame.n.z * c;
-    }
-    for (int v = 0; v < kViews; ++v) {
-        const float* view = kViewDirections[v];
-        for (int k = v * s.per_view; k < (v + 1) * s.per_view; ++k) {
-            const float vh = view[0] * s.hx[k] + view[1] * s.hy[k] + view[2] * s.hz[k];
-            s.lx[k] = 2.0f * vh * s.hx[k] - view[0];
-            s.ly[k] = 2.0f * vh * s.hy[k] - view[1];
-            s.lz[k] = 2.0f * vh * s.hz[k] - view[2];
-            s.weight[k] = vh > 0.0f ? (s.lz[k] > 0.0f ? 4.0f : -4.0f) * vh : 0.0f;
+    for (int j = 0, i = 0; i < per_view_; ++i) {
+        for (int v = 0; v < kViews; ++v, ++j) {
+            const float target = (static_cast<float>(j) + shift) * step;
+            while (reached <= target && cell + 1 < cells.count) reached += cells.weight[++cell];
+            cell_[static_cast<std::size_t>(v * per_view_ + i)] = cell;
         }
     }
-}
-
-void weigh(Samples& samples)
-{
-    const SamplesView s = samples.view();
-    const float number = static_cast<float>(s.per_view);
-    for (int k = 0; k < kViews * s.per_view; ++k) {
-        s.weight[k] = s.density[k] > 0.0f ? s.weight[k] / (s.density[k] * number) : 0.0f;
-    }
+    kernel.place(cells, {shift_u, std::cos(angle), std::sin(angle)}, lattice(), cell_.data(), view());
+    kernel.shade(cells, view());
+    kernel.weigh(view());
 }
 
 namespace {

@@ -27,23 +27,21 @@ float lobe_albedo(float alpha2, float mu);
 /// The same for one lobe of normal n under the five views.
 void lobe_albedo_in_views(float alpha2, const Direction& n, float* out);
 
-/// Storage behind a SamplesView.
+/// Half-vectors with their storage.
 class Samples {
 public:
+    /// `total` half-vectors (a multiple of kViews * kLanes) from the footprint's own lobes, each
+    /// reflecting its view, shaded and weighted. seed: a hash of level and texel.
+    void draw(const CellsView& cells, int total, std::uint32_t seed, const LobeKernel& kernel);
+    /// Room for others to fill.
     void resize(int per_view);
     SamplesView view();
-    int per_view() const { return per_view_; }
 
 private:
     int per_view_ = 0;
     std::vector<float> data_;
+    std::vector<int> cell_;
 };
-
-/// Draws `total` half-vectors (a multiple of kViews * kLanes) from the footprint's own lobes and
-/// reflects each view about its share; fills everything but density, radiance and weight, which are
-/// set by weigh() after shading. seed: a hash of level and texel.
-void draw(const CellsView& cells, int total, std::uint32_t seed, Samples& samples);
-void weigh(Samples& samples);
 
 /// Radius of the median rule: x with sum of w x / (x + alpha^2 + d^2) = 1/2 about `normal`.
 float median_alpha2(const CellsView& cells, const Direction& normal, const LobeKernel& kernel);

@@ -147,6 +147,9 @@ void walk(const MapSurface& surface, const WalkOptions& options,
             const int y = static_cast<int>(j);
             thread_local Cells cells;
             std::vector<SurfaceRow> fetched;
+            const auto skipped = [&](int x) {
+                return options.wanted && !options.wanted(static_cast<int>(k), x, y);
+            };
             if (direct) {
                 fetched.resize(rows[j].weights.size());
                 for (std::size_t r = 0; r < fetched.size(); ++r) {
@@ -158,6 +161,7 @@ void walk(const MapSurface& surface, const WalkOptions& options,
             for (int x = 0; x < width; ++x) {
                 const std::size_t i = static_cast<std::size_t>(x);
                 Means m;
+                if (skipped(x) && !keep_lists) continue;
                 if (direct) {
                     gather(fetched, static_cast<std::size_t>(rows[j].first), columns[i], rows[j],
                            cells, m);
@@ -172,6 +176,7 @@ void walk(const MapSurface& surface, const WalkOptions& options,
                     }
                 }
                 if (keep_lists) next[j * static_cast<std::size_t>(width) + i] = cells;
+                if (skipped(x)) continue;
                 visit({static_cast<int>(k), x, y, m, options.cells ? &cells : nullptr});
             }
             if (options.progress) {

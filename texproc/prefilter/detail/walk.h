@@ -18,6 +18,7 @@ struct MipTexel {
 struct WalkOptions {
     bool cells = false;      ///< hand over the footprints
     bool own_lobes = false;  ///< fill Means::vx.. (vMF)
+    std::function<bool(int level, int x, int y)> wanted{};  ///< visit only these; empty: all
     int threads = 0;
     std::function<void(double)> progress{};
 };

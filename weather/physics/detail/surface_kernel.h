@@ -45,6 +45,8 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask>& p, const Excha
     return p.exchange * stability_factor_of(ri, p.neutral, p.root_z);
 }
 
+constexpr double kLongestStep_k = 20.0;
+
 // F and -dF/dTs at a surface temperature with a given exchange.
 template <class Real, class Mask>
 PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, const Real& surface_c,
@@ -75,6 +77,8 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, 
     f.balance = f.net_radiation - f.sensible - f.latent - f.ground + f.rain_heat;
     f.slope = p.emitting * cubed * 4.0 + exchange * kAirHeatCapacity +
               select(limited, Real(0.0), p.latent_heat * beta * exchange * dq) + p.conductance + p.rain_heat;
+    // No step of Newton's is longer than 20 K: in calm air a cold surface in strong sun would be thrown beyond boiling.
+    f.slope = larger(f.slope, larger(f.balance, -f.balance) * (1.0 / kLongestStep_k));
     return f;
 }
 
