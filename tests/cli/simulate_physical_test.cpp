@@ -233,7 +233,7 @@ TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
         EXPECT_NEAR(scored.scores[1].rmse, 1.0, 1e-9);
         EXPECT_NE(json_summary(scored).find("\"rmse\""), std::string::npos);
         EXPECT_NE(svg_plot(scored).find("<circle"), std::string::npos);
-        EXPECT_NE(html_report(scored).find("against observation"), std::string::npos);
+        EXPECT_NE(html_report(scored).find("model against observation"), std::string::npos);
     }
     for (const char* bad : {"", "date,colour\n2024-02-01,3\n", "nothing here\n", "date,swe_kg_m2\nx,1\ny,2\n"}) {
         run.observed = std::string(bad) + "\n";
