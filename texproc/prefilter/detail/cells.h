@@ -17,6 +17,7 @@ struct Cells {
 
     int count() const { return static_cast<int>(nx.size()); }
     void clear();
+    void resize(std::size_t count);
     void add(float x, float y, float z, float a2, float w);
     CellsView view() const
     {
