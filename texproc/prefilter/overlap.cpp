@@ -28,7 +28,7 @@ struct Effort {
 
 Effort effort_at(int level, bool quick)
 {
-    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 640, 640};
+    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 960, 1280};
     const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
         // The finest levels hold most texels: there the cheapest of the fits, without a search.

@@ -235,8 +235,12 @@ std::string to_markdown(const std::vector<ProtocolSummary>& summaries)
                 text += " - |";
                 continue;
             }
-            std::snprintf(cell, sizeof cell, " %.0f / %.0f / %.0f, %+.3f, %+.3f, %d |", s->worst_gap,
-                          s->mean_gap, s->pooled_gap, s->worst_excess_without_room, s->worst_over_plain,
+            char excess[16] = "-";
+            if (s->worst_excess_without_room > -2.0) {
+                std::snprintf(excess, sizeof excess, "%+.3f", s->worst_excess_without_room);
+            }
+            std::snprintf(cell, sizeof cell, " %.0f / %.0f / %.0f, %s, %+.3f, %d |", s->worst_gap,
+                          s->mean_gap, s->pooled_gap, excess, s->worst_over_plain,
                           s->levels_over_plain);
             text += cell;
         }

@@ -72,12 +72,13 @@ std::uint64_t mixed(std::uint64_t v)
     return v;
 }
 
-// One round with grid edges e (slopes) and ep (p). Cells keep the order of their first member, so
+// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what narrow
+// lobes must keep apart is nothing to wide ones. Cells keep the order of their first member, so
 // that the result does not depend on addresses.
-void merge_round(Cells& cells, float e, float ep)
+void merge_round(Cells& cells, float share, float ep)
 {
     const std::size_t count = cells.nx.size();
-    const float per_e = 1.0f / e, per_ep = 1.0f / ep;
+    const float per_ep = 1.0f / ep;
     std::size_t slots = 64;
     while (slots < 2 * count) slots *= 2;
     thread_local std::vector<std::uint64_t> keys;
@@ -87,9 +88,11 @@ void merge_round(Cells& cells, float e, float ep)
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float p = std::sqrt(std::sqrt(cells.alpha2[i]));
+        const auto gp = static_cast<std::int64_t>(p * per_ep);
+        const float middle = (static_cast<float>(gp) + 0.5f) * ep;
+        const float per_e = 1.0f / std::max(0.001f, share * middle * middle);
         const auto gx = static_cast<std::int64_t>((cells.nx[i] + 1.0f) * per_e);
         const auto gy = static_cast<std::int64_t>((cells.ny[i] + 1.0f) * per_e);
-        const auto gp = static_cast<std::int64_t>(p * per_ep);
         const std::uint64_t key = (static_cast<std::uint64_t>(gx) << 42) |
                                   (static_cast<std::uint64_t>(gy) << 16) |
                                   static_cast<std::uint64_t>(gp);
@@ -169,16 +172,16 @@ void merge(Cells& cells, int limit)
         cells.weight[kept++] = cells.weight[i];
     }
     cells.resize(kept);
-    const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
-    float e = std::max({0.2f * std::sqrt(narrowest), 0.001f, useful_edge(cells, limit)});
+    const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
+    float share = std::max(0.2f, useful_edge(cells, limit) / widest);
     float ep = 0.02f;
     while (cells.count() > limit) {
-        merge_round(cells, e, ep);
+        merge_round(cells, share, ep);
         // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
         const float growth = std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
-        e *= growth;
-        if (e > 0.5f) ep *= growth;  // all normals in a few cells: only the gloss keeps them apart
+        share *= growth;
+        ep *= std::sqrt(std::sqrt(growth));
     }
 }
 
