@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "texproc/detail/morphology.h"
 #include "texproc/detail/parallel.h"
 
 namespace petrichor::texproc {
@@ -34,71 +35,72 @@ Image map_texels(const Image& like, int channels, int threads, const Value& valu
     return out;
 }
 
-// Mean over a square of 2 radius + 1, wrapping, by running sums in double.
-Image blurred(const Image& height, int radius)
+Image first_channel(const Image& image, int threads)
 {
-    Image once(height.width, height.height, 1, ColorSpace::Data), twice = once;
-    const int side = 2 * radius + 1;
-    for (int y = 0; y < height.height; ++y) {
+    return map_texels(image, 1, threads, [&](int x, int y, float* to) { *to = image.at(x, y, 0); });
+}
+
+// Mean over a square of 2 radius + 1, wrapping, by running sums in double: along the rows, then all
+// columns side by side in bands, so that memory is read in order.
+Image blurred(const Image& height, int radius, int threads)
+{
+    const int w = height.width, h = height.height, side = 2 * radius + 1;
+    Image once(w, h, 1, ColorSpace::Data), twice = once;
+    detail::parallel_for(static_cast<std::size_t>(h), threads, [&](std::size_t row) {
+        const int y = static_cast<int>(row);
         double sum = 0.0;
-        for (int k = -radius; k <= radius; ++k) {
-            sum += static_cast<double>(height.at(wrapped(k, height.width), y, 0));
-        }
-        for (int x = 0; x < height.width; ++x) {
+        for (int k = -radius; k <= radius; ++k) sum += static_cast<double>(height.at(wrapped(k, w), y, 0));
+        for (int x = 0; x < w; ++x) {
             once.at(x, y, 0) = static_cast<float>(sum / side);
-            sum += static_cast<double>(height.at(wrapped(x + radius + 1, height.width), y, 0)) -
-                   static_cast<double>(height.at(wrapped(x - radius, height.width), y, 0));
+            sum += static_cast<double>(height.at(wrapped(x + radius + 1, w), y, 0)) -
+                   static_cast<double>(height.at(wrapped(x - radius, w), y, 0));
         }
-    }
-    for (int x = 0; x < height.width; ++x) {
-        double sum = 0.0;
-        for (int k = -radius; k <= radius; ++k) {
-            sum += static_cast<double>(once.at(x, wrapped(k, height.height), 0));
+    });
+    constexpr int kBand = 64;
+    detail::parallel_for(static_cast<std::size_t>((w + kBand - 1) / kBand), threads, [&](std::size_t band) {
+        const int first = static_cast<int>(band) * kBand, last = std::min(w, first + kBand);
+        double sums[kBand] = {};
+        const auto add = [&](int y, double sign) {
+            const float* row = &once.pixels[once.index(0, wrapped(y, h), 0)];
+            for (int x = first; x < last; ++x) sums[x - first] += sign * static_cast<double>(row[x]);
+        };
+        for (int k = -radius; k <= radius; ++k) add(k, 1.0);
+        for (int y = 0; y < h; ++y) {
+            for (int x = first; x < last; ++x) twice.at(x, y, 0) = static_cast<float>(sums[x - first] / side);
+            add(y + radius + 1, 1.0);
+            add(y - radius, -1.0);
         }
-        for (int y = 0; y < height.height; ++y) {
-            twice.at(x, y, 0) = static_cast<float>(sum / side);
-            sum += static_cast<double>(once.at(x, wrapped(y + radius + 1, height.height), 0)) -
-                   static_cast<double>(once.at(x, wrapped(y - radius, height.height), 0));
-        }
-    }
+    });
     return twice;
 }
 
-// Largest (sign 1) or smallest (sign -1) value within an octagon-like disc, built from square and
-// diamond steps whose cost does not depend on the map.
-Image dilated(const Image& image, int radius, float sign, int threads)
+// The depth that one wet texel in two hundred exceeds: a few spikes of a scan must not make all the
+// rest look dry.
+float usual_deepest(const std::vector<float>& depths)
 {
-    Image from = image;
-    for (int step = 0; step < radius; ++step) {
-        const bool diamond = step % 2 == 1;
-        from = map_texels(from, 1, threads, [&](int x, int y, float* to) {
-            float best = sign * from.at(x, y, 0);
-            for (int dy = -1; dy <= 1; ++dy) {
-                for (int dx = -1; dx <= 1; ++dx) {
-                    if (diamond && dx != 0 && dy != 0) continue;
-                    best = std::max(best, sign * from.at(wrapped(x + dx, from.width),
-                                                         wrapped(y + dy, from.height), 0));
-                }
-            }
-            *to = sign * best;
-        });
+    std::vector<float> wet;
+    for (const float d : depths) {
+        if (d > 0.0f) wet.push_back(d);
     }
-    return from;
+    if (wet.empty()) return 0.0f;
+    const auto at = wet.begin() + static_cast<std::ptrdiff_t>((wet.size() - 1) * 995 / 1000);
+    std::nth_element(wet.begin(), at, wet.end());
+    return *at;
 }
 
 Hollows hollows(const Image& height, int radius, int threads)
 {
-    Image one = map_texels(height, 1, threads,
-                           [&](int x, int y, float* to) { *to = height.at(x, y, 0); });
-    const Image closed = dilated(dilated(one, radius, 1.0f, threads), radius, -1.0f, threads);
+    Image one = first_channel(height, threads);
+    const Image closed = detail::extreme_within(
+        detail::extreme_within(one, radius, 1.0f, threads), radius, -1.0f, threads);
     Hollows out;
     out.depth = std::move(one);
     for (std::size_t i = 0; i < out.depth.pixels.size(); ++i) {
         out.depth.pixels[i] = std::max(0.0f, closed.pixels[i] - out.depth.pixels[i]);
-        out.deepest = std::max(out.deepest, out.depth.pixels[i]);
     }
+    out.deepest = usual_deepest(out.depth.pixels);
     if (out.deepest > 0.0f) {
-        for (float& v : out.depth.pixels) v /= out.deepest;
+        for (float& v : out.depth.pixels) v = std::min(1.0f, v / out.deepest);
     }
     std::vector<std::size_t> deeper(65, 0);
     for (const float v : out.depth.pixels) {
@@ -124,21 +126,35 @@ Image ambient_occlusion(const Image& height, const BakeOptions& options)
     constexpr int kDirections = 16, kSteps = 12;
     const float reach = std::max(1.0f, options.reach * static_cast<float>(height.width));
     const float rise = options.depth * static_cast<float>(height.width);
+    // Where a direction looks: steps grow with the distance, since near texels matter most.
+    struct Sample {
+        int x, y;
+        float per_texel;  // height to tangent
+    };
+    std::vector<Sample> samples[kDirections];
+    for (int d = 0; d < kDirections; ++d) {
+        const float angle = 6.2831853f * static_cast<float>(d) / kDirections;
+        for (int s = 1; s <= kSteps; ++s) {
+            const float share = static_cast<float>(s) / kSteps;
+            const float r = std::max(static_cast<float>(s), reach * share * share);
+            if (r > reach) break;
+            samples[d].push_back({static_cast<int>(std::lround(r * std::cos(angle))),
+                                  static_cast<int>(std::lround(r * std::sin(angle))), rise / r});
+        }
+    }
+    const int w = height.width, h = height.height;
+    const std::vector<float> plane = first_channel(height, options.threads).pixels;
+    const int far = static_cast<int>(reach) + 1;
     return map_texels(height, 1, options.threads, [&](int x, int y, float* to) {
-        const float here = height.at(x, y, 0);
+        const float here = plane[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)];
+        const bool inside = x >= far && y >= far && x + far < w && y + far < h;
         float open = 0.0f;
-        for (int d = 0; d < kDirections; ++d) {
-            const float angle = 6.2831853f * static_cast<float>(d) / kDirections;
-            const float cx = std::cos(angle), cy = std::sin(angle);
+        for (const std::vector<Sample>& direction : samples) {
             float steepest = 0.0f;  // tangent of the horizon
-            for (int s = 1; s <= kSteps; ++s) {
-                // Steps grow with the distance: near texels matter most.
-                const float share = static_cast<float>(s) / kSteps;
-                const float r = std::max(static_cast<float>(s), reach * share * share);
-                if (r > std::max(reach, 1.0f)) break;
-                const int u = wrapped(x + static_cast<int>(std::lround(r * cx)), height.width);
-                const int v = wrapped(y + static_cast<int>(std::lround(r * cy)), height.height);
-                steepest = std::max(steepest, (height.at(u, v, 0) - here) * rise / r);
+            for (const Sample& s : direction) {
+                const int u = inside ? x + s.x : wrapped(x + s.x, w), v = inside ? y + s.y : wrapped(y + s.y, h);
+                const float there = plane[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) + static_cast<std::size_t>(u)];
+                steepest = std::max(steepest, (there - here) * s.per_texel);
             }
             open += 1.0f / (1.0f + steepest * steepest);  // cos^2 of the horizon
         }
@@ -151,7 +167,7 @@ Image cavity(const Image& height, const BakeOptions& options)
     check(height, options);
     const int radius = std::min(texels(options.reach, height.width),
                                 (std::min(height.width, height.height) - 1) / 2);
-    const Image mean = blurred(height, std::max(0, radius));
+    const Image mean = blurred(height, std::max(0, radius), options.threads);
     double square = 0.0;
     for (int y = 0; y < height.height; ++y) {
         for (int x = 0; x < height.width; ++x) {
@@ -171,13 +187,24 @@ Image curvature(const Image& height, const BakeOptions& options)
 {
     check(height, options);
     const float rise = options.depth * static_cast<float>(height.width);
-    return map_texels(height, 1, options.threads, [&](int x, int y, float* to) {
-        const auto at = [&](int dx, int dy) {
-            return height.at(wrapped(x + dx, height.width), wrapped(y + dy, height.height), 0);
-        };
-        const float round = 4.0f * at(0, 0) - at(1, 0) - at(-1, 0) - at(0, 1) - at(0, -1);
-        *to = std::clamp(0.5f + 0.25f * rise * round, 0.0f, 1.0f);
-    });
+    const int most = (std::min(height.width, height.height) - 1) / 2;
+    Image out(height.width, height.height, 1, ColorSpace::Data, 0.5f);
+    // A bend of one radius lies sixfold above the mean around it; three widths of edges are seen, from
+    // a texel of a map of 1024 on.
+    for (const int scale : {1, 2, 4}) {
+        const int radius = std::min(most, std::max(scale, scale * height.width / 1024));
+        if (radius < 1) continue;
+        const Image mean = blurred(height, radius, options.threads);
+        const float strength = rise / static_cast<float>(radius);
+        for (int y = 0; y < out.height; ++y) {
+            for (int x = 0; x < out.width; ++x) {
+                const float bend = strength * (height.at(x, y, 0) - mean.at(x, y, 0));
+                out.at(x, y, 0) += bend / (3.0f * (1.0f + std::abs(bend)));
+            }
+        }
+    }
+    for (float& v : out.pixels) v = std::clamp(v, 0.0f, 1.0f);
+    return out;
 }
 
 Hollows puddles(const Image& height, const BakeOptions& options)
@@ -197,7 +224,7 @@ Image flow_direction(const Image& height, const BakeOptions& options)
     check(height, options);
     const int radius = std::min(std::max(1, texels(0.1f * options.reach, height.width)),
                                 (std::min(height.width, height.height) - 1) / 2);
-    const Image smooth = blurred(height, std::max(0, radius));
+    const Image smooth = blurred(height, std::max(0, radius), options.threads);
     const float rise = options.depth * static_cast<float>(height.width) * 0.5f;
     return map_texels(height, 3, options.threads, [&](int x, int y, float* to) {
         const float du = -rise * (smooth.at(wrapped(x + 1, smooth.width), y, 0) -

@@ -21,11 +21,12 @@ struct BakeOptions {
 Image ambient_occlusion(const Image& height, const BakeOptions& options = {});
 /// 0.5 flat, darker in hollows, brighter on ridges, against the mean within `reach`.
 Image cavity(const Image& height, const BakeOptions& options = {});
-/// 0.5 flat, darker where the surface is concave, brighter where it is convex, at the finest scale.
+/// 0.5 flat, darker where the surface is concave, brighter where it is convex: edges of three widths,
+/// the finest of a texel (of two, three, ... in maps of 2048, 3072, ...).
 Image curvature(const Image& height, const BakeOptions& options = {});
 
-/// Depth of standing water that the hollows narrower than twice `reach` can hold, relative to the
-/// deepest: the closing of the height by a disc, less the height.
+/// Depth of standing water that the hollows narrower than twice `reach` can hold: the closing of the
+/// height by an octagon, less the height, relative to the deepest (that 0.5 % of the wet texels exceed).
 struct Hollows {
     Image depth;        ///< 0 where no water stands, 1 at the deepest
     float deepest = 0;  ///< in units of the height map

@@ -48,7 +48,7 @@ void normalize_texels(Image& image)
         float* p = &image.pixels[i];
         const float x = 2.0f * p[0] - 1.0f, y = 2.0f * p[1] - 1.0f, z = 2.0f * p[2] - 1.0f;
         const float length = std::sqrt(x * x + y * y + z * z);
-        const bool fine = length > 1e-6f;
+        const bool fine = length > 0.01f;  // a zero in 8 bits is not exactly zero
         p[0] = fine ? 0.5f + 0.5f * (x / length) : 0.5f;
         p[1] = fine ? 0.5f + 0.5f * (y / length) : 0.5f;
         p[2] = fine ? 0.5f + 0.5f * (z / length) : 1.0f;

@@ -65,7 +65,7 @@ void renormalize(Image& normal)
         float* c = &normal.pixels[i];
         const float x = 2.0f * c[0] - 1.0f, y = 2.0f * c[1] - 1.0f, z = 2.0f * c[2] - 1.0f;
         const float length = std::sqrt(x * x + y * y + z * z);
-        const bool fine = length > 1e-6f;
+        const bool fine = length > 0.01f;  // a zero in 8 bits is not exactly zero
         c[0] = fine ? 0.5f + 0.5f * (x / length) : 0.5f;
         c[1] = fine ? 0.5f + 0.5f * (y / length) : 0.5f;
         c[2] = fine ? 0.5f + 0.5f * (z / length) : 1.0f;
@@ -78,13 +78,21 @@ NormalLayout normal_layout(const std::string& name)
     if (name == "rg") return NormalLayout::Rg;
     if (name == "ag") return NormalLayout::Ag;
     if (name == "rxgb") return NormalLayout::Rxgb;
-    throw Error("normal: there is no layout '" + name + "'", "Use rgb, rg, ag or rxgb.");
+    if (name == "rg-signed") return NormalLayout::RgSigned;
+    throw Error("normal: there is no layout '" + name + "'", "Use rgb, rg, ag, rxgb or rg-signed.");
 }
 
 Image to_layout(const Image& normal, NormalLayout layout)
 {
     check_normal(normal);
     if (layout == NormalLayout::Rgb) return normal;
+    if (layout == NormalLayout::RgSigned) {
+        Image out(normal.width, normal.height, 2, ColorSpace::Data);
+        for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+            out.pixels[i] = 2.0f * normal.pixels[3 * (i / 2) + i % 2] - 1.0f;
+        }
+        return out;
+    }
     const bool four = layout != NormalLayout::Rg;
     Image out(normal.width, normal.height, four ? 4 : 3, ColorSpace::Data);
     const std::size_t step = four ? 4 : 3;
@@ -119,6 +127,10 @@ Image from_layout(const Image& image, NormalLayout layout)
         float* o = &out.pixels[3 * i];
         o[0] = alpha ? c[3] : c[0];
         o[1] = c[1];
+        if (layout == NormalLayout::RgSigned) {
+            o[0] = 0.5f + 0.5f * o[0];
+            o[1] = 0.5f + 0.5f * o[1];
+        }
         const float x = 2.0f * o[0] - 1.0f, y = 2.0f * o[1] - 1.0f;
         o[2] = layout == NormalLayout::Rgb
                    ? c[2]

@@ -21,11 +21,12 @@ enum class NormalLayout {
     Rg,    ///< x y, third channel 0 (also BC5)
     Ag,    ///< R 1, G y, B 1, A x
     Rxgb,  ///< R 0, G y, B z, A x
+    RgSigned,  ///< x y as they are, -1..1: floats, and signed BC5
 };
 Image to_layout(const Image& normal, NormalLayout layout);
 /// Throws Error when the image has too few channels.
 Image from_layout(const Image& image, NormalLayout layout);
-NormalLayout normal_layout(const std::string& name);  ///< "rgb", "rg", "ag", "rxgb"
+NormalLayout normal_layout(const std::string& name);  ///< "rgb", "rg", "ag", "rxgb", "rg-signed"
 
 /// Which way green points, and how sure that is (0 guess .. 1 certain).
 struct GreenDirection {

@@ -2,6 +2,7 @@
 #include "cli/texture/cmd_texture.h"
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 
 #include "cli/commands.h"
 
@@ -11,6 +12,8 @@ void add_texture(CLI::App& app)
 {
     CLI::App* texture = app.add_subcommand("texture", "prepare textures: build, prefilter, pack, ...");
     texture->require_subcommand(1);
+    // A file over a size limit is a write error like a full disk, with a message, not a sudden end.
+    texture->preparse_callback([](std::size_t) { std::signal(SIGXFSZ, SIG_IGN); });
     add_texture_build(*texture);
     add_texture_prefilter(*texture);
     add_texture_pack(*texture);

@@ -1,5 +1,6 @@
 // petrichor texture mips, normal, bake, unpack: one map in, other maps out.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -9,6 +10,7 @@
 #include "base/output_file.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/pack_file.h"
 #include "texproc/bake.h"
 #include "texproc/mips.h"
 #include "texproc/normal.h"
@@ -24,6 +26,26 @@ const std::map<std::string, texproc::MipFilter> kFilters{
     {"lanczos3", texproc::MipFilter::Lanczos3},
     {"mitchell", texproc::MipFilter::Mitchell}};
 
+// Numbers that are none would spread through every filter.
+Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
+{
+    Image image = texproc::read_image(path, {.space = space});
+    for (const float v : image.pixels) {
+        if (std::isfinite(v)) continue;
+        throw Error("texture: " + path + " holds values that are not numbers",
+                    "Repair the NaN or infinite pixels first.");
+    }
+    return image;
+}
+
+void check_same_size(const std::string& name_a, const Image& a, const std::string& name_b, const Image& b)
+{
+    if (a.width == b.width && a.height == b.height) return;
+    throw Error("texture: " + name_a + " is " + std::to_string(a.width) + " x " + std::to_string(a.height) +
+                    ", " + name_b + " is " + std::to_string(b.width) + " x " + std::to_string(b.height),
+                "Resample one of them.");
+}
+
 struct MipsArguments {
     std::string in, out, wrap_u = "wrap", wrap_v = "wrap";
     bool color = false;
@@ -38,8 +60,7 @@ void run_mips(MipsArguments& a)
     a.options.wrap_v = a.wrap_v == "wrap";
     a.options.mirror_u = a.wrap_u == "mirror";
     a.options.mirror_v = a.wrap_v == "mirror";
-    const Image image = texproc::read_image(
-        a.in, {.space = a.color ? ColorSpace::Linear : ColorSpace::Data});
+    const Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     for (std::size_t k = 0; k < chain.size(); ++k) {
         texproc::write_image(level_name(a.out, static_cast<int>(k)), chain[k], {.bits = a.bits});
@@ -56,21 +77,29 @@ struct NormalArguments {
 
 void run_normal(const NormalArguments& a)
 {
-    const Image image = texproc::read_image(a.in);
+    const Image image = read_numbers(a.in);
     Image normal = a.from_height
                        ? texproc::normal_from_height(image, {.depth = a.depth})
                        : texproc::from_layout(image, texproc::normal_layout(a.from));
     if (a.detect) {
+        const Image height = a.height.empty() ? Image() : read_numbers(a.height);
+        if (!height.empty()) check_same_size(a.in, normal, a.height, height);
         const texproc::GreenDirection green =
-            a.height.empty() ? texproc::detect_green(normal)
-                             : texproc::detect_green(normal, texproc::read_image(a.height));
+            height.empty() ? texproc::detect_green(normal) : texproc::detect_green(normal, height);
         std::cout << "green " << (green.down ? "down (DirectX)" : "up (OpenGL)") << ", confidence "
                   << green.confidence << "\n";
         if (a.out.empty()) return;
     }
     if (a.out.empty()) throw Error("texture normal: --out is needed", "Give -o FILE.");
+    if (a.to == "rg-signed" && std::filesystem::path(a.out).extension() != ".exr") {
+        throw Error("texture normal: " + a.out + " cannot hold values below 0", "Write rg-signed as .exr.");
+    }
     if (a.flip) texproc::flip_green(normal);
-    if (!a.blend.empty()) normal = texproc::blend_normals(normal, texproc::read_image(a.blend));
+    if (!a.blend.empty()) {
+        const Image detail = read_numbers(a.blend);
+        check_same_size(a.in, normal, a.blend, detail);
+        normal = texproc::blend_normals(normal, detail);
+    }
     if (a.renormalize) texproc::renormalize(normal);
     if (a.to_height) {
         const texproc::IntegratedHeight height = texproc::height_from_normal(normal);
@@ -114,7 +143,11 @@ void run_bake(const BakeArguments& a)
                              writing);
         return;
     }
-    const Image height = texproc::read_image(a.height);
+    const Image height = read_numbers(a.height);
+    // All inputs are read before the first output is written.
+    const Image roughness = a.roughness.empty() ? Image() : read_numbers(a.roughness);
+    const Image metallic = a.metallic.empty() ? Image() : read_numbers(a.metallic);
+    if (!roughness.empty() && !metallic.empty()) check_same_size(a.roughness, roughness, a.metallic, metallic);
     texproc::write_image(name("occlusion"), texproc::ambient_occlusion(height, a.options), writing);
     texproc::write_image(name("cavity"), texproc::cavity(height, a.options), writing);
     texproc::write_image(name("curvature"), texproc::curvature(height, a.options), writing);
@@ -126,10 +159,8 @@ void run_bake(const BakeArguments& a)
     write_text_file(std::filesystem::path(name("hypsometry")).replace_extension(".json"),
                     "{\"puddle\": " + hypsometry(puddles) + ",\n\"crack\": " + hypsometry(cracks) +
                         "}\n");
-    if (!a.roughness.empty()) {
-        const Image metallic = a.metallic.empty() ? Image() : texproc::read_image(a.metallic);
-        texproc::write_image(name("porosity"),
-                             texproc::porosity(texproc::read_image(a.roughness), metallic), writing);
+    if (!roughness.empty()) {
+        texproc::write_image(name("porosity"), texproc::porosity(roughness, metallic), writing);
     }
 }
 
@@ -142,7 +173,7 @@ void run_unpack(const UnpackArguments& a)
     level_name(a.out, 0);
     const std::size_t at = a.out.find('%');
     for (const auto& [role, image] :
-         texproc::unpack(texproc::pack_preset(a.preset), texproc::read_raw(a.in))) {
+         texproc::unpack(pack_preset_or_file(a.preset), texproc::read_raw(a.in))) {
         const std::string name =
             a.out.substr(0, at) + role + a.out.substr(a.out.find('d', at) + 1);
         texproc::write_raw(name, image);
@@ -183,8 +214,8 @@ void add_texture_maps(CLI::App& texture)
         app->add_flag("--detect", a->detect, "say which way green points, and how sure that is");
         app->add_option("--height", a->height, "--detect: the height map of the same surface");
         app->add_flag("--flip-green", a->flip, "OpenGL to DirectX or back");
-        app->add_option("--from-layout", a->from, "rgb, rg, ag or rxgb")->capture_default_str();
-        app->add_option("--to-layout", a->to, "rgb, rg, ag or rxgb")->capture_default_str();
+        app->add_option("--from-layout", a->from, "rgb, rg, ag, rxgb, or rg-signed (-1..1)")->capture_default_str();
+        app->add_option("--to-layout", a->to, "the same; rg-signed needs an .exr")->capture_default_str();
         app->add_flag("--from-height", a->from_height, "make normals from a height map");
         app->add_flag("--to-height", a->to_height, "integrate to a tileable height map");
         app->add_option("--depth", a->depth, "--from-height: height 1 in units of the width")
@@ -217,7 +248,7 @@ void add_texture_maps(CLI::App& texture)
         auto a = std::make_shared<UnpackArguments>();
         CLI::App* app = texture.add_subcommand("unpack", "the maps back out of a packed image");
         app->add_option("image", a->in, "the packed image")->required();
-        app->add_option("--preset", a->preset, "as it was packed")->required();
+        app->add_option("--preset", a->preset, "as it was packed: a name of pack --list, or a file of yours (.toml)")->required();
         app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the role")->required();
         app->footer("Example:\n  petrichor texture unpack mask.png --preset unity-hdrp-mask -o 'wall_%d.png'");
         app->callback([a] { run_unpack(*a); });

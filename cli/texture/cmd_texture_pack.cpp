@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <future>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -10,10 +9,14 @@
 #include "cli/texture/files.h"
 #include "cli/texture/pack_file.h"
 #include "cli/words.h"
+#include "texproc/files/texture.h"
+#include "texproc/mips.h"
 
 namespace petrichor::cli {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kRoles[] = {"albedo",    "normal",     "height",   "roughness", "smoothness",
                                   "metallic",  "occlusion",  "specular", "detail",    "porosity",
@@ -22,9 +25,9 @@ constexpr const char* kRoles[] = {"albedo",    "normal",     "height",   "roughn
 struct Arguments {
     std::map<std::string, std::string> files;
     std::vector<std::string> others;  // ROLE=FILE
-    std::string preset, out;
+    std::string preset, out, format;
     int bits = 0;
-    bool list = false;
+    bool list = false, mips = false;
     texproc::ReadOptions reading;
 };
 
@@ -71,6 +74,31 @@ std::map<std::string, std::string> files_by_role(const Arguments& a,
     return files;
 }
 
+// Containers for GPUs may hold blocks and levels; other files hold the numbers as they are.
+void write_packed(const Arguments& a, const texproc::PackPreset& preset, texproc::RawImage packed)
+{
+    if (!texproc::holds_mip_chain(a.out) || (!a.mips && fs::path(a.out).extension() == ".exr")) {
+        if (a.mips || !a.format.empty()) {
+            throw Error("texture pack: " + a.out + " holds no levels and no blocks",
+                        "Write .dds or .ktx2, or leave --mips and --format out.");
+        }
+        texproc::write_raw(a.out, packed);
+        return;
+    }
+    texproc::TextureWriteOptions options;
+    options.format = a.format;
+    options.srgb = !preset.srgb_channels.empty();
+    const ColorSpace space = options.srgb ? ColorSpace::Linear : ColorSpace::Data;
+    const texproc::PixelType type = packed.type;
+    std::vector<texproc::RawImage> levels;
+    levels.push_back(std::move(packed));
+    if (a.mips) {
+        const std::vector<Image> chain = texproc::mip_chain(texproc::to_image(levels[0], space));
+        for (std::size_t k = 1; k < chain.size(); ++k) levels.push_back(texproc::to_raw(chain[k], type));
+    }
+    texproc::write_mip_chain(a.out, levels, options);
+}
+
 void run(const Arguments& a)
 {
     if (a.list) {
@@ -83,14 +111,15 @@ void run(const Arguments& a)
     }
     const texproc::PackPreset preset = pack_preset_or_file(a.preset);
     const std::map<std::string, std::string> files = files_by_role(a, preset);
-    std::vector<std::pair<std::string, std::future<texproc::RawImage>>> reading;
-    for (const auto& [role, file] : files) {
-        reading.emplace_back(role, std::async(std::launch::async,
-                                              [&a, &text = file] { return read_map(text, a.reading); }));
-    }
+    std::vector<std::string> texts;
+    for (const auto& [role, file] : files) texts.push_back(file);
+    std::vector<texproc::RawImage> images = read_maps(texts, a.reading);
     std::map<std::string, texproc::RawImage> maps;
-    for (auto& [role, image] : reading) maps.emplace(role, image.get());
-    texproc::write_raw(a.out, texproc::pack(preset, maps, a.bits));
+    std::size_t next = 0;
+    for (const auto& [role, file] : files) maps.emplace(role, std::move(images[next++]));
+    texproc::RawImage packed = texproc::pack(preset, maps, a.bits);
+    maps.clear();  // writing needs memory of its own
+    write_packed(a, preset, std::move(packed));
 }
 
 }  // namespace
@@ -107,6 +136,8 @@ void add_texture_pack(CLI::App& texture)
     app->add_option("-o,--out", a->out, "the packed image");
     app->add_option("--bits", a->bits, "8 or 16; default: the deepest input")
         ->check(CLI::IsMember({8, 16}));
+    app->add_option("--format", a->format, "dds, ktx2: rgba8, bc7, ... (see convert --help); default: the numbers as they are");
+    app->add_flag("--mips", a->mips, "dds, ktx2: all levels, plain means (build makes prefiltered ones)");
     app->add_flag("--list", a->list, "show the presets, or the one of --preset");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();

@@ -1,6 +1,7 @@
 #include "cli/texture/files.h"
 
 #include <cctype>
+#include <future>
 
 #include "base/error.h"
 #include "texproc/pack.h"
@@ -32,6 +33,23 @@ texproc::RawImage read_map(const std::string& text, const texproc::ReadOptions& 
                         "' out.");
     }
     return texproc::channel_of(image, file.channel);
+}
+
+std::vector<texproc::RawImage> read_maps(const std::vector<std::string>& texts,
+                                         const texproc::ReadOptions& options, int threads)
+{
+    std::vector<texproc::RawImage> maps(texts.size());
+    const auto read_from = [&](std::size_t first, std::size_t step) {
+        for (std::size_t i = first; i < texts.size(); i += step) maps[i] = read_map(texts[i], options);
+    };
+    if (threads == 1 || texts.size() < 2) {
+        read_from(0, 1);
+        return maps;
+    }
+    std::future<void> other = std::async(std::launch::async, read_from, 1, 2);
+    read_from(0, 2);
+    other.get();
+    return maps;
 }
 
 std::string level_name(const std::string& pattern, int level)

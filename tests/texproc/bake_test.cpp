@@ -69,6 +69,50 @@ TEST(Bake, MasksOfARolledMapAreRolled)
     }
 }
 
+// The closing, taken literally: an octagon is a square step and a diamond step in turn.
+TEST(Bake, HollowsAreTheClosingByAnOctagonOnAnyTorus)
+{
+    Image map(26, 15, 1, ColorSpace::Data);
+    for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        map.pixels[i] = static_cast<float>(i * 7919 % 1009) / 1009.0f;
+    }
+    for (const int radius : {1, 2, 3, 4, 5, 6}) {
+        Image closed = map;
+        for (const float sign : {1.0f, -1.0f}) {
+            for (int step = 0; step < radius; ++step) {
+                const Image from = closed;
+                for (int y = 0; y < map.height; ++y) {
+                    for (int x = 0; x < map.width; ++x) {
+                        float best = sign * from.at(x, y, 0);
+                        for (int dy = -1; dy <= 1; ++dy) {
+                            for (int dx = -1; dx <= 1; ++dx) {
+                                if (step % 2 == 1 && dx != 0 && dy != 0) continue;
+                                best = std::max(best, sign * from.at((x + dx + map.width) % map.width,
+                                                                     (y + dy + map.height) % map.height, 0));
+                            }
+                        }
+                        closed.at(x, y, 0) = sign * best;
+                    }
+                }
+            }
+        }
+        const float reach = (static_cast<float>(radius) + 0.1f) / 26.0f;
+        const Hollows h = puddles(map, {.reach = reach, .threads = 2});
+        for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+            const float depth = closed.pixels[i] - map.pixels[i];
+            ASSERT_NEAR(h.depth.pixels[i], std::min(1.0f, depth / h.deepest), 1e-5f) << radius;
+        }
+    }
+}
+
+TEST(Bake, CurvatureIsBrightOnEdgesAndDarkInCorners)
+{
+    const Image c = curvature(pit(), {.depth = 0.3f});
+    EXPECT_GT(c.at(9, 12, 0), 0.6f);   // the rim
+    EXPECT_LT(c.at(10, 12, 0), 0.4f);  // below it
+    EXPECT_NEAR(c.at(25, 25, 0), 0.5f, 1e-5f);
+}
+
 TEST(Bake, WaterRunsDownhill)
 {
     Image h = flat(0.0f);

@@ -68,14 +68,25 @@ TEST(Normal, LayoutsAreLosslessForUnitNormals)
 {
     const Image n = normal_from_height(hills(16, 16), {.depth = 0.3f});
     for (const NormalLayout layout :
-         {NormalLayout::Rgb, NormalLayout::Rg, NormalLayout::Ag, NormalLayout::Rxgb}) {
+         {NormalLayout::Rgb, NormalLayout::Rg, NormalLayout::Ag, NormalLayout::Rxgb, NormalLayout::RgSigned}) {
         const Image back = from_layout(to_layout(n, layout), layout);
         for (std::size_t i = 0; i < n.pixels.size(); ++i) {
             EXPECT_NEAR(back.pixels[i], n.pixels[i], 1e-4f);
         }
     }
     EXPECT_THROW(from_layout(n, NormalLayout::Ag), Error);
+    EXPECT_NEAR(to_layout(n, NormalLayout::RgSigned).pixels[1], 2.0f * n.pixels[1] - 1.0f, 1e-6f);
     EXPECT_THROW(normal_layout("xyz"), Error);
+}
+
+TEST(Normal, AZeroOfEightBitsPointsUp)
+{
+    for (const int code : {127, 128}) {
+        Image zero(2, 2, 3, ColorSpace::Data, static_cast<float>(code) / 255.0f);
+        renormalize(zero);
+        EXPECT_EQ(zero.pixels[0], 0.5f);
+        EXPECT_EQ(zero.pixels[2], 1.0f);
+    }
 }
 
 TEST(Normal, BlendingWithFlatChangesNothing)

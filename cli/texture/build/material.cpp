@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
 #include "cli/texture/build/write_levels.h"
+#include "cli/texture/files.h"
 #include "texproc/area.h"
 #include "texproc/bake.h"
 #include "texproc/files/io.h"
@@ -153,16 +153,16 @@ bool Maps::wanted(const std::string& role) const
 
 void Maps::read()
 {
-    std::map<std::filesystem::path, std::shared_future<RawImage>> files;  // a packed file is read once
+    std::vector<std::string> names;  // a packed file is read once
     for (const auto& [role, map] : plan_.files.inputs) {
-        if (!wanted(role) || files.count(map.path)) continue;
-        files[map.path] =
-            std::async(threads_ == 1 ? std::launch::deferred : std::launch::async,
-                       [path = map.path] { return texproc::read_raw(path); });
+        const std::string name = map.path.string();
+        if (wanted(role) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
+    const std::vector<RawImage> images = read_maps(names, {}, threads_);
     for (const auto& [role, map] : plan_.files.inputs) {
         if (!wanted(role)) continue;
-        const RawImage& whole = files.at(map.path).get();
+        const auto at = std::find(names.begin(), names.end(), map.path.string());
+        const RawImage& whole = images[static_cast<std::size_t>(at - names.begin())];
         sources_.push_back({role, whole.width, whole.height, whole.channels,
                             static_cast<int>(8 * texproc::size_of(whole.type))});
         RawImage& image = base_[role] = channels_of(whole, map);
@@ -237,7 +237,7 @@ void Maps::bake()
 
 void Maps::prefilter()
 {
-    bool needed = false, joint = false;
+    bool needed = false, joint = false, all_eight = true;
     int bits = 0;
     for (const PlannedOutput& output : plan_.outputs) {
         needed = needed || output.prefiltered;
@@ -245,6 +245,7 @@ void Maps::prefilter()
         // Re-aimed normals are of use only where they are written with the roughness.
         joint = joint || std::count(output.roles.begin(), output.roles.end(), "normal") > 0;
         bits = std::max(bits, output.rule.bits);
+        all_eight = all_eight && output.rule.bits == 8;
     }
     if (!needed) return;
     const std::string role = find("roughness") ? "roughness" : "smoothness";
@@ -262,6 +263,7 @@ void Maps::prefilter()
     options.design_light = recipe_.design_light;
     options.quick = recipe_.quick;
     options.joint = joint;
+    options.bits = all_eight ? 8 : 0;  // codes chosen for the files that ship
     options.wrap_u = recipe_.mips.wrap_u;
     options.wrap_v = recipe_.mips.wrap_v;
     options.threads = threads_;
