@@ -259,7 +259,9 @@ void estimate_precipitation(ForcingTable& table, ReadReport& report, const std::
 
 void warn_of_dry_gaps(ReadReport& report, const std::vector<bool>& known, bool estimated)
 {
-    const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end(), false));
+    // Amounts of the past leave the last row open: nothing falls after the end.
+    if (known.size() < 2) return;
+    const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end() - 1, false));
     if (unknown == 0) return;
     report.add({ReadNote::Kind::Warning, 0, "precipitation",
                 std::to_string(unknown) + " of " + std::to_string(known.size()) + " rows have no amount in the file: " +

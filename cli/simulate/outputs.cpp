@@ -45,7 +45,7 @@ void write_table(const SimulationTable& table, const std::filesystem::path& path
         write_text_file(path, html_report(table));
     } else {
         const Pixels pixels = to_pixels(plot_of(table), 2.0);
-        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb);
+        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb, {{"state_hash", hash_text(table.state_hash)}});
     }
 }
 

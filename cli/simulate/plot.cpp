@@ -374,7 +374,9 @@ Drawing plot_of(const SimulationTable& table)
 
 std::string svg_plot(const SimulationTable& table)
 {
-    return to_svg(plot_of(table));
+    std::string svg = to_svg(plot_of(table));
+    svg.insert(svg.find("\n") + 1, "<desc>" + escaped(table.title) + ", state " + hash_text(table.state_hash) + "</desc>\n");
+    return svg;
 }
 
 }  // namespace petrichor::cli

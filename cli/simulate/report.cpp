@@ -97,7 +97,9 @@ li .n{color:var(--soft)}
 .warn{color:var(--warn);margin:0 0 12px;overflow-wrap:anywhere}
 table.scores{border-collapse:collapse;font-size:.9rem;margin:0 0 4px}
 .scores td,.scores th{padding:2px 14px 2px 0;text-align:left;font-weight:400}
-.scores th{color:var(--soft)}
+.scores th,.scores small{color:var(--soft)}
+.scores td+td{white-space:nowrap}
+@media (max-width:560px){.scores small{display:none}}
 details{margin:6px 0}
 footer{color:var(--soft);font-size:.86rem;overflow-wrap:anywhere}
 footer p{margin:2px 0}
@@ -212,15 +214,30 @@ new ResizeObserver(redraw).observe(charts);matchMedia("(prefers-color-scheme:dar
 draw();document.documentElement.dataset.ready=String(drawn&&panels.every(p=>p.canvas.width>0))+":"+panels.length+":"+D.events.length+":"+(document.documentElement.scrollWidth<=innerWidth?"fits":"overflows");
 )js";
 
+// "snow_depth_m" as "snow depth".
+std::string spelt_out(const std::string& column)
+{
+    if (column == "swe_kg_m2") return "snow water equivalent";
+    std::string words = column;
+    for (const char* unit : {"_kg_m2", "_w_m2", "_c", "_m"}) {
+        if (words.ends_with(unit)) {
+            words.erase(words.rfind(unit));
+            break;
+        }
+    }
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
 // Model against observation, where there is any.
 std::string scores_table(const SimulationTable& table)
 {
     if (table.scores.empty()) return "";
-    std::string html = "<table class=\"scores\"><tr><th>against observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
+    std::string html = "<table class=\"scores\"><tr><th>model against observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
     for (const Score& s : table.scores) {
         char cells[160];
         std::snprintf(cells, sizeof cells, "<td>%.3g %s</td><td>%+.2g</td><td>%zu</td></tr>\n", s.rmse, s.unit.c_str(), s.bias, s.count);
-        html += "<tr><td>" + escaped(s.column) + " (" + escaped(s.how) + ")</td>" + cells;
+        html += "<tr><td>" + escaped(spelt_out(s.column)) + " <small>" + escaped(s.how) + "</small></td>" + cells;
     }
     return html + "</table>\n";
 }

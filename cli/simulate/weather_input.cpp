@@ -32,6 +32,16 @@ weather::ReadOptions read_options(const SiteOptions& options)
     return read;
 }
 
+// Degrees that may pass 360, so that from 350 to 10 is a turn of 20 and not of 340.
+weather::Channel unwound(weather::Channel degrees)
+{
+    for (std::size_t i = 1; i < degrees.values.size(); ++i) {
+        double& now = degrees.values[i];
+        now += 360.0 * std::round((degrees.values[i - 1] - now) / 360.0);
+    }
+    return degrees;
+}
+
 }  // namespace
 
 SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
@@ -86,6 +96,7 @@ WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::s
         }
         return table.has(field);
     };
+    if (complete(Field::WindFrom)) script.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
     if (complete(Field::Visibility)) script.visibility_m = weather::channel_of_field(table, Field::Visibility);
     return script;
 }

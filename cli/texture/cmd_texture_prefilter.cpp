@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/texture/chain_output.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
 #include "cli/texture/prefilter_options.h"
@@ -17,22 +18,46 @@ namespace {
 struct Arguments {
     PrefilterInput input;
     std::string out, normal_out, anisotropy_out, quality = "full";
+    std::string format, normal_format;
     int bits = 16;
     bool roughness_only = false, score = false;
 };
 
-// Level 0 is the input in the depth that was asked for.
-texproc::RawImage recoded(const texproc::RawImage& image, int bits)
+// Normals as the input holds them: x and y where it has them, z or 1 elsewhere.
+void lay_out(std::vector<Image>& normals, const texproc::PrefilterOptions& o, int channels)
 {
-    const texproc::PixelType type = bits == 8 ? texproc::PixelType::U8 : texproc::PixelType::U16;
-    if (image.type == type) return image;
-    return texproc::to_raw(texproc::to_image(image, ColorSpace::Data), type);
+    if (channels == 3 && o.normal_x == 0 && !o.rebuild_z) return;
+    for (std::size_t k = 1; k < normals.size(); ++k) {
+        Image to(normals[k].width, normals[k].height, channels, ColorSpace::Data, 1.0f);
+        const std::size_t step = static_cast<std::size_t>(channels);
+        for (std::size_t i = 0; 3 * i < normals[k].pixels.size(); ++i) {
+            const float* from = &normals[k].pixels[3 * i];
+            float* texel = &to.pixels[step * i];
+            if (channels >= 3) texel[2] = from[2];
+            texel[o.normal_x] = from[0];
+            texel[o.normal_y] = from[1];
+        }
+        normals[k] = std::move(to);
+    }
+}
+
+// What a reader of the files will see.
+void print_score(const Arguments& a, const PrefilterMaps& maps, const texproc::Prefiltered& chains)
+{
+    texproc::Prefiltered shipped = chains;
+    texproc::quantize(shipped, a.bits);
+    if (a.normal_out.empty()) shipped.normal.clear();
+    texproc::ScoreOptions scoring;
+    scoring.light = a.input.options.design_light;
+    std::cout << to_text(
+        texproc::score(maps.normal, maps.map, shipped, a.input.options, scoring));
 }
 
 void run(Arguments& a)
 {
-    level_name(a.out, 0);
-    if (!a.normal_out.empty()) level_name(a.normal_out, 0);
+    for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out}) {
+        if (!name.empty()) check_chain_name(name);
+    }
     texproc::PrefilterOptions& o = a.input.options;
     o.joint = !a.roughness_only;
     o.quick = a.quality == "quick";
@@ -45,29 +70,25 @@ void run(Arguments& a)
     }
     PrefilterMaps maps = read_prefilter_maps(a.input);
     texproc::Prefiltered chains = texproc::prefilter_raw(maps.normal, maps.map, o);
-    if (a.score) {
-        texproc::Prefiltered shipped = chains;
-        texproc::quantize(shipped, a.bits);
-        if (a.normal_out.empty()) shipped.normal.clear();
-        texproc::ScoreOptions scoring;
-        scoring.light = o.design_light;
-        std::cout << to_text(texproc::score(maps.normal, maps.map, shipped, o, scoring));
-    }
-    const texproc::WriteOptions writing{.bits = a.bits, .threads = o.threads};
-    texproc::write_raw(level_name(a.out, 0),
-                       recoded(texproc::channel_of(maps.map, o.channel), a.bits), writing);
+    if (a.score) print_score(a, maps, chains);
+    const bool whole = maps.map.channels == 1;
+    write_chain({a.out, a.format, a.bits, o.threads},
+                whole ? maps.map : texproc::channel_of(maps.map, o.channel),
+                whole ? maps.map_path : "", chains.roughness);
     if (!a.normal_out.empty()) {
-        texproc::write_raw(level_name(a.normal_out, 0), recoded(maps.normal, a.bits), writing);
+        lay_out(chains.normal, o, maps.normal.channels);
+        write_chain({a.normal_out, a.normal_format, a.bits, o.threads}, maps.normal, a.input.normal,
+                    chains.normal);
     }
-    for (std::size_t k = 1; k < chains.roughness.size(); ++k) {
-        const int level = static_cast<int>(k);
-        texproc::write_image(level_name(a.out, level), chains.roughness[k], writing);
-        if (!a.normal_out.empty()) {
-            texproc::write_image(level_name(a.normal_out, level), chains.normal[k], writing);
+    if (!a.anisotropy_out.empty()) {
+        // Level 0 has none: along x, strength 0.
+        Image none(maps.normal.width, maps.normal.height, 3, ColorSpace::Data, 0.5f);
+        for (std::size_t i = 0; i < none.pixels.size(); i += 3) {
+            none.pixels[i] = 1.0f;
+            none.pixels[i + 2] = 0.0f;
         }
-        if (!a.anisotropy_out.empty()) {
-            texproc::write_image(level_name(a.anisotropy_out, level), chains.anisotropy[k], writing);
-        }
+        write_chain({a.anisotropy_out, "", a.bits, o.threads},
+                    texproc::to_raw(none, texproc::PixelType::U8), "", chains.anisotropy);
     }
     std::cout << chains.roughness.size() << " levels, " << maps.normal.width << " x "
               << maps.normal.height << ", rule " << o.rule << "\n";
@@ -95,10 +116,12 @@ void add_texture_prefilter(CLI::App& texture)
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
     app->add_flag("--score", a->score, "print the lobe error of the files as written");
-    app->add_option("-o,--out", a->out, "roughness or smoothness of level k: 'out_%d.png'")
+    app->add_option("-o,--out", a->out, "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2")
         ->required();
     app->add_option("--normal-out", a->normal_out,
-                    "normals of level k: 'normal_%d.png'; without it only roughness changes");
+                    "normals of level k: 'normal_%d.png' or normal.ktx2; without it only roughness changes");
+    app->add_option("--format", a->format, "of a texture file: r8, bc4, ...; default: plain numbers");
+    app->add_option("--normal-format", a->normal_format, "of a texture file of normals: bc5, bc7, ...");
     app->add_option("--anisotropy-out", a->anisotropy_out,
                     "direction (RG) and strength (B) as in glTF: 'aniso_%d.png'");
     std::string notes = "Rules:\n";
@@ -108,7 +131,9 @@ void add_texture_prefilter(CLI::App& texture)
     }
     app->footer(notes +
                 "\nExample:\n  petrichor texture prefilter --normal wall_n.png --roughness wall_r.png "
-                "-o 'wall_r_%d.png' --normal-out 'wall_n_%d.png'");
+                "-o 'wall_r_%d.png' --normal-out 'wall_n_%d.png'\n"
+                "  petrichor texture prefilter --smoothness Wall_LuxSPEC.png --bits 8 -o wall_s.dds "
+                "--format bc4 --normal-out wall_n.dds --normal-format bc5");
     app->callback([a] { run(*a); });
 }
 

@@ -135,10 +135,14 @@ void add_texture_score(CLI::App& texture)
                     "of each map, 64 texels a level) or quick")
         ->check(CLI::IsMember({"full", "quick"}));
     app->add_option("SETS", a->protocol.sets, "for --protocol: roughness maps, or folders of materials");
-    app->add_option("--rules", a->protocol.rules, "for --protocol: only these")->delimiter(',');
+    app->add_option("--rules", a->protocol.rules, "for --protocol: only these, with commas between")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app->add_option("--bits", a->protocol.bits, "for --protocol: of the files that would ship")
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
+    app->add_option("--seeds", a->protocol.seeds, "for --protocol: rolls of every map")
+        ->check(CLI::Range(1, 100));
     app->add_flag("!--no-hard", a->protocol.hard, "for --protocol: without the maps made from code");
     app->add_flag("!--no-puddles", a->protocol.puddles,
                   "for --protocol: no wet variant of sets with a height map");

@@ -18,8 +18,9 @@ void add_prefilter_input(CLI::App& app, PrefilterInput& input)
     app.add_option("--smoothness", input.smoothness, "smoothness map (1 - roughness)")
         ->excludes(rough);
     app.add_flag("--alpha", input.options.alpha, "the map holds alpha (roughness squared), not roughness");
-    app.add_option("--normal-layout", input.layout, "rgb, rg (z rebuilt) or ag (x in A, y in G)")
-        ->check(CLI::IsMember({"rgb", "rg", "ag"}))
+    app.add_option("--normal-layout", input.layout, "rgb, rg (z rebuilt, as BC5), ag (x in A, y in G, z rebuilt) or rxgb (x in A, y in G, z "
+                   "in B)")
+        ->check(CLI::IsMember({"rgb", "rg", "ag", "rxgb"}))
         ->capture_default_str();
     app.add_flag("--green-down", input.options.green_down, "the normal map has +Y down (DirectX)");
     app.add_option("--threads", input.options.threads, "0: all cores; the bytes do not depend on it");
@@ -43,11 +44,12 @@ PrefilterMaps read_prefilter_maps(PrefilterInput& input)
         o.green_down |= partner.green_down;
         if (map.channel < 0) o.channel = partner.channel;
     }
-    o.rebuild_z = input.layout != "rgb";
-    if (input.layout == "ag") o.normal_x = 3;
+    o.rebuild_z = input.layout == "rg" || input.layout == "ag";
+    if (input.layout == "ag" || input.layout == "rxgb") o.normal_x = 3;
     PrefilterMaps maps;
     auto normal = std::async(std::launch::async,
                              [&] { return texproc::read_raw(input.normal, input.reading); });
+    maps.map_path = map.path;
     maps.map = texproc::read_raw(map.path, input.reading);
     maps.normal = normal.get();
     return maps;

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_CLI_TEXTURE_PREFILTER_OPTIONS_H
 #define PETRICHOR_CLI_TEXTURE_PREFILTER_OPTIONS_H
 
+#include <filesystem>
 #include <string>
 
 #include "cli/texture/files.h"
@@ -23,6 +24,7 @@ void add_prefilter_input(CLI::App& app, PrefilterInput& input);
 
 struct PrefilterMaps {
     texproc::RawImage normal, map;
+    std::filesystem::path map_path;
 };
 /// Reads both maps at once and completes input.options (channel, smoothness, green). Finds the
 /// normal map by name where none was given.

@@ -20,7 +20,7 @@ constexpr int kHardSize = 512;
 
 // A set as its maps, and once more after rain where a height map tells where water stands.
 void add_set(const std::string& set, const ProtocolRequest& request,
-             const texproc::ReadOptions& reading, std::vector<texproc::MaterialMaps>& materials)
+             const texproc::ReadOptions& reading, std::vector<texproc::ScoredMaps>& materials)
 {
     const std::filesystem::path map =
         std::filesystem::is_directory(set) ? find_material(set) : std::filesystem::path(set);
@@ -33,7 +33,7 @@ void add_set(const std::string& set, const ProtocolRequest& request,
     input.channel = std::min(partner.channel, values.channels - 1);
     const std::string stem = map.stem().string();
     materials.push_back(
-        texproc::material_maps(stem.substr(0, stem.find('_')), normal, values, input));
+        texproc::scored_maps(stem.substr(0, stem.find('_')), normal, values, input));
     const std::optional<std::string> height = request.puddles ? find_height(map) : std::nullopt;
     if (!height) return;
     texproc::RawImage levels = read_map(*height, reading);
@@ -64,10 +64,10 @@ std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
 void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading, int threads)
 {
     const std::vector<texproc::Variant> variants = chosen_variants(request);
-    std::vector<texproc::MaterialMaps> materials;
+    std::vector<texproc::ScoredMaps> materials;
     for (const std::string& set : request.sets) add_set(set, request, reading, materials);
     if (request.hard) {
-        for (texproc::MaterialMaps& maps : texproc::hard_maps(kHardSize)) {
+        for (texproc::ScoredMaps& maps : texproc::hard_maps(kHardSize)) {
             materials.push_back(std::move(maps));
         }
     }
@@ -77,6 +77,7 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
     }
     texproc::ProtocolOptions options;
     if (request.effort == "quick") options = texproc::quick_protocol();
+    if (request.seeds > 0) options.seeds = request.seeds;
     options.threads = threads;
     options.progress = [](const std::string& what) { std::cerr << "score: " << what << "\n"; };
     const std::vector<texproc::ProtocolRow> rows =

@@ -14,6 +14,7 @@ struct ProtocolRequest {
     std::vector<std::string> sets;     ///< roughness maps or folders
     std::vector<std::string> rules;    ///< names of variants to keep; empty: all
     int bits = 16;
+    int seeds = 0;                     ///< rolls of every map; 0: as the effort says
     bool hard = true;                  ///< with the materials made from code
     bool puddles = true;               ///< each set with a height map also after rain
     std::string csv;                   ///< every level of every row

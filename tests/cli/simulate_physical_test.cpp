@@ -75,7 +75,7 @@ TEST(SimulatePhysical, TableHasTheContractedColumns)
     EXPECT_GT(wettest, 0.9);
     EXPECT_GT(deepest, 0.1);
     EXPECT_FALSE(t.events.empty());
-    EXPECT_FALSE(svg_plot(t).empty());
+    EXPECT_NE(svg_plot(t).find(hash_text(t.state_hash)), std::string::npos);
     EXPECT_NE(html_report(t).find("<html"), std::string::npos);
     bool filled = false;
     for (const auto& note : t.notes) filled = filled || note.find("Haurwitz") != std::string::npos;
@@ -233,7 +233,7 @@ TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
         EXPECT_NEAR(scored.scores[1].rmse, 1.0, 1e-9);
         EXPECT_NE(json_summary(scored).find("\"rmse\""), std::string::npos);
         EXPECT_NE(svg_plot(scored).find("<circle"), std::string::npos);
-        EXPECT_NE(html_report(scored).find("against observation"), std::string::npos);
+        EXPECT_NE(html_report(scored).find("model against observation"), std::string::npos);
     }
     for (const char* bad : {"", "date,colour\n2024-02-01,3\n", "nothing here\n", "date,swe_kg_m2\nx,1\ny,2\n"}) {
         run.observed = std::string(bad) + "\n";
@@ -269,6 +269,11 @@ TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
     const auto wet = script.solve().state_at(weather::to_time_us(8 * 3600));
     EXPECT_GT(wet.wetness, 0.5);
     EXPECT_GT(script.solve().state_at(weather::to_time_us(125 * 3600)).snow, 0.1);
+    // The wind turns the short way.
+    weather::ForcingTable turning = read.table;
+    turning[weather::Field::WindFrom].assign(turning.rows(), 350.0);
+    turning[weather::Field::WindFrom][1] = 10.0;
+    EXPECT_NEAR(weather::value_at(script_of_forcing(turning, "x").wind_from_deg, 1800e6), 360.0, 1e-9);
     // A film of it: an hour is a second, the states are the same.
     const WeatherScript film = faster_script(script, 3600.0);
     EXPECT_NEAR(film.duration_s, 239.0, 1e-9);

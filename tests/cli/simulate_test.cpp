@@ -261,8 +261,8 @@ std::string chromium()
     return "";
 }
 
-// The page in a browser: its script ran to the end, drew every panel, listed every event, and fits the
-// width of a desktop and of a phone.
+// The page in a browser: its script ran to the end, drew every panel, listed every event, put the cursor where the
+// link asks for it, and fits the width of a desktop and of a phone.
 TEST(Report, OpensInChromium)
 {
     const std::string browser = chromium();
@@ -277,7 +277,7 @@ TEST(Report, OpensInChromium)
             "timeout 100 " + browser +
             " --headless=new --no-sandbox --disable-gpu --no-first-run --user-data-dir=" +
             (folder / "profile").string() + " --window-size=" + size + " --dump-dom file://" +
-            (folder / "report.html").string() + " 2>/dev/null";
+            (folder / "report.html").string() + "#t=5 2>/dev/null";
         std::string page;
         FILE* pipe = ::popen(command.c_str(), "r");
         ASSERT_NE(pipe, nullptr);
@@ -290,6 +290,15 @@ TEST(Report, OpensInChromium)
             "data-ready=\"true:4:" + std::to_string(table.events.size()) + ":fits\"";
         EXPECT_NE(page.find(expected), std::string::npos) << size << ": " << page.substr(0, 300);
         EXPECT_NE(page.find("everything frozen</span>"), std::string::npos);
+        // The cursor of #t=5 stands at 5 s, and the legends read the row's values there.
+        EXPECT_NE(page.find("id=\"now\">5.00 s<"), std::string::npos) << size;
+        const auto& row = table.rows.at(100);
+        ASSERT_EQ(row[0], 5.0);
+        for (const char* column : {"rain", "wetness", "puddles", "snow"}) {
+            char value[32];
+            std::snprintf(value, sizeof value, "<b>%.3f</b>", row[column_index(table, column)]);
+            EXPECT_NE(page.find(value), std::string::npos) << column << value;
+        }
     }
     fs::remove_all(folder);
 }

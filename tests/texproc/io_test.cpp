@@ -213,6 +213,81 @@ TEST_F(Io, EncodedPngBytesDecodeToTheSamePixels)
     EXPECT_THROW(encode_png8(1, 1, 5, few), Error);
 }
 
+// A PSD of 2 x 2 texels with channels of one byte, plain or run-length coded. `layers` negative: the
+// fourth channel is the transparency of the merged picture.
+std::string small_psd(int channels, const std::string& planes, bool runs, int layers)
+{
+    const auto big = [](std::uint64_t value, int size) {
+        std::string text;
+        for (int i = size; i-- > 0;) text += static_cast<char>(value >> (8 * i));
+        return text;
+    };
+    std::string file = "8BPS" + big(1, 2) + std::string(6, '\0') +
+                       big(static_cast<std::uint64_t>(channels), 2) + big(2, 4) + big(2, 4) + big(8, 2) +
+                       big(3, 2) + big(0, 4) + big(0, 4);
+    file += big(8, 4) + big(4, 4) + big(static_cast<std::uint16_t>(layers), 2) + big(0, 2);
+    file += big(runs ? 1 : 0, 2);
+    if (!runs) return file + planes;
+    for (int row = 0; row < 2 * channels; ++row) file += big(3, 2);
+    for (int row = 0; row < 2 * channels; ++row) {
+        file += '\1';  // two literal bytes
+        file += planes.substr(2 * static_cast<std::size_t>(row), 2);
+    }
+    return file;
+}
+
+TEST_F(Io, PsdKeepsItsFourthChannel)
+{
+    const std::string planes{"\x10\x20\x30\x40\x11\x21\x31\x41\x12\x22\x32\x42\x05\x80\xff\x00", 16};
+    for (const bool runs : {false, true}) {
+        const RawImage image = read_raw(write_file("a.psd", small_psd(4, planes, runs, 1)));
+        ASSERT_EQ(image.channels, 4);
+        for (std::size_t t = 0; t < 4; ++t) {
+            for (std::size_t c = 0; c < 4; ++c) {
+                EXPECT_EQ(static_cast<char>(image.bytes[4 * t + c]), planes[4 * c + t]) << t << c;
+            }
+        }
+        EXPECT_EQ(read_raw(write_file("b.psd", small_psd(3, planes.substr(0, 12), runs, 1))).channels, 3);
+    }
+    // On white at half transparency: 0xbf was seen where the colour is 0x7f.
+    const std::string seen = std::string(12, '\xbf') + std::string("\x80\xff\x00\x80", 4);
+    const RawImage image = read_raw(write_file("c.psd", small_psd(4, seen, false, -1)));
+    EXPECT_EQ(static_cast<int>(image.bytes[0]), std::lround((0xbf - 0x7f) * 255 / 128.0));
+    EXPECT_EQ(static_cast<int>(image.bytes[4]), 0xbf);
+    const std::string whole = small_psd(4, planes, true, 1);
+    for (std::size_t size = 1; size < whole.size(); ++size) {
+        EXPECT_THROW(read_raw(write_file("cut.psd", whole.substr(0, size))), Error) << size;
+    }
+}
+
+TEST_F(Io, ACutPngIsAnError)
+{
+    write_raw(folder / "a.png", ramp(40, 30, 4, PixelType::U16));
+    std::ifstream in(folder / "a.png", std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(in)), {});
+    for (std::size_t size = 8; size + 12 < whole.size(); size += 97) {
+        EXPECT_THROW(read_raw(write_file("cut.png", whole.substr(0, size))), Error) << size;
+    }
+    // A text of a gigabyte, says the file: refused without taking it.
+    std::string huge = whole.substr(0, 33) + std::string("\x3f\xff\xff\xffzTXtkey", 11);
+    EXPECT_THROW(read_raw(write_file("huge.png", huge)), Error);
+}
+
+TEST_F(Io, EveryPngAndPsdOfTheSharedSetIsRead)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    for (const char* kind : {"png", "psd"}) {
+        int read = 0;
+        for (const auto& entry : fs::directory_iterator(fs::path(assets) / "formats" / kind)) {
+            EXPECT_GT(read_raw(entry.path()).bytes.size(), 0u) << entry.path();
+            ++read;
+        }
+        EXPECT_GT(read, 5);
+    }
+    EXPECT_EQ(read_raw(fs::path(assets) / "formats/psd/rgba.psd").channels, 4);
+}
+
 // A file on which the image library itself aborts is an error, and the next file is read.
 TEST_F(Io, ACrashOfTheImageLibraryIsAnError)
 {

@@ -362,7 +362,7 @@ TEST(ForcingCsv, UnitsZonesAndMissingValues)
     EXPECT_NEAR(r.table[Field::Wind][0], 10, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][0], 0.6 / 1800, 1e-12);  // the interval is half an hour
     EXPECT_NEAR(r.table[Field::Pressure][0], 95000, 1e-9);
-    EXPECT_NE(why("time,air_temp_c,temperature\n2024-01-01T00:00,1,2\n").find("same quantity"), std::string::npos);
+    EXPECT_NE(why("time,air_temp_c,temperature_2m_f\n2024-01-01T00:00,1,2\n").find("same quantity"), std::string::npos);
     EXPECT_NE(why("time,air_temp_parsec\n2024-01-01T00:00,1\n").find("no known weather column"), std::string::npos);
     EXPECT_NE(why("time,wind (furlong)\n2024-01-01T00:00,1\n").find("furlong"), std::string::npos);
 }

@@ -47,10 +47,13 @@ void encode_one(const detail::BlockTexels& texels, Block block, const BlockOptio
 {
     const detail::EncodeKernel& k = kernel();
     switch (block) {
-        case Block::Bc1: k.bc1(texels, options, options.punch_through, to); break;
+        case Block::Bc1:
+            k.bc1(texels, options,
+                  options.punch_through ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque, to);
+            break;
         case Block::Bc3:
             k.bc4(texels.plane[3], options.quality, to);
-            k.bc1(texels, options, false, to + 8);
+            k.bc1(texels, options, detail::Bc1Use::Four, to + 8);
             break;
         case Block::Bc4: k.bc4(texels.plane[0], options.quality, to); break;
         case Block::Bc5:

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -251,7 +252,9 @@ int serve()
         } catch (const std::exception& error) {
             pixels = Fd();
             reply = Reply{};
-            set_text(reply.text, error.what());
+            std::string why = error.what();
+            std::replace(why.begin(), why.end(), '\n', ' ');
+            set_text(reply.text, why);
         }
         if (!answer(reply, pixels.fd) || reply.last) break;
     }

@@ -22,7 +22,7 @@ struct Close {
 struct Reader {
     png_structp png = nullptr;
     png_infop info = nullptr;
-    std::string problem = "its PNG data cannot be decoded";
+    std::string problem;
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
@@ -57,6 +57,11 @@ bool read_rows(Reader& reader, png_bytep* rows)
     return true;
 }
 
+std::runtime_error undecodable(const Reader& reader)
+{
+    return std::runtime_error("its PNG data is damaged or cut short: " + reader.problem);
+}
+
 }  // namespace
 
 void read_png(const std::string& path, const Accept& accept)
@@ -68,7 +73,12 @@ void read_png(const std::string& path, const Accept& accept)
     if (reader.png) reader.info = png_create_info_struct(reader.png);
     if (!reader.info) throw std::bad_alloc();
     png_set_user_limits(reader.png, 1 << 24, 1 << 24);  // accept() has the limit that counts
-    if (!read_header(reader, file.get())) throw std::runtime_error(reader.problem);
+    // Texts, profiles and the like, which nobody reads here: some files claim a gigabyte of them.
+    static constexpr png_byte kSkipped[] =
+        "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0tEXt\0"
+        "tIME\0zTXt";
+    png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, kSkipped, sizeof kSkipped / 5);
+    if (!read_header(reader, file.get())) throw undecodable(reader);
 
     Header header;
     header.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
@@ -87,7 +97,7 @@ void read_png(const std::string& path, const Accept& accept)
     for (std::size_t y = 0; y < rows.size(); ++y) {
         rows[y] = reinterpret_cast<png_bytep>(pixels + y * row);
     }
-    if (!read_rows(reader, rows.data())) throw std::runtime_error(reader.problem);
+    if (!read_rows(reader, rows.data())) throw undecodable(reader);
 }
 
 }  // namespace petrichor::texproc::decoder

@@ -85,6 +85,26 @@ void check_shape(const fs::path& path, int width, int height, int channels)
     }
 }
 
+// A file, whole or not at all, from the pieces that `produce` hands on.
+void write_pieces(const fs::path& path, const std::function<void(const detail::ByteSink&)>& produce)
+{
+    OutputFile file(path);
+    const auto failed = [&] {
+        return Error("output: cannot write " + path.string() + ": " + std::strerror(errno),
+                     "Check that the folder is writable and the disk is not full.");
+    };
+    struct Close {
+        void operator()(std::FILE* f) const { std::fclose(f); }
+    };
+    std::unique_ptr<std::FILE, Close> out(std::fopen(file.temporary().c_str(), "wb"));
+    if (!out) throw failed();
+    produce([&](std::span<const std::byte> bytes) {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) throw failed();
+    });
+    if (std::fclose(out.release()) != 0) throw failed();
+    file.commit();
+}
+
 void write_exr_raw(const fs::path& path, const RawImage& image)
 {
     static const char* const kNames[4] = {"R", "G", "B", "A"};
@@ -153,19 +173,9 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes)
 
 void write_bytes(const fs::path& path, const std::vector<std::span<const std::byte>>& parts)
 {
-    OutputFile file(path);
-    const auto failed = [&] {
-        return Error("output: cannot write " + path.string() + ": " + std::strerror(errno),
-                     "Check that the folder is writable and the disk is not full.");
-    };
-    std::FILE* out = std::fopen(file.temporary().c_str(), "wb");
-    if (!out) throw failed();
-    bool whole = true;
-    for (const std::span<const std::byte> bytes : parts) {
-        whole = whole && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
-    }
-    if (std::fclose(out) != 0 || !whole) throw failed();
-    file.commit();
+    write_pieces(path, [&](const detail::ByteSink& sink) {
+        for (const std::span<const std::byte> bytes : parts) sink(bytes);
+    });
 }
 
 void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& options)
@@ -203,9 +213,11 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
     }
     if (png) {
         const int bits = image.type == PixelType::U8 ? 8 : 16;
-        write_bytes(path, detail::encode_png({image.width, image.height, image.channels, bits,
-                                              image.bytes.data()},
-                                             {}, 1, options.threads));
+        const detail::PngImage png_image{image.width, image.height, image.channels, bits,
+                                         image.bytes.data()};
+        write_pieces(path, [&](const detail::ByteSink& sink) {
+            detail::encode_png(png_image, {}, 1, options.threads, sink);
+        });
         return;
     }
     OutputFile file(path);

@@ -171,6 +171,10 @@ MipTexture detail::texture_shape(std::span<const RawImage> levels, const Texture
                     "Stop at 1 x 1.");
     }
     for (std::size_t k = 0; k < levels.size(); ++k) check_level(levels[k], first, static_cast<int>(k));
+    if (options.format.empty() && first.channels > 4) {
+        throw Error("texture: " + std::to_string(first.channels) + " channels, a texture has up to 4",
+                    "Choose channels (FILE:r), or name a format to keep the first ones.");
+    }
     const TextureFormat format =
         options.format.empty() ? own_format(first) : texture_format(options.format);
     check_writable(format);

@@ -28,16 +28,18 @@ struct Effort {
 
 Effort effort_at(int level, bool quick)
 {
-    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 640, 640};
-    const int samples = level >= 8 ? 1280 : kSamples[level];
+    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 960, 1280};
+    const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
         // The finest levels hold most texels: there the cheapest of the fits, without a search.
         if (level <= 2) return {40, 0, 0, 0, 0, 0, false, 3, 16};
         const int half = std::max(80, samples / 2);
-        return {half, half, 6, 3, 6, 20, false, 4, level <= 3 ? 32 : level <= 4 ? 64 : 128};
+        if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
+        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 1024};
     }
-    if (level <= 1) return {samples, samples, 5, 3, 8, 18, false, 4, 16};
-    if (level == 2) return {samples, samples, 8, 4, 8, 32, false, 6, 64};
+    if (level <= 1) return {samples, 2 * samples, 5, 3, 8, 18, false, 4, 16};
+    if (level == 2) return {samples, 2 * samples, 6, 3, 8, 24, false, 4, 64};
+    if (level == 3) return {samples, samples, 8, 4, 10, 32, false, 5, 48};
     return {samples, samples, 10, 5, 10, 36, level >= 5, 5, level <= 4 ? 128 : 1024};
 }
 
@@ -89,9 +91,12 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
 // mean of alpha^2 and a share of the slope variance. The share, 0.88 and less where rough lobes lose
 // light to shadowing, and the bounds were measured against the search with 2560 samples: within 0.001
 // of the best isotropic lobe, where the search with 80 is 0.001 to 0.01 above it and re-aiming the
-// normal gains less than 0.003. Returns alpha^2 without the light, or 0 for other footprints.
-float nearly_one_lobe(const Cells& cells, float variance, float light2, float most_spread)
+// normal gains less than 0.003. A few steep texels among flat ones make a variance that says nothing
+// of the rest: where the radius of the median rule is another one, there is more than one lobe.
+// Returns alpha^2 without the light, or 0 for other footprints.
+float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2, float most_spread)
 {
+    const float variance = slope_variance(cells.view(), normal);
     float least = 1.0f;
     for (const float a2 : cells.alpha2) least = std::min(least, a2);
     // Cheap tests first: no footprint passes that is far above its narrowest lobe.
@@ -108,6 +113,8 @@ float nearly_one_lobe(const Cells& cells, float variance, float light2, float mo
     const float spread = std::max(0.0f, square / whole - mean * mean);
     const float centre = std::exp(mean);
     if (spread > 0.06f || variance > most_spread * centre) return 0.0f;
+    const float share = share_inside(cells.view(), normal, light2, centre + 0.92f * variance);
+    if (!(std::abs(share - 0.5f) < 0.012f)) return 0.0f;
     const float rough = std::max(0.0f, std::sqrt(centre) - 0.4f);
     return std::clamp(centre + (0.88f - 2.9f * rough * rough) * variance - light2, kMinAlpha2, 1.0f);
 }
@@ -229,8 +236,7 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
 
     float one = 0.0f;
     if (!options.anisotropic) {
-        const float variance = slope_variance(cells.view(), mean_normal);
-        one = nearly_one_lobe(cells, variance, light2, options.quick ? 0.5f : 0.25f);
+        one = nearly_one_lobe(cells, mean_normal, light2, options.quick ? 0.5f : 0.25f);
         if (one > 0.0f && !coarse_codes(one + light2, options.stored)) return lobe(mean_normal, one);
     }
 
@@ -268,8 +274,11 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
                    {found.tx, found.ty, found.tz}, unlit(found.alpha2_x), unlit(found.alpha2_y), {}};
         }
     } else if (coarse_codes(chosen.alpha2, options.stored)) {
+        // Many codes compete: on more samples, and on others than the search has fitted.
+        const LobeCost judge(view, mass, 2 * effort_at(level, false).samples, 2 * seed + 1,
+                             second_samples);
         const Codes plain = rounded(mean_normal, plain_alpha2, options.stored);
-        out.codes = cheapest_codes(s.cost, out.normal, out.alpha2, plain, light2, options.stored);
+        out.codes = cheapest_codes(judge, out.normal, out.alpha2, plain, light2, options.stored);
     }
     return out;
 }

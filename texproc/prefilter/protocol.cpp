@@ -24,13 +24,17 @@ Chosen chosen_texels(const RawImage& map, const ScoreOptions& scoring)
     return chosen;
 }
 
+// Mean normals rounded to the bits of the file: what eight bits alone cost.
+constexpr const char* kPlainShipped = "plain as shipped";
+
 // Files without normals beside them are read with the mean normals.
-bool ships_normals(const PrefilterOptions& o)
+bool ships_normals(const Variant& v)
 {
-    return (o.rule == "overlap" && o.joint) || o.rule == "student-t";
+    return (v.options.rule == "overlap" && v.options.joint) || v.options.rule == "student-t" ||
+           v.name == kPlainShipped;
 }
 
-std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<Variant>& variants,
+std::vector<Prefiltered> chains_at(const ScoredMaps& maps, const std::vector<Variant>& variants,
                                    const ScoreOptions& scoring)
 {
     std::vector<PrefilterOptions> some;
@@ -38,7 +42,7 @@ std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<V
         some.push_back(v.options);
         some.back().design_light = scoring.light;
         some.back().threads = scoring.threads;
-        some.back().bits = ships_normals(v.options) ? v.bits : 0;
+        some.back().bits = ships_normals(v) ? v.bits : 0;
     }
     const Chosen chosen = chosen_texels(maps.normal, scoring);
     const std::vector<LevelSize> sizes = level_sizes(maps.normal.width, maps.normal.height);
@@ -52,7 +56,7 @@ std::vector<Prefiltered> chains_at(const MaterialMaps& maps, const std::vector<V
             chains[i] = prefilter_raw(maps.normal, maps.roughness, some[i]);
         }
         quantize(chains[i], variants[i].bits);
-        if (!ships_normals(variants[i].options)) chains[i].normal.clear();
+        if (!ships_normals(variants[i])) chains[i].normal.clear();
     }
     return chains;
 }
@@ -92,6 +96,7 @@ std::vector<Variant> protocol_variants(int bits)
     for (auto rule = rules().rbegin(); rule != rules().rend(); ++rule) {
         if (rule->kind != RuleKind::Search) add(rule->name, rule->name);
     }
+    add(kPlainShipped, "none");
     add("overlap roughness only", "overlap").joint = false;
     add("overlap quick", "overlap").quick = true;
     add("overlap joint", "overlap");
@@ -108,12 +113,12 @@ ProtocolOptions quick_protocol()
     return o;
 }
 
-std::vector<ProtocolRow> run_protocol(const std::vector<MaterialMaps>& materials,
+std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                                       const std::vector<Variant>& variants,
                                       const ProtocolOptions& options)
 {
     std::vector<ProtocolRow> rows;
-    for (const MaterialMaps& material : materials) {
+    for (const ScoredMaps& material : materials) {
         std::vector<Variant> fitting;
         for (const Variant& v : variants) {
             if (v.options.rule != "lux" || square_power_of_two(material.normal)) fitting.push_back(v);
@@ -130,7 +135,7 @@ std::vector<ProtocolRow> run_protocol(const std::vector<MaterialMaps>& materials
                 }
                 // An odd roll: other texels meet in every footprint.
                 const int dx = (seed - 1) * 341 + 1, dy = (seed - 1) * 173 + 3;
-                const MaterialMaps maps{material.name, rolled(material.normal, dx, dy),
+                const ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
                                         rolled(material.roughness, dx, dy)};
                 const ScoreOptions scoring{.light = light,
                                            .texels = options.texels,
@@ -230,8 +235,12 @@ std::string to_markdown(const std::vector<ProtocolSummary>& summaries)
                 text += " - |";
                 continue;
             }
-            std::snprintf(cell, sizeof cell, " %.0f / %.0f / %.0f, %+.3f, %+.3f, %d |", s->worst_gap,
-                          s->mean_gap, s->pooled_gap, s->worst_excess_without_room, s->worst_over_plain,
+            char excess[16] = "-";
+            if (s->worst_excess_without_room > -2.0) {
+                std::snprintf(excess, sizeof excess, "%+.3f", s->worst_excess_without_room);
+            }
+            std::snprintf(cell, sizeof cell, " %.0f / %.0f / %.0f, %s, %+.3f, %d |", s->worst_gap,
+                          s->mean_gap, s->pooled_gap, excess, s->worst_over_plain,
                           s->levels_over_plain);
             text += cell;
         }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "texproc/prefilter/material_maps.h"
+#include "texproc/prefilter/scored_maps.h"
 #include "texproc/prefilter/score.h"
 
 namespace petrichor::texproc {
@@ -42,7 +42,7 @@ struct ProtocolRow {
 };
 
 /// Scores all variants on the same texels and points. Only the texels that are scored are fitted.
-std::vector<ProtocolRow> run_protocol(const std::vector<MaterialMaps>& materials,
+std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                                       const std::vector<Variant>& variants,
                                       const ProtocolOptions& options = {});
 

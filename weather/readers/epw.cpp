@@ -1,5 +1,8 @@
 // EnergyPlus weather: 8 header lines, then 35 columns. Hour 1 is 00:00 to 01:00 local standard time: its values hold
 // at 01:00, its sums for the hour before. Each column has its own code for "missing".
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
@@ -12,7 +15,7 @@ namespace {
 struct Column {
     Field field;
     std::size_t index;
-    double missing_from;  // this value and above mean missing
+    double missing;  // the code for no value; larger numbers of nines mean the same
     double scale, offset;
 };
 constexpr Column kColumns[] = {
@@ -24,6 +27,14 @@ constexpr Column kColumns[] = {
     {Field::Cloud, 22, 99.0, 0.1, 0.0},             {Field::Visibility, 24, 9999.0, 1000.0, 0.0},
     {Field::SnowDepth, 30, 999.0, 0.01, 0.0},
 };
+
+// The column's code, or a longer row of nines: files disagree on how many.
+bool is_missing_code(const Column& column, std::string_view text, double value)
+{
+    if (value <= -999.0 || std::abs(value - column.missing) < 1e-9) return true;
+    const auto digits = trimmed(text);
+    return value > column.missing && std::all_of(digits.begin(), digits.end(), [](char c) { return c == '9' || c == '.' || c == '0'; }) && digits.front() == '9';
+}
 
 }  // namespace
 
@@ -89,7 +100,7 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
             const auto value = to_number(f[c.index]);
             if (!value) rows.unreadable(c.field, f[c.index]);
             // 77777 is an unlimited ceiling elsewhere; visibility 777.7 km means unlimited.
-            else if (*value >= c.missing_from - 1e-9 || *value <= -999.0) rows.missing(c.field);
+            else if (is_missing_code(c, f[c.index], *value)) rows.missing(c.field);
             else rows.set(c.field, *value * c.scale + c.offset);
         }
         // Liquid depth (mm) of the last `hours`; 99 hours is "unknown", then it is the hour's.

@@ -38,6 +38,29 @@ bool is_missing_word(std::string_view text)
     return false;
 }
 
+bool is_field(const ColumnMeaning& m)
+{
+    return !m.percent_snow && !m.vapour_pressure;
+}
+bool same_field(const ColumnMeaning& a, const ColumnMeaning& b)
+{
+    return is_field(a) && is_field(b) && a.field == b.field;
+}
+bool has_unit(std::string_view name)
+{
+    return trimmed(name).find_first_of("_([ ") != std::string_view::npos;
+}
+
+// With another separator than a comma, a comma may be the decimal point.
+std::optional<double> cell_number(std::string_view text, char separator)
+{
+    const auto value = to_number(text);
+    if (value || separator == ',' || std::count(text.begin(), text.end(), ',') != 1) return value;
+    std::string point(text);
+    std::replace(point.begin(), point.end(), ',', '.');
+    return to_number(point);
+}
+
 }  // namespace
 
 void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
@@ -69,18 +92,22 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             continue;
         }
         meaning[i] = column_meaning(names[i]);
-        if (meaning[i]) {
-            ++known;
-            for (std::size_t j = 0; j < i; ++j) {
-                const bool plain = !meaning[i]->percent_snow && !meaning[i]->vapour_pressure;
-                if (plain && meaning[j] && !meaning[j]->percent_snow && !meaning[j]->vapour_pressure &&
-                    meaning[j]->field == meaning[i]->field) {
-                    throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) + "' mean the same quantity",
-                                "Keep one of the two columns.");
-                }
-            }
-        } else {
+        if (!meaning[i]) {
             rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "this column is not known and not used");
+            continue;
+        }
+        ++known;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!meaning[j] || !same_field(*meaning[i], *meaning[j])) continue;
+            // "rain_kg_m2_s" beside a bare "rain": the one that says its unit counts.
+            if (has_unit(names[i]) == has_unit(names[j])) {
+                throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) + "' mean the same quantity",
+                            "Keep one of the two columns.");
+            }
+            const std::size_t bare = has_unit(names[i]) ? j : i;
+            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[bare]), "has no unit and is not used: another column has the same quantity with one");
+            meaning[bare].reset();
+            if (bare == i) break;
         }
     }
     if (time_at == names.size() || known == 0) {
@@ -130,14 +157,14 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
         for (std::size_t i = 0; i < f.size(); ++i) {
             if (!meaning[i]) continue;
             const ColumnMeaning& m = *meaning[i];
-            const bool field = !m.percent_snow && !m.vapour_pressure;
+            const bool field = is_field(m);
             if (is_missing_word(f[i])) {
                 if (field) rows.missing(m.field);
                 const std::string code(trimmed(f[i]));
                 ++missing_codes[code.empty() ? "an empty cell" : "'" + shown(code) + "'"];
                 continue;
             }
-            const auto value = to_number(f[i]);
+            const auto value = cell_number(f[i], separator);
             if (!value) {
                 if (field) rows.unreadable(m.field, f[i]);
                 continue;

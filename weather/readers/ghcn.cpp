@@ -3,6 +3,7 @@
 //
 // A day becomes eight rows: temperature swings between its minimum at 6 and its maximum at 15 o'clock, the rest is
 // spread evenly. Times are taken as UTC unless the site's longitude is given.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -22,14 +23,29 @@ struct Day {
 };
 using Days = std::map<std::int64_t, Day>;
 
-void put(Day& day, std::string_view element, double value)
+// One value of a day; what is not possible or given twice is noted.
+void put(RowCollector& rows, Day& day, std::size_t line, std::string_view element, std::string_view text)
 {
-    if (element == "TMIN") day.low_c = value * 0.1;
-    else if (element == "TMAX") day.high_c = value * 0.1;
-    else if (element == "TAVG") day.mean_c = value * 0.1;
-    else if (element == "PRCP") day.precip_mm = value * 0.1;
-    else if (element == "AWND") day.wind_m_s = value * 0.1;
-    else if (element == "SNWD") day.depth_m = value * 0.001;
+    struct Element {
+        const char* name;
+        double Day::* member;
+        double scale, low, high;
+    };
+    constexpr Element kElements[] = {{"TMIN", &Day::low_c, 0.1, -100, 65},    {"TMAX", &Day::high_c, 0.1, -100, 65},
+                                     {"TAVG", &Day::mean_c, 0.1, -100, 65},   {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
+                                     {"AWND", &Day::wind_m_s, 0.1, 0, 110},   {"SNWD", &Day::depth_m, 0.001, 0, 30}};
+    const auto known = std::find_if(std::begin(kElements), std::end(kElements), [&](const Element& e) { return element == e.name; });
+    if (known == std::end(kElements) || trimmed(text).empty()) return;
+    const auto number = to_number(text);
+    if (number && *number == -9999.0) return;
+    const double value = number ? *number * known->scale : kMissing;
+    if (!(value >= known->low && value <= known->high)) {
+        rows.note(ReadNote::Kind::OutOfRange, line, known->name, std::string("'").append(shown(trimmed(text))).append("' is not possible, taken as missing"));
+        return;
+    }
+    if (!std::isnan(day.*known->member)) rows.note(ReadNote::Kind::Time, line, known->name, "second value for the same day, the last one holds");
+    day.*known->member = value;
+    day.line = line;
 }
 
 constexpr std::size_t kMostDays = 400000;
@@ -49,14 +65,12 @@ void read_fixed(std::string_view text, RowCollector& rows, Days& days)
         for (int d = 0; d < 31; ++d) {
             const std::size_t at = 21 + static_cast<std::size_t>(d) * 8;
             if (at + 5 > line->size()) break;
-            const auto value = to_number(line->substr(at, 5));
+            const auto cell = line->substr(at, 5);
             const bool failed_check = at + 6 < line->size() && line->substr(at + 6, 1) != " ";
-            if (!value || *value == -9999.0 || failed_check) continue;
+            if (trimmed(cell) == "-9999" || failed_check) continue;
             const auto us = us_from_civil({*year, static_cast<int>(*month), d + 1, 0, 0, 0.0});
             if (!us || days.size() > kMostDays) continue;
-            Day& day = days[*us];
-            day.line = lines.number();
-            put(day, element, *value);
+            put(rows, days[*us], lines.number(), element, cell);
         }
     }
 }
@@ -87,16 +101,11 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
                 continue;
             }
             if (days.size() > kMostDays) continue;
-            Day& day = days[*us];
-            day.line = lines.number();
-            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
-                if (const auto v = to_number(f[i])) put(day, names[i], *v);
-            }
+            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) put(rows, days[*us], lines.number(), names[i], f[i]);
             continue;
         }
         const auto date = f.size() >= 4 && f[1].size() == 8 ? us_from_iso(f[1]) : std::nullopt;
-        const auto value = f.size() >= 4 ? to_number(f[3]) : std::nullopt;
-        if (!date || !value) {
+        if (!date) {
             rows.bad_row(lines.number(), "", "'" + shown(*line) + "' is not ID,YYYYMMDD,ELEMENT,VALUE");
             continue;
         }
@@ -106,10 +115,8 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
             continue;
         }
         const bool failed_check = f.size() >= 6 && !f[5].empty();
-        if (*value == -9999.0 || failed_check || days.size() > kMostDays) continue;
-        Day& day = days[*date];
-        day.line = lines.number();
-        put(day, f[2], *value);
+        if (failed_check || days.size() > kMostDays) continue;
+        put(rows, days[*date], lines.number(), f[2], f[3]);
     }
     if (others) rows.note(ReadNote::Kind::Info, 0, "station", "several stations in the file, only " + shown(station) + " is used");
 }

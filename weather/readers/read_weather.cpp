@@ -136,7 +136,7 @@ WeatherFormat recognise_weather(std::string_view text)
     }
     {
         const auto f = split(head.front(), ',', 8);
-        if (f.size() >= 4 && f[0].size() == 11 && f[1].size() == 8 && to_integer(f[1]) && f[2].size() == 4 && to_number(f[3])) {
+        if (f.size() >= 4 && f[0].size() == 11 && f[1].size() == 8 && to_integer(f[1]) && f[2].size() == 4) {
             return WeatherFormat::GhcnDaily;
         }
         if (top.find("station") != std::string::npos && top.find("tmax") != std::string::npos) return WeatherFormat::GhcnDaily;
@@ -148,8 +148,9 @@ WeatherFormat recognise_weather(std::string_view text)
             return WeatherFormat::Surfrad;
         }
     }
-    const auto columns = words(head.front(), 64);
-    if (all_numbers(columns) && columns.size() == 12) {
+    for (const auto line : head) {  // the first rows may be the bad ones
+        const auto columns = words(line, 64);
+        if (!all_numbers(columns) || columns.size() != 12) continue;
         // Both have twelve numbers a row; ISD-Lite has whole numbers and -9999.
         const bool whole = std::all_of(columns.begin(), columns.end(), [](std::string_view c) { return to_integer(c).has_value(); });
         return whole ? WeatherFormat::IsdLite : WeatherFormat::Fsm;

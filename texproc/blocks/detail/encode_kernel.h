@@ -15,9 +15,15 @@ struct BlockTexels {
     alignas(16) std::uint8_t plane[4][16];
 };
 
+/// What a block of BC1 may use.
+enum class Bc1Use {
+    Opaque,  ///< four colours, or three
+    Holes,   ///< texels with alpha below one half become transparent
+    Four,    ///< four colours only: within BC3 the order of the endpoints says nothing
+};
+
 struct EncodeKernel {
-    /// `alpha`: texels below one half become transparent.
-    void (*bc1)(const BlockTexels&, const BlockOptions&, bool alpha, std::byte* to);
+    void (*bc1)(const BlockTexels&, const BlockOptions&, Bc1Use, std::byte* to);
     void (*bc4)(const std::uint8_t* values, BlockQuality, std::byte* to);
     void (*bc7)(const BlockTexels&, const BlockOptions&, std::byte* to);
 };

@@ -36,6 +36,13 @@ inline F8 truncated(F8 v) { return __builtin_convertvector(__builtin_convertvect
 /// Nearest whole number of values that are not negative.
 inline F8 rounded(F8 v) { return truncated(v + 0.5f); }
 
+/// Whole numbers 0..255 as bytes.
+inline void store_bytes(F8 v, std::uint8_t* to)
+{
+    const B8 bytes = __builtin_convertvector(__builtin_convertvector(v, I8), B8);
+    std::memcpy(to, &bytes, sizeof bytes);
+}
+
 /// 16 values of one channel.
 struct Plane {
     F8 v[2];

@@ -14,6 +14,7 @@ namespace petrichor::texproc::detail {
 namespace {
 
 constexpr std::size_t kBlock = 512 * 1024;  // bytes deflated as one; also the size of an IDAT chunk
+constexpr std::size_t kBatch = 32 << 20;    // bytes filtered and deflated before they are handed on
 constexpr std::size_t kWindow = 32 * 1024;  // what deflate may look back into, from the block before
 
 void put32(std::byte* to, std::uint32_t v)
@@ -21,16 +22,17 @@ void put32(std::byte* to, std::uint32_t v)
     for (int i = 0; i < 4; ++i) to[i] = static_cast<std::byte>(v >> (24 - 8 * i));
 }
 
-void add_chunk(std::vector<std::byte>& file, const char* kind, const std::byte* data,
-               std::size_t size)
+void add_chunk(const ByteSink& sink, const char* kind, const std::byte* data, std::size_t size)
 {
-    const std::size_t at = file.size();
-    file.resize(at + 12 + size);
-    put32(&file[at], static_cast<std::uint32_t>(size));
-    std::memcpy(&file[at + 4], kind, 4);
-    if (size) std::memcpy(&file[at + 8], data, size);
-    const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(&file[at + 4]), size + 4);
-    put32(&file[at + 8 + size], static_cast<std::uint32_t>(crc));
+    std::byte head[8], sum[4];
+    put32(head, static_cast<std::uint32_t>(size));
+    std::memcpy(head + 4, kind, 4);
+    uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(head + 4), 4);
+    if (size) crc = crc32_z(crc, reinterpret_cast<const Bytef*>(data), size);
+    put32(sum, static_cast<std::uint32_t>(crc));
+    sink(head);
+    if (size) sink({data, size});
+    sink(sum);
 }
 
 // Cost of a filtered row: the sum of its bytes taken as signed, the usual guess of how well it
@@ -108,76 +110,105 @@ void deflate_block(Block& block, const std::uint8_t* data, std::size_t size,
 
 }  // namespace
 
-std::vector<std::byte> encode_png(const PngImage& image,
-                                  const std::vector<std::pair<std::string, std::string>>& texts,
-                                  int level, int threads)
+namespace {
+
+// Rows [first, end) filtered, and before them as many as deflate may look back into.
+Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int level)
 {
-    assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
-    assert(image.bits == 8 || image.bits == 16);
     const std::size_t pixel =
         static_cast<std::size_t>(image.channels) * static_cast<std::size_t>(image.bits / 8);
-    const std::size_t row = pixel * static_cast<std::size_t>(image.width);
-    const std::size_t line = row + 1;
-    const std::size_t height = static_cast<std::size_t>(image.height);
-    const std::size_t lines_a_block = std::max<std::size_t>(1, kBlock / line);
-    const std::size_t blocks = (height + lines_a_block - 1) / lines_a_block;
-    const std::size_t lines_before = std::min(height, (kWindow + line - 1) / line);
-
-    std::vector<Block> done(blocks);
-    parallel_for(blocks, threads, [&](std::size_t b) {
-        const std::size_t first = b * lines_a_block;
-        const std::size_t end = std::min(height, first + lines_a_block);
-        const std::size_t start = first > lines_before ? first - lines_before : 0;
-        std::vector<std::uint8_t> filtered((end - start) * line);
-        std::vector<std::uint8_t> scratch, now, above;
-        for (std::size_t y = start; y < end; ++y) {
-            const std::byte* source = image.pixels + y * row;
-            const std::uint8_t* current = reinterpret_cast<const std::uint8_t*>(source);
-            const std::uint8_t* previous =
-                y ? reinterpret_cast<const std::uint8_t*>(source - row) : nullptr;
-            if (image.bits == 16) {
-                if (y && y == start) big_endian_row(source - row, row, above);
-                big_endian_row(source, row, now);
-                current = now.data();
-                previous = y ? above.data() : nullptr;
-            }
-            filter_row(current, previous, row, pixel, &filtered[(y - start) * line], scratch);
-            if (image.bits == 16) std::swap(now, above);
+    const std::size_t row = pixel * static_cast<std::size_t>(image.width), line = row + 1;
+    const std::size_t lines_before = (kWindow + line - 1) / line;
+    const std::size_t start = first > lines_before ? first - lines_before : 0;
+    std::vector<std::uint8_t> filtered((end - start) * line);
+    std::vector<std::uint8_t> scratch, now, above;
+    for (std::size_t y = start; y < end; ++y) {
+        const std::byte* source = image.pixels + y * row;
+        const std::uint8_t* current = reinterpret_cast<const std::uint8_t*>(source);
+        const std::uint8_t* previous =
+            y ? reinterpret_cast<const std::uint8_t*>(source - row) : nullptr;
+        if (image.bits == 16) {
+            if (y && y == start) big_endian_row(source - row, row, above);
+            big_endian_row(source, row, now);
+            current = now.data();
+            previous = y ? above.data() : nullptr;
         }
-        const std::size_t skip = (first - start) * line;
-        const std::size_t before = std::min(skip, kWindow);
-        deflate_block(done[b], filtered.data() + skip, filtered.size() - skip,
-                      filtered.data() + skip - before, before, b + 1 == blocks, level);
-    });
+        filter_row(current, previous, row, pixel, &filtered[(y - start) * line], scratch);
+        if (image.bits == 16) std::swap(now, above);
+    }
+    const std::size_t skip = (first - start) * line;
+    const std::size_t before = std::min(skip, kWindow);
+    Block block;
+    deflate_block(block, filtered.data() + skip, filtered.size() - skip,
+                  filtered.data() + skip - before, before,
+                  end == static_cast<std::size_t>(image.height), level);
+    return block;
+}
 
+void add_start(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
+               const ByteSink& sink)
+{
     static constexpr std::uint8_t kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    std::vector<std::byte> file(sizeof kSignature);
-    std::memcpy(file.data(), kSignature, sizeof kSignature);
+    sink(std::as_bytes(std::span(kSignature)));
     std::byte header[13] = {};
     put32(header, static_cast<std::uint32_t>(image.width));
     put32(header + 4, static_cast<std::uint32_t>(image.height));
     header[8] = static_cast<std::byte>(image.bits);
     static constexpr int kColourType[5] = {0, 0, 4, 2, 6};
     header[9] = static_cast<std::byte>(kColourType[image.channels]);
-    add_chunk(file, "IHDR", header, sizeof header);
+    add_chunk(sink, "IHDR", header, sizeof header);
     for (const auto& [key, value] : texts) {
-        std::string text = key.substr(0, 79) + std::string(1, '\0') + value;
-        add_chunk(file, "tEXt", reinterpret_cast<const std::byte*>(text.data()), text.size());
+        const std::string text = key.substr(0, 79) + std::string(1, '\0') + value;
+        add_chunk(sink, "tEXt", reinterpret_cast<const std::byte*>(text.data()), text.size());
     }
+}
+
+}  // namespace
+
+void encode_png(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
+                int level, int threads, const ByteSink& sink)
+{
+    assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
+    assert(image.bits == 8 || image.bits == 16);
+    const std::size_t line = static_cast<std::size_t>(image.channels) *
+                                 static_cast<std::size_t>(image.bits / 8) *
+                                 static_cast<std::size_t>(image.width) +
+                             1;
+    const std::size_t height = static_cast<std::size_t>(image.height);
+    const std::size_t lines_a_block = std::max<std::size_t>(1, kBlock / line);
+    const std::size_t blocks = (height + lines_a_block - 1) / lines_a_block;
+    const std::size_t batch = std::max<std::size_t>(1, kBatch / std::max(kBlock, line));
+    add_start(image, texts, sink);
     uLong adler = 1;
-    for (std::size_t b = 0; b < blocks; ++b) {
-        std::vector<std::byte>& data = done[b].deflated;
-        if (b == 0) data.insert(data.begin(), {std::byte{0x78}, std::byte{0x01}});
-        adler = adler32_combine(adler, done[b].adler, static_cast<z_off_t>(done[b].size));
-        if (b + 1 == blocks) {
-            std::byte sum[4];
-            put32(sum, static_cast<std::uint32_t>(adler));
-            data.insert(data.end(), sum, sum + 4);
+    for (std::size_t from = 0; from < blocks; from += batch) {
+        std::vector<Block> done(std::min(batch, blocks - from));
+        parallel_for(done.size(), threads, [&](std::size_t i) {
+            const std::size_t first = (from + i) * lines_a_block;
+            done[i] = encode_rows(image, first, std::min(height, first + lines_a_block), level);
+        });
+        for (std::size_t i = 0; i < done.size(); ++i) {
+            std::vector<std::byte>& data = done[i].deflated;
+            if (from + i == 0) data.insert(data.begin(), {std::byte{0x78}, std::byte{0x01}});
+            adler = adler32_combine(adler, done[i].adler, static_cast<z_off_t>(done[i].size));
+            if (from + i + 1 == blocks) {
+                std::byte sum[4];
+                put32(sum, static_cast<std::uint32_t>(adler));
+                data.insert(data.end(), sum, sum + 4);
+            }
+            add_chunk(sink, "IDAT", data.data(), data.size());
         }
-        add_chunk(file, "IDAT", data.data(), data.size());
-        std::vector<std::byte>().swap(data);
     }
-    add_chunk(file, "IEND", nullptr, 0);
+    add_chunk(sink, "IEND", nullptr, 0);
+}
+
+std::vector<std::byte> encode_png(const PngImage& image,
+                                  const std::vector<std::pair<std::string, std::string>>& texts,
+                                  int level, int threads)
+{
+    std::vector<std::byte> file;
+    encode_png(image, texts, level, threads, [&](std::span<const std::byte> bytes) {
+        file.insert(file.end(), bytes.begin(), bytes.end());
+    });
     return file;
 }
 

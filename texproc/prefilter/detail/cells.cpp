@@ -11,6 +11,11 @@ void Cells::clear()
     for (auto* v : {&nx, &ny, &nz, &alpha2, &weight}) v->clear();
 }
 
+void Cells::resize(std::size_t count)
+{
+    for (auto* v : {&nx, &ny, &nz, &alpha2, &weight}) v->resize(count);
+}
+
 void Cells::add(float x, float y, float z, float a2, float w)
 {
     nx.push_back(x);
@@ -30,16 +35,21 @@ float lobe_length(float alpha2)
 void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Footprint& x,
             const Footprint& y, Cells& cells, Means& means)
 {
-    cells.clear();
+    cells.resize(x.weights.size() * y.weights.size());
+    std::size_t to = 0;
     double sx = 0, sy = 0, sz = 0, sp = 0, sa = 0;
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
         const SurfaceRow& row = rows[static_cast<std::size_t>(y.first) + j - first_row];
-        for (std::size_t i = 0; i < x.weights.size(); ++i) {
+        for (std::size_t i = 0; i < x.weights.size(); ++i, ++to) {
             const std::size_t at = static_cast<std::size_t>(x.first) + i;
             const float w = x.weights[i] * y.weights[j];
             const float p = row.p[at];
             const float a2 = std::max((p * p) * (p * p), kMinAlpha2);
-            cells.add(row.nx[at], row.ny[at], row.nz[at], a2, w);
+            cells.nx[to] = row.nx[at];
+            cells.ny[to] = row.ny[at];
+            cells.nz[to] = row.nz[at];
+            cells.alpha2[to] = a2;
+            cells.weight[to] = w;
             const double weight = static_cast<double>(w);
             sx += weight * static_cast<double>(row.nx[at]);
             sy += weight * static_cast<double>(row.ny[at]);
@@ -62,21 +72,27 @@ std::uint64_t mixed(std::uint64_t v)
     return v;
 }
 
-// One round with grid edges e (slopes) and ep (p). Cells keep the order of their first member, so
+// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what narrow
+// lobes must keep apart is nothing to wide ones. Cells keep the order of their first member, so
 // that the result does not depend on addresses.
-void merge_round(Cells& cells, float e, float ep)
+void merge_round(Cells& cells, float share, float ep)
 {
     const std::size_t count = cells.nx.size();
+    const float per_ep = 1.0f / ep;
     std::size_t slots = 64;
     while (slots < 2 * count) slots *= 2;
-    std::vector<std::uint64_t> keys(slots);
-    std::vector<std::int32_t> owner(slots, -1);
+    thread_local std::vector<std::uint64_t> keys;
+    thread_local std::vector<std::int32_t> owner;
+    keys.resize(slots);
+    owner.assign(slots, -1);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float p = std::sqrt(std::sqrt(cells.alpha2[i]));
-        const auto gx = static_cast<std::int64_t>(std::floor(cells.nx[i] / e)) + (1 << 20);
-        const auto gy = static_cast<std::int64_t>(std::floor(cells.ny[i] / e)) + (1 << 20);
-        const auto gp = static_cast<std::int64_t>(p / ep);
+        const auto gp = static_cast<std::int64_t>(p * per_ep);
+        const float middle = (static_cast<float>(gp) + 0.5f) * ep;
+        const float per_e = 1.0f / std::max(0.001f, share * middle * middle);
+        const auto gx = static_cast<std::int64_t>((cells.nx[i] + 1.0f) * per_e);
+        const auto gy = static_cast<std::int64_t>((cells.ny[i] + 1.0f) * per_e);
         const std::uint64_t key = (static_cast<std::uint64_t>(gx) << 42) |
                                   (static_cast<std::uint64_t>(gy) << 16) |
                                   static_cast<std::uint64_t>(gp);
@@ -103,7 +119,7 @@ void merge_round(Cells& cells, float e, float ep)
             cells.weight[k] += w;
         }
     }
-    for (auto* v : {&cells.nx, &cells.ny, &cells.nz, &cells.alpha2, &cells.weight}) v->resize(kept);
+    cells.resize(kept);
     for (std::size_t k = 0; k < kept; ++k) {
         const float length =
             std::sqrt(cells.nx[k] * cells.nx[k] + cells.ny[k] * cells.ny[k] +
@@ -117,6 +133,27 @@ void merge_round(Cells& cells, float e, float ep)
         const float lost = 2.0f * std::max(0.0f, 1.0f - length / cells.weight[k]);
         cells.alpha2[k] = cells.alpha2[k] / cells.weight[k] + lost;
     }
+}
+
+// Where Gaussian slopes of this spread would still fill more than twice `limit` cells of a grid: finer
+// grids are a waste.
+float useful_edge(const Cells& cells, int limit)
+{
+    float w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    for (std::size_t i = 0; i < cells.nx.size(); ++i) {
+        const float wi = cells.weight[i], nx = cells.nx[i], ny = cells.ny[i];
+        w += wi;
+        x += wi * nx;
+        y += wi * ny;
+        xx += wi * nx * nx;
+        xy += wi * nx * ny;
+        yy += wi * ny * ny;
+    }
+    x /= w;
+    y /= w;
+    const float sxx = xx / w - x * x, sxy = xy / w - x * y, syy = yy / w - y * y;
+    const float area = std::sqrt(std::max(0.0f, sxx * syy - sxy * sxy));
+    return std::sqrt(6.0f * area / static_cast<float>(limit));
 }
 
 }  // namespace
@@ -134,14 +171,17 @@ void merge(Cells& cells, int limit)
         cells.alpha2[kept] = cells.alpha2[i];
         cells.weight[kept++] = cells.weight[i];
     }
-    for (auto* v : {&cells.nx, &cells.ny, &cells.nz, &cells.alpha2, &cells.weight}) v->resize(kept);
-    const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
-    float e = std::max(0.2f * std::sqrt(narrowest), 0.001f);
+    cells.resize(kept);
+    const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
+    float share = std::max(0.2f, useful_edge(cells, limit) / widest);
     float ep = 0.02f;
     while (cells.count() > limit) {
-        merge_round(cells, e, ep);
-        e *= 1.35f;
-        if (e > 0.5f) ep *= 1.35f;  // all normals in a few cells: only the gloss keeps them apart
+        merge_round(cells, share, ep);
+        // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
+        const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
+        const float growth = std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
+        share *= growth;
+        ep *= std::sqrt(std::sqrt(growth));
     }
 }
 

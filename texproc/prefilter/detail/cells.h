@@ -17,6 +17,7 @@ struct Cells {
 
     int count() const { return static_cast<int>(nx.size()); }
     void clear();
+    void resize(std::size_t count);
     void add(float x, float y, float z, float a2, float w);
     CellsView view() const
     {
@@ -37,8 +38,8 @@ struct Means {
 void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Footprint& x,
             const Footprint& y, Cells& cells, Means& means);
 
-/// Joins cells that share a place in a grid of (n_x, n_y, p) until at most `limit` are left; the
-/// grid starts at max(0.2 alpha_min, 0.001) and 0.02 in p and grows by 1.35. Weight is conserved, and
+/// Joins cells that share a place in a grid of (n_x, n_y, p) until at most `limit` are left; its edge
+/// is a growing share, from 0.2, of the alpha that lies there (at least 0.001), and 0.02 in p. Weight is conserved, and
 /// what normals differ within a cell is added to its alpha^2.
 void merge(Cells& cells, int limit);
 

@@ -267,6 +267,18 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
     return x;
 }
 
+float share_inside(const CellsView& cells, const Direction& normal, float light2, float alpha2)
+{
+    float share = 0.0f, whole = 0.0f;
+    for (int i = 0; i < cells.count; ++i) {
+        const float s = cells.alpha2[i] + light2 +
+                        slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
+        share += cells.weight[i] * alpha2 / (alpha2 + s);
+        whole += cells.weight[i];
+    }
+    return share / whole;
+}
+
 float slope_variance(const CellsView& cells, const Direction& normal)
 {
     const Frame f = frame_about(normal);

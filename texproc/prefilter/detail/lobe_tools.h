@@ -46,6 +46,9 @@ private:
 /// Radius of the median rule: x with sum of w x / (x + alpha^2 + d^2) = 1/2 about `normal`.
 float median_alpha2(const CellsView& cells, const Direction& normal, const LobeKernel& kernel);
 
+/// The median rule's sum: 1/2 where alpha2 is its radius. light2 is added to every alpha^2.
+float share_inside(const CellsView& cells, const Direction& normal, float light2, float alpha2);
+
 /// Variance of the slopes about `normal`, both axes together, and the mean slope removed.
 float slope_variance(const CellsView& cells, const Direction& normal);
 

@@ -126,8 +126,9 @@ void walk(const MapSurface& surface, const WalkOptions& options,
         const std::vector<Footprint> columns = footprints(surface.width, width);
         const std::vector<Footprint> rows = footprints(surface.height, height);
         Image& level = means[k];
-        level = Image(width, height, kMeans, ColorSpace::Data);
         const bool direct = k <= kDirectLevels && options.cells;
+        // Only the next level that does not gather looks at means.
+        if (!direct || k == kDirectLevels) level = Image(width, height, kMeans, ColorSpace::Data);
         const bool keep_lists = options.cells && k >= kDirectLevels && k + 1 < sizes.size();
         if (keep_lists) {
             next.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
@@ -166,7 +167,7 @@ void walk(const MapSurface& surface, const WalkOptions& options,
                     gather(fetched, static_cast<std::size_t>(rows[j].first), columns[i], rows[j],
                            cells, m);
                     if (options.own_lobes) add_own_lobes(cells, m);
-                    store_means(level, x, y, m);
+                    if (!level.empty()) store_means(level, x, y, m);
                     if (cells.count() > cells_kept(k)) merge(cells, cells_kept(k));
                 } else {
                     m = load_means(level, x, y);

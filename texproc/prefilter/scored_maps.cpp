@@ -1,4 +1,4 @@
-#include "texproc/prefilter/material_maps.h"
+#include "texproc/prefilter/scored_maps.h"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ struct Texel {
 };
 
 template <class Surface>
-MaterialMaps material(const char* name, int size, const Surface& surface)
+ScoredMaps material(const char* name, int size, const Surface& surface)
 {
     Image n(size, size, 3, ColorSpace::Data), r(size, size, 1, ColorSpace::Data);
     for (int y = 0; y < size; ++y) {
@@ -114,7 +114,7 @@ Texel scratched(int x, int y, int size)
 
 }  // namespace
 
-std::vector<MaterialMaps> hard_maps(int size)
+std::vector<ScoredMaps> hard_maps(int size)
 {
     const auto sized = [size](auto surface) {
         return [size, surface](int x, int y) { return surface(x, y, size); };
@@ -127,7 +127,7 @@ std::vector<MaterialMaps> hard_maps(int size)
             material("scratched mirror", size, sized(scratched))};
 }
 
-MaterialMaps material_maps(std::string name, const RawImage& normal, const RawImage& map,
+ScoredMaps scored_maps(std::string name, const RawImage& normal, const RawImage& map,
                            const PrefilterOptions& options)
 {
     const detail::MapSurface surface =
@@ -148,7 +148,7 @@ MaterialMaps material_maps(std::string name, const RawImage& normal, const RawIm
     return {std::move(name), to_raw(n, PixelType::U16), to_raw(r, PixelType::U16)};
 }
 
-MaterialMaps with_puddles(const MaterialMaps& dry, const Image& height, float share)
+ScoredMaps with_puddles(const ScoredMaps& dry, const Image& height, float share)
 {
     if (height.width != dry.normal.width || height.height != dry.normal.height ||
         height.channels != 1) {
