@@ -31,7 +31,7 @@ struct Arguments {
     std::string sheet, normal, roughness, smoothness, albedo;
     SparkleSheet drawing;
     std::string quality = "quick";
-    bool green_down = false, json = false;
+    bool green_down = false, green_known = false, json = false;
     texproc::ReadOptions reading;
 };
 
@@ -165,6 +165,7 @@ void find_roles(Arguments& a)
             if (role == "normal" && a.normal.empty()) {
                 a.normal = file;
                 a.green_down = a.green_down || named.green == Green::Down;
+                a.green_known = named.green != Green::Auto;
             }
             if (role == "roughness" && a.roughness.empty()) a.roughness = map;
             if (role == "smoothness" && a.smoothness.empty()) a.smoothness = map;
@@ -184,6 +185,10 @@ void draw_sheet(Arguments& a)
     const RawImage normal = texproc::read_raw(a.normal, a.reading);
     a.drawing.normal = texproc::from_layout(texproc::to_image(normal, ColorSpace::Data),
                                             texproc::NormalLayout::Rgb);
+    if (!a.green_down && !a.green_known) {
+        const texproc::GreenDirection found = texproc::detect_green(a.drawing.normal);
+        a.green_down = found.down && found.confidence > 0.25;
+    }
     if (a.green_down) texproc::flip_green(a.drawing.normal);
     const bool smooth = a.roughness.empty();
     a.drawing.roughness =
@@ -256,7 +261,8 @@ void add_texture_inspect(CLI::App& texture)
     app->add_option("--smoothness", a->smoothness, "--sheet: FILE or FILE:a")->excludes(rough);
     app->add_option("--albedo", a->albedo,
                     "--sheet: colour; default: dark grey, where gloss shows best");
-    app->add_flag("--green-down", a->green_down, "--sheet: the normal map has +Y down (DirectX)");
+    app->add_flag("--green-down", a->green_down,
+                  "--sheet: +Y is down (DirectX); default: what the name or else the map says");
     app->add_option("--rule", a->drawing.rule, "--sheet: prefilter rule")->capture_default_str();
     app->add_option("--quality", a->quality, "--sheet: full or quick")
         ->check(CLI::IsMember({"full", "quick"}))
