@@ -11,7 +11,10 @@ namespace petrichor::texproc {
 
 namespace {
 
-int wrapped(int i, int size) { return (i % size + size) % size; }
+int wrapped(int i, int size)
+{
+    return (i % size + size) % size;
+}
 
 void check(const Image& height, const BakeOptions& options)
 {
@@ -49,7 +52,8 @@ Image blurred(const Image& height, int radius, int threads)
     detail::parallel_for(static_cast<std::size_t>(h), threads, [&](std::size_t row) {
         const int y = static_cast<int>(row);
         double sum = 0.0;
-        for (int k = -radius; k <= radius; ++k) sum += static_cast<double>(height.at(wrapped(k, w), y, 0));
+        for (int k = -radius; k <= radius; ++k)
+            sum += static_cast<double>(height.at(wrapped(k, w), y, 0));
         for (int x = 0; x < w; ++x) {
             once.at(x, y, 0) = static_cast<float>(sum / side);
             sum += static_cast<double>(height.at(wrapped(x + radius + 1, w), y, 0)) -
@@ -57,20 +61,23 @@ Image blurred(const Image& height, int radius, int threads)
         }
     });
     constexpr int kBand = 64;
-    detail::parallel_for(static_cast<std::size_t>((w + kBand - 1) / kBand), threads, [&](std::size_t band) {
-        const int first = static_cast<int>(band) * kBand, last = std::min(w, first + kBand);
-        double sums[kBand] = {};
-        const auto add = [&](int y, double sign) {
-            const float* row = &once.pixels[once.index(0, wrapped(y, h), 0)];
-            for (int x = first; x < last; ++x) sums[x - first] += sign * static_cast<double>(row[x]);
-        };
-        for (int k = -radius; k <= radius; ++k) add(k, 1.0);
-        for (int y = 0; y < h; ++y) {
-            for (int x = first; x < last; ++x) twice.at(x, y, 0) = static_cast<float>(sums[x - first] / side);
-            add(y + radius + 1, 1.0);
-            add(y - radius, -1.0);
-        }
-    });
+    detail::parallel_for(
+        static_cast<std::size_t>((w + kBand - 1) / kBand), threads, [&](std::size_t band) {
+            const int first = static_cast<int>(band) * kBand, last = std::min(w, first + kBand);
+            double sums[kBand] = {};
+            const auto add = [&](int y, double sign) {
+                const float* row = &once.pixels[once.index(0, wrapped(y, h), 0)];
+                for (int x = first; x < last; ++x)
+                    sums[x - first] += sign * static_cast<double>(row[x]);
+            };
+            for (int k = -radius; k <= radius; ++k) add(k, 1.0);
+            for (int y = 0; y < h; ++y) {
+                for (int x = first; x < last; ++x)
+                    twice.at(x, y, 0) = static_cast<float>(sums[x - first] / side);
+                add(y + radius + 1, 1.0);
+                add(y - radius, -1.0);
+            }
+        });
     return twice;
 }
 
@@ -91,8 +98,8 @@ float usual_deepest(const std::vector<float>& depths)
 Hollows hollows(const Image& height, int radius, int threads)
 {
     Image one = first_channel(height, threads);
-    const Image closed = detail::extreme_within(
-        detail::extreme_within(one, radius, 1.0f, threads), radius, -1.0f, threads);
+    const Image closed = detail::extreme_within(detail::extreme_within(one, radius, 1.0f, threads),
+                                                radius, -1.0f, threads);
     Hollows out;
     out.depth = std::move(one);
     for (std::size_t i = 0; i < out.depth.pixels.size(); ++i) {
@@ -110,13 +117,15 @@ Hollows hollows(const Image& height, int radius, int threads)
     std::size_t sum = 0;
     for (std::size_t k = 65; k-- > 0;) {
         sum += deeper[k];
-        out.covered[k] =
-            static_cast<float>(sum) / static_cast<float>(out.depth.pixels.size());
+        out.covered[k] = static_cast<float>(sum) / static_cast<float>(out.depth.pixels.size());
     }
     return out;
 }
 
-int texels(float share, int width) { return std::max(1, static_cast<int>(share * static_cast<float>(width) + 0.5f)); }
+int texels(float share, int width)
+{
+    return std::max(1, static_cast<int>(share * static_cast<float>(width) + 0.5f));
+}
 
 }  // namespace
 
@@ -146,14 +155,18 @@ Image ambient_occlusion(const Image& height, const BakeOptions& options)
     const std::vector<float> plane = first_channel(height, options.threads).pixels;
     const int far = static_cast<int>(reach) + 1;
     return map_texels(height, 1, options.threads, [&](int x, int y, float* to) {
-        const float here = plane[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)];
+        const float here = plane[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                                 static_cast<std::size_t>(x)];
         const bool inside = x >= far && y >= far && x + far < w && y + far < h;
         float open = 0.0f;
         for (const std::vector<Sample>& direction : samples) {
             float steepest = 0.0f;  // tangent of the horizon
             for (const Sample& s : direction) {
-                const int u = inside ? x + s.x : wrapped(x + s.x, w), v = inside ? y + s.y : wrapped(y + s.y, h);
-                const float there = plane[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) + static_cast<std::size_t>(u)];
+                const int u = inside ? x + s.x : wrapped(x + s.x, w),
+                          v = inside ? y + s.y : wrapped(y + s.y, h);
+                const float there =
+                    plane[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) +
+                          static_cast<std::size_t>(u)];
                 steepest = std::max(steepest, (there - here) * s.per_texel);
             }
             open += 1.0f / (1.0f + steepest * steepest);  // cos^2 of the horizon
@@ -175,8 +188,8 @@ Image cavity(const Image& height, const BakeOptions& options)
             square += d * d;
         }
     }
-    const float spread = static_cast<float>(
-        std::sqrt(square / static_cast<double>(mean.pixels.size())));
+    const float spread =
+        static_cast<float>(std::sqrt(square / static_cast<double>(mean.pixels.size())));
     return map_texels(height, 1, options.threads, [&](int x, int y, float* to) {
         const float d = height.at(x, y, 0) - mean.at(x, y, 0);
         *to = spread > 1e-6f ? std::clamp(0.5f + 0.2f * d / spread, 0.0f, 1.0f) : 0.5f;
@@ -189,8 +202,8 @@ Image curvature(const Image& height, const BakeOptions& options)
     const float rise = options.depth * static_cast<float>(height.width);
     const int most = (std::min(height.width, height.height) - 1) / 2;
     Image out(height.width, height.height, 1, ColorSpace::Data, 0.5f);
-    // A bend of one radius lies sixfold above the mean around it; three widths of edges are seen, from
-    // a texel of a map of 1024 on.
+    // A bend of one radius lies sixfold above the mean around it; three widths of edges are seen,
+    // from a texel of a map of 1024 on.
     for (const int scale : {1, 2, 4}) {
         const int radius = std::min(most, std::max(scale, scale * height.width / 1024));
         if (radius < 1) continue;
@@ -240,7 +253,8 @@ Image flow_direction(const Image& height, const BakeOptions& options)
 
 Image porosity(const Image& roughness, const Image& metallic)
 {
-    if (roughness.empty()) throw Error("bake: the roughness map is empty", "Pass a map with pixels.");
+    if (roughness.empty())
+        throw Error("bake: the roughness map is empty", "Pass a map with pixels.");
     if (!metallic.empty() &&
         (metallic.width != roughness.width || metallic.height != roughness.height)) {
         throw Error("bake: roughness and metallic have different sizes", "Resample one of them.");

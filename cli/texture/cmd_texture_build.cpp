@@ -53,8 +53,8 @@ std::vector<fs::path> input_paths(const Arguments& a)
 
 void report(const BuildResult& result, double seconds)
 {
-    std::printf("%d built (%d files), %d up to date, %zu failed, %.2f s\n", result.built, result.files,
-                result.current, result.failures.size(), seconds);
+    std::printf("%d built (%d files), %d up to date, %zu failed, %.2f s\n", result.built,
+                result.files, result.current, result.failures.size(), seconds);
     std::fflush(stdout);
     for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
 }
@@ -85,7 +85,8 @@ std::set<fs::path> watched_folders(const Arguments& a)
     std::set<fs::path> folders = folders_of(files, trees);
     // What we write ourselves must not wake us.
     std::erase_if(folders, [&](const fs::path& folder) {
-        const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(a.options.out));
+        const fs::path relative =
+            fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(a.options.out));
         return !relative.empty() && *relative.begin() != "..";
     });
     return folders;
@@ -122,21 +123,26 @@ void run(Arguments& a)
     }
     const BuildResult result = build_once(a);
     if (result.stopped) {
-        throw Interrupted("texture build: stopped; what was finished is kept, the same command goes on");
+        throw Interrupted(
+            "texture build: stopped; what was finished is kept, the same command goes on");
     }
     if (!result.failures.empty()) {
         if (a.options.dry_run) {
-            for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
+            for (const std::string& failure : result.failures)
+                std::cerr << "error " << failure << "\n";
         }
         throw ExitCode{kExitUser};
     }
 }
 
 constexpr const char* kFooter =
-    "A folder: maps are recognised by their names (X_albedo, X_diff_2k, X_Color, X_normal, X_nor_gl,\n"
+    "A folder: maps are recognised by their names (X_albedo, X_diff_2k, X_Color, X_normal, "
+    "X_nor_gl,\n"
     "X_NormalDX, X_rough, X_smoothness, X_height, X_Displacement, X_ao, X_arm, X_LuxSPEC, ...).\n"
-    "What is up to date is not made again: OUT/.petrichor-build.json remembers sources, options and\n"
-    "outputs by content. OUT/manifest.json says what every file is, with hashes and measured error.\n"
+    "What is up to date is not made again: OUT/.petrichor-build.json remembers sources, options "
+    "and\n"
+    "outputs by content. OUT/manifest.json says what every file is, with hashes and measured "
+    "error.\n"
     "\n"
     "Examples:\n"
     "  petrichor texture build textures/ --engine unity-hdrp -o Assets/Textures\n"
@@ -166,16 +172,19 @@ constexpr const char* kFooter =
 void add_texture_build(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
-    CLI::App* app = texture.add_subcommand("build", "a recipe or a folder of maps into engine-ready files");
+    CLI::App* app =
+        texture.add_subcommand("build", "a recipe or a folder of maps into engine-ready files");
     app->add_option("inputs", a->inputs, "recipes (.toml) and folders of maps");
     app->add_option("-o,--out", a->out, "the folder to write into");
-    app->add_option("--engine", a->choice.engines, "outputs of this engine (see --list), in place of the recipe's");
+    app->add_option("--engine", a->choice.engines,
+                    "outputs of this engine (see --list), in place of the recipe's");
     app->add_option("--rule", a->choice.rule, "prefilter: overlap, median, ..., or none");
     app->add_option("--quality", a->choice.quality, "prefilter: full or quick")
         ->check(CLI::IsMember({"full", "quick"}));
     app->add_option("--format", a->choice.format, "of all outputs")
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
-    app->add_option("--size", a->choice.size, "longest side at most this")->check(CLI::Range(1, 65536));
+    app->add_option("--size", a->choice.size, "longest side at most this")
+        ->check(CLI::Range(1, 65536));
     app->add_flag("--no-score", a->choice.no_score, "do not measure the lobe error");
     app->add_option("--threads", a->options.threads, "0: all cores; the bytes do not depend on it");
     app->add_flag("--dry-run", a->options.dry_run, "print what would be made");

@@ -27,8 +27,8 @@ struct Arguments {
     texproc::ReadOptions reading;
 };
 
-// Numbers as they are stored; floats are taken as linear light and encoded, so that FLIP and PSNR of an
-// EXR speak of what is seen.
+// Numbers as they are stored; floats are taken as linear light and encoded, so that FLIP and PSNR
+// of an EXR speak of what is seen.
 Image codes_of(const RawImage& raw)
 {
     const bool floats = raw.type == texproc::PixelType::F16 || raw.type == texproc::PixelType::F32;
@@ -44,7 +44,8 @@ Image rgb_of(const Image& image)
     Image out(image.width, image.height, 3, image.space);
     const std::size_t step = static_cast<std::size_t>(image.channels);
     for (std::size_t i = 0; i < out.pixels.size() / 3; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) out.pixels[3 * i + c] = image.pixels[i * step + (step >= 3 ? c : 0)];
+        for (std::size_t c = 0; c < 3; ++c)
+            out.pixels[3 * i + c] = image.pixels[i * step + (step >= 3 ? c : 0)];
     }
     return out;
 }
@@ -59,49 +60,69 @@ std::string number(double value)
 void run(const Arguments& a)
 {
     const RawImage raw_a = read_map(a.a, a.reading), raw_b = read_map(a.b, a.reading);
-    if (raw_a.width != raw_b.width || raw_a.height != raw_b.height || raw_a.channels != raw_b.channels) {
+    if (raw_a.width != raw_b.width || raw_a.height != raw_b.height ||
+        raw_a.channels != raw_b.channels) {
         const auto shape = [](const std::string& name, const RawImage& i) {
-            return name + " is " + std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
-                   std::to_string(i.channels) + " channels";
+            return name + " is " + std::to_string(i.width) + " x " + std::to_string(i.height) +
+                   " with " + std::to_string(i.channels) + " channels";
         };
         throw Error("texture compare: " + shape(a.a, raw_a) + ", " + shape(a.b, raw_b),
                     "Compare images of one size; FILE:r compares one channel.");
     }
-    const bool looks_normal = raw_a.channels >= 3 && texproc::inspect(raw_a).meaning == texproc::Meaning::Normal;
+    const bool looks_normal =
+        raw_a.channels >= 3 && texproc::inspect(raw_a).meaning == texproc::Meaning::Normal;
     const bool normals = a.kind == "normal" || (a.kind == "auto" && looks_normal);
     const Image ia = normals ? texproc::to_image(raw_a, ColorSpace::Data) : codes_of(raw_a);
     const Image ib = normals ? texproc::to_image(raw_b, ColorSpace::Data) : codes_of(raw_b);
     const std::vector<double> db = texproc::psnr(ia, ib);
-    const double similarity = texproc::ssim(ia, ib, a.threads), largest = texproc::largest_difference(ia, ib);
-    nlohmann::ordered_json json{{"kind", normals ? "normal" : "color"},
-                                {"width", ia.width}, {"height", ia.height}, {"channels", ia.channels},
-                                {"psnr_db", std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back())},
-                                {"ssim", similarity}, {"largest", largest}};
+    const double similarity = texproc::ssim(ia, ib, a.threads),
+                 largest = texproc::largest_difference(ia, ib);
+    nlohmann::ordered_json json{
+        {"kind", normals ? "normal" : "color"},
+        {"width", ia.width},
+        {"height", ia.height},
+        {"channels", ia.channels},
+        {"psnr_db",
+         std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back())},
+        {"ssim", similarity},
+        {"largest", largest}};
     Image picture;
     double mean_flip = 0.0;
     if (!a.json) {
-        std::printf("%s, %d x %d, %d channels\n", normals ? "normal maps" : "pictures", ia.width, ia.height, ia.channels);
+        std::printf("%s, %d x %d, %d channels\n", normals ? "normal maps" : "pictures", ia.width,
+                    ia.height, ia.channels);
         std::printf("psnr     %s dB", number(db.back()).c_str());
-        for (std::size_t c = 0; db.size() > 2 && c + 1 < db.size(); ++c) std::printf("%s%s", c ? ", " : "   by channel ", number(db[c]).c_str());
+        for (std::size_t c = 0; db.size() > 2 && c + 1 < db.size(); ++c)
+            std::printf("%s%s", c ? ", " : "   by channel ", number(db[c]).c_str());
         std::printf("\nssim     %.5f\nlargest  %.5f\n", similarity, largest);
     }
     if (normals) {
         texproc::AngularError angle = texproc::angular_error(rgb_of(ia), rgb_of(ib));
-        json["angle_degrees"] = {{"mean", angle.mean_degrees}, {"p95", angle.p95_degrees}, {"max", angle.max_degrees}};
-        if (!a.json) std::printf("angle    mean %.3f, p95 %.3f, max %.3f degrees\n", angle.mean_degrees, angle.p95_degrees, angle.max_degrees);
+        json["angle_degrees"] = {
+            {"mean", angle.mean_degrees}, {"p95", angle.p95_degrees}, {"max", angle.max_degrees}};
+        if (!a.json)
+            std::printf("angle    mean %.3f, p95 %.3f, max %.3f degrees\n", angle.mean_degrees,
+                        angle.p95_degrees, angle.max_degrees);
         picture = std::move(angle.degrees);
         for (float& v : picture.pixels) v /= 20.0f;  // light yellow at 20 degrees
     } else {
         texproc::Flip flip = texproc::flip(rgb_of(ia), rgb_of(ib), a.ppd, a.threads);
         mean_flip = flip.mean;
-        json["flip"] = {{"mean", flip.mean}, {"p95", flip.p95}, {"max", flip.max}, {"pixels_per_degree", a.ppd}};
-        if (!a.json) std::printf("flip     mean %.5f, p95 %.4f, max %.4f\n", flip.mean, flip.p95, flip.max);
+        json["flip"] = {{"mean", flip.mean},
+                        {"p95", flip.p95},
+                        {"max", flip.max},
+                        {"pixels_per_degree", a.ppd}};
+        if (!a.json)
+            std::printf("flip     mean %.5f, p95 %.4f, max %.4f\n", flip.mean, flip.p95, flip.max);
         picture = std::move(flip.error);
     }
     if (a.json) std::printf("%s\n", json.dump(1).c_str());
     if (!a.out.empty()) texproc::write_image(a.out, texproc::error_colors(picture));
-    const bool worse = (a.fail_flip >= 0.0 && mean_flip > a.fail_flip) || (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr);
-    if (worse) throw Error("texture compare: " + a.a + " and " + a.b + " differ by more than was allowed", "Look at the numbers above, or loosen --fail-flip or --fail-psnr.");
+    const bool worse = (a.fail_flip >= 0.0 && mean_flip > a.fail_flip) ||
+                       (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr);
+    if (worse)
+        throw Error("texture compare: " + a.a + " and " + a.b + " differ by more than was allowed",
+                    "Look at the numbers above, or loosen --fail-flip or --fail-psnr.");
 }
 
 }  // namespace
@@ -112,16 +133,19 @@ void add_texture_compare(CLI::App& texture)
     CLI::App* app = texture.add_subcommand("compare", "PSNR, SSIM, FLIP, angles between normals");
     app->add_option("reference", a->a, "FILE or FILE:g (one channel)")->required();
     app->add_option("test", a->b, "the other one, of the same size")->required();
-    app->add_option("-o,--out", a->out, "picture of the difference: FLIP, or angle (light yellow at 20 degrees)");
+    app->add_option("-o,--out", a->out,
+                    "picture of the difference: FLIP, or angle (light yellow at 20 degrees)");
     app->add_option("--kind", a->kind, "auto, color or normal")
         ->check(CLI::IsMember({"auto", "color", "normal"}))
         ->capture_default_str();
-    app->add_option("--ppd", a->ppd, "FLIP: pixels a degree of the eye; 67 is a monitor on a desk")->capture_default_str();
+    app->add_option("--ppd", a->ppd, "FLIP: pixels a degree of the eye; 67 is a monitor on a desk")
+        ->capture_default_str();
     app->add_option("--fail-flip", a->fail_flip, "exit 2 when the mean FLIP is above this");
     app->add_option("--fail-psnr", a->fail_psnr, "exit 2 when the PSNR in dB is below this");
     app->add_flag("--json", a->json, "for machines");
     app->add_option("--threads", a->threads, "0: all cores; the numbers do not depend on it");
-    app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")->capture_default_str();
+    app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
+        ->capture_default_str();
     app->footer("Example:\n  petrichor texture compare wall.png wall_bc7.dds -o difference.png");
     app->callback([a] { run(*a); });
 }

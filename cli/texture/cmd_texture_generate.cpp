@@ -39,15 +39,18 @@ struct WeatherTexture {
 };
 
 constexpr WeatherTexture kWeather[] = {
-    {"ripple", "drops for rain ripples: R envelope, GB direction, A time offset", texproc::ripple_drops},
+    {"ripple", "drops for rain ripples: R envelope, GB direction, A time offset",
+     texproc::ripple_drops},
     {"snow_mask", "where snow lies first: B mask, AG detail normal", texproc::snow_mask},
-    {"snow_water_bump", "surface of snow and water: B snow smoothness, AG normal", texproc::snow_water_bump},
+    {"snow_water_bump", "surface of snow and water: B snow smoothness, AG normal",
+     texproc::snow_water_bump},
 };
 
 std::vector<std::string> all_names()
 {
     std::vector<std::string> names;
-    for (const texproc::MaterialKindInfo& kind : texproc::material_kinds()) names.push_back(kind.name);
+    for (const texproc::MaterialKindInfo& kind : texproc::material_kinds())
+        names.push_back(kind.name);
     for (const WeatherTexture& weather : kWeather) names.push_back(weather.name);
     return names;
 }
@@ -55,10 +58,12 @@ std::vector<std::string> all_names()
 void list_kinds()
 {
     const auto line = [](const std::string& name, const std::string& meaning) {
-        std::cout << "  " << name << std::string(name.size() < 18 ? 18 - name.size() : 1, ' ') << meaning << "\n";
+        std::cout << "  " << name << std::string(name.size() < 18 ? 18 - name.size() : 1, ' ')
+                  << meaning << "\n";
     };
     std::cout << "Materials (albedo, normal, height, roughness, occlusion, metallic, puddle):\n";
-    for (const texproc::MaterialKindInfo& kind : texproc::material_kinds()) line(kind.name, kind.meaning);
+    for (const texproc::MaterialKindInfo& kind : texproc::material_kinds())
+        line(kind.name, kind.meaning);
     std::cout << "Weather textures:\n";
     for (const WeatherTexture& weather : kWeather) line(weather.name, weather.meaning);
 }
@@ -70,13 +75,15 @@ std::vector<std::string> wanted_kinds(const Arguments& a)
     for (const std::string& kind : a.kinds) {
         if (kind == "all") return known;
         if (std::find(known.begin(), known.end(), kind) == known.end()) {
-            throw Error("texture generate: there is no kind '" + kind + "'." + did_you_mean(kind, known),
-                        "Use all, or one of: " + join_words(known) + ".");
+            throw Error(
+                "texture generate: there is no kind '" + kind + "'." + did_you_mean(kind, known),
+                "Use all, or one of: " + join_words(known) + ".");
         }
         wanted.push_back(kind);
     }
     if (wanted.empty()) {
-        throw Error("texture generate: no kind was named", "Use all, or one of: " + join_words(known) + ".");
+        throw Error("texture generate: no kind was named",
+                    "Use all, or one of: " + join_words(known) + ".");
     }
     return wanted;
 }
@@ -85,23 +92,30 @@ void write_material(const Arguments& a, const std::string& name, const texproc::
 {
     const fs::path folder = a.out;
     const std::pair<const char*, const Image*> images[] = {
-        {"albedo", &maps.albedo},       {"normal", &maps.normal},     {"height", &maps.height},
-        {"roughness", &maps.roughness}, {"occlusion", &maps.occlusion}, {"metallic", &maps.metallic},
+        {"albedo", &maps.albedo},       {"normal", &maps.normal},
+        {"height", &maps.height},       {"roughness", &maps.roughness},
+        {"occlusion", &maps.occlusion}, {"metallic", &maps.metallic},
         {"puddle", &maps.puddle_mask}};
     for (const auto& [role, image] : images) {
         // Heights of 8 bits are stairs.
         const int bits = std::string(role) == "height" ? 16 : a.bits;
-        texproc::write_image(folder / (name + "_" + role + ".png"), *image, {.bits = bits, .threads = a.threads});
+        texproc::write_image(folder / (name + "_" + role + ".png"), *image,
+                             {.bits = bits, .threads = a.threads});
     }
-    const nlohmann::ordered_json facts{
-        {"kind", name}, {"seed", a.seed}, {"size", a.size}, {"tile_m", maps.tile_m},
-        {"height_scale_m", maps.height_scale_m}, {"depth", maps.height_scale_m / maps.tile_m},
-        {"normal_green", "up"}, {"program", "petrichor " PETRICHOR_VERSION}};
+    const nlohmann::ordered_json facts{{"kind", name},
+                                       {"seed", a.seed},
+                                       {"size", a.size},
+                                       {"tile_m", maps.tile_m},
+                                       {"height_scale_m", maps.height_scale_m},
+                                       {"depth", maps.height_scale_m / maps.tile_m},
+                                       {"normal_green", "up"},
+                                       {"program", "petrichor " PETRICHOR_VERSION}};
     write_text_file(folder / (name + ".json"), facts.dump(1) + "\n");
 }
 
 // A lit ball of a material, beside its colour tiled twice.
-void draw(ContactSheet& sheet, const texproc::MaterialMaps& maps, const std::string& name, int x, int y, int cell)
+void draw(ContactSheet& sheet, const texproc::MaterialMaps& maps, const std::string& name, int x,
+          int y, int cell)
 {
     texproc::ShadedMaps shaded;
     const int tile = cell / 2;
@@ -119,11 +133,13 @@ void draw(ContactSheet& sheet, const texproc::MaterialMaps& maps, const std::str
     shaded.normal = {texproc::area_reduced(maps.normal, ball, ball)};
     shaded.roughness = {texproc::area_reduced(maps.roughness, ball, ball)};
     shaded.metallic = {texproc::area_reduced(maps.metallic, ball, ball)};
-    sheet.place(texproc::shaded_ball(shaded, 0, cell, false, {.light = 0.15f, .exposure = 1.0f}), x + cell + 6, y);
+    sheet.place(texproc::shaded_ball(shaded, 0, cell, false, {.light = 0.15f, .exposure = 1.0f}),
+                x + cell + 6, y);
     sheet.text(x, y - 8, name, 15.0, true);
 }
 
-void draw(ContactSheet& sheet, const Image& texture, const std::string& name, int x, int y, int cell)
+void draw(ContactSheet& sheet, const Image& texture, const std::string& name, int x, int y,
+          int cell)
 {
     const Image small = texture.width > cell ? texproc::area_reduced(texture, cell, cell) : texture;
     for (int half = 0; half < 2; ++half) {  // RGB, and alpha as grey
@@ -132,7 +148,8 @@ void draw(ContactSheet& sheet, const Image& texture, const std::string& name, in
             if (half) {
                 shown.pixels[i] = small.pixels[4 * i + 3];
             } else {
-                for (std::size_t c = 0; c < 3; ++c) shown.pixels[3 * i + c] = small.pixels[4 * i + c];
+                for (std::size_t c = 0; c < 3; ++c)
+                    shown.pixels[3 * i + c] = small.pixels[4 * i + c];
             }
         }
         sheet.place(shown, x + half * (cell + 6), y);
@@ -155,17 +172,21 @@ void run(const Arguments& a)
     ContactSheet sheet(kColumns * kStepX + 20, rows * kStepY + 10);
     Progress progress("texture generate", static_cast<int>(kinds.size()));
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-        const int x = 20 + static_cast<int>(k) % kColumns * kStepX, y = 32 + static_cast<int>(k) / kColumns * kStepY;
+        const int x = 20 + static_cast<int>(k) % kColumns * kStepX,
+                  y = 32 + static_cast<int>(k) / kColumns * kStepY;
         if (const auto kind = texproc::find_material_kind(kinds[k])) {
-            const texproc::MaterialMaps maps = texproc::generate_material(*kind, a.size, a.seed, a.threads);
+            const texproc::MaterialMaps maps =
+                texproc::generate_material(*kind, a.size, a.seed, a.threads);
             if (!a.out.empty()) write_material(a, kinds[k], maps);
             if (!a.sheet.empty()) draw(sheet, maps, kinds[k], x, y, kCell);
         } else {
-            const auto weather = std::find_if(std::begin(kWeather), std::end(kWeather),
-                                              [&](const WeatherTexture& w) { return w.name == kinds[k]; });
+            const auto weather =
+                std::find_if(std::begin(kWeather), std::end(kWeather),
+                             [&](const WeatherTexture& w) { return w.name == kinds[k]; });
             const Image texture = weather->make(a.size, a.seed);
             if (!a.out.empty()) {
-                texproc::write_image(fs::path(a.out) / (kinds[k] + ".png"), texture, {.bits = a.bits, .threads = a.threads});
+                texproc::write_image(fs::path(a.out) / (kinds[k] + ".png"), texture,
+                                     {.bits = a.bits, .threads = a.threads});
             }
             if (!a.sheet.empty()) draw(sheet, texture, kinds[k], x, y, kCell);
         }
@@ -181,12 +202,18 @@ void run(const Arguments& a)
 void add_texture_generate(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
-    CLI::App* app = texture.add_subcommand("generate", "tileable materials and weather textures from a seed");
+    CLI::App* app =
+        texture.add_subcommand("generate", "tileable materials and weather textures from a seed");
     app->add_option("kinds", a->kinds, "which, or all; --list shows them");
-    app->add_option("-o,--out", a->out, "folder: KIND_albedo.png, KIND_normal.png, ..., KIND.json (size in metres)");
+    app->add_option("-o,--out", a->out,
+                    "folder: KIND_albedo.png, KIND_normal.png, ..., KIND.json (size in metres)");
     app->add_option("--seed", a->seed, "another one, another stone")->capture_default_str();
-    app->add_option("--size", a->size, "texels of a side")->check(CLI::Range(16, 8192))->capture_default_str();
-    app->add_option("--bits", a->bits, "8 or 16 (height always has 16)")->check(CLI::IsMember({8, 16}))->capture_default_str();
+    app->add_option("--size", a->size, "texels of a side")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    app->add_option("--bits", a->bits, "8 or 16 (height always has 16)")
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
     app->add_option("--sheet", a->sheet, "PNG with all of them, lit");
     app->add_flag("--list", a->list, "show the kinds");
     app->add_option("--threads", a->threads, "0: all cores; the bytes do not depend on it");

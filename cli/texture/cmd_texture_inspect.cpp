@@ -31,23 +31,28 @@ struct Arguments {
     std::string sheet, normal, roughness, smoothness, albedo;
     SparkleSheet drawing;
     std::string quality = "quick";
-    bool green_down = false, json = false;
+    bool green_down = false, green_known = false, json = false;
     texproc::ReadOptions reading;
 };
 
 const char* name_of(texproc::PixelType type)
 {
     switch (type) {
-        case texproc::PixelType::U8: return "8 bits";
-        case texproc::PixelType::U16: return "16 bits";
-        case texproc::PixelType::F16: return "half";
-        case texproc::PixelType::F32: return "float";
+        case texproc::PixelType::U8:
+            return "8 bits";
+        case texproc::PixelType::U16:
+            return "16 bits";
+        case texproc::PixelType::F16:
+            return "half";
+        case texproc::PixelType::F32:
+            return "float";
     }
     return "";
 }
 
 // Levels and format of a GPU container; none for other files.
-std::optional<texproc::MipTexture> container(const std::string& file, const texproc::ReadOptions& reading)
+std::optional<texproc::MipTexture> container(const std::string& file,
+                                             const texproc::ReadOptions& reading)
 {
     const std::string extension = fs::path(file).extension().string();
     if (extension != ".dds" && extension != ".ktx2") return std::nullopt;
@@ -66,27 +71,42 @@ std::string bars(const texproc::ChannelFacts& channel)
     return text;
 }
 
-nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw, const ImageFacts& facts,
+nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw,
+                               const ImageFacts& facts,
                                const std::optional<texproc::MipTexture>& texture)
 {
-    nlohmann::ordered_json json{{"file", file}, {"width", raw.width}, {"height", raw.height},
-                                {"channels", raw.channels}, {"type", name_of(raw.type)},
-                                {"meaning", to_text(facts.meaning)}, {"confidence", facts.meaning_confidence},
-                                {"seam_u", facts.seam_u}, {"seam_v", facts.seam_v},
-                                {"tiles_u", facts.tiles_u}, {"tiles_v", facts.tiles_v}};
+    nlohmann::ordered_json json{{"file", file},
+                                {"width", raw.width},
+                                {"height", raw.height},
+                                {"channels", raw.channels},
+                                {"type", name_of(raw.type)},
+                                {"meaning", to_text(facts.meaning)},
+                                {"confidence", facts.meaning_confidence},
+                                {"seam_u", facts.seam_u},
+                                {"seam_v", facts.seam_v},
+                                {"tiles_u", facts.tiles_u},
+                                {"tiles_v", facts.tiles_v}};
     if (texture) {
         json["levels"] = texture->levels.size();
         json["format"] = name_of(texture->format);
         json["srgb"] = texture->srgb;
     }
     if (facts.green) {
-        json["green"] = {{"direction", facts.green->down ? "down" : "up"}, {"confidence", facts.green->confidence}};
+        json["green"] = {{"direction", facts.green->down ? "down" : "up"},
+                         {"confidence", facts.green->confidence}};
     }
     for (const texproc::ChannelFacts& c : facts.channels) {
-        json["statistics"].push_back({{"channel", c.name}, {"low", c.low}, {"p5", c.p5}, {"median", c.median},
-                                      {"p95", c.p95}, {"high", c.high}, {"mean", c.mean},
-                                      {"deviation", c.deviation}, {"codes", c.codes},
-                                      {"not_finite", c.not_finite}, {"histogram", c.histogram}});
+        json["statistics"].push_back({{"channel", c.name},
+                                      {"low", c.low},
+                                      {"p5", c.p5},
+                                      {"median", c.median},
+                                      {"p95", c.p95},
+                                      {"high", c.high},
+                                      {"mean", c.mean},
+                                      {"deviation", c.deviation},
+                                      {"codes", c.codes},
+                                      {"not_finite", c.not_finite},
+                                      {"histogram", c.histogram}});
     }
     return json;
 }
@@ -94,22 +114,30 @@ nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw, con
 void print(const std::string& file, const RawImage& raw, const ImageFacts& facts,
            const std::optional<texproc::MipTexture>& texture)
 {
-    std::printf("%s: %d x %d, %d channels, %s", file.c_str(), raw.width, raw.height, raw.channels, name_of(raw.type));
+    std::printf("%s: %d x %d, %d channels, %s", file.c_str(), raw.width, raw.height, raw.channels,
+                name_of(raw.type));
     if (texture) {
-        std::printf(", %s%s, %zu levels", name_of(texture->format).c_str(), texture->srgb ? " sRGB" : "", texture->levels.size());
+        std::printf(", %s%s, %zu levels", name_of(texture->format).c_str(),
+                    texture->srgb ? " sRGB" : "", texture->levels.size());
     }
-    std::printf("\n  looks like  %s (%.0f %%)", to_text(facts.meaning).c_str(), 100.0 * facts.meaning_confidence);
+    std::printf("\n  looks like  %s (%.0f %%)", to_text(facts.meaning).c_str(),
+                100.0 * facts.meaning_confidence);
     if (facts.green) {
-        std::printf(", green %s (%.0f %%)", facts.green->down ? "down, DirectX" : "up, OpenGL", 100.0 * facts.green->confidence);
+        std::printf(", green %s (%.0f %%)", facts.green->down ? "down, DirectX" : "up, OpenGL",
+                    100.0 * facts.green->confidence);
         std::printf(", mean length %.3f", facts.mean_length);
     }
-    const auto axis = [](double seam, bool tiles) { return seam == 0.0 ? "?" : tiles ? "yes" : "no"; };
-    std::printf("\n  tiles       along u %s (seam %.2f), along v %s (seam %.2f)\n", axis(facts.seam_u, facts.tiles_u), facts.seam_u,
-                axis(facts.seam_v, facts.tiles_v), facts.seam_v);
-    std::printf("  channel     low      p5       median   p95      high     mean     deviation  0 to 1\n");
+    const auto axis = [](double seam, bool tiles) {
+        return seam == 0.0 ? "?" : tiles ? "yes" : "no";
+    };
+    std::printf("\n  tiles       along u %s (seam %.2f), along v %s (seam %.2f)\n",
+                axis(facts.seam_u, facts.tiles_u), facts.seam_u, axis(facts.seam_v, facts.tiles_v),
+                facts.seam_v);
+    std::printf(
+        "  channel     low      p5       median   p95      high     mean     deviation  0 to 1\n");
     for (const texproc::ChannelFacts& c : facts.channels) {
-        std::printf("  %-11s %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-9.4f |%s|", c.name.c_str(), c.low, c.p5, c.median, c.p95,
-                    c.high, c.mean, c.deviation, bars(c).c_str());
+        std::printf("  %-11s %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-9.4f |%s|", c.name.c_str(),
+                    c.low, c.p5, c.median, c.p95, c.high, c.mean, c.deviation, bars(c).c_str());
         if (c.codes > 0) std::printf(" %d codes", c.codes);
         if (c.not_finite > 0) std::printf(" %zu NOT NUMBERS", c.not_finite);
         std::printf("\n");
@@ -137,6 +165,7 @@ void find_roles(Arguments& a)
             if (role == "normal" && a.normal.empty()) {
                 a.normal = file;
                 a.green_down = a.green_down || named.green == Green::Down;
+                a.green_known = named.green != Green::Auto;
             }
             if (role == "roughness" && a.roughness.empty()) a.roughness = map;
             if (role == "smoothness" && a.smoothness.empty()) a.smoothness = map;
@@ -150,28 +179,38 @@ void draw_sheet(Arguments& a)
     find_roles(a);
     if (a.normal.empty() || (a.roughness.empty() && a.smoothness.empty())) {
         throw Error("texture inspect: --sheet needs a normal map and a roughness or smoothness map",
-                    "Name them with --normal and --roughness, or give files whose names say what they are.");
+                    "Name them with --normal and --roughness, or give files whose names say what "
+                    "they are.");
     }
     const RawImage normal = texproc::read_raw(a.normal, a.reading);
-    a.drawing.normal = texproc::from_layout(texproc::to_image(normal, ColorSpace::Data), texproc::NormalLayout::Rgb);
+    a.drawing.normal = texproc::from_layout(texproc::to_image(normal, ColorSpace::Data),
+                                            texproc::NormalLayout::Rgb);
+    if (!a.green_down && !a.green_known) {
+        const texproc::GreenDirection found = texproc::detect_green(a.drawing.normal);
+        a.green_down = found.down && found.confidence > 0.25;
+    }
     if (a.green_down) texproc::flip_green(a.drawing.normal);
     const bool smooth = a.roughness.empty();
-    a.drawing.roughness = first_channel(read_map(smooth ? a.smoothness : a.roughness, a.reading), smooth);
+    a.drawing.roughness =
+        first_channel(read_map(smooth ? a.smoothness : a.roughness, a.reading), smooth);
     if (!a.albedo.empty()) {
         texproc::ReadOptions color = a.reading;
         color.space = ColorSpace::Linear;
         const Image albedo = texproc::read_image(a.albedo, color);
         Image rgb(albedo.width, albedo.height, 3, ColorSpace::Linear);
         for (std::size_t i = 0; i < rgb.pixels.size(); ++i) {
-            rgb.pixels[i] = albedo.pixels[i / 3 * static_cast<std::size_t>(albedo.channels) + (albedo.channels >= 3 ? i % 3 : 0)];
+            rgb.pixels[i] = albedo.pixels[i / 3 * static_cast<std::size_t>(albedo.channels) +
+                                          (albedo.channels >= 3 ? i % 3 : 0)];
         }
         a.drawing.albedo = std::move(rgb);
     }
     const auto same = [&](const Image& image) {
-        return image.empty() || (image.width == a.drawing.normal.width && image.height == a.drawing.normal.height);
+        return image.empty() ||
+               (image.width == a.drawing.normal.width && image.height == a.drawing.normal.height);
     };
     if (!same(a.drawing.roughness) || !same(a.drawing.albedo)) {
-        throw Error("texture inspect: the maps of the sheet have different sizes", "Resample them to the size of " + a.normal + ".");
+        throw Error("texture inspect: the maps of the sheet have different sizes",
+                    "Resample them to the size of " + a.normal + ".");
     }
     if (a.drawing.title.empty()) a.drawing.title = fs::path(a.normal).stem().string();
     a.drawing.quick = a.quality == "quick";
@@ -211,24 +250,34 @@ void run(Arguments& a)
 void add_texture_inspect(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
-    CLI::App* app = texture.add_subcommand("inspect", "what images hold; a sheet of a material's mips under a light");
+    CLI::App* app = texture.add_subcommand(
+        "inspect", "what images hold; a sheet of a material's mips under a light");
     app->add_option("files", a->files, "images");
     app->add_flag("--json", a->json, "for machines");
-    app->add_option("--sheet", a->sheet, "PNG: plain and prefiltered mips on balls and a floor, beside the truth");
+    app->add_option("--sheet", a->sheet,
+                    "PNG: plain and prefiltered mips on balls and a floor, beside the truth");
     app->add_option("--normal", a->normal, "--sheet: default: the file whose name says so");
     auto* rough = app->add_option("--roughness", a->roughness, "--sheet: FILE or FILE:g");
     app->add_option("--smoothness", a->smoothness, "--sheet: FILE or FILE:a")->excludes(rough);
-    app->add_option("--albedo", a->albedo, "--sheet: colour; default: dark grey, where gloss shows best");
-    app->add_flag("--green-down", a->green_down, "--sheet: the normal map has +Y down (DirectX)");
+    app->add_option("--albedo", a->albedo,
+                    "--sheet: colour; default: dark grey, where gloss shows best");
+    app->add_flag("--green-down", a->green_down,
+                  "--sheet: +Y is down (DirectX); default: what the name or else the map says");
     app->add_option("--rule", a->drawing.rule, "--sheet: prefilter rule")->capture_default_str();
-    app->add_option("--quality", a->quality, "--sheet: full or quick")->check(CLI::IsMember({"full", "quick"}))->capture_default_str();
-    app->add_option("--light", a->drawing.light, "--sheet: alpha of the light: 0 the sun, 0.1 a window")->capture_default_str();
+    app->add_option("--quality", a->quality, "--sheet: full or quick")
+        ->check(CLI::IsMember({"full", "quick"}))
+        ->capture_default_str();
+    app->add_option("--light", a->drawing.light,
+                    "--sheet: alpha of the light: 0 the sun, 0.1 a window")
+        ->capture_default_str();
     app->add_option("--title", a->drawing.title, "--sheet: its heading");
     app->add_option("--threads", a->drawing.threads, "0: all cores; the bytes do not depend on it");
-    app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")->capture_default_str();
+    app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
+        ->capture_default_str();
     app->footer(
         "Exit code 2 when a file cannot be read; the others are shown.\n\n"
-        "Example:\n  petrichor texture inspect wall_diff.png wall_nor_gl.png wall_rough.png --sheet wall.png");
+        "Example:\n  petrichor texture inspect wall_diff.png wall_nor_gl.png wall_rough.png "
+        "--sheet wall.png");
     app->callback([a] { run(*a); });
 }
 

@@ -38,11 +38,13 @@ Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
     return image;
 }
 
-void check_same_size(const std::string& name_a, const Image& a, const std::string& name_b, const Image& b)
+void check_same_size(const std::string& name_a, const Image& a, const std::string& name_b,
+                     const Image& b)
 {
     if (a.width == b.width && a.height == b.height) return;
-    throw Error("texture: " + name_a + " is " + std::to_string(a.width) + " x " + std::to_string(a.height) +
-                    ", " + name_b + " is " + std::to_string(b.width) + " x " + std::to_string(b.height),
+    throw Error("texture: " + name_a + " is " + std::to_string(a.width) + " x " +
+                    std::to_string(a.height) + ", " + name_b + " is " + std::to_string(b.width) +
+                    " x " + std::to_string(b.height),
                 "Resample one of them.");
 }
 
@@ -78,9 +80,8 @@ struct NormalArguments {
 void run_normal(const NormalArguments& a)
 {
     const Image image = read_numbers(a.in);
-    Image normal = a.from_height
-                       ? texproc::normal_from_height(image, {.depth = a.depth})
-                       : texproc::from_layout(image, texproc::normal_layout(a.from));
+    Image normal = a.from_height ? texproc::normal_from_height(image, {.depth = a.depth})
+                                 : texproc::from_layout(image, texproc::normal_layout(a.from));
     if (a.detect) {
         const Image height = a.height.empty() ? Image() : read_numbers(a.height);
         if (!height.empty()) check_same_size(a.in, normal, a.height, height);
@@ -92,7 +93,8 @@ void run_normal(const NormalArguments& a)
     }
     if (a.out.empty()) throw Error("texture normal: --out is needed", "Give -o FILE.");
     if (a.to == "rg-signed" && std::filesystem::path(a.out).extension() != ".exr") {
-        throw Error("texture normal: " + a.out + " cannot hold values below 0", "Write rg-signed as .exr.");
+        throw Error("texture normal: " + a.out + " cannot hold values below 0",
+                    "Write rg-signed as .exr.");
     }
     if (a.flip) texproc::flip_green(normal);
     if (!a.blend.empty()) {
@@ -147,7 +149,8 @@ void run_bake(const BakeArguments& a)
     // All inputs are read before the first output is written.
     const Image roughness = a.roughness.empty() ? Image() : read_numbers(a.roughness);
     const Image metallic = a.metallic.empty() ? Image() : read_numbers(a.metallic);
-    if (!roughness.empty() && !metallic.empty()) check_same_size(a.roughness, roughness, a.metallic, metallic);
+    if (!roughness.empty() && !metallic.empty())
+        check_same_size(a.roughness, roughness, a.metallic, metallic);
     texproc::write_image(name("occlusion"), texproc::ambient_occlusion(height, a.options), writing);
     texproc::write_image(name("cavity"), texproc::cavity(height, a.options), writing);
     texproc::write_image(name("curvature"), texproc::curvature(height, a.options), writing);
@@ -156,9 +159,9 @@ void run_bake(const BakeArguments& a)
     const texproc::Hollows cracks = texproc::cracks(height, a.options);
     texproc::write_image(name("puddle"), puddles.depth, writing);
     texproc::write_image(name("crack"), cracks.depth, writing);
-    write_text_file(std::filesystem::path(name("hypsometry")).replace_extension(".json"),
-                    "{\"puddle\": " + hypsometry(puddles) + ",\n\"crack\": " + hypsometry(cracks) +
-                        "}\n");
+    write_text_file(
+        std::filesystem::path(name("hypsometry")).replace_extension(".json"),
+        "{\"puddle\": " + hypsometry(puddles) + ",\n\"crack\": " + hypsometry(cracks) + "}\n");
     if (!roughness.empty()) {
         texproc::write_image(name("porosity"), texproc::porosity(roughness, metallic), writing);
     }
@@ -174,8 +177,7 @@ void run_unpack(const UnpackArguments& a)
     const std::size_t at = a.out.find('%');
     for (const auto& [role, image] :
          texproc::unpack(pack_preset_or_file(a.preset), texproc::read_raw(a.in))) {
-        const std::string name =
-            a.out.substr(0, at) + role + a.out.substr(a.out.find('d', at) + 1);
+        const std::string name = a.out.substr(0, at) + role + a.out.substr(a.out.find('d', at) + 1);
         texproc::write_raw(name, image);
         std::cout << name << "\n";
     }
@@ -190,9 +192,11 @@ void add_texture_maps(CLI::App& texture)
         CLI::App* app = texture.add_subcommand("mips", "mip levels of one image");
         app->add_option("image", a->in, "the largest level")->required();
         app->add_option("-o,--out", a->out, "level k: 'out_%d.png'")->required();
-        app->add_option("--filter", a->options.filter, "box (exact area), kaiser, lanczos3, mitchell")
+        app->add_option("--filter", a->options.filter,
+                        "box (exact area), kaiser, lanczos3, mitchell")
             ->transform(CLI::CheckedTransformer(kFilters));
-        for (const auto& [axis, value] : {std::pair{"--wrap-u", &a->wrap_u}, {"--wrap-v", &a->wrap_v}}) {
+        for (const auto& [axis, value] :
+             {std::pair{"--wrap-u", &a->wrap_u}, {"--wrap-v", &a->wrap_v}}) {
             app->add_option(axis, *value, "wrap, clamp or mirror")
                 ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
                 ->capture_default_str();
@@ -203,26 +207,34 @@ void add_texture_maps(CLI::App& texture)
         app->add_option("--alpha-cutoff", a->options.alpha_cutoff,
                         "keep the coverage of alpha above this");
         app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}));
-        app->footer("Example:\n  petrichor texture mips albedo.png --color --filter kaiser -o 'albedo_%d.png'");
+        app->footer(
+            "Example:\n  petrichor texture mips albedo.png --color --filter kaiser -o "
+            "'albedo_%d.png'");
         app->callback([a] { run_mips(*a); });
     }
     {
         auto a = std::make_shared<NormalArguments>();
-        CLI::App* app = texture.add_subcommand("normal", "turn, detect, convert, blend normal maps");
-        app->add_option("image", a->in, "a normal map, or a height map with --from-height")->required();
+        CLI::App* app =
+            texture.add_subcommand("normal", "turn, detect, convert, blend normal maps");
+        app->add_option("image", a->in, "a normal map, or a height map with --from-height")
+            ->required();
         app->add_option("-o,--out", a->out, "the result");
         app->add_flag("--detect", a->detect, "say which way green points, and how sure that is");
         app->add_option("--height", a->height, "--detect: the height map of the same surface");
         app->add_flag("--flip-green", a->flip, "OpenGL to DirectX or back");
-        app->add_option("--from-layout", a->from, "rgb, rg, ag, rxgb, or rg-signed (-1..1)")->capture_default_str();
-        app->add_option("--to-layout", a->to, "the same; rg-signed needs an .exr")->capture_default_str();
+        app->add_option("--from-layout", a->from, "rgb, rg, ag, rxgb, or rg-signed (-1..1)")
+            ->capture_default_str();
+        app->add_option("--to-layout", a->to, "the same; rg-signed needs an .exr")
+            ->capture_default_str();
         app->add_flag("--from-height", a->from_height, "make normals from a height map");
         app->add_flag("--to-height", a->to_height, "integrate to a tileable height map");
         app->add_option("--depth", a->depth, "--from-height: height 1 in units of the width")
             ->capture_default_str();
         app->add_option("--blend", a->blend, "add the bumps of another normal map");
         app->add_flag("--renormalize", a->renormalize, "unit length");
-        app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}))->capture_default_str();
+        app->add_option("--bits", a->bits, "8 or 16")
+            ->check(CLI::IsMember({8, 16}))
+            ->capture_default_str();
         app->footer("Example:\n  petrichor texture normal wall_dx.png --flip-green -o wall_gl.png");
         app->callback([a] { run_normal(*a); });
     }
@@ -234,11 +246,15 @@ void add_texture_maps(CLI::App& texture)
                         "height map, white is high; without it: ripple, snow mask, snow bump");
         app->add_option("--roughness", a->roughness, "also makes a porosity map");
         app->add_option("--metallic", a->metallic, "metals are not porous");
-        app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the name of the map")->required();
-        app->add_option("--depth", a->options.depth, "height 1 in units of the width")->capture_default_str();
+        app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the name of the map")
+            ->required();
+        app->add_option("--depth", a->options.depth, "height 1 in units of the width")
+            ->capture_default_str();
         app->add_option("--reach", a->options.reach, "how far it looks, in units of the width")
             ->capture_default_str();
-        app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}))->capture_default_str();
+        app->add_option("--bits", a->bits, "8 or 16")
+            ->check(CLI::IsMember({8, 16}))
+            ->capture_default_str();
         app->add_option("--size", a->size, "of the weather textures")->capture_default_str();
         app->add_option("--seed", a->seed, "of the weather textures")->capture_default_str();
         app->footer("Example:\n  petrichor texture bake --height wall_h.png -o 'wall_%d.png'");
@@ -248,9 +264,13 @@ void add_texture_maps(CLI::App& texture)
         auto a = std::make_shared<UnpackArguments>();
         CLI::App* app = texture.add_subcommand("unpack", "the maps back out of a packed image");
         app->add_option("image", a->in, "the packed image")->required();
-        app->add_option("--preset", a->preset, "as it was packed: a name of pack --list, or a file of yours (.toml)")->required();
+        app->add_option("--preset", a->preset,
+                        "as it was packed: a name of pack --list, or a file of yours (.toml)")
+            ->required();
         app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the role")->required();
-        app->footer("Example:\n  petrichor texture unpack mask.png --preset unity-hdrp-mask -o 'wall_%d.png'");
+        app->footer(
+            "Example:\n  petrichor texture unpack mask.png --preset unity-hdrp-mask -o "
+            "'wall_%d.png'");
         app->callback([a] { run_unpack(*a); });
     }
 }

@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRoles[] = {"albedo",    "normal",     "height",   "roughness", "smoothness",
-                                  "metallic",  "occlusion",  "specular", "detail",    "porosity",
-                                  "puddle",    "flow",       "cavity",   "emission",  "opacity"};
+constexpr const char* kRoles[] = {"albedo",   "normal",    "height",   "roughness", "smoothness",
+                                  "metallic", "occlusion", "specular", "detail",    "porosity",
+                                  "puddle",   "flow",      "cavity",   "emission",  "opacity"};
 
 struct Arguments {
     std::map<std::string, std::string> files;
@@ -35,7 +35,8 @@ void show(const texproc::PackPreset& preset)
 {
     std::cout << preset.name << ": " << preset.note << "\n";
     for (std::size_t c = 0; c < preset.channels.size(); ++c) {
-        std::cout << "    " << "RGBA"[c] << " = " << preset.channels[c] << "\n";
+        std::cout << "    "
+                  << "RGBA"[c] << " = " << preset.channels[c] << "\n";
     }
 }
 
@@ -94,7 +95,8 @@ void write_packed(const Arguments& a, const texproc::PackPreset& preset, texproc
     levels.push_back(std::move(packed));
     if (a.mips) {
         const std::vector<Image> chain = texproc::mip_chain(texproc::to_image(levels[0], space));
-        for (std::size_t k = 1; k < chain.size(); ++k) levels.push_back(texproc::to_raw(chain[k], type));
+        for (std::size_t k = 1; k < chain.size(); ++k)
+            levels.push_back(texproc::to_raw(chain[k], type));
     }
     texproc::write_mip_chain(a.out, levels, options);
 }
@@ -128,7 +130,8 @@ void add_texture_pack(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
     CLI::App* app = texture.add_subcommand("pack", "several maps into the channels of one");
-    app->add_option("--preset", a->preset, "what goes where: a name of --list, or a file of yours (.toml)");
+    app->add_option("--preset", a->preset,
+                    "what goes where: a name of --list, or a file of yours (.toml)");
     for (const char* role : kRoles) {
         app->add_option(std::string("--") + role, a->files[role], "FILE or FILE:g (one channel)");
     }
@@ -136,8 +139,11 @@ void add_texture_pack(CLI::App& texture)
     app->add_option("-o,--out", a->out, "the packed image");
     app->add_option("--bits", a->bits, "8 or 16; default: the deepest input")
         ->check(CLI::IsMember({8, 16}));
-    app->add_option("--format", a->format, "dds, ktx2: rgba8, bc7, ... (see convert --help); default: the numbers as they are");
-    app->add_flag("--mips", a->mips, "dds, ktx2: all levels, plain means (build makes prefiltered ones)");
+    app->add_option(
+        "--format", a->format,
+        "dds, ktx2: rgba8, bc7, ... (see convert --help); default: the numbers as they are");
+    app->add_flag("--mips", a->mips,
+                  "dds, ktx2: all levels, plain means (build makes prefiltered ones)");
     app->add_flag("--list", a->list, "show the presets, or the one of --preset");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
@@ -147,7 +153,8 @@ void add_texture_pack(CLI::App& texture)
         "A preset of yours, mine.toml:\n"
         "  note = \"R wetness, G occlusion, B 1 - roughness\"\n"
         "  channels = [\"wetness | 0\", \"occlusion | 1\", \"smoothness | 1 - roughness\"]\n"
-        "  petrichor texture pack --preset mine.toml --map wetness=w.png --roughness r.png -o m.png");
+        "  petrichor texture pack --preset mine.toml --map wetness=w.png --roughness r.png -o "
+        "m.png");
     app->callback([a] { run(*a); });
 }
 

@@ -94,9 +94,11 @@ void write_sparkle_sheet(const SparkleSheet& sheet, const std::filesystem::path&
     const int height = floor_top + 3 * (kFloorHeight + 26) + 10;
     ContactSheet out(width, height);
     out.text(kGap, 30, sheet.title, 20.0, true);
-    out.text(kGap, 52, std::to_string(sheet.normal.width) + " x " + std::to_string(sheet.normal.height) + ", " +
-                           (sheet.light > 0.0f ? "a wide light" : "the sun") +
-                           ". Balls: one pixel shows one texel of the level. Light speckles where there are none below: sparkle.",
+    out.text(kGap, 52,
+             std::to_string(sheet.normal.width) + " x " + std::to_string(sheet.normal.height) +
+                 ", " + (sheet.light > 0.0f ? "a wide light" : "the sun") +
+                 ". Balls: one pixel shows one texel of the level. Light speckles where there are "
+                 "none below: sparkle.",
              13.0, false, Anchor::Start, "#4a5057");
     texproc::ShadingOptions shading;
     shading.light = sheet.light;
@@ -105,12 +107,16 @@ void write_sparkle_sheet(const SparkleSheet& sheet, const std::filesystem::path&
     const auto x_of = [&](int column) { return kLeft + column * (kBall + kGap); };
 
     std::vector<Image> truths;
-    for (const int level : levels) truths.push_back(texproc::shaded_ball(plain, level, kBall, true, shading));
+    for (const int level : levels)
+        truths.push_back(texproc::shaded_ball(plain, level, kBall, true, shading));
     const float exposure = exposure_for(truths[std::min<std::size_t>(2, truths.size() - 1)]);
     for (int c = 0; c < columns; ++c) {
         const int level = levels[static_cast<std::size_t>(c)];
-        out.text(x_of(c) + kBall / 2, kTop - 8, level == 0 ? "level 0, near" : "level " + std::to_string(level) + ", " + std::to_string(1 << level) + " x as far", 13.0,
-                 true, Anchor::Middle);
+        out.text(x_of(c) + kBall / 2, kTop - 8,
+                 level == 0 ? "level 0, near"
+                            : "level " + std::to_string(level) + ", " + std::to_string(1 << level) +
+                                  " x as far",
+                 13.0, true, Anchor::Middle);
     }
     for (int r = 0; r < 3; ++r) {
         const Row& row = rows[r];
@@ -119,9 +125,13 @@ void write_sparkle_sheet(const SparkleSheet& sheet, const std::filesystem::path&
         out.text(kGap, y + kBall / 2 + 14, row.note, 12.0, false, Anchor::Start, "#4a5057");
         for (int c = 0; c < columns; ++c) {
             const std::size_t at = static_cast<std::size_t>(c);
-            Image ball = row.reference ? truths[at] : texproc::shaded_ball(*row.maps, levels[at], kBall, false, shading);
+            Image ball = row.reference
+                             ? truths[at]
+                             : texproc::shaded_ball(*row.maps, levels[at], kBall, false, shading);
             if (!row.reference) {
-                out.text(x_of(c) + kBall / 2, y + kBall + 15, percent(texproc::light_error(ball, truths[at])), 12.0, false, Anchor::Middle, "#4a5057");
+                out.text(x_of(c) + kBall / 2, y + kBall + 15,
+                         percent(texproc::light_error(ball, truths[at])), 12.0, false,
+                         Anchor::Middle, "#4a5057");
             }
             expose(ball, exposure);
             clear_outside(ball);
@@ -130,17 +140,23 @@ void write_sparkle_sheet(const SparkleSheet& sheet, const std::filesystem::path&
     }
 
     shading.samples = 128;
-    const Image floor_truth = texproc::shaded_floor(plain, floor_width, kFloorHeight, true, shading);
+    const Image floor_truth =
+        texproc::shaded_floor(plain, floor_width, kFloorHeight, true, shading);
     const float floor_exposure = exposure_for(floor_truth);
-    out.text(kLeft, floor_top - 12, "A floor against low light, trilinear with 16 taps along the view:", 13.0, true);
+    out.text(kLeft, floor_top - 12,
+             "A floor against low light, trilinear with 16 taps along the view:", 13.0, true);
     for (int r = 0; r < 3; ++r) {
         const Row& row = rows[r];
         const int y = floor_top + r * (kFloorHeight + 26);
-        Image floor = row.reference ? floor_truth : texproc::shaded_floor(*row.maps, floor_width, kFloorHeight, false, shading);
+        Image floor = row.reference ? floor_truth
+                                    : texproc::shaded_floor(*row.maps, floor_width, kFloorHeight,
+                                                            false, shading);
         out.text(kGap, y + kFloorHeight / 2 - 6, row.name, 15.0, true);
         out.text(kGap, y + kFloorHeight / 2 + 14, row.note, 12.0, false, Anchor::Start, "#4a5057");
         if (!row.reference) {
-            out.text(kLeft, y + kFloorHeight + 15, percent(texproc::light_error(floor, floor_truth)), 12.0, false, Anchor::Start, "#4a5057");
+            out.text(kLeft, y + kFloorHeight + 15,
+                     percent(texproc::light_error(floor, floor_truth)), 12.0, false, Anchor::Start,
+                     "#4a5057");
         }
         expose(floor, floor_exposure);
         out.place(floor, kLeft, y);

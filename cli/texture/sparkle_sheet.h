@@ -21,8 +21,8 @@ struct SparkleSheet {
 };
 
 /// Draws a PNG: balls at growing distance and a floor to the horizon, shaded with plain mips, with
-/// prefiltered ones, and as the mean of all texels would look, each with the share of its light that
-/// is misplaced. Throws Error when the maps do not fit together.
+/// prefiltered ones, and as the mean of all texels would look, each with the share of its light
+/// that is misplaced. Throws Error when the maps do not fit together.
 void write_sparkle_sheet(const SparkleSheet& sheet, const std::filesystem::path& path);
 
 }  // namespace petrichor::cli

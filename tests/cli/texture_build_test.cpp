@@ -30,18 +30,21 @@ Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
 // brick and soil, 64 x 64, with the names of two different tools.
 void write_materials(const fs::path& folder)
 {
-    const texproc::MaterialMaps brick = texproc::generate_material(texproc::MaterialKind::Brick, 64, 1, 1);
+    const texproc::MaterialMaps brick =
+        texproc::generate_material(texproc::MaterialKind::Brick, 64, 1, 1);
     texproc::write_image(folder / "Brick01_1K-PNG_Color.png", brick.albedo);
     texproc::write_image(folder / "Brick01_1K-PNG_NormalGL.png", brick.normal);
     texproc::write_image(folder / "Brick01_1K-PNG_Roughness.png", brick.roughness);
     texproc::write_image(folder / "Brick01_1K-PNG_Displacement.png", brick.height, {.bits = 16});
-    const texproc::MaterialMaps soil = texproc::generate_material(texproc::MaterialKind::Soil, 64, 1, 1);
+    const texproc::MaterialMaps soil =
+        texproc::generate_material(texproc::MaterialKind::Soil, 64, 1, 1);
     texproc::write_image(folder / "wet/soil_diff_2k.png", soil.albedo);
     texproc::write_image(folder / "wet/soil_nor_gl_2k.png", soil.normal);
-    texproc::write_raw(folder / "wet/soil_arm_2k.png",
-                       texproc::pack(texproc::pack_preset("gltf-orm"),
-                                     {{"roughness", texproc::to_raw(soil.roughness, texproc::PixelType::U8)},
-                                      {"occlusion", texproc::to_raw(soil.occlusion, texproc::PixelType::U8)}}));
+    texproc::write_raw(
+        folder / "wet/soil_arm_2k.png",
+        texproc::pack(texproc::pack_preset("gltf-orm"),
+                      {{"roughness", texproc::to_raw(soil.roughness, texproc::PixelType::U8)},
+                       {"occlusion", texproc::to_raw(soil.occlusion, texproc::PixelType::U8)}}));
 }
 
 // Every file below a folder but the build's own memory, with its content.
@@ -50,7 +53,8 @@ std::map<std::string, std::string> contents(const fs::path& folder)
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         const std::string name = fs::relative(entry.path(), folder).string();
-        if (entry.is_regular_file() && name != ".petrichor-build.json") all[name] = read_file(entry.path());
+        if (entry.is_regular_file() && name != ".petrichor-build.json")
+            all[name] = read_file(entry.path());
     }
     return all;
 }
@@ -59,7 +63,8 @@ TEST(Sha256, KnownValues)
 {
     EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    EXPECT_EQ(sha256(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    EXPECT_EQ(sha256(std::string(1000000, 'a')),
+              "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 struct NameCase {
@@ -68,7 +73,10 @@ struct NameCase {
     const char* roles;  // "role=channels "
     Green green = Green::Auto;
 };
-void PrintTo(const NameCase& c, std::ostream* out) { *out << c.stem; }
+void PrintTo(const NameCase& c, std::ostream* out)
+{
+    *out << c.stem;
+}
 
 class MapNames : public testing::TestWithParam<NameCase> {};
 TEST_P(MapNames, SayWhatTheyAre)
@@ -80,25 +88,27 @@ TEST_P(MapNames, SayWhatTheyAre)
     EXPECT_EQ(roles, GetParam().roles);
     EXPECT_EQ(named.green, GetParam().green);
 }
-INSTANTIATE_TEST_SUITE_P(Table, MapNames, testing::Values(
-    NameCase{"Bricks102_1K-JPG_NormalDX", "Bricks102", "normal= ", Green::Down},
-    NameCase{"Bricks102_1K-JPG_AmbientOcclusion", "Bricks102", "occlusion= "},
-    NameCase{"cobblestone_pavement_nor_gl_2k", "cobblestone_pavement", "normal= ", Green::Up},
-    NameCase{"cobblestone_pavement_arm_2k", "cobblestone_pavement",
-             "metallic=b occlusion=r roughness=g "},
-    NameCase{"Old_Wall_LuxSPEC", "Old_Wall", "smoothness=a specular=rgb "},
-    NameCase{"Old_Wall_LuxNRM", "Old_Wall", "normal= "},
-    NameCase{"metal_plate_02_rough_4k", "metal_plate_02", "roughness= "},
-    NameCase{"ground037_nrm_rgh", "ground037", "normal=rgb roughness=a "},
-    NameCase{"WallBaseColor", "Wall", "albedo= "},
-    NameCase{"albedo", "", "albedo= "},
-    NameCase{"preview", "", ""}));
+INSTANTIATE_TEST_SUITE_P(
+    Table, MapNames,
+    testing::Values(NameCase{"Bricks102_1K-JPG_NormalDX", "Bricks102", "normal= ", Green::Down},
+                    NameCase{"Bricks102_1K-JPG_AmbientOcclusion", "Bricks102", "occlusion= "},
+                    NameCase{"cobblestone_pavement_nor_gl_2k", "cobblestone_pavement",
+                             "normal= ", Green::Up},
+                    NameCase{"cobblestone_pavement_arm_2k", "cobblestone_pavement",
+                             "metallic=b occlusion=r roughness=g "},
+                    NameCase{"Old_Wall_LuxSPEC", "Old_Wall", "smoothness=a specular=rgb "},
+                    NameCase{"Old_Wall_LuxNRM", "Old_Wall", "normal= "},
+                    NameCase{"metal_plate_02_rough_4k", "metal_plate_02", "roughness= "},
+                    NameCase{"ground037_nrm_rgh", "ground037", "normal=rgb roughness=a "},
+                    NameCase{"WallBaseColor", "Wall", "albedo= "},
+                    NameCase{"albedo", "", "albedo= "}, NameCase{"preview", "", ""}));
 
 TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
 {
     const Workplace place("build");
     write_materials(place / "in");
-    const std::vector<std::string> command{"texture", "build", "in", "--engine", "gltf", "--engine", "filament", "-o", "out"};
+    const std::vector<std::string> command{"texture",  "build",    "in", "--engine", "gltf",
+                                           "--engine", "filament", "-o", "out"};
     const Outcome outcome = run(command, place);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto first = contents(place / "out");
@@ -135,19 +145,28 @@ TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
     // A new time alone is nothing new; a new content is; a damaged output is mended.
     fs::last_write_time(place / "in/wet/soil_diff_2k.png", fs::file_time_type::clock::now());
     EXPECT_THAT(run(command, place).out, HasSubstr("2 up to date"));
-    texproc::write_image(place / "in/wet/soil_diff_2k.png", Image(64, 64, 3, ColorSpace::Linear, 0.3f));
+    texproc::write_image(place / "in/wet/soil_diff_2k.png",
+                         Image(64, 64, 3, ColorSpace::Linear, 0.3f));
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
     write_file(place / "out/gltf/Brick01_normal.png", "scribble");
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
-    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.png"), first.at("gltf/Brick01_normal.png"));
+    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.png"),
+              first.at("gltf/Brick01_normal.png"));
 }
 
 TEST(TextureBuild, BytesDoNotDependOnThreads)
 {
     const Workplace place("build_threads");
     write_materials(place / "in");
-    ASSERT_EQ(run({"texture", "build", "in", "--engine", "filament", "--threads", "1", "-o", "one"}, place).exit_code, 0);
-    ASSERT_EQ(run({"texture", "build", "in", "--engine", "filament", "--threads", "5", "-o", "five"}, place).exit_code, 0);
+    ASSERT_EQ(run({"texture", "build", "in", "--engine", "filament", "--threads", "1", "-o", "one"},
+                  place)
+                  .exit_code,
+              0);
+    ASSERT_EQ(
+        run({"texture", "build", "in", "--engine", "filament", "--threads", "5", "-o", "five"},
+            place)
+            .exit_code,
+        0);
     EXPECT_EQ(contents(place / "one"), contents(place / "five"));
 }
 
@@ -183,7 +202,8 @@ size = 16
     const texproc::RawImage after = texproc::read_raw(place / "out/T_mine_N.png");
     for (std::size_t i = 0; i < before.bytes.size(); i += 3) {
         ASSERT_EQ(static_cast<int>(after.bytes[i]), static_cast<int>(before.bytes[i]));
-        ASSERT_EQ(static_cast<int>(after.bytes[i + 1]), 255 - static_cast<int>(before.bytes[i + 1]));
+        ASSERT_EQ(static_cast<int>(after.bytes[i + 1]),
+                  255 - static_cast<int>(before.bytes[i + 1]));
     }
     EXPECT_EQ(texproc::read_raw(place / "out/mine_mask.png").type, texproc::PixelType::U16);
     const texproc::RawImage small = texproc::read_raw(place / "out/mine_small.tga");
@@ -199,17 +219,20 @@ TEST(TextureBuild, OneBadMaterialDoesNotStopTheOthers)
 {
     const Workplace place("build_bad");
     write_materials(place / "in");
-    const std::vector<std::string> command{"texture", "build", "in", "--engine", "gltf", "-o", "out"};
+    const std::vector<std::string> command{"texture", "build", "in", "--engine",
+                                           "gltf",    "-o",    "out"};
     ASSERT_EQ(run(command, place).exit_code, 0);
     const auto before = contents(place / "out");
     write_file(place / "in/wet/soil_arm_2k.png", "not a picture");
-    texproc::write_image(place / "in/Brick01_1K-PNG_Color.png", Image(64, 64, 3, ColorSpace::Linear, 0.2f));
+    texproc::write_image(place / "in/Brick01_1K-PNG_Color.png",
+                         Image(64, 64, 3, ColorSpace::Linear, 0.2f));
     const Outcome outcome = run(command, place);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("soil_arm_2k.png"));
     EXPECT_THAT(outcome.out, HasSubstr("1 built"));
     const auto after = contents(place / "out");
-    EXPECT_EQ(after.at("wet/soil_normal.png"), before.at("wet/soil_normal.png")) << "old outputs stay";
+    EXPECT_EQ(after.at("wet/soil_normal.png"), before.at("wet/soil_normal.png"))
+        << "old outputs stay";
     EXPECT_NE(after.at("Brick01_baseColor.png"), before.at("Brick01_baseColor.png"));
     EXPECT_EQ(after.size(), before.size()) << "nothing half done is left";
 }
@@ -218,11 +241,13 @@ TEST(TextureBuild, AFullDiskLeavesTheOldFilesWhole)
 {
     const Workplace place("build_full");
     write_materials(place / "in");
-    const std::vector<std::string> command{"texture", "build", "in", "--engine", "unreal", "--force", "-o", "out"};
+    const std::vector<std::string> command{"texture", "build",   "in", "--engine",
+                                           "unreal",  "--force", "-o", "out"};
     ASSERT_EQ(run(command, place).exit_code, 0);
     const auto before = contents(place / "out");
     // Room for what is decoded (three bytes a texel), but not for four and the mips.
-    const Outcome outcome = run_petrichor({.arguments = command, .file_limit_bytes = 14000}, place.path());
+    const Outcome outcome =
+        run_petrichor({.arguments = command, .file_limit_bytes = 14000}, place.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("cannot write"));
     EXPECT_EQ(contents(place / "out"), before);
@@ -238,11 +263,13 @@ TEST(TextureBuild, WatchBuildsAgainAndEndsWithCtrlC)
         for (int i = 0; i < 1000 && !fs::exists(place / "out/manifest.json"); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
-        texproc::write_image(place / "in/wet/soil_emission_2k.png", Image(64, 64, 3, ColorSpace::Linear, 0.5f));
+        texproc::write_image(place / "in/wet/soil_emission_2k.png",
+                             Image(64, 64, 3, ColorSpace::Linear, 0.5f));
     });
-    const Outcome outcome = run_petrichor({.arguments = {"texture", "build", "in", "--engine", "gltf", "--watch", "-o", "out"},
-                                           .interrupt_when = sign},
-                                          place.path());
+    const Outcome outcome = run_petrichor(
+        {.arguments = {"texture", "build", "in", "--engine", "gltf", "--watch", "-o", "out"},
+         .interrupt_when = sign},
+        place.path());
     change.join();
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_TRUE(fs::exists(sign));
@@ -254,7 +281,10 @@ struct Mistake {
     const char* recipe;
     const char* message;
 };
-void PrintTo(const Mistake& m, std::ostream* out) { *out << m.name; }
+void PrintTo(const Mistake& m, std::ostream* out)
+{
+    *out << m.name;
+}
 
 class RecipeMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(RecipeMistake, IsNamedWithItsLine)
@@ -267,26 +297,41 @@ TEST_P(RecipeMistake, IsNamedWithItsLine)
     EXPECT_THAT(outcome.err, HasSubstr(GetParam().message));
     EXPECT_THAT(outcome.err, HasSubstr("\n  ")) << "says what to do";
 }
-INSTANTIATE_TEST_SUITE_P(Table, RecipeMistake, testing::Values(
-    Mistake{"engine", "engines = [\"unity-hdrpp\"]\nfolder = \"in\"\n", "Did you mean \"unity-hdrp\"?"},
-    Mistake{"nothing", "engines = [\"gltf\"]\n", "it names no maps"},
-    Mistake{"role", "engines = [\"gltf\"]\n[inputs]\nnormale = \"a.png\"\n", "r.toml:3"},
-    Mistake{"gone", "engines = [\"gltf\"]\n[inputs]\nalbedo = \"gone.png\"\n", "gone.png"},
-    Mistake{"channel", "[inputs]\nnormal = \"in/Brick01_1K-PNG_NormalGL.png:a\"\n[[output]]\nfile = \"{name}_n\"\nchannels = [\"normal\"]\n", "'a' is not one of them"},
-    Mistake{"no_outputs", "folder = \"in\"\n", "nothing says what to make"},
-    Mistake{"no_name", "folder = \"in\"\n[[output]]\nfile = \"x\"\nchannels = [\"normal\"]\n", "{name}"},
-    Mistake{"compression", "folder = \"in\"\n[[output]]\nfile = \"{name}\"\nchannels = [\"normal\"]\ncompression = \"bc7\"\n", "bc7 in a png"},
-    Mistake{"syntax", "folder = in\n", "r.toml"},
-    Mistake{"rule", "folder = \"in\"\nengines = [\"gltf\"]\n[prefilter]\nrule = \"best\"\n", "best"},
-    Mistake{"sizes", "[inputs]\nroughness = \"in/Brick01_1K-PNG_Roughness.png\"\nocclusion = \"small.png\"\n"
-                     "[[output]]\nfile = \"{name}\"\npreset = \"gltf-orm\"\n", "small.png"}),
+INSTANTIATE_TEST_SUITE_P(
+    Table, RecipeMistake,
+    testing::Values(
+        Mistake{"engine", "engines = [\"unity-hdrpp\"]\nfolder = \"in\"\n",
+                "Did you mean \"unity-hdrp\"?"},
+        Mistake{"nothing", "engines = [\"gltf\"]\n", "it names no maps"},
+        Mistake{"role", "engines = [\"gltf\"]\n[inputs]\nnormale = \"a.png\"\n", "r.toml:3"},
+        Mistake{"gone", "engines = [\"gltf\"]\n[inputs]\nalbedo = \"gone.png\"\n", "gone.png"},
+        Mistake{"channel",
+                "[inputs]\nnormal = \"in/Brick01_1K-PNG_NormalGL.png:a\"\n[[output]]\nfile = "
+                "\"{name}_n\"\nchannels = [\"normal\"]\n",
+                "'a' is not one of them"},
+        Mistake{"no_outputs", "folder = \"in\"\n", "nothing says what to make"},
+        Mistake{"no_name", "folder = \"in\"\n[[output]]\nfile = \"x\"\nchannels = [\"normal\"]\n",
+                "{name}"},
+        Mistake{"compression",
+                "folder = \"in\"\n[[output]]\nfile = \"{name}\"\nchannels = "
+                "[\"normal\"]\ncompression = \"bc7\"\n",
+                "bc7 in a png"},
+        Mistake{"syntax", "folder = in\n", "r.toml"},
+        Mistake{"rule", "folder = \"in\"\nengines = [\"gltf\"]\n[prefilter]\nrule = \"best\"\n",
+                "best"},
+        Mistake{
+            "sizes",
+            "[inputs]\nroughness = \"in/Brick01_1K-PNG_Roughness.png\"\nocclusion = \"small.png\"\n"
+            "[[output]]\nfile = \"{name}\"\npreset = \"gltf-orm\"\n",
+            "small.png"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(TextureBuild, MapsOfDifferentSizesAreNamed)
 {
     const Workplace place("build_sizes");
     write_materials(place / "in");
-    texproc::write_image(place / "in/Brick01_1K-PNG_AmbientOcclusion.png", Image(32, 64, 1, ColorSpace::Data, 0.5f));
+    texproc::write_image(place / "in/Brick01_1K-PNG_AmbientOcclusion.png",
+                         Image(32, 64, 1, ColorSpace::Data, 0.5f));
     const Outcome outcome = run({"texture", "build", "in", "--engine", "gltf", "-o", "out"}, place);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("AmbientOcclusion.png is 32 x 64"));

@@ -1,5 +1,6 @@
-// pack, mips, normal, bake, unpack, compare, inspect, generate from outside: what they make of good maps,
-// and what they say about bad ones. Whatever goes wrong, files that were there stay as they were.
+// pack, mips, normal, bake, unpack, compare, inspect, generate from outside: what they make of good
+// maps, and what they say about bad ones. Whatever goes wrong, files that were there stay as they
+// were.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +26,8 @@ Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
 // Good and bad maps of one small material, and an old output.
 void write_maps(const Workplace& place)
 {
-    const texproc::MaterialMaps soil = texproc::generate_material(texproc::MaterialKind::Soil, 32, 1, 1);
+    const texproc::MaterialMaps soil =
+        texproc::generate_material(texproc::MaterialKind::Soil, 32, 1, 1);
     texproc::write_image(place / "normal.png", soil.normal);
     texproc::write_image(place / "rough.png", soil.roughness);
     texproc::write_image(place / "height.png", soil.height, {.bits = 16});
@@ -39,7 +41,8 @@ void write_maps(const Workplace& place)
     write_file(place / "text.png", "this is no picture");
     write_file(place / "file", "x");
     write_file(place / "bad.toml", "channels = [\"a\", \"b\", \"c\", \"d\", \"e\"]\n");
-    for (const char* name : {"out.png", "out_0.png", "out_1.png", "out_occlusion.png"}) write_file(place / name, "old");
+    for (const char* name : {"out.png", "out_0.png", "out_1.png", "out_occlusion.png"})
+        write_file(place / name, "old");
 }
 
 struct Mistake {
@@ -47,7 +50,10 @@ struct Mistake {
     std::vector<std::string> arguments;
     const char* message;
 };
-void PrintTo(const Mistake& m, std::ostream* out) { *out << m.name; }
+void PrintTo(const Mistake& m, std::ostream* out)
+{
+    *out << m.name;
+}
 
 class TextureMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(TextureMistake, ExitsWithTwoSaysWhatAndKeepsWhatWasThere)
@@ -64,40 +70,86 @@ TEST_P(TextureMistake, ExitsWithTwoSaysWhatAndKeepsWhatWasThere)
         EXPECT_EQ(read_file(place / name), "old") << name;
     }
 }
-INSTANTIATE_TEST_SUITE_P(Table, TextureMistake, testing::Values(
-    Mistake{"pack_no_file", {"pack", "--preset", "gltf-orm", "--roughness", "gone.png", "-o", "out.png"}, "gone.png"},
-    Mistake{"pack_no_picture", {"pack", "--preset", "gltf-orm", "--roughness", "text.png", "-o", "out.png"}, "text.png"},
-    Mistake{"pack_sizes", {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "--metallic", "other.png", "-o", "out.png"}, "16 x 32"},
-    Mistake{"pack_preset", {"pack", "--preset", "gltf-rom", "--roughness", "rough.png", "-o", "out.png"}, "gltf-rom"},
-    Mistake{"pack_role", {"pack", "--preset", "gltf-orm", "--height", "height.png", "-o", "out.png"}, "no channel for 'height'"},
-    Mistake{"pack_nothing", {"pack", "--preset", "gltf-orm", "-o", "out.png"}, "no map was given"},
-    Mistake{"pack_own", {"pack", "--preset", "bad.toml", "--map", "a=rough.png", "-o", "out.png"}, "bad.toml:1"},
-    Mistake{"pack_channel", {"pack", "--preset", "gltf-orm", "--roughness", "rough.png:b", "-o", "out.png"}, "'b' is not one"},
-    Mistake{"pack_folder", {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "-o", "file/out.png"}, "file"},
-    Mistake{"pack_format", {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "--format", "bc7", "-o", "out.png"}, "no blocks"},
-    Mistake{"mips_pattern", {"mips", "color.png", "-o", "out.png"}, "%d"},
-    Mistake{"mips_normals", {"mips", "rough.png", "--normals", "-o", "out_%d.png"}, "3 channels"},
-    Mistake{"mips_alpha", {"mips", "color.png", "--alpha-cutoff", "0.5", "-o", "out_%d.png"}, "4 channels"},
-    Mistake{"mips_nan", {"mips", "nan.exr", "-o", "out_%d.png"}, "not numbers"},
-    Mistake{"normal_channels", {"normal", "rough.png", "--flip-green", "-o", "out.png"}, "3 channels"},
-    Mistake{"normal_layout", {"normal", "normal.png", "--from-layout", "ag", "-o", "out.png"}, "4 channels"},
-    Mistake{"normal_nan", {"normal", "nan.exr", "--from-height", "-o", "out.png"}, "not numbers"},
-    Mistake{"normal_nothing", {"normal", "normal.png"}, "--out"},
-    Mistake{"normal_blend", {"normal", "normal.png", "--blend", "other.png", "-o", "out.png"}, "other.png"},
-    Mistake{"normal_detect", {"normal", "normal.png", "--detect", "--height", "other.png"}, "16 x 32"},
-    Mistake{"bake_nan", {"bake", "--height", "nan.exr", "-o", "out_%d.png"}, "not numbers"},
-    Mistake{"bake_sizes", {"bake", "--height", "height.png", "--roughness", "rough.png", "--metallic", "other.png", "-o", "out_%d.png"}, "16 x 32"},
-    Mistake{"bake_reach", {"bake", "--height", "height.png", "--reach", "0.9", "-o", "out_%d.png"}, "reach"},
-    Mistake{"bake_folder", {"bake", "--height", "height.png", "-o", "file/out_%d.png"}, "file"},
-    Mistake{"unpack_channels", {"unpack", "rough.png", "--preset", "unity-hdrp-mask", "-o", "out_%d.png"}, "channel"},
-    Mistake{"unpack_pattern", {"unpack", "color.png", "--preset", "gltf-orm", "-o", "out.png"}, "%d"},
-    Mistake{"compare_sizes", {"compare", "rough.png", "other.png", "-o", "out.png"}, "16 x 32"},
-    Mistake{"compare_fails", {"compare", "color.png", "zero.png", "--fail-psnr", "60"}, "differ by more"},
-    Mistake{"inspect_text", {"inspect", "text.png", "rough.png"}, "text.png"},
-    Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet needs"},
-    Mistake{"generate_kind", {"generate", "cobbel", "-o", "made"}, "Did you mean \"cobble\"?"},
-    Mistake{"generate_none", {"generate", "-o", "made"}, "no kind"},
-    Mistake{"generate_size", {"generate", "cobble", "--size", "4", "-o", "made"}, "--size"}),
+INSTANTIATE_TEST_SUITE_P(
+    Table, TextureMistake,
+    testing::Values(
+        Mistake{"pack_no_file",
+                {"pack", "--preset", "gltf-orm", "--roughness", "gone.png", "-o", "out.png"},
+                "gone.png"},
+        Mistake{"pack_no_picture",
+                {"pack", "--preset", "gltf-orm", "--roughness", "text.png", "-o", "out.png"},
+                "text.png"},
+        Mistake{"pack_sizes",
+                {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "--metallic",
+                 "other.png", "-o", "out.png"},
+                "16 x 32"},
+        Mistake{"pack_preset",
+                {"pack", "--preset", "gltf-rom", "--roughness", "rough.png", "-o", "out.png"},
+                "gltf-rom"},
+        Mistake{"pack_role",
+                {"pack", "--preset", "gltf-orm", "--height", "height.png", "-o", "out.png"},
+                "no channel for 'height'"},
+        Mistake{
+            "pack_nothing", {"pack", "--preset", "gltf-orm", "-o", "out.png"}, "no map was given"},
+        Mistake{"pack_own",
+                {"pack", "--preset", "bad.toml", "--map", "a=rough.png", "-o", "out.png"},
+                "bad.toml:1"},
+        Mistake{"pack_channel",
+                {"pack", "--preset", "gltf-orm", "--roughness", "rough.png:b", "-o", "out.png"},
+                "'b' is not one"},
+        Mistake{"pack_folder",
+                {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "-o", "file/out.png"},
+                "file"},
+        Mistake{"pack_format",
+                {"pack", "--preset", "gltf-orm", "--roughness", "rough.png", "--format", "bc7",
+                 "-o", "out.png"},
+                "no blocks"},
+        Mistake{"mips_pattern", {"mips", "color.png", "-o", "out.png"}, "%d"},
+        Mistake{
+            "mips_normals", {"mips", "rough.png", "--normals", "-o", "out_%d.png"}, "3 channels"},
+        Mistake{"mips_alpha",
+                {"mips", "color.png", "--alpha-cutoff", "0.5", "-o", "out_%d.png"},
+                "4 channels"},
+        Mistake{"mips_nan", {"mips", "nan.exr", "-o", "out_%d.png"}, "not numbers"},
+        Mistake{"normal_channels",
+                {"normal", "rough.png", "--flip-green", "-o", "out.png"},
+                "3 channels"},
+        Mistake{"normal_layout",
+                {"normal", "normal.png", "--from-layout", "ag", "-o", "out.png"},
+                "4 channels"},
+        Mistake{
+            "normal_nan", {"normal", "nan.exr", "--from-height", "-o", "out.png"}, "not numbers"},
+        Mistake{"normal_nothing", {"normal", "normal.png"}, "--out"},
+        Mistake{"normal_blend",
+                {"normal", "normal.png", "--blend", "other.png", "-o", "out.png"},
+                "other.png"},
+        Mistake{"normal_detect",
+                {"normal", "normal.png", "--detect", "--height", "other.png"},
+                "16 x 32"},
+        Mistake{"bake_nan", {"bake", "--height", "nan.exr", "-o", "out_%d.png"}, "not numbers"},
+        Mistake{"bake_sizes",
+                {"bake", "--height", "height.png", "--roughness", "rough.png", "--metallic",
+                 "other.png", "-o", "out_%d.png"},
+                "16 x 32"},
+        Mistake{"bake_reach",
+                {"bake", "--height", "height.png", "--reach", "0.9", "-o", "out_%d.png"},
+                "reach"},
+        Mistake{"bake_folder", {"bake", "--height", "height.png", "-o", "file/out_%d.png"}, "file"},
+        Mistake{"unpack_channels",
+                {"unpack", "rough.png", "--preset", "unity-hdrp-mask", "-o", "out_%d.png"},
+                "channel"},
+        Mistake{"unpack_pattern",
+                {"unpack", "color.png", "--preset", "gltf-orm", "-o", "out.png"},
+                "%d"},
+        Mistake{"compare_sizes", {"compare", "rough.png", "other.png", "-o", "out.png"}, "16 x 32"},
+        Mistake{"compare_fails",
+                {"compare", "color.png", "zero.png", "--fail-psnr", "60"},
+                "differ by more"},
+        Mistake{"inspect_text", {"inspect", "text.png", "rough.png"}, "text.png"},
+        Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet needs"},
+        Mistake{"generate_kind", {"generate", "cobbel", "-o", "made"}, "Did you mean \"cobble\"?"},
+        Mistake{"generate_none", {"generate", "-o", "made"}, "no kind"},
+        Mistake{"generate_size", {"generate", "cobble", "--size", "4", "-o", "made"}, "--size"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(TextureTools, AFullDiskLeavesTheOldFile)
@@ -106,10 +158,11 @@ TEST(TextureTools, AFullDiskLeavesTheOldFile)
     write_maps(place);
     write_file(place / "out.dds", "old");
     // 32 x 32 x 2 bytes are read, four times that cannot be written.
-    const Outcome outcome = run_petrichor({.arguments = {"texture", "pack", "--preset", "gltf-orm", "--roughness", "height.png", "--occlusion",
-                                                         "height.png", "--metallic", "height.png", "-o", "out.dds"},
-                                           .file_limit_bytes = 3500},
-                                          place.path());
+    const Outcome outcome = run_petrichor(
+        {.arguments = {"texture", "pack", "--preset", "gltf-orm", "--roughness", "height.png",
+                       "--occlusion", "height.png", "--metallic", "height.png", "-o", "out.dds"},
+         .file_limit_bytes = 3500},
+        place.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("cannot write"));
     EXPECT_EQ(read_file(place / "out.dds"), "old");
@@ -121,12 +174,16 @@ TEST(TextureTools, OddShapesAreFine)
     write_maps(place);
     EXPECT_EQ(run({"texture", "mips", "line.png", "-o", "m_%d.png"}, place).exit_code, 0);
     EXPECT_TRUE(fs::exists(place / "m_5.png"));
-    EXPECT_EQ(run({"texture", "bake", "--height", "line.png", "-o", "b_%d.png"}, place).exit_code, 0);
+    EXPECT_EQ(run({"texture", "bake", "--height", "line.png", "-o", "b_%d.png"}, place).exit_code,
+              0);
     EXPECT_TRUE(fs::exists(place / "b_puddle.png"));
     EXPECT_EQ(run({"texture", "inspect", "line.png"}, place).exit_code, 0);
     EXPECT_EQ(run({"texture", "compare", "line.png", "line.png"}, place).exit_code, 0);
     // Zero normals point up.
-    EXPECT_EQ(run({"texture", "normal", "zero.png", "--renormalize", "--bits", "8", "-o", "up.png"}, place).exit_code, 0);
+    EXPECT_EQ(run({"texture", "normal", "zero.png", "--renormalize", "--bits", "8", "-o", "up.png"},
+                  place)
+                  .exit_code,
+              0);
     EXPECT_EQ(static_cast<int>(texproc::read_raw(place / "up.png").bytes[2]), 255);
 }
 
@@ -134,42 +191,65 @@ TEST(TextureTools, APresetOfOnesOwnPacksAndUnpacks)
 {
     const Workplace place("texture_own");
     write_maps(place);
-    write_file(place / "mine.toml", "note = \"mine\"\nchannels = [\"wetness | 0\", \"1 - roughness\", \"normal.g\", \"0.25\"]\n");
-    ASSERT_EQ(run({"texture", "pack", "--preset", "mine.toml", "--map", "wetness=rough.png", "--roughness", "rough.png", "--normal",
-                   "normal.png", "-o", "packed.png"}, place).exit_code, 0);
-    EXPECT_THAT(run({"texture", "pack", "--preset", "mine.toml", "--list"}, place).out, HasSubstr("wetness | 0"));
-    ASSERT_EQ(run({"texture", "unpack", "packed.png", "--preset", "mine.toml", "-o", "u_%d.png"}, place).exit_code, 0);
-    EXPECT_EQ(texproc::read_raw(place / "u_roughness.png").bytes, texproc::read_raw(place / "rough.png").bytes);
-    EXPECT_EQ(texproc::read_raw(place / "u_wetness.png").bytes, texproc::read_raw(place / "rough.png").bytes);
+    write_file(place / "mine.toml",
+               "note = \"mine\"\nchannels = [\"wetness | 0\", \"1 - roughness\", \"normal.g\", "
+               "\"0.25\"]\n");
+    ASSERT_EQ(run({"texture", "pack", "--preset", "mine.toml", "--map", "wetness=rough.png",
+                   "--roughness", "rough.png", "--normal", "normal.png", "-o", "packed.png"},
+                  place)
+                  .exit_code,
+              0);
+    EXPECT_THAT(run({"texture", "pack", "--preset", "mine.toml", "--list"}, place).out,
+                HasSubstr("wetness | 0"));
+    ASSERT_EQ(
+        run({"texture", "unpack", "packed.png", "--preset", "mine.toml", "-o", "u_%d.png"}, place)
+            .exit_code,
+        0);
+    EXPECT_EQ(texproc::read_raw(place / "u_roughness.png").bytes,
+              texproc::read_raw(place / "rough.png").bytes);
+    EXPECT_EQ(texproc::read_raw(place / "u_wetness.png").bytes,
+              texproc::read_raw(place / "rough.png").bytes);
 }
 
 TEST(TextureTools, CompareAndInspectSpeakToMachines)
 {
     const Workplace place("texture_json");
     write_maps(place);
-    const json same = json::parse(run({"texture", "compare", "color.png", "color.png", "--json"}, place).out);
+    const json same =
+        json::parse(run({"texture", "compare", "color.png", "color.png", "--json"}, place).out);
     EXPECT_TRUE(same["psnr_db"].is_null());
     EXPECT_EQ(same["flip"]["mean"].get<double>(), 0.0);
-    ASSERT_EQ(run({"texture", "normal", "normal.png", "--flip-green", "-o", "dx.png", "--bits", "8"}, place).exit_code, 0);
-    const Outcome turned = run({"texture", "compare", "normal.png", "dx.png", "--json", "-o", "d.png"}, place);
+    ASSERT_EQ(
+        run({"texture", "normal", "normal.png", "--flip-green", "-o", "dx.png", "--bits", "8"},
+            place)
+            .exit_code,
+        0);
+    const Outcome turned =
+        run({"texture", "compare", "normal.png", "dx.png", "--json", "-o", "d.png"}, place);
     EXPECT_EQ(json::parse(turned.out)["kind"].get<std::string>(), "normal") << turned.out;
     EXPECT_GT(json::parse(turned.out)["angle_degrees"]["max"].get<double>(), 10.0);
     EXPECT_EQ(texproc::read_raw(place / "d.png").channels, 3);
     const json facts = json::parse(run({"texture", "inspect", "dx.png", "--json"}, place).out);
     EXPECT_EQ(facts[0]["green"]["direction"].get<std::string>(), "down");
-    EXPECT_EQ(run({"texture", "inspect", "normal.png", "rough.png", "--sheet", "sheet.png"}, place).exit_code, 0);
+    EXPECT_EQ(run({"texture", "inspect", "normal.png", "rough.png", "--sheet", "sheet.png"}, place)
+                  .exit_code,
+              0);
     EXPECT_GT(texproc::read_raw(place / "sheet.png").width, 400);
 }
 
 TEST(TextureTools, GeneratedSetsAreRecognisedByBuild)
 {
     const Workplace place("texture_generate");
-    ASSERT_EQ(run({"texture", "generate", "brick", "snow_mask", "--size", "32", "-o", "made"}, place).exit_code, 0);
+    ASSERT_EQ(
+        run({"texture", "generate", "brick", "snow_mask", "--size", "32", "-o", "made"}, place)
+            .exit_code,
+        0);
     const json facts = json::parse(read_file(place / "made/brick.json"));
     EXPECT_GT(facts["tile_m"].get<double>(), 0.1);
     EXPECT_EQ(texproc::read_raw(place / "made/brick_height.png").type, texproc::PixelType::U16);
     EXPECT_EQ(texproc::read_raw(place / "made/snow_mask.png").channels, 4);
-    const Outcome built = run({"texture", "build", "made", "--engine", "unity-hdrp", "-o", "out"}, place);
+    const Outcome built =
+        run({"texture", "build", "made", "--engine", "unity-hdrp", "-o", "out"}, place);
     EXPECT_EQ(built.exit_code, 0) << built.err;
     EXPECT_TRUE(fs::exists(place / "out/brick_MaskMap.dds"));
 }

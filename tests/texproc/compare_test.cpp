@@ -66,22 +66,27 @@ TEST(Ssim, FollowsItsFormula)
 TEST(AngularError, MeasuresKnownAngles)
 {
     const float s = 0.5f * std::sin(0.1f), c = 0.5f * std::cos(0.1f);
-    const AngularError e = angular_error(flat(4, 0.5f, 0.5f, 1.0f), flat(4, 0.5f + s, 0.5f, 0.5f + c));
+    const AngularError e =
+        angular_error(flat(4, 0.5f, 0.5f, 1.0f), flat(4, 0.5f + s, 0.5f, 0.5f + c));
     const double degrees = 0.1 * 57.29577951308232;
     EXPECT_NEAR(e.mean_degrees, degrees, 1e-4);
     EXPECT_NEAR(e.p95_degrees, degrees, 1e-4);
     EXPECT_NEAR(e.max_degrees, degrees, 1e-4);
     // Length does not count, and tiny angles are not lost.
-    EXPECT_NEAR(angular_error(flat(2, 0.5f, 0.5f, 1.0f), flat(2, 0.5f, 0.5f, 0.7f)).max_degrees, 0.0, 1e-9);
+    EXPECT_NEAR(angular_error(flat(2, 0.5f, 0.5f, 1.0f), flat(2, 0.5f, 0.5f, 0.7f)).max_degrees,
+                0.0, 1e-9);
 }
 
 TEST(Flip, EqualPicturesDoNotDifferAndOppositeOnesDo)
 {
     const Image black = flat(24, 0, 0, 0), white = flat(24, 1, 1, 1);
     EXPECT_EQ(flip(white, white).mean, 0.0);
-    // Flat pictures have no features, so the value is the paper's colour formula alone: HyAB 100 to the
-    // power 0.7 against the largest distance, green to blue.
-    const double largest = std::pow(std::abs(87.7347 - 32.2970) + std::hypot(0.877347 * -86.1827 - 0.322970 * 79.1875, 0.877347 * 83.1793 - 0.322970 * -107.8602), 0.7);
+    // Flat pictures have no features, so the value is the paper's colour formula alone: HyAB 100 to
+    // the power 0.7 against the largest distance, green to blue.
+    const double largest = std::pow(
+        std::abs(87.7347 - 32.2970) + std::hypot(0.877347 * -86.1827 - 0.322970 * 79.1875,
+                                                 0.877347 * 83.1793 - 0.322970 * -107.8602),
+        0.7);
     const double knee = 0.4 * largest, power = std::pow(100.0, 0.7);
     EXPECT_NEAR(flip(black, white).mean, 0.95 + 0.05 * (power - knee) / (largest - knee), 1e-4);
     EXPECT_NEAR(flip(black, white).mean, flip(white, black).mean, 1e-6);
@@ -133,7 +138,8 @@ TEST(Inspect, SeesSeamsAndNumbersThatAreNone)
     EXPECT_THROW(inspect(RawImage{}), Error);
 }
 
-// What the sheets are for: with less of the light misplaced, the prefiltered floor is nearer the truth.
+// What the sheets are for: with less of the light misplaced, the prefiltered floor is nearer the
+// truth.
 TEST(Shading, PrefilteredMipsAreNearerTheTruth)
 {
     const MaterialMaps maps = generate_material(MaterialKind::Cobble, 256, 1);

@@ -31,7 +31,10 @@ Triple linear_of_xyz(const Triple& xyz)
             0.0556300797 * xyz.a - 0.2039769589 * xyz.b + 1.0569715142 * xyz.c};
 }
 
-Triple white() { return xyz_of_linear({1.0, 1.0, 1.0}); }
+Triple white()
+{
+    return xyz_of_linear({1.0, 1.0, 1.0});
+}
 
 // Linear opponent space: CIELAB without its cube roots, so that filtering adds light.
 Triple opponent_of_linear(const Triple& rgb)
@@ -54,7 +57,8 @@ Triple hunt_lab(const Triple& rgb)
     const Triple xyz = xyz_of_linear(rgb), w = white();
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29.0;
-        return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
+        return t > kDelta * kDelta * kDelta ? std::cbrt(t)
+                                            : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
     };
     const double x = f(xyz.a / w.a), y = f(xyz.b / w.b), z = f(xyz.c / w.c);
     const double lightness = 116.0 * y - 16.0;
@@ -97,18 +101,23 @@ struct Bump {
 };
 
 // The image of one channel after the eye: a sum of Gaussians, each separable, weights sum 1.
-Image seen(const Image& plane, std::initializer_list<Bump> bumps, double pixels_per_degree, int threads)
+Image seen(const Image& plane, std::initializer_list<Bump> bumps, double pixels_per_degree,
+           int threads)
 {
     constexpr double kPi = 3.141592653589793;
     constexpr double kWidest = 0.04;  // of all channels: they share one radius
-    const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree));
+    const int radius = static_cast<int>(
+        std::ceil(3.0 * std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree));
     Image out(plane.width, plane.height, 1, ColorSpace::Data);
-    const auto sigma_of = [&](const Bump& bump) { return std::sqrt(bump.b / (2.0 * kPi * kPi)) * pixels_per_degree; };
+    const auto sigma_of = [&](const Bump& bump) {
+        return std::sqrt(bump.b / (2.0 * kPi * kPi)) * pixels_per_degree;
+    };
     std::vector<double> shares;
     double total = 0.0;
     for (const Bump& bump : bumps) {
         double line = 0.0;
-        for (int x = -radius; x <= radius; ++x) line += std::exp(-x * x / (2.0 * sigma_of(bump) * sigma_of(bump)));
+        for (int x = -radius; x <= radius; ++x)
+            line += std::exp(-x * x / (2.0 * sigma_of(bump) * sigma_of(bump)));
         shares.push_back(bump.a * std::sqrt(kPi / bump.b) * line * line);
         total += shares.back();
     }
@@ -127,11 +136,13 @@ std::vector<Triple> perceived(const Image& opponent, double pixels_per_degree, i
 {
     const Image y = seen(plane_of(opponent, 0), {{1.0, 0.0047}}, pixels_per_degree, threads);
     const Image x = seen(plane_of(opponent, 1), {{1.0, 0.0053}}, pixels_per_degree, threads);
-    const Image z = seen(plane_of(opponent, 2), {{34.1, 0.04}, {13.5, 0.025}}, pixels_per_degree, threads);
+    const Image z =
+        seen(plane_of(opponent, 2), {{34.1, 0.04}, {13.5, 0.025}}, pixels_per_degree, threads);
     std::vector<Triple> out(y.pixels.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-        Triple rgb = linear_of_opponent({static_cast<double>(y.pixels[i]), static_cast<double>(x.pixels[i]),
-                                         static_cast<double>(z.pixels[i])});
+        Triple rgb =
+            linear_of_opponent({static_cast<double>(y.pixels[i]), static_cast<double>(x.pixels[i]),
+                                static_cast<double>(z.pixels[i])});
         for (double* v : {&rgb.a, &rgb.b, &rgb.c}) *v = std::clamp(*v, 0.0, 1.0);
         out[i] = hunt_lab(rgb);
     }
@@ -183,7 +194,8 @@ Features features_of(const Image& opponent, double pixels_per_degree, int thread
 double redistributed(double difference)
 {
     constexpr double kExponent = 0.7, kBreak = 0.4, kTarget = 0.95;
-    static const double kLargest = std::pow(hyab(hunt_lab({0.0, 1.0, 0.0}), hunt_lab({0.0, 0.0, 1.0})), kExponent);
+    static const double kLargest =
+        std::pow(hyab(hunt_lab({0.0, 1.0, 0.0}), hunt_lab({0.0, 0.0, 1.0})), kExponent);
     const double power = std::pow(difference, kExponent), knee = kBreak * kLargest;
     if (power < knee) return kTarget / knee * power;
     return std::min(1.0, kTarget + (power - knee) / (kLargest - knee) * (1.0 - kTarget));
@@ -195,31 +207,38 @@ Flip flip(const Image& reference, const Image& test, double pixels_per_degree, i
 {
     detail::check_comparable(reference, test);
     if (reference.channels != 3) {
-        throw Error("compare: FLIP takes 3 channels, these have " + std::to_string(reference.channels),
-                    "Give RGB images, or repeat the grey channel.");
+        throw Error(
+            "compare: FLIP takes 3 channels, these have " + std::to_string(reference.channels),
+            "Give RGB images, or repeat the grey channel.");
     }
     if (!(pixels_per_degree >= 5.0 && pixels_per_degree <= 300.0)) {
-        throw Error("compare: pixels per degree must be in 5..300, got " + std::to_string(pixels_per_degree),
+        throw Error("compare: pixels per degree must be in 5..300, got " +
+                        std::to_string(pixels_per_degree),
                     "Use 67 for a monitor on a desk.");
     }
     const Image a = opponent_image(reference), b = opponent_image(test);
     const std::vector<Triple> seen_a = perceived(a, pixels_per_degree, threads);
     const std::vector<Triple> seen_b = perceived(b, pixels_per_degree, threads);
-    const Features fa = features_of(a, pixels_per_degree, threads), fb = features_of(b, pixels_per_degree, threads);
+    const Features fa = features_of(a, pixels_per_degree, threads),
+                   fb = features_of(b, pixels_per_degree, threads);
     Flip out;
     out.error = Image(reference.width, reference.height, 1, ColorSpace::Data);
     double sum = 0.0;
     for (std::size_t i = 0; i < seen_a.size(); ++i) {
         const double color = redistributed(hyab(seen_a[i], seen_b[i]));
-        const double feature = std::sqrt(std::max(std::abs(fa.edges[i] - fb.edges[i]), std::abs(fa.points[i] - fb.points[i])) / std::sqrt(2.0));
+        const double feature = std::sqrt(
+            std::max(std::abs(fa.edges[i] - fb.edges[i]), std::abs(fa.points[i] - fb.points[i])) /
+            std::sqrt(2.0));
         const double error = std::pow(color, 1.0 - std::min(feature, 1.0));
         out.error.pixels[i] = static_cast<float>(error);
         sum += error;
         out.max = std::max(out.max, error);
     }
     std::vector<float> sorted = out.error.pixels;
-    const std::size_t p95 = std::min(sorted.size() - 1, static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size())));
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(p95), sorted.end());
+    const std::size_t p95 = std::min(
+        sorted.size() - 1, static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size())));
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(p95),
+                     sorted.end());
     out.p95 = static_cast<double>(sorted[p95]);
     out.mean = sum / static_cast<double>(sorted.size());
     return out;

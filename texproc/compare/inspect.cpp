@@ -54,7 +54,8 @@ int codes_of(const RawImage& image, int channel)
 {
     if (image.type != PixelType::U8) return 0;
     std::array<bool, 256> seen{};
-    for (std::size_t i = static_cast<std::size_t>(channel); i < image.bytes.size(); i += static_cast<std::size_t>(image.channels)) {
+    for (std::size_t i = static_cast<std::size_t>(channel); i < image.bytes.size();
+         i += static_cast<std::size_t>(image.channels)) {
         seen[static_cast<std::size_t>(image.bytes[i])] = true;
     }
     return static_cast<int>(std::count(seen.begin(), seen.end(), true));
@@ -75,14 +76,16 @@ double step_between(const Image& image, int a, int b, bool columns)
     return sum / (length * image.channels);
 }
 
-// The step across the seam, over the larger steps inside (a joint that runs along the seam is no seam).
+// The step across the seam, over the larger steps inside (a joint that runs along the seam is no
+// seam).
 double seam(const Image& image, bool columns)
 {
     const int size = columns ? image.width : image.height;
     if (size < 8) return 0.0;
     std::vector<double> inside;
     const int stride = std::max(1, size / 1024);
-    for (int i = 0; i + 1 < size; i += stride) inside.push_back(step_between(image, i, i + 1, columns));
+    for (int i = 0; i + 1 < size; i += stride)
+        inside.push_back(step_between(image, i, i + 1, columns));
     std::sort(inside.begin(), inside.end());
     const double usual = inside[inside.size() * 97 / 100];
     const double across = step_between(image, size - 1, 0, columns);
@@ -114,15 +117,21 @@ Lengths lengths_of(const Image& image)
 // x and y about one half within the unit circle, and nothing in the other channels.
 bool is_two_channel(const std::vector<ChannelFacts>& c, std::size_t x, std::size_t y)
 {
-    const auto centred = [](const ChannelFacts& f) { return std::abs(f.mean - 0.5) < 0.06 && f.deviation > 0.002; };
+    const auto centred = [](const ChannelFacts& f) {
+        return std::abs(f.mean - 0.5) < 0.06 && f.deviation > 0.002;
+    };
     return centred(c[x]) && centred(c[y]);
 }
 
-bool is_constant(const ChannelFacts& c) { return c.high - c.low < 1e-6; }
+bool is_constant(const ChannelFacts& c)
+{
+    return c.high - c.low < 1e-6;
+}
 
 bool is_grey(const Image& image)
 {
-    for (std::size_t i = 0; i < image.pixels.size(); i += static_cast<std::size_t>(image.channels)) {
+    for (std::size_t i = 0; i < image.pixels.size();
+         i += static_cast<std::size_t>(image.channels)) {
         if (std::abs(image.pixels[i] - image.pixels[i + 1]) > 0.02f) return false;
         if (std::abs(image.pixels[i] - image.pixels[i + 2]) > 0.02f) return false;
     }
@@ -130,14 +139,17 @@ bool is_grey(const Image& image)
 }
 
 // Correlation of two channels: colours go together, packed masks need not.
-double correlation(const Image& image, const std::vector<ChannelFacts>& c, std::size_t a, std::size_t b)
+double correlation(const Image& image, const std::vector<ChannelFacts>& c, std::size_t a,
+                   std::size_t b)
 {
     double sum = 0.0;
     const std::size_t step = static_cast<std::size_t>(image.channels);
     for (std::size_t i = 0; i < image.pixels.size(); i += step) {
-        sum += (static_cast<double>(image.pixels[i + a]) - c[a].mean) * (static_cast<double>(image.pixels[i + b]) - c[b].mean);
+        sum += (static_cast<double>(image.pixels[i + a]) - c[a].mean) *
+               (static_cast<double>(image.pixels[i + b]) - c[b].mean);
     }
-    const double norm = c[a].deviation * c[b].deviation * static_cast<double>(image.pixels.size() / step);
+    const double norm =
+        c[a].deviation * c[b].deviation * static_cast<double>(image.pixels.size() / step);
     return norm > 0.0 && std::isfinite(sum) ? sum / norm : 0.0;
 }
 
@@ -148,21 +160,24 @@ void guess_meaning(const Image& image, ImageFacts& facts)
         facts.meaning = meaning;
         facts.meaning_confidence = std::clamp(confidence, 0.0, 1.0);
     };
-    if (std::all_of(c.begin(), c.end(), is_constant) && c.size() != 3) return say(Meaning::Constant, 1.0);
+    if (std::all_of(c.begin(), c.end(), is_constant) && c.size() != 3)
+        return say(Meaning::Constant, 1.0);
     if (c.size() == 4 && is_constant(c[0]) && is_constant(c[2]) && is_two_channel(c, 3, 1)) {
         return say(Meaning::NormalTwoChannel, 0.9);
     }
     if (c.size() == 2 && is_two_channel(c, 0, 1)) return say(Meaning::NormalTwoChannel, 0.7);
     if (c.size() < 3) return say(Meaning::Grey, 0.9);
     const Lengths lengths = lengths_of(image);
-    if (lengths.near_one > 0.6 && lengths.upward > 0.95 && std::abs(c[0].mean - 0.5) < 0.15 && std::abs(c[1].mean - 0.5) < 0.15) {
+    if (lengths.near_one > 0.6 && lengths.upward > 0.95 && std::abs(c[0].mean - 0.5) < 0.15 &&
+        std::abs(c[1].mean - 0.5) < 0.15) {
         facts.mean_length = lengths.mean;
         return say(Meaning::Normal, lengths.near_one);
     }
     if (std::all_of(c.begin(), c.end(), is_constant)) return say(Meaning::Constant, 1.0);
     if (is_constant(c[2]) && is_two_channel(c, 0, 1)) return say(Meaning::NormalTwoChannel, 0.7);
     if (is_grey(image)) return say(Meaning::Grey, 0.9);
-    const double rg = correlation(image, c, 0, 1), gb = correlation(image, c, 1, 2), rb = correlation(image, c, 0, 2);
+    const double rg = correlation(image, c, 0, 1), gb = correlation(image, c, 1, 2),
+                 rb = correlation(image, c, 0, 2);
     const double together = (rg + gb + rb) / 3.0;
     if (together > 0.6) return say(Meaning::Color, together);
     if (std::max({rg, gb, rb}) > 0.9) return say(Meaning::Color, 0.6);  // red brick and grey mortar
@@ -203,12 +218,18 @@ ImageFacts inspect(const RawImage& raw)
 std::string to_text(Meaning meaning)
 {
     switch (meaning) {
-        case Meaning::Normal: return "normal map";
-        case Meaning::NormalTwoChannel: return "two-channel normal map";
-        case Meaning::Color: return "colour (sRGB)";
-        case Meaning::Grey: return "grey (height, roughness, mask: linear)";
-        case Meaning::Data: return "packed data (linear)";
-        case Meaning::Constant: return "one constant value";
+        case Meaning::Normal:
+            return "normal map";
+        case Meaning::NormalTwoChannel:
+            return "two-channel normal map";
+        case Meaning::Color:
+            return "colour (sRGB)";
+        case Meaning::Grey:
+            return "grey (height, roughness, mask: linear)";
+        case Meaning::Data:
+            return "packed data (linear)";
+        case Meaning::Constant:
+            return "one constant value";
     }
     return "";
 }

@@ -26,10 +26,11 @@ enum class Meaning { Normal, NormalTwoChannel, Color, Grey, Data, Constant };
 struct ImageFacts {
     std::vector<ChannelFacts> channels;
     Meaning meaning = Meaning::Data;
-    double meaning_confidence = 0.0;  ///< 0 guess .. 1 certain
+    double meaning_confidence = 0.0;      ///< 0 guess .. 1 certain
     std::optional<GreenDirection> green;  ///< of normal maps
     double mean_length = 0.0;             ///< of normals
-    /// Step across the seam over the usual step inside: about 1 where it tiles. 0: too small to tell.
+    /// Step across the seam over the usual step inside: about 1 where it tiles. 0: too small to
+    /// tell.
     double seam_u = 0.0, seam_v = 0.0;
     bool tiles_u = false, tiles_v = false;
 };

@@ -25,7 +25,8 @@ std::vector<double> psnr(const Image& a, const Image& b)
         sums[channels] += sums[c] / static_cast<double>(channels);
     }
     for (double& sum : sums) {
-        sum = sum > 0.0 ? -10.0 * std::log10(sum / texels) : std::numeric_limits<double>::infinity();
+        sum =
+            sum > 0.0 ? -10.0 * std::log10(sum / texels) : std::numeric_limits<double>::infinity();
     }
     return sums;
 }
@@ -35,7 +36,8 @@ double largest_difference(const Image& a, const Image& b)
     detail::check_comparable(a, b);
     double largest = 0.0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
+        largest = std::max(
+            largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
     }
     return largest;
 }
@@ -44,7 +46,9 @@ double ssim(const Image& a, const Image& b, int threads)
 {
     detail::check_comparable(a, b);
     const std::vector<float> window = detail::gaussian_weights(1.5, 5);
-    const auto mean = [&](const Image& image) { return detail::filtered(image, window, window, threads); };
+    const auto mean = [&](const Image& image) {
+        return detail::filtered(image, window, window, threads);
+    };
     const auto product = [](const Image& x, const Image& y) {
         Image out = x;
         for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] *= y.pixels[i];
@@ -68,8 +72,9 @@ AngularError angular_error(const Image& a, const Image& b)
 {
     detail::check_comparable(a, b);
     if (a.channels != 3) {
-        throw Error("compare: normal maps have 3 channels, these have " + std::to_string(a.channels),
-                    "Unpack them first: petrichor texture normal --from-layout.");
+        throw Error(
+            "compare: normal maps have 3 channels, these have " + std::to_string(a.channels),
+            "Unpack them first: petrichor texture normal --from-layout.");
     }
     AngularError out;
     out.degrees = Image(a.width, a.height, 1, ColorSpace::Data);
@@ -90,14 +95,17 @@ AngularError angular_error(const Image& a, const Image& b)
             cross2 += x * x;
         }
         // atan2 keeps small angles exact where acos loses them.
-        const double angle = la > 0.0 && lb > 0.0 ? std::atan2(std::sqrt(cross2), dot) * 57.29577951308232 : 0.0;
+        const double angle =
+            la > 0.0 && lb > 0.0 ? std::atan2(std::sqrt(cross2), dot) * 57.29577951308232 : 0.0;
         out.degrees.pixels[i] = static_cast<float>(angle);
         sum += angle;
         out.max_degrees = std::max(out.max_degrees, angle);
     }
     std::vector<float> sorted = out.degrees.pixels;
-    const std::size_t p95 = std::min(sorted.size() - 1, static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size())));
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(p95), sorted.end());
+    const std::size_t p95 = std::min(
+        sorted.size() - 1, static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size())));
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(p95),
+                     sorted.end());
     out.p95_degrees = static_cast<double>(sorted[p95]);
     out.mean_degrees = sum / static_cast<double>(sorted.size());
     return out;
@@ -112,7 +120,8 @@ Image error_colors(const Image& error)
                                            {0.98f, 0.53f, 0.37f},
                                            {0.99f, 0.98f, 0.75f}};
     Image out(error.width, error.height, 3, ColorSpace::Data);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(error.width) * static_cast<std::size_t>(error.height); ++i) {
+    for (std::size_t i = 0;
+         i < static_cast<std::size_t>(error.width) * static_cast<std::size_t>(error.height); ++i) {
         const float v = error.pixels[i * static_cast<std::size_t>(error.channels)];
         const float t = 4.0f * std::clamp(v, 0.0f, 1.0f);
         const int k = std::min(3, static_cast<int>(t));

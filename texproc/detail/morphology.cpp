@@ -11,8 +11,9 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-// out[i] = largest of line[i .. i + count - 1], round and round (van Herk 1992, Gil and Werman 1993):
-// the largest from the start of a block of `count` and to the end of one meet in every window.
+// out[i] = largest of line[i .. i + count - 1], round and round (van Herk 1992, Gil and Werman
+// 1993): the largest from the start of a block of `count` and to the end of one meet in every
+// window.
 void sliding_largest(std::vector<float>& line, std::size_t count)
 {
     const std::size_t length = line.size();
@@ -28,18 +29,20 @@ void sliding_largest(std::vector<float>& line, std::size_t count)
     }
     for (std::size_t i = padded; i-- > 0;) {
         const float value = line[i % length];
-        backward[i] = i + 1 == padded || (i + 1) % count == 0 ? value : std::max(backward[i + 1], value);
+        backward[i] =
+            i + 1 == padded || (i + 1) % count == 0 ? value : std::max(backward[i + 1], value);
     }
-    for (std::size_t i = 0; i < length; ++i) line[i] = std::max(backward[i], forward[i + count - 1]);
+    for (std::size_t i = 0; i < length; ++i)
+        line[i] = std::max(backward[i], forward[i + count - 1]);
 }
 
 struct Step {
     int x, y;
 };
 
-// Slides a window of `count` texels along a direction over every closed line of the torus, and moves
-// the result back by `shift` texels of that direction, so that a window of odd length is centred.
-// Lines start on row 0; diagonals close after lcm(width, height) texels.
+// Slides a window of `count` texels along a direction over every closed line of the torus, and
+// moves the result back by `shift` texels of that direction, so that a window of odd length is
+// centred. Lines start on row 0; diagonals close after lcm(width, height) texels.
 void slide(Image& map, Step step, std::size_t count, int shift, int threads)
 {
     if (count <= 1 && shift == 0) return;
@@ -52,7 +55,9 @@ void slide(Image& map, Step step, std::size_t count, int shift, int threads)
         const auto walk = [&](const auto& visit) {
             int x = row ? 0 : static_cast<int>(number), y = row ? static_cast<int>(number) : 0;
             for (std::size_t i = 0; i < length; ++i) {
-                visit(map.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)], i);
+                visit(map.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
+                                 static_cast<std::size_t>(x)],
+                      i);
                 x += step.x;
                 y += step.y;
                 x = x >= w ? x - w : x < 0 ? x + w : x;
@@ -92,8 +97,8 @@ Image extreme_within(const Image& map, int radius, float sign, int threads)
     slide(out, {1, 0}, side, square, threads);
     slide(out, {0, 1}, side, square, threads);
     if (diamond > 0) {
-        // A diamond of radius b is two diagonal segments of b texels and a unit diamond. The segments
-        // start at the texel and reach to (2 b - 2, 0): the row is moved back by b - 1.
+        // A diamond of radius b is two diagonal segments of b texels and a unit diamond. The
+        // segments start at the texel and reach to (2 b - 2, 0): the row is moved back by b - 1.
         const std::size_t segment = static_cast<std::size_t>(diamond);
         slide(out, {1, 1}, segment, 0, threads);
         slide(out, {1, -1}, segment, 0, threads);

@@ -29,13 +29,16 @@ using nlohmann::ordered_json;
 /// Part of every key: raise it when the bytes of an output change for the same input.
 constexpr int kEncoder = 1;
 
-std::string program() { return "petrichor " PETRICHOR_VERSION " encoder " + std::to_string(kEncoder); }
+std::string program()
+{
+    return "petrichor " PETRICHOR_VERSION " encoder " + std::to_string(kEncoder);
+}
 
 // Sources, options and program decide the outputs, and so the key.
 std::string key_of(const PlannedMaterial& material, BuildState& state)
 {
-    std::string text = program() + "\n" + material.name + "\n" + options_text(*material.recipe) + "green " +
-                       std::to_string(static_cast<int>(material.files.green)) + "\n";
+    std::string text = program() + "\n" + material.name + "\n" + options_text(*material.recipe) +
+                       "green " + std::to_string(static_cast<int>(material.files.green)) + "\n";
     for (const auto& [role, map] : material.files.inputs) {
         text += role + " " + state.hash_of(map.path) + " " + map.channels + "\n";
     }
@@ -44,20 +47,25 @@ std::string key_of(const PlannedMaterial& material, BuildState& state)
 
 ordered_json error_json(const texproc::RangeScore& range)
 {
-    return {{"levels", range.levels}, {"plain", range.plain}, {"best_isotropic", range.best},
+    return {{"levels", range.levels},
+            {"plain", range.plain},
+            {"best_isotropic", range.best},
             {"shipped", range.tested}};
 }
 
-std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& made, BuildState& state,
-                           const fs::path& out)
+std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& made,
+                           BuildState& state, const fs::path& out)
 {
     ordered_json entry{{"name", material.name}};
     for (const MadeSource& source : made.sources) {
         const InputMap& map = material.files.inputs.at(source.role);
-        entry["sources"].push_back({{"role", source.role}, {"file", map.path.filename().string()},
+        entry["sources"].push_back({{"role", source.role},
+                                    {"file", map.path.filename().string()},
                                     {"part", map.channels.empty() ? "all" : map.channels},
-                                    {"sha256", state.hash_of(map.path)}, {"width", source.width},
-                                    {"height", source.height}, {"channels", source.channels},
+                                    {"sha256", state.hash_of(map.path)},
+                                    {"width", source.width},
+                                    {"height", source.height},
+                                    {"channels", source.channels},
                                     {"bits", source.bits}});
     }
     if (!made.green.empty()) entry["normal_green"] = made.green;
@@ -65,13 +73,18 @@ std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& 
     entry["options"] = options_text(*material.recipe);
     for (std::size_t i = 0; i < made.outputs.size(); ++i) {
         const OutputRule& rule = material.outputs[i].rule;
-        ordered_json output{{"format", rule.format}, {"compression", rule.compression},
-                            {"bits", rule.bits}, {"srgb", rule.srgb()},
-                            {"channels", rule.channels.channels}, {"width", made.outputs[i].width},
-                            {"height", made.outputs[i].height}, {"levels", made.outputs[i].levels},
+        ordered_json output{{"format", rule.format},
+                            {"compression", rule.compression},
+                            {"bits", rule.bits},
+                            {"srgb", rule.srgb()},
+                            {"channels", rule.channels.channels},
+                            {"width", made.outputs[i].width},
+                            {"height", made.outputs[i].height},
+                            {"levels", made.outputs[i].levels},
                             {"prefiltered", material.outputs[i].prefiltered}};
         for (const std::string& file : made.outputs[i].files) {
-            output["files"].push_back({{"file", file}, {"bytes", fs::file_size(out / file)},
+            output["files"].push_back({{"file", file},
+                                       {"bytes", fs::file_size(out / file)},
                                        {"sha256", state.hash_of(out / file)}});
         }
         entry["outputs"].push_back(output);

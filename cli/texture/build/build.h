@@ -18,13 +18,13 @@ struct BuildOptions {
 
 struct BuildResult {
     int built = 0, current = 0;
-    int files = 0;                     ///< written
-    std::vector<std::string> failures; ///< "material: problem\n  fix"
-    bool stopped = false;              ///< Ctrl-C: materials that were begun are finished
+    int files = 0;                      ///< written
+    std::vector<std::string> failures;  ///< "material: problem\n  fix"
+    bool stopped = false;               ///< Ctrl-C: materials that were begun are finished
 };
 
-/// Makes what is not up to date, materials side by side. A material's files appear together or not at
-/// all; one that fails leaves its old files and does not keep the others from being made. Writes
+/// Makes what is not up to date, materials side by side. A material's files appear together or not
+/// at all; one that fails leaves its old files and does not keep the others from being made. Writes
 /// OUT/manifest.json. dry_run: prints what would be done. Throws Error when OUT cannot be written.
 BuildResult build(const std::vector<PlannedMaterial>& plan, const BuildOptions& options);
 

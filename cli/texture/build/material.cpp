@@ -47,14 +47,16 @@ RawImage channels_of(const RawImage& image, const InputMap& map)
     for (const char letter : map.channels) {
         const int channel = static_cast<int>(std::string("rgba").find(letter));
         if (channel >= image.channels) {
-            throw Error("texture build: " + map.path.string() + " has " + std::to_string(image.channels) +
-                            " channels, '" + letter + "' is not one of them",
+            throw Error("texture build: " + map.path.string() + " has " +
+                            std::to_string(image.channels) + " channels, '" + letter +
+                            "' is not one of them",
                         "Choose a channel that is there.");
         }
         preset.channels.push_back(std::string("map.") + letter);
     }
     if (preset.channels.size() == 1) {
-        return texproc::channel_of(image, static_cast<int>(std::string("rgba").find(map.channels[0])));
+        return texproc::channel_of(image,
+                                   static_cast<int>(std::string("rgba").find(map.channels[0])));
     }
     return texproc::pack(preset, {{"map", image}}, bits_of(image), 1);
 }
@@ -76,12 +78,16 @@ void turn_green(RawImage& normal)
     normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
 }
 
-std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+std::string percent(double share)
+{
+    return std::to_string(std::lround(100.0 * share)) + " %";
+}
 
 // Everything that the outputs of one material draw from.
 class Maps {
 public:
-    Maps(const PlannedMaterial& plan, int threads) : plan_(plan), recipe_(*plan.recipe), threads_(threads)
+    Maps(const PlannedMaterial& plan, int threads)
+        : plan_(plan), recipe_(*plan.recipe), threads_(threads)
     {
         read();
         orient_normal();
@@ -95,8 +101,8 @@ public:
     std::optional<texproc::Score> lobe_error() const { return score_; }
 
     /// All levels of one role in the numbers of a file, from `first` to `last`.
-    std::vector<RawImage> levels(const std::string& role, const PlannedOutput& output, PixelType type,
-                                 std::size_t first, std::size_t last) const;
+    std::vector<RawImage> levels(const std::string& role, const PlannedOutput& output,
+                                 PixelType type, std::size_t first, std::size_t last) const;
 
     /// Throws Error that names two files of different sizes among the maps of an output.
     void check_sizes(const PlannedOutput& output) const;
@@ -140,13 +146,16 @@ bool Maps::wanted(const std::string& role) const
         return std::find(plan_.baked.begin(), plan_.baked.end(), name) != plan_.baked.end();
     };
     for (const PlannedOutput& output : plan_.outputs) {
-        if (std::find(output.roles.begin(), output.roles.end(), role) != output.roles.end()) return true;
-        if (output.prefiltered && (role == "normal" || role == "roughness" || role == "smoothness")) return true;
+        if (std::find(output.roles.begin(), output.roles.end(), role) != output.roles.end())
+            return true;
+        if (output.prefiltered && (role == "normal" || role == "roughness" || role == "smoothness"))
+            return true;
     }
     if (role == "roughness" || role == "smoothness" || role == "metallic") return baked("porosity");
     if (role == "normal") return baked("height");
     if (role == "height") {
-        return baked("puddle") || baked("crack") || baked("cavity") || baked("occlusion") || baked("normal");
+        return baked("puddle") || baked("crack") || baked("cavity") || baked("occlusion") ||
+               baked("normal");
     }
     return false;
 }
@@ -156,7 +165,8 @@ void Maps::read()
     std::vector<std::string> names;  // a packed file is read once
     for (const auto& [role, map] : plan_.files.inputs) {
         const std::string name = map.path.string();
-        if (wanted(role) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (wanted(role) && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
     }
     const std::vector<RawImage> images = read_maps(names, {}, threads_);
     for (const auto& [role, map] : plan_.files.inputs) {
@@ -178,8 +188,9 @@ void Maps::orient_normal()
     RawImage& normal = at->second;
     const texproc::NormalLayout layout = texproc::normal_layout(recipe_.layout);
     if (layout != texproc::NormalLayout::Rgb) {
-        normal = texproc::to_raw(texproc::from_layout(texproc::to_image(normal, ColorSpace::Data), layout),
-                                 normal.type == PixelType::U8 ? PixelType::U16 : normal.type);
+        normal = texproc::to_raw(
+            texproc::from_layout(texproc::to_image(normal, ColorSpace::Data), layout),
+            normal.type == PixelType::U8 ? PixelType::U16 : normal.type);
     }
     if (normal.channels < 3) {
         throw Error("texture build: the normal map " + file_of("normal") + " has " +
@@ -190,7 +201,8 @@ void Maps::orient_normal()
     green_ = green == Green::Down ? "down, turned" : "up";
     if (green == Green::Auto) {
         const RawImage* height = find("height");
-        const bool same = height && height->width == normal.width && height->height == normal.height;
+        const bool same =
+            height && height->width == normal.width && height->height == normal.height;
         Image rgb = texproc::to_image(normal, ColorSpace::Data);
         if (rgb.channels > 3) {
             rgb = texproc::from_layout(rgb, texproc::NormalLayout::Rgb);
@@ -221,7 +233,8 @@ void Maps::bake()
         if (normal.channels > 3) normal = texproc::from_layout(normal, texproc::NormalLayout::Rgb);
         put("height", texproc::height_from_normal(normal).height);
     }
-    if (missing("normal")) put("normal", texproc::normal_from_height(data("height"), {.depth = options.depth}));
+    if (missing("normal"))
+        put("normal", texproc::normal_from_height(data("height"), {.depth = options.depth}));
     if (missing("occlusion")) put("occlusion", texproc::ambient_occlusion(data("height"), options));
     if (missing("cavity")) put("cavity", texproc::cavity(data("height"), options));
     if (missing("puddle")) put("puddle", texproc::puddles(data("height"), options).depth);
@@ -252,8 +265,8 @@ void Maps::prefilter()
     const RawImage& normal = base_.at("normal");
     const RawImage& rough = base_.at(role);
     if (normal.width != rough.width || normal.height != rough.height) {
-        throw Error("texture build: " + file_of("normal") + " is " + std::to_string(normal.width) + " x " +
-                        std::to_string(normal.height) + ", " + file_of(role) + " is " +
+        throw Error("texture build: " + file_of("normal") + " is " + std::to_string(normal.width) +
+                        " x " + std::to_string(normal.height) + ", " + file_of(role) + " is " +
                         std::to_string(rough.width) + " x " + std::to_string(rough.height),
                     "Resample one of them: both must have the same size.");
     }
@@ -283,15 +296,16 @@ void Maps::check_sizes(const PlannedOutput& output) const
     for (const std::string& role : output.roles) {
         const RawImage &a = base_.at(first), &b = base_.at(role);
         if (a.width == b.width && a.height == b.height) continue;
-        throw Error("texture build: " + output.file() + " needs maps of one size: " + file_of(first) + " is " +
-                        std::to_string(a.width) + " x " + std::to_string(a.height) + ", " + file_of(role) +
-                        " is " + std::to_string(b.width) + " x " + std::to_string(b.height),
-                    "Resample one of them.");
+        throw Error(
+            "texture build: " + output.file() + " needs maps of one size: " + file_of(first) +
+                " is " + std::to_string(a.width) + " x " + std::to_string(a.height) + ", " +
+                file_of(role) + " is " + std::to_string(b.width) + " x " + std::to_string(b.height),
+            "Resample one of them.");
     }
 }
 
-std::vector<RawImage> Maps::levels(const std::string& role, const PlannedOutput& output, PixelType type,
-                                   std::size_t first, std::size_t last) const
+std::vector<RawImage> Maps::levels(const std::string& role, const PlannedOutput& output,
+                                   PixelType type, std::size_t first, std::size_t last) const
 {
     const RawImage& raw = base_.at(role);
     const bool color = is_color(role) && output.rule.srgb();
@@ -318,7 +332,8 @@ std::vector<RawImage> Maps::levels(const std::string& role, const PlannedOutput&
     options.threads = threads_;
     if (raw.channels != 4 || role != "albedo") options.alpha_cutoff = -1.0f;
     chain = texproc::mip_chain(texproc::to_image(raw, space), options);
-    for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k) levels.push_back(coded(chain[k]));
+    for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k)
+        levels.push_back(coded(chain[k]));
     return levels;
 }
 
@@ -326,7 +341,8 @@ std::vector<RawImage> Maps::levels(const std::string& role, const PlannedOutput&
 std::size_t first_level(const std::vector<texproc::LevelSize>& sizes, int size)
 {
     std::size_t k = 0;
-    while (size > 0 && k + 1 < sizes.size() && std::max(sizes[k].width, sizes[k].height) > size) ++k;
+    while (size > 0 && k + 1 < sizes.size() && std::max(sizes[k].width, sizes[k].height) > size)
+        ++k;
     return k;
 }
 
@@ -336,8 +352,8 @@ PixelType working_type(const OutputRule& rule)
     return rule.bits == 16 ? PixelType::U16 : PixelType::U8;
 }
 
-MadeOutput make_output(const Maps& maps, const PlannedOutput& output, const std::filesystem::path& folder,
-                       int threads)
+MadeOutput make_output(const Maps& maps, const PlannedOutput& output,
+                       const std::filesystem::path& folder, int threads)
 {
     maps.check_sizes(output);
     const RawImage& like = maps.base().at(output.roles.front());
@@ -366,7 +382,8 @@ MadeOutput make_output(const Maps& maps, const PlannedOutput& output, const std:
 
 }  // namespace
 
-MadeMaterial make_material(const PlannedMaterial& material, const std::filesystem::path& folder, int threads)
+MadeMaterial make_material(const PlannedMaterial& material, const std::filesystem::path& folder,
+                           int threads)
 {
     const Maps maps(material, threads);
     MadeMaterial made;

@@ -22,12 +22,12 @@ struct MadeOutput {
 struct MadeMaterial {
     std::vector<MadeSource> sources;  ///< the maps that were read
     std::vector<MadeOutput> outputs;  ///< in the order of the plan
-    std::string green;                ///< what was done to the normal map: "up", "down, turned, ..."
+    std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
     std::optional<texproc::Score> lobe_error;
 };
 
-/// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread count.
-/// Throws Error that names the file at fault.
+/// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread
+/// count. Throws Error that names the file at fault.
 MadeMaterial make_material(const PlannedMaterial& material, const std::filesystem::path& folder,
                            int threads);
 

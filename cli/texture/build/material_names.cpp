@@ -24,12 +24,28 @@ const std::vector<Phrase>& phrases()
 {
     static const std::vector<Phrase> all = [] {
         std::vector<Phrase> list;
-        const auto add = [&](const std::string& role, const std::vector<std::vector<std::string>>& names) {
+        const auto add = [&](const std::string& role,
+                             const std::vector<std::vector<std::string>>& names) {
             for (const auto& words : names) list.push_back({words, {{role, ""}}});
         };
-        add("albedo", {{"albedo"}, {"base", "color"}, {"basecolor"}, {"base", "colour"}, {"color"},
-                       {"colour"}, {"col"}, {"diff"}, {"diffuse"}, {"alb"}, {"base", "map"}});
-        add("normal", {{"normal"}, {"normals"}, {"nor"}, {"nrm"}, {"norm"}, {"lux", "nrm"}, {"normal", "map"}});
+        add("albedo", {{"albedo"},
+                       {"base", "color"},
+                       {"basecolor"},
+                       {"base", "colour"},
+                       {"color"},
+                       {"colour"},
+                       {"col"},
+                       {"diff"},
+                       {"diffuse"},
+                       {"alb"},
+                       {"base", "map"}});
+        add("normal", {{"normal"},
+                       {"normals"},
+                       {"nor"},
+                       {"nrm"},
+                       {"norm"},
+                       {"lux", "nrm"},
+                       {"normal", "map"}});
         for (const char* normal : {"normal", "nor", "nrm"}) {
             for (const char* gl : {"gl", "ogl", "opengl"}) {
                 list.push_back({{normal, gl}, {{"normal", ""}}, Green::Up});
@@ -43,8 +59,8 @@ const std::vector<Phrase>& phrases()
         add("roughness", {{"roughness"}, {"rough"}, {"rgh"}});
         add("smoothness", {{"smoothness"}, {"smooth"}, {"gloss"}, {"glossiness"}});
         add("height", {{"height"}, {"displacement"}, {"disp"}, {"bump"}, {"height", "map"}});
-        add("occlusion", {{"ao"}, {"occlusion"}, {"occ"}, {"ambient", "occlusion"},
-                          {"ambientocclusion"}});
+        add("occlusion",
+            {{"ao"}, {"occlusion"}, {"occ"}, {"ambient", "occlusion"}, {"ambientocclusion"}});
         add("metallic", {{"metallic"}, {"metalness"}, {"metal"}});
         add("specular", {{"specular"}, {"spec"}});
         add("emission", {{"emission"}, {"emissive"}, {"emit"}});
@@ -58,8 +74,9 @@ const std::vector<Phrase>& phrases()
         list.push_back({{"orm"}, orm});
         list.push_back({{"rma"}, {{"roughness", "r"}, {"metallic", "g"}, {"occlusion", "b"}}});
         list.push_back({{"mra"}, {{"metallic", "r"}, {"roughness", "g"}, {"occlusion", "b"}}});
-        list.push_back({{"mask", "map"},
-                        {{"metallic", "r"}, {"occlusion", "g"}, {"detail", "b"}, {"smoothness", "a"}}});
+        list.push_back(
+            {{"mask", "map"},
+             {{"metallic", "r"}, {"occlusion", "g"}, {"detail", "b"}, {"smoothness", "a"}}});
         list.push_back({{"metallic", "smoothness"}, {{"metallic", "r"}, {"smoothness", "a"}}});
         list.push_back({{"specular", "smoothness"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
         list.push_back({{"lux", "spec"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
@@ -76,9 +93,18 @@ struct Word {
     std::size_t begin, end;
 };
 
-bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
-bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
+bool is_letter_or_digit(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+bool is_upper(char c)
+{
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+bool is_lower(char c)
+{
+    return std::islower(static_cast<unsigned char>(c)) != 0;
+}
 
 // Splits at everything that is no letter or digit, and where a capital follows a small letter.
 std::vector<Word> words_of(const std::string& stem)
@@ -133,8 +159,9 @@ int rank_of(const fs::path& path)
 
 bool is_image(const fs::path& path)
 {
-    static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".exr",
-                                             ".hdr", ".psd", ".bmp",  ".webp", ".dds", ".ktx2"};
+    static const std::set<std::string> known{".png",  ".jpg", ".jpeg", ".tga", ".tif",
+                                             ".tiff", ".exr", ".hdr",  ".psd", ".bmp",
+                                             ".webp", ".dds", ".ktx2"};
     std::string extension = path.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return known.count(extension) != 0;
@@ -147,7 +174,8 @@ struct Candidate {
     Green green;
     auto order() const
     {
-        return std::tuple(map.channels.size() == 1, green == Green::Down, rank_of(map.path), map.path);
+        return std::tuple(map.channels.size() == 1, green == Green::Down, rank_of(map.path),
+                          map.path);
     }
 };
 
@@ -169,9 +197,10 @@ InputMap parse_input_map(const std::string& text)
 
 const std::vector<std::string>& map_roles()
 {
-    static const std::vector<std::string> roles{
-        "albedo", "normal",   "height", "roughness", "smoothness", "metallic", "occlusion", "specular",
-        "detail", "porosity", "puddle", "crack",     "flow",       "cavity",   "emission",  "opacity"};
+    static const std::vector<std::string> roles{"albedo",     "normal",   "height",    "roughness",
+                                                "smoothness", "metallic", "occlusion", "specular",
+                                                "detail",     "porosity", "puddle",    "crack",
+                                                "flow",       "cavity",   "emission",  "opacity"};
     return roles;
 }
 
@@ -182,8 +211,10 @@ NamedMaps maps_named(const std::string& stem)
     std::size_t best_at = 0;
     for (const Phrase& phrase : phrases()) {
         for (std::size_t at = 0; at + phrase.words.size() <= words.size(); ++at) {
-            const bool here = std::equal(phrase.words.begin(), phrase.words.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
-                                         [](const std::string& a, const Word& b) { return a == b.text; });
+            const bool here =
+                std::equal(phrase.words.begin(), phrase.words.end(),
+                           words.begin() + static_cast<std::ptrdiff_t>(at),
+                           [](const std::string& a, const Word& b) { return a == b.text; });
             if (!here) continue;
             const std::size_t longest = best ? best->words.size() : 0;
             const std::size_t end = at + phrase.words.size();
@@ -217,10 +248,12 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
                     "Name a folder with maps, or a recipe (.toml).");
     }
     std::map<std::pair<fs::path, std::string>, Group> groups;  // folder and name
-    fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, failed);
+    fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied,
+                                          failed);
     if (failed) {
-        throw Error("texture build: cannot read the folder " + folder.string() + ": " + failed.message(),
-                    "Make it readable, or name another.");
+        throw Error(
+            "texture build: cannot read the folder " + folder.string() + ": " + failed.message(),
+            "Make it readable, or name another.");
     }
     for (const fs::directory_entry& entry : walk) {
         const fs::path& path = entry.path();
@@ -238,8 +271,9 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
         }
     }
     if (groups.empty()) {
-        throw Error("texture build: no map in " + folder.string() + " has a name that says what it is",
-                    "Name them as X_albedo.png, X_normal.png, X_roughness.png, ..., or write a recipe.");
+        throw Error(
+            "texture build: no map in " + folder.string() + " has a name that says what it is",
+            "Name them as X_albedo.png, X_normal.png, X_roughness.png, ..., or write a recipe.");
     }
     std::map<std::pair<fs::path, std::string>, int> uses;
     for (const auto& [key, group] : groups) ++uses[{key.first, group.short_name}];
@@ -259,9 +293,9 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
             material.inputs[role] = candidates.front().map;
             if (role == "normal") material.green = candidates.front().green;
             for (std::size_t i = 1; i < candidates.size(); ++i) {
-                material.notes.push_back(candidates[i].map.path.filename().string() + " is left out: " +
-                                         candidates.front().map.path.filename().string() + " is the " +
-                                         role + " map");
+                material.notes.push_back(
+                    candidates[i].map.path.filename().string() + " is left out: " +
+                    candidates.front().map.path.filename().string() + " is the " + role + " map");
             }
         }
         found.push_back(std::move(material));

@@ -32,16 +32,16 @@ struct MaterialFiles {
 /// nothing. `wall_nor_gl_2k` is the normal map of `wall`, `Wall_LuxSPEC` its specular colour and
 /// smoothness, `wall_arm` three maps at once.
 struct NamedMaps {
-    std::string material;    ///< the rest of the name
-    std::string short_name;  ///< the same without marks of resolution and format
+    std::string material;                      ///< the rest of the name
+    std::string short_name;                    ///< the same without marks of resolution and format
     std::map<std::string, std::string> roles;  ///< role -> channels
     Green green = Green::Auto;
 };
 NamedMaps maps_named(const std::string& stem);
 
-/// All materials below a folder, sorted by folder and name, by the names that ambientCG, Poly Haven,
-/// Lux and most tools give their maps. Throws Error when there is no such folder or nothing in it
-/// can be recognised.
+/// All materials below a folder, sorted by folder and name, by the names that ambientCG, Poly
+/// Haven, Lux and most tools give their maps. Throws Error when there is no such folder or nothing
+/// in it can be recognised.
 std::vector<MaterialFiles> find_materials(const std::filesystem::path& folder);
 
 /// The roles that maps can have, for messages and completion.

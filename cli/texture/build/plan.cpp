@@ -49,7 +49,8 @@ std::optional<PlannedOutput> planned(const OutputRule& rule, const PlannedMateri
     }
     if (out.roles.empty()) return std::nullopt;
     const auto& inputs = material.files.inputs;
-    const bool pair = inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"));
+    const bool pair =
+        inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"));
     out.prefiltered = rule.prefilter && recipe.rule != "none" && pair &&
                       (rule.has_levels() || rule.size > 0) &&
                       (contains(out.roles, "roughness") || contains(out.roles, "smoothness") ||
@@ -62,8 +63,8 @@ void check_files(const PlannedMaterial& material)
     for (const auto& [role, map] : material.files.inputs) {
         std::error_code failed;
         if (fs::is_regular_file(map.path, failed)) continue;
-        throw Error("texture build: " + material.name + ": its " + role + " map " + map.path.string() +
-                        " does not exist",
+        throw Error("texture build: " + material.name + ": its " + role + " map " +
+                        map.path.string() + " does not exist",
                     "Correct the path in " +
                         (material.recipe->file.empty() ? std::string("the recipe")
                                                        : material.recipe->file.string()) +
@@ -71,7 +72,8 @@ void check_files(const PlannedMaterial& material)
     }
 }
 
-PlannedMaterial plan_material(const MaterialFiles& files, const std::shared_ptr<const Recipe>& recipe)
+PlannedMaterial plan_material(const MaterialFiles& files,
+                              const std::shared_ptr<const Recipe>& recipe)
 {
     PlannedMaterial material;
     material.files = files;
@@ -140,8 +142,8 @@ void check_names(const std::vector<PlannedMaterial>& plan)
         for (const PlannedOutput& output : material.outputs) {
             const auto [at, fresh] = owner.emplace(output.file(), material.name);
             if (fresh) continue;
-            throw Error("texture build: " + output.file() + " would be written twice, for " + at->second +
-                            " and for " + material.name,
+            throw Error("texture build: " + output.file() + " would be written twice, for " +
+                            at->second + " and for " + material.name,
                         "Give the outputs or the materials different names.");
         }
     }
@@ -149,7 +151,8 @@ void check_names(const std::vector<PlannedMaterial>& plan)
 
 }  // namespace
 
-std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs, const BuildChoice& choice)
+std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs,
+                                        const BuildChoice& choice)
 {
     std::vector<PlannedMaterial> plan;
     for (const fs::path& input : inputs) {
@@ -161,9 +164,10 @@ std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs, con
         }
         apply(choice, recipe);
         if (recipe.outputs.empty()) {
-            throw Error("texture build: " + input.string() + ": nothing says what to make",
-                        "Give --engine NAME (see --list), or write engines = [\"...\"] or [[output]] "
-                        "into a recipe.");
+            throw Error(
+                "texture build: " + input.string() + ": nothing says what to make",
+                "Give --engine NAME (see --list), or write engines = [\"...\"] or [[output]] "
+                "into a recipe.");
         }
         const auto shared = std::make_shared<const Recipe>(recipe);
         for (const MaterialFiles& files : materials_of(recipe)) {
@@ -175,8 +179,9 @@ std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs, con
             if (!material.outputs.empty()) plan.push_back(std::move(material));
         }
         if (plan.empty()) {
-            throw Error("texture build: no material in " + input.string() + " has maps for these outputs",
-                        "Choose another engine or other outputs.");
+            throw Error(
+                "texture build: no material in " + input.string() + " has maps for these outputs",
+                "Choose another engine or other outputs.");
         }
     }
     check_names(plan);
@@ -187,8 +192,10 @@ std::string to_text(const PlannedMaterial& material)
 {
     std::string text = material.name + "\n";
     for (const auto& [role, map] : material.files.inputs) {
-        text += "  " + role + std::string(std::max<std::size_t>(1, 12 - role.size()), ' ') + map.text();
-        if (role == "normal" && material.files.green == Green::Down) text += "  (green down: turned)";
+        text +=
+            "  " + role + std::string(std::max<std::size_t>(1, 12 - role.size()), ' ') + map.text();
+        if (role == "normal" && material.files.green == Green::Down)
+            text += "  (green down: turned)";
         text += "\n";
     }
     if (!material.baked.empty()) text += "  baked       " + join_words(material.baked) + "\n";
@@ -196,13 +203,16 @@ std::string to_text(const PlannedMaterial& material)
     for (const PlannedOutput& output : material.outputs) {
         const OutputRule& rule = output.rule;
         text += "  -> " + output.file() + "  " + std::to_string(rule.bits) + " bits" +
-                (rule.srgb() ? " sRGB" : "") + (rule.compression == "none" ? "" : " " + rule.compression) +
-                (rule.has_levels() ? " mips" : "") + (output.prefiltered ? " prefiltered" : "") + "\n";
+                (rule.srgb() ? " sRGB" : "") +
+                (rule.compression == "none" ? "" : " " + rule.compression) +
+                (rule.has_levels() ? " mips" : "") + (output.prefiltered ? " prefiltered" : "") +
+                "\n";
         for (std::size_t c = 0; c < rule.channels.channels.size(); ++c) {
             text += std::string("       ") + "RGBA"[c] + " = " + rule.channels.channels[c] + "\n";
         }
     }
-    for (const std::string& file : material.left_out) text += "  left out    " + file + ": its maps are not there\n";
+    for (const std::string& file : material.left_out)
+        text += "  left out    " + file + ": its maps are not there\n";
     return text;
 }
 

@@ -39,8 +39,9 @@ OutputRule read_output(const TomlValue& table, const fs::path& folder)
     OutputRule out;
     bool named = false;
     std::optional<bool> srgb;
-    const auto entries = table.entries({"file", "preset", "channels", "srgb", "format", "compression",
-                                        "bits", "mips", "level_files", "size", "prefilter"});
+    const auto entries =
+        table.entries({"file", "preset", "channels", "srgb", "format", "compression", "bits",
+                       "mips", "level_files", "size", "prefilter"});
     for (const auto& [key, value] : entries) {
         if (key == "file") {
             out.file = value.text();
@@ -57,7 +58,8 @@ OutputRule read_output(const TomlValue& table, const fs::path& folder)
             for (const std::string& c : out.channels.channels) texproc::parse_pack_channel(c);
         }
         if (key == "srgb") srgb = value.boolean();
-        if (key == "format") out.format = kFormats[static_cast<std::size_t>(value.choice(kFormats))];
+        if (key == "format")
+            out.format = kFormats[static_cast<std::size_t>(value.choice(kFormats))];
         if (key == "compression") {
             out.compression = kCompressions[static_cast<std::size_t>(value.choice(kCompressions))];
         }
@@ -77,7 +79,8 @@ OutputRule read_output(const TomlValue& table, const fs::path& folder)
     };
     if (!named) wrong("has no file", "Write file = \"{name}_mask\" or the like.");
     if (out.channels.channels.empty()) {
-        wrong("has no channels", "Write preset = \"unity-hdrp-mask\", or channels = [\"metallic | 0\", ...].");
+        wrong("has no channels",
+              "Write preset = \"unity-hdrp-mask\", or channels = [\"metallic | 0\", ...].");
     }
     const bool container = out.format == "dds" || out.format == "ktx2";
     if (out.compression != "none" && !container) {
@@ -89,8 +92,10 @@ OutputRule read_output(const TomlValue& table, const fs::path& folder)
               "Leave bits out: block compression holds 8.");
     }
     if (out.format == "exr" && out.bits == 8) out.bits = 16;
-    if (out.bits == 32 && out.format != "exr") wrong("asks for 32 bits", "Only exr holds them; use 8 or 16.");
-    if (out.bits == 16 && out.format == "tga") wrong("asks for 16 bits in a tga file", "Use png, tif or 8 bits.");
+    if (out.bits == 32 && out.format != "exr")
+        wrong("asks for 32 bits", "Only exr holds them; use 8 or 16.");
+    if (out.bits == 16 && out.format == "tga")
+        wrong("asks for 16 bits in a tga file", "Use png, tif or 8 bits.");
     return out;
 }
 
@@ -141,8 +146,8 @@ void read_mips(const TomlValue& table, texproc::MipOptions& mips)
 
 void read_bake(const TomlValue& table, Recipe& recipe)
 {
-    static const std::vector<std::string> kRoles{"occlusion", "cavity", "porosity", "puddle", "crack",
-                                                 "height", "normal"};
+    static const std::vector<std::string> kRoles{"occlusion", "cavity", "porosity", "puddle",
+                                                 "crack",     "height", "normal"};
     for (const auto& [key, value] : table.entries({"roles", "depth", "reach"})) {
         if (key == "depth") recipe.baking.depth = static_cast<float>(value.number(1e-4, 10.0));
         if (key == "reach") recipe.baking.reach = static_cast<float>(value.number(1e-4, 0.5));
@@ -168,7 +173,8 @@ Recipe recipe_from(const fs::path& file)
         if (key == "inputs") read_inputs(value, folder, recipe);
         if (key == "normal") {
             for (const auto& [name, v] : value.entries({"green", "layout"})) {
-                if (name == "green") recipe.green = static_cast<Green>(v.choice({"auto", "up", "down"}));
+                if (name == "green")
+                    recipe.green = static_cast<Green>(v.choice({"auto", "up", "down"}));
                 if (name == "layout") recipe.layout = v.text();
             }
             texproc::normal_layout(recipe.layout);
@@ -193,9 +199,10 @@ Recipe read_recipe(const fs::path& file)
     } catch (const Error& wrong) {
         // The reader's advice is about scenarios.
         const bool scenario = wrong.fix().find("petrichor init") != std::string::npos;
-        throw Error(wrong.what(), scenario ? "Correct this line; `petrichor texture build --help` shows "
-                                             "a recipe."
-                                           : wrong.fix());
+        throw Error(wrong.what(), scenario
+                                      ? "Correct this line; `petrichor texture build --help` shows "
+                                        "a recipe."
+                                      : wrong.fix());
     }
     if (recipe.inputs.empty() == recipe.folder.empty()) {
         throw Error(file.string() + (recipe.inputs.empty() ? ": it names no maps"
@@ -248,7 +255,8 @@ std::vector<EngineInfo> engines()
 
 std::string options_text(const OutputRule& output)
 {
-    std::string text = output.folder + "/" + output.file + "." + output.format + " [" + join_words(output.channels.channels) + "]";
+    std::string text = output.folder + "/" + output.file + "." + output.format + " [" +
+                       join_words(output.channels.channels) + "]";
     text += output.srgb() ? " srgb" : " linear";
     text += " " + std::to_string(output.bits) + " bits";
     if (output.compression != "none") text += " " + output.compression;
@@ -262,18 +270,16 @@ std::string options_text(const OutputRule& output)
 std::string options_text(const Recipe& recipe)
 {
     const texproc::MipOptions& m = recipe.mips;
-    std::string text = "green " + std::to_string(static_cast<int>(recipe.green)) + ", layout " +
-                       recipe.layout + "\nprefilter " + recipe.rule +
-                       (recipe.quick ? " quick" : " full") + " light " +
-                       number_text(static_cast<double>(recipe.design_light)) +
-                       (recipe.score ? " scored" : "") + "\nmips " +
-                       kFilters[static_cast<std::size_t>(m.filter)] + " wrap " +
-                       std::to_string(m.wrap_u) + std::to_string(m.wrap_v) + " mirror " +
-                       std::to_string(m.mirror_u) + std::to_string(m.mirror_v) + " cutoff " +
-                       number_text(static_cast<double>(m.alpha_cutoff)) + "\nbake " +
-                       join_words(recipe.bake) + " depth " +
-                       number_text(static_cast<double>(recipe.baking.depth)) + " reach " +
-                       number_text(static_cast<double>(recipe.baking.reach)) + "\n";
+    std::string text =
+        "green " + std::to_string(static_cast<int>(recipe.green)) + ", layout " + recipe.layout +
+        "\nprefilter " + recipe.rule + (recipe.quick ? " quick" : " full") + " light " +
+        number_text(static_cast<double>(recipe.design_light)) + (recipe.score ? " scored" : "") +
+        "\nmips " + kFilters[static_cast<std::size_t>(m.filter)] + " wrap " +
+        std::to_string(m.wrap_u) + std::to_string(m.wrap_v) + " mirror " +
+        std::to_string(m.mirror_u) + std::to_string(m.mirror_v) + " cutoff " +
+        number_text(static_cast<double>(m.alpha_cutoff)) + "\nbake " + join_words(recipe.bake) +
+        " depth " + number_text(static_cast<double>(recipe.baking.depth)) + " reach " +
+        number_text(static_cast<double>(recipe.baking.reach)) + "\n";
     for (const OutputRule& output : recipe.outputs) text += options_text(output) + "\n";
     return text;
 }

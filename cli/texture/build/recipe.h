@@ -18,23 +18,27 @@ namespace petrichor::cli {
 struct OutputRule {
     std::string folder;           ///< below the output folder: the engine, where there are several
     std::string file = "{name}";  ///< without extension; {name} becomes the name of the material
-    texproc::PackPreset channels; ///< what goes where; srgb_channels: RGB is written as sRGB colour
-    std::string format = "png";   ///< png, tga, tif, exr, dds, ktx2
+    texproc::PackPreset
+        channels;                ///< what goes where; srgb_channels: RGB is written as sRGB colour
+    std::string format = "png";  ///< png, tga, tif, exr, dds, ktx2
     std::string compression = "none";  ///< dds, ktx2: none, bc1, bc3, bc4, bc5, bc7
-    int bits = 8;                 ///< 8 or 16; exr: 16 or 32
-    bool mips = true;             ///< dds, ktx2, exr: all levels
-    bool level_files = false;     ///< the others: one file a level, {file}_0, {file}_1, ...
-    int size = 0;                 ///< start with the level whose sides are at most this; 0: level 0
-    bool prefilter = true;        ///< roughness, smoothness and normals from the prefiltered chain
+    int bits = 8;                      ///< 8 or 16; exr: 16 or 32
+    bool mips = true;                  ///< dds, ktx2, exr: all levels
+    bool level_files = false;          ///< the others: one file a level, {file}_0, {file}_1, ...
+    int size = 0;           ///< start with the level whose sides are at most this; 0: level 0
+    bool prefilter = true;  ///< roughness, smoothness and normals from the prefiltered chain
 
     bool srgb() const { return !channels.srgb_channels.empty(); }
-    bool has_levels() const { return level_files || (mips && (format == "dds" || format == "ktx2" || format == "exr")); }
+    bool has_levels() const
+    {
+        return level_files || (mips && (format == "dds" || format == "ktx2" || format == "exr"));
+    }
 };
 
 /// What to make of the maps of a material.
 struct Recipe {
-    std::string name;                        ///< of the material; empty: from the file or folder
-    std::filesystem::path file;              ///< where it was read; empty: none
+    std::string name;            ///< of the material; empty: from the file or folder
+    std::filesystem::path file;  ///< where it was read; empty: none
     std::vector<std::string> engines;
     std::filesystem::path folder;            ///< instead of inputs: every material found there
     std::map<std::string, InputMap> inputs;  ///< by role
@@ -43,9 +47,10 @@ struct Recipe {
     std::string rule = "overlap";            ///< of the prefilter; "none" for plain mips
     bool quick = true;
     float design_light = 0.0f;
-    bool score = true;                       ///< measure the lobe error for the manifest
-    texproc::MipOptions mips;                ///< filter, wrap, alpha_cutoff
-    std::vector<std::string> bake{"porosity", "puddle", "cavity"};  ///< roles made where none is given
+    bool score = true;         ///< measure the lobe error for the manifest
+    texproc::MipOptions mips;  ///< filter, wrap, alpha_cutoff
+    std::vector<std::string> bake{"porosity", "puddle",
+                                  "cavity"};  ///< roles made where none is given
     texproc::BakeOptions baking;
     std::vector<OutputRule> outputs;
 };

@@ -16,8 +16,9 @@ namespace petrichor::cli {
 
 namespace {
 
-// The first 32 bits of the fractional parts of the square or cube roots of the first primes. Both fit
-// a double with room to spare: 53 bits hold the integer part (at most 6 bits) and 32 bits behind it.
+// The first 32 bits of the fractional parts of the square or cube roots of the first primes. Both
+// fit a double with room to spare: 53 bits hold the integer part (at most 6 bits) and 32 bits
+// behind it.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> root_fractions(double (*root)(double))
 {
@@ -93,8 +94,7 @@ private:
         filled_ = 0;
     }
 
-    std::array<std::uint32_t, 8> state_ =
-        root_fractions<8>([](double x) { return std::sqrt(x); });
+    std::array<std::uint32_t, 8> state_ = root_fractions<8>([](double x) { return std::sqrt(x); });
     std::array<std::uint8_t, 64> block_{};
     std::size_t filled_ = 0;
     std::uint64_t length_ = 0;

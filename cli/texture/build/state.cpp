@@ -40,7 +40,10 @@ bool same_file(const FileMark& a, const FileMark& b)
     return a.bytes == b.bytes && a.modified_ns == b.modified_ns && a.inode == b.inode;
 }
 
-std::string key_of(const fs::path& file) { return fs::absolute(file).lexically_normal().string(); }
+std::string key_of(const fs::path& file)
+{
+    return fs::absolute(file).lexically_normal().string();
+}
 
 }  // namespace
 
@@ -56,7 +59,8 @@ BuildState::BuildState(const fs::path& folder) : folder_(folder)
                             f.at(2).get<std::uint64_t>(), f.at(3).get<std::string>()};
         }
         for (const auto& [name, s] : all.at("sets").items()) {
-            sets_[name] = {s.at("key").get<std::string>(), s.at("outputs").get<std::vector<std::string>>(),
+            sets_[name] = {s.at("key").get<std::string>(),
+                           s.at("outputs").get<std::vector<std::string>>(),
                            s.at("manifest").get<std::string>()};
         }
     } catch (const json::exception&) {

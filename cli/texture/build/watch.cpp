@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kQuiet_ms = 150;    // no change for so long: the row is over
+constexpr int kQuiet_ms = 150;      // no change for so long: the row is over
 constexpr int kInterrupt_ms = 200;  // how soon Ctrl-C is heard
 
 Error failure(const std::string& what)
@@ -28,12 +28,14 @@ Error failure(const std::string& what)
 
 }  // namespace
 
-FolderWatch::FolderWatch(const std::set<fs::path>& folders) : file_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC))
+FolderWatch::FolderWatch(const std::set<fs::path>& folders)
+    : file_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC))
 {
     if (file_ < 0) throw failure("files");
     for (const fs::path& folder : folders) {
         const int watch = ::inotify_add_watch(
-            file_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE);
+            file_, folder.c_str(),
+            IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE);
         if (watch >= 0) continue;
         const Error error = failure(folder.string());
         ::close(file_);
@@ -41,7 +43,10 @@ FolderWatch::FolderWatch(const std::set<fs::path>& folders) : file_(::inotify_in
     }
 }
 
-FolderWatch::~FolderWatch() { ::close(file_); }
+FolderWatch::~FolderWatch()
+{
+    ::close(file_);
+}
 
 // True when there was an event within the time. Names that start with a dot (temporary files of
 // editors, and our own) do not count.
@@ -72,7 +77,8 @@ bool FolderWatch::wait()
     return false;
 }
 
-std::set<fs::path> folders_of(const std::vector<fs::path>& files, const std::vector<fs::path>& trees)
+std::set<fs::path> folders_of(const std::vector<fs::path>& files,
+                              const std::vector<fs::path>& trees)
 {
     std::set<fs::path> folders;
     const auto add = [&](const fs::path& folder) { folders.insert(folder.empty() ? "." : folder); };

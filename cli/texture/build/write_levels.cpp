@@ -22,7 +22,8 @@ RawImage as_exr(const RawImage& level, int bits)
 }  // namespace
 
 std::vector<std::string> write_levels(const std::filesystem::path& folder, const std::string& stem,
-                                      const OutputRule& rule, std::vector<RawImage> levels, int threads)
+                                      const OutputRule& rule, std::vector<RawImage> levels,
+                                      int threads)
 {
     if (rule.format == "exr") {
         for (RawImage& level : levels) level = as_exr(level, rule.bits);
@@ -31,7 +32,8 @@ std::vector<std::string> write_levels(const std::filesystem::path& folder, const
         const std::string file = stem + suffix + "." + rule.format;
         return std::pair(folder / file, file);
     };
-    if (rule.format == "dds" || rule.format == "ktx2" || (rule.format == "exr" && rule.has_levels() && !rule.level_files)) {
+    if (rule.format == "dds" || rule.format == "ktx2" ||
+        (rule.format == "exr" && rule.has_levels() && !rule.level_files)) {
         const auto [path, file] = path_of("");
         texproc::TextureWriteOptions options;
         if (rule.compression != "none") options.format = rule.compression;

@@ -22,8 +22,8 @@ std::vector<float> gaussian_weights(double sigma, int radius)
     return weights;
 }
 
-Image filtered(const Image& image, const std::vector<float>& along_x, const std::vector<float>& along_y,
-               int threads)
+Image filtered(const Image& image, const std::vector<float>& along_x,
+               const std::vector<float>& along_y, int threads)
 {
     const int rx = static_cast<int>(along_x.size()) / 2, ry = static_cast<int>(along_y.size()) / 2;
     const std::size_t channels = static_cast<std::size_t>(image.channels);
@@ -34,7 +34,8 @@ Image filtered(const Image& image, const std::vector<float>& along_x, const std:
         float* to = &rows.pixels[rows.index(0, static_cast<int>(y), 0)];
         for (int x = 0; x < image.width; ++x) {
             for (int k = -rx; k <= rx; ++k) {
-                const std::size_t at = static_cast<std::size_t>(std::clamp(x + k, 0, image.width - 1)) * channels;
+                const std::size_t at =
+                    static_cast<std::size_t>(std::clamp(x + k, 0, image.width - 1)) * channels;
                 const float w = along_x[static_cast<std::size_t>(k + rx)];
                 for (std::size_t c = 0; c < channels; ++c) {
                     to[static_cast<std::size_t>(x) * channels + c] += w * from[at + c];
@@ -61,7 +62,8 @@ void check_comparable(const Image& a, const Image& b)
         return std::to_string(i.width) + " x " + std::to_string(i.height) + " with " +
                std::to_string(i.channels) + " channels";
     };
-    if (a.empty() || b.empty() || a.width != b.width || a.height != b.height || a.channels != b.channels) {
+    if (a.empty() || b.empty() || a.width != b.width || a.height != b.height ||
+        a.channels != b.channels) {
         throw Error("compare: one image is " + shape(a) + ", the other " + shape(b),
                     "Compare images of one size with the same channels.");
     }
