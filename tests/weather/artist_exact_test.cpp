@@ -192,7 +192,7 @@ TEST(ArtistExact, ParametersMayChangeOverTime)
 // scales and rates differ by more than 1e-4. Extrapolated to steps of no length it meets the closed form.
 TEST(ArtistExact, IsTheLimitOfEverShorterStepsForSmoothParameters)
 {
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    for (unsigned seed = 1; seed <= 12; ++seed) {
         Script script = random_script(seed, seed % 2 ? Interpolation::Smooth : Interpolation::Linear, 6);
         const double end_s = std::min(script.length_s, 8.0);
         const double a = 0.1 * seed, b = 1.3 - 0.1 * seed;
