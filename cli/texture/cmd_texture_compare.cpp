@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/exit.h"
@@ -12,6 +13,7 @@
 #include "cli/texture/files.h"
 #include "texproc/compare/inspect.h"
 #include "texproc/compare/metrics.h"
+#include "texproc/pack.h"
 
 namespace petrichor::cli {
 
@@ -50,6 +52,30 @@ Image rgb_of(const Image& image)
     return out;
 }
 
+// Four channels whose last says nothing: opaque everywhere.
+bool has_idle_alpha(const RawImage& image)
+{
+    if (image.channels != 4) return false;
+    const Image alpha = texproc::to_image(texproc::channel_of(image, 3), ColorSpace::Data);
+    return std::all_of(alpha.pixels.begin(), alpha.pixels.end(), [](float a) { return a == 1.0f; });
+}
+
+// Texture files have no three channels: opaque alpha beside none is no difference.
+void drop_idle_alpha(RawImage& image, const RawImage& other)
+{
+    if (other.channels != 3 || !has_idle_alpha(image)) return;
+    RawImage rgb = image;
+    rgb.channels = 3;
+    rgb.channel_names.clear();
+    const std::size_t texel = 4 * size_of(image.type), kept = 3 * size_of(image.type);
+    rgb.bytes.resize(image.bytes.size() / texel * kept);
+    for (std::size_t i = 0; i * texel < image.bytes.size(); ++i) {
+        std::copy_n(image.bytes.begin() + static_cast<std::ptrdiff_t>(i * texel), kept,
+                    rgb.bytes.begin() + static_cast<std::ptrdiff_t>(i * kept));
+    }
+    image = std::move(rgb);
+}
+
 std::string number(double value)
 {
     char text[32];
@@ -59,7 +85,9 @@ std::string number(double value)
 
 void run(const Arguments& a)
 {
-    const RawImage raw_a = read_map(a.a, a.reading), raw_b = read_map(a.b, a.reading);
+    RawImage raw_a = read_map(a.a, a.reading), raw_b = read_map(a.b, a.reading);
+    drop_idle_alpha(raw_a, raw_b);
+    drop_idle_alpha(raw_b, raw_a);
     if (raw_a.width != raw_b.width || raw_a.height != raw_b.height ||
         raw_a.channels != raw_b.channels) {
         const auto shape = [](const std::string& name, const RawImage& i) {

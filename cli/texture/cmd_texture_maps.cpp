@@ -12,6 +12,7 @@
 #include "cli/texture/files.h"
 #include "cli/texture/pack_file.h"
 #include "texproc/bake.h"
+#include "texproc/files/texture.h"
 #include "texproc/mips.h"
 #include "texproc/normal.h"
 #include "texproc/pack.h"
@@ -49,24 +50,44 @@ void check_same_size(const std::string& name_a, const Image& a, const std::strin
 }
 
 struct MipsArguments {
-    std::string in, out, wrap_u = "wrap", wrap_v = "wrap";
+    std::string in, out, format, wrap_u = "wrap", wrap_v = "wrap";
     bool color = false;
     int bits = 8;
     texproc::MipOptions options;
 };
 
+// One file with all levels, or one file a level.
+void write_mips(const MipsArguments& a, const std::vector<Image>& chain)
+{
+    if (!texproc::holds_mip_chain(a.out)) {
+        for (std::size_t k = 0; k < chain.size(); ++k) {
+            texproc::write_image(level_name(a.out, static_cast<int>(k)), chain[k],
+                                 {.bits = a.bits});
+        }
+        return;
+    }
+    // Sixteen bits of colour are linear halves: no such integer format is sRGB.
+    const std::string format = a.format.empty() && a.bits == 16 && a.color ? "rgba16f" : a.format;
+    const bool exr = std::filesystem::path(a.out).extension() == ".exr";
+    if (!format.empty() || a.bits == 8 || exr) {
+        texproc::write_mip_chain(a.out, chain, {.format = exr ? "" : format});
+        return;
+    }
+    std::vector<texproc::RawImage> levels;
+    for (const Image& level : chain) levels.push_back(to_raw(level, texproc::PixelType::U16));
+    texproc::write_mip_chain(a.out, levels);
+}
+
 void run_mips(MipsArguments& a)
 {
-    level_name(a.out, 0);
+    if (!texproc::holds_mip_chain(a.out)) level_name(a.out, 0);
     a.options.wrap_u = a.wrap_u == "wrap";
     a.options.wrap_v = a.wrap_v == "wrap";
     a.options.mirror_u = a.wrap_u == "mirror";
     a.options.mirror_v = a.wrap_v == "mirror";
     const Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-        texproc::write_image(level_name(a.out, static_cast<int>(k)), chain[k], {.bits = a.bits});
-    }
+    write_mips(a, chain);
     std::cout << chain.size() << " levels\n";
 }
 
@@ -191,7 +212,9 @@ void add_texture_maps(CLI::App& texture)
         auto a = std::make_shared<MipsArguments>();
         CLI::App* app = texture.add_subcommand("mips", "mip levels of one image");
         app->add_option("image", a->in, "the largest level")->required();
-        app->add_option("-o,--out", a->out, "level k: 'out_%d.png'")->required();
+        app->add_option("-o,--out", a->out, "level k: 'out_%d.png'; all in one: .dds, .ktx2, .exr")
+            ->required();
+        app->add_option("--format", a->format, "of .dds and .ktx2: bc1, bc7, rgba16f, ...");
         app->add_option("--filter", a->options.filter,
                         "box (exact area), kaiser, lanczos3, mitchell")
             ->transform(CLI::CheckedTransformer(kFilters));
@@ -209,7 +232,8 @@ void add_texture_maps(CLI::App& texture)
         app->add_option("--bits", a->bits, "8 or 16")->check(CLI::IsMember({8, 16}));
         app->footer(
             "Example:\n  petrichor texture mips albedo.png --color --filter kaiser -o "
-            "'albedo_%d.png'");
+            "'albedo_%d.png'\n"
+            "  petrichor texture mips albedo.png --color --format bc7 -o albedo.ktx2");
         app->callback([a] { run_mips(*a); });
     }
     {
