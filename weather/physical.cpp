@@ -53,66 +53,90 @@ void check_params(const PhysicalParams& p)
     require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k, "above phase.all_snow_k");
 }
 
+namespace {
+
+// Only the columns that the model reads.
+ForcingTable needed_columns(const ForcingTable& table)
+{
+    ForcingTable out;
+    out.site = table.site;
+    out.time_us = table.time_us;
+    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
+                          Field::Longwave, Field::Precip, Field::Rain, Field::Snow}) {
+        out[f] = table[f];
+    }
+    return out;
+}
+
+}  // namespace
+
 struct PhysicalTimeline::Impl {
     ForcingTable table;
     PhysicalParams params;
+    detail::StepPlan plan;
     detail::CellConstants constants;
     detail::StepConstants step_constants;
     detail::StepConstants tail_constants;  // the last step may be shorter
     detail::CellPlace<double> place;
-    std::vector<detail::StepForcing> steps;
     std::size_t first_step = 0;           // where the checkpoints begin
     std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
 
-    const detail::StepConstants& constants_of(const detail::StepForcing& step) const
+    detail::StepWalk walk_from(std::size_t step) const { return {table, plan, step, sun_use()}; }
+    detail::SunUse sun_use() const
     {
-        return step.dt_s == step_constants.dt_s ? step_constants : tail_constants;
+        return params.sky_view < 1.0 ? detail::SunUse::Direction : detail::SunUse::FlatOpenGround;
     }
-    void advance(CellState& cell, std::size_t i) const
+    void advance(CellState& cell, detail::StepWalk& walk) const
     {
-        detail::advance_cell(cell, steps[i], place, constants, constants_of(steps[i]));
-    }
-    std::int64_t end_us() const
-    {
-        return steps.back().begin_us + static_cast<std::int64_t>(std::llround(steps.back().dt_s * 1e6));
+        const auto step = walk.next();
+        const auto& s = step.dt_s == step_constants.dt_s ? step_constants : tail_constants;
+        detail::advance_cell(cell, step, place, constants, s);
     }
     // Index of the step that holds a time within the run.
     std::size_t step_of(std::int64_t time_us) const
     {
-        const auto length = static_cast<std::int64_t>(std::llround(params.step_s * 1e6));
-        const auto i = static_cast<std::size_t>((time_us - steps.front().begin_us) / length);
-        return std::min(i, steps.size() - 1);
+        return std::min(static_cast<std::size_t>((time_us - plan.begin_us) / plan.length_us), plan.count - 1);
     }
+    // The last checkpoint at or before a step.
+    std::size_t checkpoint_before(std::size_t step) const
+    {
+        return std::min((step - first_step) / kCheckpointEvery, checkpoints.size() - 1);
+    }
+    std::size_t step_of_checkpoint(std::size_t point) const { return first_step + point * kCheckpointEvery; }
+
     void begin(const ForcingTable& source, const PhysicalParams& wanted)
     {
         check_params(wanted);
         if (source.rows() == 0 || !source.has(Field::Longwave) || !source.has(Field::Precip)) {
             throw Error("physical model: the forcing table is not complete", "Call fill_forcing on the table first.");
         }
-        table = source;
+        table = needed_columns(source);
         params = wanted;
         const double deep =
             std::isnan(params.deep_temp_k) ? kZeroCelsiusK + detail::yearly_wave(table).mean_c : params.deep_temp_k;
         constants = detail::make_cell_constants(params, table.site, deep);
         place = detail::station_place(params.sky_view, params.precip_factor);
-        steps = detail::make_step_forcings(table, static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
-        step_constants = detail::make_step_constants(constants, steps.front().dt_s, params.substep_s);
-        tail_constants = detail::make_step_constants(constants, steps.back().dt_s, params.substep_s);
+        plan = detail::make_step_plan(table, static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
+        const auto seconds = [&](std::size_t step) { return static_cast<double>(plan.length_of(step)) * 1e-6; };
+        step_constants = detail::make_step_constants(constants, seconds(0), params.substep_s);
+        tail_constants = detail::make_step_constants(constants, seconds(plan.count - 1), params.substep_s);
     }
     void run(CellState cell, std::size_t from)
     {
         first_step = from;
-        checkpoints.reserve((steps.size() - from) / kCheckpointEvery + 1);
-        for (std::size_t i = from; i < steps.size(); ++i) {
+        checkpoints.reserve((plan.count - from) / kCheckpointEvery + 1);
+        auto walk = walk_from(from);
+        for (std::size_t i = from; i < plan.count; ++i) {
             if ((i - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
-            advance(cell, i);
+            advance(cell, walk);
         }
-        if ((steps.size() - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
+        if ((plan.count - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
     }
     // The piece of step i up to a time inside it.
     void advance_partly(CellState& cell, std::size_t i, std::int64_t time_us) const
     {
-        const auto piece = detail::make_step_forcing(table, steps[i].begin_us, time_us - steps[i].begin_us);
+        const std::int64_t begin_us = plan.begin_of(i);
+        const auto piece = detail::make_step_forcing(table, begin_us, time_us - begin_us, sun_use());
         detail::advance_cell(cell, piece, place, constants,
                              detail::make_step_constants(constants, piece.dt_s, params.substep_s));
     }
@@ -130,14 +154,13 @@ PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalPara
     : impl_(std::make_unique<Impl>())
 {
     impl_->begin(table, params);
-    const std::int64_t length = static_cast<std::int64_t>(std::llround(params.step_s * 1e6));
-    const std::int64_t since = at_us - impl_->steps.front().begin_us;
-    if (since < 0 || at_us > impl_->end_us() || (since % length != 0 && at_us != impl_->end_us())) {
+    const detail::StepPlan& plan = impl_->plan;
+    const std::int64_t since = at_us - plan.begin_us;
+    if (since < 0 || at_us > plan.end_us || (since % plan.length_us != 0 && at_us != plan.end_us)) {
         throw Error("physical model: the saved state is not at a step of this run",
                     "Continue with the same weather file and step, from a time at which a step begins.");
     }
-    const std::size_t from = at_us == impl_->end_us() ? impl_->steps.size() : static_cast<std::size_t>(since / length);
-    impl_->run(state, from);
+    impl_->run(state, at_us == plan.end_us ? plan.count : static_cast<std::size_t>(since / plan.length_us));
 }
 
 PhysicalTimeline::PhysicalTimeline(PhysicalTimeline&&) noexcept = default;
@@ -146,24 +169,24 @@ PhysicalTimeline::~PhysicalTimeline() = default;
 
 std::int64_t PhysicalTimeline::begin_us() const
 {
-    const auto& steps = impl_->steps;
-    return impl_->first_step < steps.size() ? steps[impl_->first_step].begin_us : impl_->end_us();
+    return steps() > 0 ? impl_->plan.begin_of(impl_->first_step) : impl_->plan.end_us;
 }
 
-std::int64_t PhysicalTimeline::end_us() const { return impl_->end_us(); }
+std::int64_t PhysicalTimeline::end_us() const { return impl_->plan.end_us; }
 
-std::size_t PhysicalTimeline::steps() const { return impl_->steps.size() - impl_->first_step; }
+std::size_t PhysicalTimeline::steps() const { return impl_->plan.count - impl_->first_step; }
 
 CellState PhysicalTimeline::state_at(std::int64_t time_us) const
 {
     if (time_us <= begin_us() || steps() == 0) return impl_->checkpoints.front();
-    const std::int64_t end = end_us();
-    const bool whole = time_us >= end;
-    const std::size_t target = whole ? impl_->steps.size() : impl_->step_of(time_us);
-    const std::size_t point = std::min((target - impl_->first_step) / kCheckpointEvery, impl_->checkpoints.size() - 1);
+    const bool whole = time_us >= end_us();
+    const std::size_t target = whole ? impl_->plan.count : impl_->step_of(time_us);
+    const std::size_t point = impl_->checkpoint_before(target);
     CellState cell = impl_->checkpoints[point];
-    for (std::size_t i = impl_->first_step + point * kCheckpointEvery; i < target; ++i) impl_->advance(cell, i);
-    if (!whole && time_us > impl_->steps[target].begin_us) impl_->advance_partly(cell, target, time_us);
+    const std::size_t from = impl_->step_of_checkpoint(point);
+    auto walk = impl_->walk_from(from);
+    for (std::size_t i = from; i < target; ++i) impl_->advance(cell, walk);
+    if (!whole && time_us > impl_->plan.begin_of(target)) impl_->advance_partly(cell, target, time_us);
     return cell;
 }
 
@@ -178,22 +201,23 @@ std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64
     // One walk through the steps; a time inside a step is a side branch.
     std::size_t at = impl_->first_step;
     CellState cell = impl_->checkpoints.front();
+    auto walk = impl_->walk_from(at);
     for (std::int64_t t = from_us; t <= to_us; t += every_us) {
         if (t <= begin_us() || steps() == 0) {
             out.push_back(impl_->checkpoints.front());
             continue;
         }
         const bool whole = t >= end_us();
-        const std::size_t target = whole ? impl_->steps.size() : impl_->step_of(t);
-        const std::size_t point =
-            std::min((target - impl_->first_step) / kCheckpointEvery, impl_->checkpoints.size() - 1);
-        if (impl_->first_step + point * kCheckpointEvery > at) {
-            at = impl_->first_step + point * kCheckpointEvery;
+        const std::size_t target = whole ? impl_->plan.count : impl_->step_of(t);
+        const std::size_t point = impl_->checkpoint_before(target);
+        if (impl_->step_of_checkpoint(point) > at) {
+            at = impl_->step_of_checkpoint(point);
             cell = impl_->checkpoints[point];
+            walk = impl_->walk_from(at);
         }
-        for (; at < target; ++at) impl_->advance(cell, at);
+        for (; at < target; ++at) impl_->advance(cell, walk);
         out.push_back(cell);
-        if (!whole && t > impl_->steps[target].begin_us) impl_->advance_partly(out.back(), target, t);
+        if (!whole && t > impl_->plan.begin_of(target)) impl_->advance_partly(out.back(), target, t);
     }
     return out;
 }

@@ -12,6 +12,8 @@ namespace petrichor::weather::detail {
 
 namespace {
 
+constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
+
 double year_angle(std::int64_t time_us, bool south)
 {
     const double days = static_cast<double>(time_us) / 86400e6;
@@ -64,8 +66,16 @@ YearlyWave yearly_wave(const ForcingTable& table)
     // 24 July in the north and 22 January in the south.
     const bool south = table.site.latitude_deg < 0.0;
     double n = 0.0, c1 = 0.0, cc = 0.0, t1 = 0.0, tc = 0.0;
+    // All rows of a day share its cosine: the season does not move within a day.
+    std::int64_t day_end_us = table.time_us[0];
+    double c = 0.0;
     for (std::size_t i = 0; i < table.rows(); ++i) {
-        const double c = sine_cosine(year_angle(table.time_us[i], south)).cos;
+        const std::int64_t now_us = table.time_us[i];
+        if (now_us >= day_end_us) {
+            const std::int64_t day_begin_us = now_us - ((now_us % kDay_us) + kDay_us) % kDay_us;
+            day_end_us = day_begin_us + kDay_us;
+            c = sine_cosine(year_angle(day_begin_us + kDay_us / 2, south)).cos;
+        }
         const double t = table[Field::AirTemp][i] - kZeroCelsiusK;
         n += 1.0;
         c1 += c;
@@ -127,6 +137,8 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.log_snow_roughness = logarithm(params.snow.roughness_m);
     k.log_wind_height = logarithm(site.wind_height_m);
     k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
+    k.neutral_bare = kVonKarman * kVonKarman /
+                     ((k.log_wind_height - k.log_roughness) * (k.log_temp_height_10 - k.log_roughness));
     k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
     k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;
@@ -139,13 +151,34 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     return k;
 }
 
+namespace {
+
+PartConstants make_part_constants(const CellConstants& k, double dt_s)
+{
+    const Surface& surface = k.surface;
+    const HortonParams& horton = surface.infiltration;
+    const double hours = dt_s / 3600.0;
+    PartConstants part;
+    part.dt_s = dt_s;
+    part.inverse_dt_1_s = 1.0 / dt_s;
+    part.ground = make_ground_stack(surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k, dt_s);
+    part.film = reservoir_constants(surface.film_rate_1_s, k.film_capacity, dt_s);
+    part.horton_keep = exponential(-horton.decay_1_h * hours);
+    part.horton_recover = exponential(-horton.recovery_1_h * hours);
+    part.horton_depth_h = (1.0 - part.horton_keep) / horton.decay_1_h;
+    part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);
+    return part;
+}
+
+}  // namespace
+
 StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s)
 {
     StepConstants s;
     s.dt_s = dt_s;
     s.parts = std::max(1, static_cast<int>(std::ceil(dt_s / substep_s - 1e-9)));
-    s.ground_whole = make_ground_stack(k.surface.conductivity_w_m_k, k.surface.heat_capacity_j_m3_k, dt_s);
-    s.ground_part = make_ground_stack(k.surface.conductivity_w_m_k, k.surface.heat_capacity_j_m3_k, dt_s / s.parts);
+    s.whole = make_part_constants(k, dt_s);
+    s.part = make_part_constants(k, dt_s / s.parts);
     s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
     s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));
     s.settling = exponential(-dt_s / (200.0 * 3600.0));

@@ -8,7 +8,7 @@ namespace petrichor::weather {
 
 FilmStep drain_film(double water, double net, double rate, double threshold, double dt)
 {
-    const auto step = detail::drain_reservoir(water, net, rate, threshold, dt);
+    const auto step = detail::drain_reservoir(water, net, detail::reservoir_constants(rate, threshold, dt));
     return {step.water, step.drained, step.shortfall};
 }
 

@@ -27,6 +27,9 @@ GroundStack make_ground_stack(double conductivity, double heat_capacity, double 
         stack.weight_own[i] = storage / total;
         stack.share_top[i] = 1.0 / (1.0 + total * half);
         y = total * stack.share_top[i];
+        stack.through_top[i] = stack.share_top[i] * stack.share_down[i];
+        stack.through_own[i] = stack.share_down[i] - stack.through_top[i];
+        stack.through_below[i] = 1.0 - stack.share_down[i];
         stack.half_resistance_top = half;
     }
     stack.conductance_w_m2_k = y;
@@ -41,7 +44,7 @@ GroundStep step_ground(const GroundStack& stack, const std::array<double, kGroun
     GroundStep step;
     step.flux_w_m2 = stack.conductance_w_m2_k * (surface_temp_k - seen);
     step.temp_k = temp_k;
-    detail::ground_update(stack, surface_temp_k, deep_temp_k, equivalent, step.temp_k.data());
+    detail::ground_update(stack, surface_temp_k, equivalent, step.temp_k.data());
     return step;
 }
 

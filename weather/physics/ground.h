@@ -25,6 +25,8 @@ struct GroundStack {
     std::array<double, kGroundLayers> weight_own{};    ///< of the layer's own old temperature
     std::array<double, kGroundLayers> share_top{};     ///< how much of the upper interface a node feels
     std::array<double, kGroundLayers> share_down{};    ///< how much of the node its lower interface feels
+    /// A lower interface as the mean of the upper one, the layer's equivalent temperature and the next layer's.
+    std::array<double, kGroundLayers> through_top{}, through_own{}, through_below{};
 };
 
 /// Factors for a step of dt seconds; conductivity W m-1 K-1, capacity J m-3 K-1, all > 0.

@@ -55,7 +55,7 @@ Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::i
 }
 
 // `first`: the last row at or before the beginning.
-StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin, std::int64_t length)
+StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin, std::int64_t length, SunUse use)
 {
     const std::int64_t end = begin + length;
     StepForcing step;
@@ -76,8 +76,10 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     } else {
         step.precip = mean_over(table, Field::Precip, first, begin, end);
     }
+    // Where no sun shines its direction changes nothing.
+    const bool lit = step.shortwave.start > 0.0 || step.shortwave.start + step.shortwave.rise > 0.0;
     const bool place = !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
-    if (place) {
+    if (use == SunUse::Direction && lit && place) {
         const SunDirection sun =
             sun_direction(begin + length / 2, table.site.latitude_deg, table.site.longitude_deg);
         step.sun_east = sun.east;
@@ -88,28 +90,54 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     return step;
 }
 
-}  // namespace
-
-StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length)
+// The last row at or before a time; the first row for earlier times.
+std::size_t row_before(const ForcingTable& table, std::int64_t time_us)
 {
     const auto& t = table.time_us;
-    const auto upper = std::upper_bound(t.begin(), t.end(), begin);
-    return step_from(table, upper == t.begin() ? 0 : static_cast<std::size_t>(upper - t.begin()) - 1, begin, length);
+    const auto upper = std::upper_bound(t.begin(), t.end(), time_us);
+    return upper == t.begin() ? 0 : static_cast<std::size_t>(upper - t.begin()) - 1;
+}
+
+}  // namespace
+
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length, SunUse sun)
+{
+    return step_from(table, row_before(table, begin), begin, length, sun);
+}
+
+std::int64_t StepPlan::length_of(std::size_t step) const { return std::min(length_us, end_us - begin_of(step)); }
+
+StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us)
+{
+    StepPlan plan;
+    plan.begin_us = table.time_us.front();
+    plan.length_us = step_us;
+    // The last row's interval counts too: its precipitation falls after its time.
+    const std::int64_t tail = table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
+    plan.end_us = table.time_us.back() + tail;
+    plan.count = static_cast<std::size_t>((plan.end_us - plan.begin_us + step_us - 1) / step_us);
+    return plan;
+}
+
+StepWalk::StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun)
+    : table_(&table), plan_(&plan), step_(first_step), row_(row_before(table, plan.begin_of(first_step))), sun_(sun)
+{
+}
+
+StepForcing StepWalk::next()
+{
+    const std::int64_t begin = plan_->begin_of(step_);
+    while (row_ + 1 < table_->rows() && table_->time_us[row_ + 1] <= begin) ++row_;
+    return step_from(*table_, row_, begin, plan_->length_of(step_++), sun_);
 }
 
 std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us)
 {
+    const StepPlan plan = make_step_plan(table, step_us);
     std::vector<StepForcing> steps;
-    const std::int64_t begin = table.time_us.front();
-    // The last row's interval counts too: its precipitation falls after its time.
-    const std::int64_t tail = table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
-    const std::int64_t end = table.time_us.back() + tail;
-    steps.reserve(static_cast<std::size_t>((end - begin) / step_us + 1));
-    std::size_t first = 0;
-    for (std::int64_t at = begin; at < end; at += step_us) {
-        while (first + 1 < table.rows() && table.time_us[first + 1] <= at) ++first;
-        steps.push_back(step_from(table, first, at, std::min(step_us, end - at)));
-    }
+    steps.reserve(plan.count);
+    StepWalk walk(table, plan, 0, SunUse::Direction);
+    for (std::size_t i = 0; i < plan.count; ++i) steps.push_back(walk.next());
     return steps;
 }
 

@@ -18,7 +18,6 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.absorbed = (1.0 - skin.albedo) * f.shortwave_w_m2 + skin.emissivity * f.longwave_w_m2;
     p.emitting = skin.emissivity * kStefanBoltzmann;
     p.air_c = f.air_temp_k - kZeroCelsiusK;
-    p.air_k = f.air_temp_k;
     p.q_air = specific_humidity(vapour_pressure_pa(f.air_temp_k, f.rel_humidity_pct), f.pressure_pa);
     p.pressure = f.pressure_pa;
     p.neutral = neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m);
@@ -48,21 +47,17 @@ SurfaceFluxes surface_balance(const SurfaceForcing& forcing, const SurfaceSkin& 
 {
     const Point p = make_point(forcing, skin, exchange);
     const double surface_c = surface_temp_k - kZeroCelsiusK;
-    return named(detail::fluxes_at(p, surface_c, detail::exchange_at(p, exchange, surface_c)), surface_c);
+    return named(detail::fluxes_at_middle(p, detail::surface_vapour(p, surface_c),
+                                          detail::exchange_at(p, exchange, surface_c)),
+                 surface_c);
 }
 
 SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& skin,
                             const ExchangeParams& exchange, double first_guess_k)
 {
     const Point p = make_point(forcing, skin, exchange);
-    double surface_c = first_guess_k - kZeroCelsiusK;
-    double k = p.exchange;
-    for (int i = 0; i < 3; ++i) {
-        k = detail::exchange_at(p, exchange, surface_c);
-        const auto f = detail::fluxes_at(p, surface_c, k);
-        surface_c += f.balance / f.slope;
-    }
-    return named(detail::fluxes_at(p, surface_c, k), surface_c);
+    const auto root = detail::surface_root(p, exchange, first_guess_k - kZeroCelsiusK);
+    return named(detail::fluxes_at(p, root.vapour, root.surface_c, root.exchange), root.surface_c);
 }
 
 }  // namespace petrichor::weather

@@ -81,7 +81,7 @@ private:
                 skip();
                 std::string key = string();
                 if (!take(':')) fail("a colon is missing");
-                value.members.emplace_back(std::move(key), parse(depth + 1));
+                value.members.push_back({std::move(key), parse(depth + 1)});
             } while (take(','));
             if (!take('}')) fail("a closing brace is missing");
         } else if (c == '[') {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace petrichor::weather {
@@ -17,11 +16,17 @@ struct Json {
     bool flag = false;
     std::string text;
     std::vector<Json> items;
-    std::vector<std::pair<std::string, Json>> members;
+    struct Member;  // named type: a pair of an incomplete type is one that Clang cannot hold
+    std::vector<Member> members;
     std::size_t line = 1;  ///< where it begins
 
     /// Member of an object, or null.
     const Json* find(std::string_view key) const;
+};
+
+struct Json::Member {
+    std::string name;
+    Json value;
 };
 
 /// Parses a whole text.

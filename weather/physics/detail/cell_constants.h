@@ -3,6 +3,7 @@
 #define PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
 
 #include "weather/physics/exchange.h"
+#include "weather/physics/detail/reservoir.h"
 #include "weather/physics/ground.h"
 #include "weather/physics/phase.h"
 #include "weather/physics/snow.h"
@@ -25,6 +26,7 @@ struct CellConstants {
     // surface
     double albedo_dry, albedo_wet, emissivity, snow_emissivity;
     double log_roughness, log_snow_roughness, log_wind_height, log_temp_height_10;
+    double neutral_bare;  // exchange coefficient without snow
     double root_z_bare, root_z_snow, inverse_cover_depth, least_wind;
     // water
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
@@ -32,15 +34,22 @@ struct CellConstants {
 };
 CellConstants make_cell_constants(const PhysicalParams& params, const Site& site, double deep_temp_k);
 
+// Factors that depend on the length of a substep.
+struct PartConstants {
+    double dt_s = 0.0, inverse_dt_1_s = 0.0;
+    GroundStack ground;
+    ReservoirConstants film;
+    double horton_keep = 1.0, horton_recover = 1.0;  // exp(-k dt) of wet and of dry ground
+    double horton_depth_h = 0.0;                     // (1 - horton_keep) / k, hours
+    double sprayed = 0.0;                            // share of the film that traffic takes
+};
 // Factors that depend on the length of the step.
 struct StepConstants {
     double dt_s = 0.0;
     int parts = 1;  // substeps
-    GroundStack ground_whole, ground_part;
+    PartConstants whole, part;
     double albedo_cold = 1.0, albedo_melting = 1.0;  // ageing over the step
     double settling = 1.0;                           // exponential law
-    double part_horton_decay = 1.0, part_horton_recovery = 1.0, whole_horton_decay = 1.0,
-           whole_horton_recovery = 1.0;
 };
 StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s);
 

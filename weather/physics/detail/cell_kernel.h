@@ -32,36 +32,74 @@ struct CellPlace {
     Real precip_factor, wind_factor, shortwave_factor, longwave_offset;
 };
 
+// What the weather of a step means for a cell, before it is asked for an instant.
+template <class Real>
+struct StepWeather {
+    Real shift_k;                // air here over air at the station
+    Real light;                  // shortwave here over shortwave on flat open ground
+    SaturationCurve<Real> curve;  // of the air, about the middle of the step
+};
+template <class Real>
+PETRICHOR_INLINE Real shift_of(const CellPlace<Real>& place)
+{
+    return place.air_offset_k - place.height_difference_m * kLapseRate_k_m;
+}
+template <class Real>
+PETRICHOR_INLINE StepWeather<Real> weather_of(const StepForcing& step, const CellPlace<Real>& place)
+{
+    StepWeather<Real> w;
+    w.shift_k = shift_of(place);
+    w.curve = water_curve(w.shift_k + step.air_c.at(0.5));
+    // Sun on a slope: the direct beam by its angle, the rest by the share of the sky; hidden sky gives back a fifth.
+    // On flat open ground this is exactly 1, wherever the sun is.
+    Real light = place.sky_view + (1.0 - place.sky_view) * 0.2;
+    if (step.sun_up > 0.05) {
+        const Real facing = larger(place.normal_east * step.sun_east + place.normal_north * step.sun_north +
+                                       place.normal_up * step.sun_up,
+                                   Real(0.0));
+        light += (facing / step.sun_up - place.sky_view) * (1.0 - step.diffuse);
+    }
+    w.light = light * place.shortwave_factor;
+    return w;
+}
+
 // The weather at one instant at the cell.
 template <class Real>
 struct CellWeather {
     Real air_c, q_air, density, pressure, wind, shortwave, longwave;
+    Real per_air_wind2;  // 1 / (T U^2), of the Richardson number
 };
 
+//   x  0..1, from the beginning to the end of the step
 template <class Real>
-PETRICHOR_INLINE CellWeather<Real> weather_at(const StepForcing& step, const CellPlace<Real>& place, double x,
-                                              double least_wind)
+PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, const StepForcing& step,
+                                              const CellPlace<Real>& place, double x, double least_wind)
 {
     CellWeather<Real> w;
     const double station_c = step.air_c.at(x);
-    w.air_c = station_c - place.height_difference_m * kLapseRate_k_m + place.air_offset_k;
+    w.air_c = day.shift_k + station_c;
     w.pressure = place.pressure_factor * step.pressure.at(x);
-    const Real vapour = saturation_water_pa(w.air_c) * (0.01 * step.rh_pct.at(x));
-    w.q_air = specific_humidity_of(vapour, w.pressure);
-    const Real air_k = w.air_c + kZeroCelsiusK;
-    w.density = air_density_of(air_k, w.q_air, w.pressure);
     w.wind = larger(place.wind_factor * step.wind.at(x), Real(least_wind));
+    // How far the air is from the middle of the step is the same everywhere.
+    const double from_middle = station_c - step.air_c.at(0.5);
+    Real saturation = day.curve.pressure_pa;
+    if (from_middle > kCurveReach_k || from_middle < -kCurveReach_k) saturation = saturation_water_pa(w.air_c);
+    else if (from_middle != 0.0) saturation = point_of(day.curve, w.air_c).pressure_pa;
+    const Real vapour = saturation * (0.01 * step.rh_pct.at(x));
 
-    // Sun on a slope: the direct beam by its angle, the rest by the share of the sky.
-    const double total = larger(step.shortwave.at(x), 0.0);
-    const double direct = total * (1.0 - step.diffuse);
-    const double beam = step.sun_up > 0.05 ? direct / step.sun_up : 0.0;
-    const Real facing = larger(place.normal_east * step.sun_east + place.normal_north * step.sun_north +
-                                   place.normal_up * step.sun_up,
-                               Real(0.0));
-    const double scattered = total - (step.sun_up > 0.05 ? direct : 0.0);
-    w.shortwave = (facing * beam + place.sky_view * scattered + (1.0 - place.sky_view) * (0.2 * total)) *
-                  place.shortwave_factor;
+    // q = 0.622 e / D with D = P - 0.378 e, density = P / (R T (1 + 0.608 q)) and 1 / (T U^2): one division.
+    const Real air_k = w.air_c + kZeroCelsiusK;
+    const Real dry = w.pressure - vapour * (1.0 - kWaterToAirMass);
+    const Real moist = dry + vapour * (0.608 * kWaterToAirMass);
+    const Real wind2 = w.wind * w.wind;
+    const Real warm = air_k * moist;
+    const Real inverse = 1.0 / (dry * warm * wind2);
+    w.q_air = vapour * kWaterToAirMass * (warm * wind2 * inverse);
+    const Real dry_wind2 = dry * wind2 * inverse;  // 1 / (T moist)
+    w.density = w.pressure * dry * dry_wind2 * (1.0 / kAirGasConstant);
+    w.per_air_wind2 = dry * moist * inverse;
+
+    w.shortwave = day.light * larger(step.shortwave.at(x), 0.0);
     // The sky keeps its emissivity when the air is colder or warmer; hidden sky radiates like the air.
     const Real ratio = air_k * (1.0 / (station_c + kZeroCelsiusK));
     const Real ratio2 = ratio * ratio;
@@ -75,7 +113,7 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepForcing& step, const Cel
 template <class Real>
 PETRICHOR_KERNEL Real snow_share_at(const StepForcing& step, const CellPlace<Real>& place, const PhaseParams& phase)
 {
-    const Real shift = place.air_offset_k - place.height_difference_m * kLapseRate_k_m;
+    const Real shift = shift_of(place);
     const Real air_c = shift + step.air_c.at(0.5);
     const double rh = step.rh_pct.at(0.5);
     Real share = 0.0;
@@ -109,9 +147,11 @@ struct StepSums {
 template <class Real>
 PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>& w, const Real& rain,
                                       const Real& snow, const Real* resistivity, const CellConstants& k,
-                                      const GroundStack& ground, double dt, StepSums<Real>& sums)
+                                      const PartConstants& part, StepSums<Real>& sums)
 {
     const Real zero = 0.0;
+    const double dt = part.dt_s;
+    const GroundStack& ground = part.ground;
     const Real rain_mass = rain * dt;
 
     // ---- snowfall, then the column below the surface as a conductance
@@ -132,7 +172,7 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     }
 
     // ---- the surface point
-    const WetSurface<Real> wet = wet_surface(c, k);
+    const WetSurface<Real> wet = wet_surface(c, k, ice_before <= zero);
     const Real liquid = c.film + c.crack + c.puddle;
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
     const auto bare_icy = (ice > liquid) | ((liquid <= zero) & (c.surface_temp_c < zero));
@@ -146,14 +186,16 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.absorbed = absorbed_sw + emissivity * w.longwave;
     p.emitting = emissivity * kStefanBoltzmann;
     p.air_c = w.air_c;
-    p.air_k = w.air_c + kZeroCelsiusK;
     p.q_air = w.q_air;
     p.pressure = w.pressure;
-    const Real log_z0 = cover * (k.log_snow_roughness - k.log_roughness) + k.log_roughness;
-    p.neutral = kVonKarman * kVonKarman /
-                ((k.log_wind_height - log_z0) * (k.log_temp_height_10 - log_z0));
+    p.neutral = Real(k.neutral_bare);
+    if (any_snow) {
+        const Real log_z0 = cover * (k.log_snow_roughness - k.log_roughness) + k.log_roughness;
+        p.neutral = kVonKarman * kVonKarman /
+                    ((k.log_wind_height - log_z0) * (k.log_temp_height_10 - log_z0));
+    }
     p.exchange = w.density * p.neutral * w.wind;
-    p.richardson_k = kGravity_m_s2 * k.wind_height_m / (p.air_k * w.wind * w.wind);
+    p.richardson_k = w.per_air_wind2 * (kGravity_m_s2 * k.wind_height_m);
     p.root_z = cover * (k.root_z_snow - k.root_z_bare) + k.root_z_bare;
     p.beta = select(covered, Real(1.0), wet.beta);
     p.icy = icy;
@@ -162,23 +204,19 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.conductance = conductance;
     p.below_c = below_c;
     // No more can leave than is there.
-    p.most_vapour = select(covered, ice_before, select(bare_icy, ice, liquid + rain_mass)) * (1.0 / dt);
+    p.most_vapour = select(covered, ice_before, select(bare_icy, ice, liquid + rain_mass)) * part.inverse_dt_1_s;
 
     // ---- its temperature: three Newton steps, then the melting point if something changes phase
-    Real surface_c = c.surface_temp_c;
-    Real exchange = p.exchange;
-    for (int i = 0; i < 3; ++i) {
-        exchange = exchange_at(p, k.exchange, surface_c);
-        const auto f = fluxes_at(p, surface_c, exchange);
-        surface_c = surface_c + f.balance / f.slope;
-    }
+    SurfaceRoot<Real> root = surface_root(p, k.exchange, c.surface_temp_c);
+    Real surface_c = root.surface_c;
     const auto melts = (surface_c > zero) & (covered | (ice > zero));
     const auto freezes = (surface_c < zero) & (ice_before <= zero) & (liquid + rain_mass > zero);
     const auto pinned = melts | freezes;
     Real melt_flux = zero;
     if (any(pinned)) {
         const Real at_zero_exchange = exchange_at(p, k.exchange, zero);
-        const auto f0 = fluxes_at(p, zero, at_zero_exchange);
+        SurfaceVapour<Real> vapour = vapour_at_melting_point(root.vapour, p);
+        const auto f0 = fluxes_at_middle(p, vapour, at_zero_exchange);
         const Real lost = larger(f0.vapour, zero) * dt;
         const Real meltable = larger(select(covered, ice_before - lost, select(bare_icy, ice - lost, ice)), zero);
         const Real freezable =
@@ -187,26 +225,30 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
         const Real least = freezable * (-kLatentFusion / dt);
         const Real wanted = clamped(f0.balance, least, most);
         melt_flux = select(pinned, wanted, zero);
-        exchange = select(pinned, at_zero_exchange, exchange);
+        root.exchange = select(pinned, at_zero_exchange, root.exchange);
         // What is left after the last ice or water has changed warms or cools the surface.
-        Real after = (f0.balance - wanted) / f0.slope;
+        Real after = zero;
         const auto partly = pinned & ((wanted > f0.balance) | (wanted < f0.balance));
         if (any(partly)) {
+            after = select(partly, (f0.balance - wanted) / f0.slope, zero);
             for (int i = 0; i < 2; ++i) {
-                const auto f = fluxes_at(p, after, exchange);
+                follow(vapour, p, after);
+                const auto f = fluxes_at(p, vapour, after, root.exchange);
                 after = select(partly, after + (f.balance - wanted) / f.slope, after);
             }
+            follow(vapour, p, after);
         }
         surface_c = select(pinned, after, surface_c);
+        root.vapour = chosen(pinned, vapour, root.vapour);
     }
-    const auto f = fluxes_at(p, surface_c, exchange);
+    const auto f = fluxes_at(p, root.vapour, surface_c, root.exchange);
     c.surface_temp_c = surface_c;
     const Real residual = f.balance - melt_flux;
 
     // ---- new temperatures below
     Real interface_c = surface_c;
     if (any_snow) snow_temperatures(c, column, interface_c);
-    ground_update(ground, interface_c, k.deep_temp_c, ground_equivalents, c.ground_temp_c);
+    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
 
     // ---- masses
     const Real vapour_mass = f.vapour * dt;
@@ -222,7 +264,7 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     }
     c.total_melt += larger(melt_mass, zero);
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass), bare_icy, wet, k,
-               dt);
+               part);
 
     sums.shortwave += absorbed_sw * dt;
     sums.longwave += (f.net_radiation - absorbed_sw) * dt;
@@ -259,14 +301,14 @@ PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& prec
 template <class Real>
 PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step, const CellPlace<Real>& place,
                                     const Real& rain, const Real& snow, const Real* resistivity,
-                                    const CellConstants& k, const GroundStack& ground, int parts)
+                                    const CellConstants& k, const PartConstants& part, int parts)
 {
     StepSums<Real> sums;
-    const double dt = step.dt_s / parts;
+    const StepWeather<Real> day = weather_of(step, place);
     for (int i = 0; i < parts; ++i) {
         const double x = (i + 0.5) / parts;
-        const auto w = weather_at(step, place, x, k.least_wind);
-        advance_substep(c, w, rain, snow, resistivity, k, ground, dt, sums);
+        const auto w = weather_at(day, step, place, x, k.least_wind);
+        advance_substep(c, w, rain, snow, resistivity, k, part, sums);
     }
     const double inverse = 1.0 / step.dt_s;
     c.flux_shortwave = sums.shortwave * inverse;
@@ -306,7 +348,7 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step, c
     const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
     Real resistivity[kSnowLayers] = {zero, zero, zero};
     if (any(pack > zero) || any(snow > zero)) {
-        const Real mid_c = place.air_offset_k + (step.air_c.at(0.5) - place.height_difference_m * kLapseRate_k_m);
+        const Real mid_c = shift_of(place) + step.air_c.at(0.5);
         const Real mid_wind = larger(place.wind_factor * step.wind.at(0.5), Real(k.least_wind));
         age_snow(c, snow * step.dt_s, new_snow_density_of(k, mid_c, mid_wind), k, s, step.dt_s, resistivity);
     } else {
@@ -317,18 +359,20 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step, c
     const auto bare = pack <= zero;
     const auto near_zero = (c.surface_temp_c > -1.0) & (c.surface_temp_c < 1.0);
     const auto wet = bare & ((c.film + c.puddle > 1e-9) | (rain > zero) | (snow > zero));
-    const auto fine = near_zero | wet;
+    // Dry bare ground has nothing that could freeze or melt.
+    const auto changes = (pack > zero) | (c.film_ice + c.crack_ice + c.puddle_ice + c.crack > zero);
+    const auto fine = (near_zero & changes) | wet;
     const auto plain = !fine;
     const bool any_fine = any(fine);
     const bool any_plain = any(plain);
     if (s.parts <= 1 || !any_fine) {
-        advance_parts(c, step, place, rain, snow, resistivity, k, s.ground_whole, 1);
+        advance_parts(c, step, place, rain, snow, resistivity, k, s.whole, 1);
     } else if (!any_plain) {
-        advance_parts(c, step, place, rain, snow, resistivity, k, s.ground_part, s.parts);
+        advance_parts(c, step, place, rain, snow, resistivity, k, s.part, s.parts);
     } else {
         CellVars<Real> other = c;
-        advance_parts(other, step, place, rain, snow, resistivity, k, s.ground_whole, 1);
-        advance_parts(c, step, place, rain, snow, resistivity, k, s.ground_part, s.parts);
+        advance_parts(other, step, place, rain, snow, resistivity, k, s.whole, 1);
+        advance_parts(c, step, place, rain, snow, resistivity, k, s.part, s.parts);
         blend(c, other, plain);
     }
 

@@ -9,15 +9,19 @@
 
 namespace petrichor::weather::detail {
 
+// B.1. Saturation: scale exp(a T / (b + T)).
+inline constexpr double kWaterA = 17.5043, kWaterB = 241.3, kWaterScale_pa = 611.213;
+inline constexpr double kIceA = 22.4422, kIceB = 272.186, kIceScale_pa = 611.15;
+
 template <class Real>
 PETRICHOR_INLINE Real saturation_water_pa(const Real& t_c)
 {
-    return exponential(t_c * 17.5043 / (t_c + 241.3)) * 611.213;
+    return exponential(t_c * kWaterA / (t_c + kWaterB)) * kWaterScale_pa;
 }
 template <class Real>
 PETRICHOR_INLINE Real saturation_ice_pa(const Real& t_c)
 {
-    return exponential(t_c * 22.4422 / (t_c + 272.186)) * 611.15;
+    return exponential(t_c * kIceA / (t_c + kIceB)) * kIceScale_pa;
 }
 
 template <class Real>
@@ -58,20 +62,18 @@ PETRICHOR_INLINE Real snow_fraction_wet_bulb_of(const Real& wet_bulb_c)
     return 1.0 / (exponential((wet_bulb_c + 3.97) * 2.0) * 6.99e-5 + 1.0);
 }
 
-// B.3. Louis 1979. `root_z_over_z0` is sqrt(zU / z0).
+// B.3. Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one division:
+//   stable    1 / (1 + 15 Ri sqrt(1 + 5 Ri))
+//   unstable  1 + 15 |Ri| / (1 + 75 CHn sqrt(|Ri| zU/z0))
 template <class Real>
 PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& neutral, const Real& root_z_over_z0)
 {
     const auto is_stable = richardson >= 0.0;
-    Real stable = 1.0;
-    if (any(is_stable)) {
-        const Real ri = larger(richardson, Real(0.0));
-        stable = 1.0 / (ri * 15.0 * square_root(ri * 5.0 + 1.0) + 1.0);
-        if (!any(!is_stable)) return stable;
-    }
-    const Real ri = larger(richardson * -1.0, Real(0.0));
-    const Real unstable = ri * 15.0 / (neutral * 75.0 * square_root(ri) * root_z_over_z0 + 1.0) + 1.0;
-    return select(is_stable, stable, unstable);
+    const Real size = larger(richardson, richardson * -1.0);
+    const Real steep = size * 15.0;
+    const Real root = square_root(select(is_stable, size * 5.0 + 1.0, size));
+    const Real under = select(is_stable, steep, neutral * 75.0 * root_z_over_z0) * root + 1.0;
+    return select(is_stable, Real(1.0), under + steep) / under;
 }
 
 // B.5

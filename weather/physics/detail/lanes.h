@@ -14,8 +14,12 @@
 
 #if defined(__AVX__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
+// Parts of a number stay in registers only when loops over them are unrolled early.
+#define PETRICHOR_UNROLL _Pragma("GCC unroll 4")
 #define PETRICHOR_INLINE inline __attribute__((always_inline))
 // Large pieces stay functions of their own: inlining them several times costs minutes of compilation.
 #define PETRICHOR_KERNEL __attribute__((noinline))
@@ -52,7 +56,7 @@ struct alignas(64) Lanes {
     Lanes() = default;
     PETRICHOR_INLINE Lanes(double value)  // NOLINT: a plain number is a valid operand
     {
-        for (int p = 0; p < kParts; ++p) part[p] = value - typename Native<kBytes>::Number{};
+        PETRICHOR_UNROLL for (int p = 0; p < kParts; ++p) part[p] = value - typename Native<kBytes>::Number{};
     }
     PETRICHOR_INLINE double operator[](int lane) const { return part[lane / kPerPart][lane % kPerPart]; }
     PETRICHOR_INLINE void set(int lane, double value) { part[lane / kPerPart][lane % kPerPart] = value; }
@@ -63,21 +67,21 @@ struct alignas(64) Lanes {
     PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
     {                                                                                  \
         Lanes<kBytes> r;                                                               \
-        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
         return r;                                                                      \
     }                                                                                  \
     template <int kBytes>                                                              \
     PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, double b)       \
     {                                                                                  \
         Lanes<kBytes> r;                                                               \
-        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b;    \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b;    \
         return r;                                                                      \
     }                                                                                  \
     template <int kBytes>                                                              \
     PETRICHOR_INLINE Lanes<kBytes> operator op(double a, const Lanes<kBytes>& b)       \
     {                                                                                  \
         Lanes<kBytes> r;                                                               \
-        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a op b.part[p];    \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a op b.part[p];    \
         return r;                                                                      \
     }
 PETRICHOR_LANE_OPERATOR(+)
@@ -91,14 +95,14 @@ PETRICHOR_LANE_OPERATOR(/)
     PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
     {                                                                                  \
         LaneMask<kBytes> r;                                                            \
-        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
         return r;                                                                      \
     }                                                                                  \
     template <int kBytes>                                                              \
     PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, double b)    \
     {                                                                                  \
         LaneMask<kBytes> r;                                                            \
-        for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {                              \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {                              \
             r.part[p] = a.part[p] op(b - typename Native<kBytes>::Number{});           \
         }                                                                              \
         return r;                                                                      \
@@ -114,7 +118,7 @@ PETRICHOR_LANE_COMPARISON(>=)
     PETRICHOR_INLINE LaneMask<kBytes> operator op(const LaneMask<kBytes>& a, const LaneMask<kBytes>& b) \
     {                                                                                  \
         LaneMask<kBytes> r;                                                            \
-        for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
+        PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
         return r;                                                                      \
     }
 PETRICHOR_MASK_OPERATOR(&)
@@ -125,7 +129,7 @@ template <int kBytes>
 PETRICHOR_INLINE LaneMask<kBytes> operator!(const LaneMask<kBytes>& a)
 {
     LaneMask<kBytes> r;
-    for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = ~a.part[p];
+    PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = ~a.part[p];
     return r;
 }
 
@@ -155,7 +159,13 @@ PETRICHOR_INLINE Lanes<kBytes> select(const LaneMask<kBytes>& mask, const Lanes<
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+#if defined(__AVX__)
+        if constexpr (kBytes == 32) {
+            r.part[p] = (Number)_mm256_blendv_pd((__m256d)b.part[p], (__m256d)a.part[p], (__m256d)mask.part[p]);
+            continue;
+        }
+#endif
         r.part[p] = (Number)(((Bits)a.part[p] & mask.part[p]) | ((Bits)b.part[p] & ~mask.part[p]));
     }
     return r;
@@ -164,7 +174,7 @@ template <int kBytes>
 PETRICHOR_INLINE bool any(const LaneMask<kBytes>& mask)
 {
     typename Native<kBytes>::Bits all = mask.part[0];
-    for (int p = 1; p < LaneMask<kBytes>::kParts; ++p) all |= mask.part[p];
+    PETRICHOR_UNROLL for (int p = 1; p < LaneMask<kBytes>::kParts; ++p) all |= mask.part[p];
 #if defined(__AVX__)
     if constexpr (kBytes == 32) return _mm256_movemask_pd((__m256d)all) != 0;
 #endif
@@ -176,7 +186,7 @@ template <int kBytes>
 PETRICHOR_INLINE Lanes<kBytes> square_root(const Lanes<kBytes>& a)
 {
     Lanes<kBytes> r;
-    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
 #if defined(__AVX__)
         if constexpr (kBytes == 32) {
             r.part[p] = (typename Native<kBytes>::Number)_mm256_sqrt_pd((__m256d)a.part[p]);
@@ -226,6 +236,7 @@ struct MaskOfReal<Lanes<kBytes>> {
 template <class Real>
 using MaskOf = typename MaskOfReal<Real>::Type;
 
+// a < b ? a : b and a > b ? a : b, which is what the minimum and maximum instructions do, bit for bit.
 template <class Real>
 PETRICHOR_INLINE Real smaller(const Real& a, const Real& b)
 {
@@ -236,6 +247,34 @@ PETRICHOR_INLINE Real larger(const Real& a, const Real& b)
 {
     return select(a > b, a, b);
 }
+#if defined(__SSE2__)
+PETRICHOR_INLINE Lanes<16> smaller(const Lanes<16>& a, const Lanes<16>& b)
+{
+    Lanes<16> r;
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] = _mm_min_pd(a.part[p], b.part[p]);
+    return r;
+}
+PETRICHOR_INLINE Lanes<16> larger(const Lanes<16>& a, const Lanes<16>& b)
+{
+    Lanes<16> r;
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] = _mm_max_pd(a.part[p], b.part[p]);
+    return r;
+}
+#endif
+#if defined(__AVX__)
+PETRICHOR_INLINE Lanes<32> smaller(const Lanes<32>& a, const Lanes<32>& b)
+{
+    Lanes<32> r;
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] = _mm256_min_pd(a.part[p], b.part[p]);
+    return r;
+}
+PETRICHOR_INLINE Lanes<32> larger(const Lanes<32>& a, const Lanes<32>& b)
+{
+    Lanes<32> r;
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] = _mm256_max_pd(a.part[p], b.part[p]);
+    return r;
+}
+#endif
 template <class Real>
 PETRICHOR_INLINE Real clamped(const Real& a, const Real& low, const Real& high)
 {

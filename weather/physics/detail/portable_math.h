@@ -26,7 +26,7 @@ PETRICHOR_INLINE Lanes<kBytes> power_of_two(const Lanes<kBytes>& k_plus_magic)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
         r.part[p] = (Number)(((Bits)k_plus_magic.part[p] << 52) + (std::int64_t{1023} << 52));
     }
     return r;
@@ -49,7 +49,7 @@ PETRICHOR_INLINE Lanes<kBytes> mantissa_of(const Lanes<kBytes>& a)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
         r.part[p] = (Number)(((Bits)a.part[p] & 0x000FFFFFFFFFFFFFll) | 0x3FF0000000000000ll);
     }
     return r;
@@ -60,7 +60,7 @@ PETRICHOR_INLINE Lanes<kBytes> exponent_of(const Lanes<kBytes>& a)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
         r.part[p] = (Number)(((Bits)a.part[p] >> 52) | 0x4330000000000000ll);
     }
     return r - 4503599627370496.0 - 1023.0;

@@ -13,49 +13,57 @@ struct ReservoirStep {
     Real shortfall;  // of the wanted loss, because the store was empty
 };
 
+// What depends on the reservoir and the length of the step only.
+struct ReservoirConstants {
+    double rate_1_s, inverse_rate_s, threshold;
+    double dt_s, keep;  // keep = exp(-rate dt)
+};
+inline ReservoirConstants reservoir_constants(double rate_1_s, double threshold, double dt_s)
+{
+    return {rate_1_s, 1.0 / rate_1_s, threshold, dt_s, exponential(-rate_1_s * dt_s)};
+}
+
 // dw/dt = net - c max(0, w - w0), w >= 0.
 //
 // At most one crossing of w0 can happen with a constant net supply, so the step is two pieces: until
 // the crossing (A) and after it (B). Above w0 the solution is an exponential towards the steady state
 // ws = w0 + net/c, below it is a line.
 template <class Real>
-PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net, double c, double w0,
-                                                     double dt)
+PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net, const ReservoirConstants& r)
 {
-    const Real steady = net * (1.0 / c) + w0;
+    const Real zero = 0.0;
+    const double w0 = r.threshold;
     const auto above = w > w0;
-    const auto falling = net < 0.0;
-    if (!any(above | !falling)) {
-        // Drying pores: a line, which is what the general form gives too.
-        const Real available = w + net * dt;
-        ReservoirStep<Real> dry;
-        dry.shortfall = larger(available * -1.0, Real(0.0));
-        dry.drained = Real(0.0);
-        dry.water = larger(available, Real(0.0));
-        return dry;
-    }
-    Real fall_time = dt;
-    if (any(above & falling)) {
-        fall_time = logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) * (1.0 / c);
-    }
-    const Real rise_time = (w0 - w) / larger(net, Real(1e-300));
-    Real until = select(above, select(falling, fall_time, Real(dt)), select(falling, Real(dt), rise_time));
-    until = smaller(until, Real(dt));
-    const Real rest = dt - until;
-    const Real high = steady + (w - steady) * exponential(until * -c);
-    const Real low = w + net * until;
-    const Real reached = select(above, high, low);
-    Real crossed_up = w0;
-    if (any((rest > 0.0) & !above)) crossed_up = steady + (w0 - steady) * exponential(rest * -c);
-    const Real crossed_down = net * rest + w0;
-    Real end = select(rest > 0.0, select(above, crossed_down, crossed_up), reached);
+    const auto rising = net >= zero;
+    const Real available = w + net * r.dt_s;
     ReservoirStep<Real> step;
-    step.shortfall = larger(end * -1.0, Real(0.0));
-    end = larger(end, Real(0.0));
+    if (!any(above | (rising & (available > w0)))) {
+        // Pores that dry or fill: a line, which is what the general form gives too.
+        step.shortfall = larger(available * -1.0, zero);
+        step.drained = zero;
+        step.water = larger(available, zero);
+        return step;
+    }
+    const Real steady = net * r.inverse_rate_s + w0;
+    const Real kept = steady + (w - steady) * r.keep;  // above w0 all the time
+    const auto falls_through = above & (kept < w0);
+    const auto rises_through = (w <= w0) & rising & (available > w0);
+    Real end = select(above, kept, available);
+    if (any(falls_through)) {
+        const Real until = logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) *
+                           r.inverse_rate_s;
+        end = select(falls_through, net * (r.dt_s - smaller(until, Real(r.dt_s))) + w0, end);
+    }
+    if (any(rises_through)) {
+        const Real rest = larger(r.dt_s - (w0 - w) / larger(net, Real(1e-300)), zero);
+        end = select(rises_through, steady + (w0 - steady) * exponential(rest * -r.rate_1_s), end);
+    }
+    step.shortfall = larger(end * -1.0, zero);
+    end = larger(end, zero);
     // Both from one sum, so that supply - loss - change closes to rounding.
-    const Real available = w + net * dt + step.shortfall;
-    step.drained = larger(available - end, Real(0.0));
-    step.water = larger(available - step.drained, Real(0.0));
+    const Real held = available + step.shortfall;
+    step.drained = larger(held - end, zero);
+    step.water = larger(held - step.drained, zero);
     return step;
 }
 

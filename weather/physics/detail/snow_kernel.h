@@ -49,9 +49,11 @@ PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resis
 {
     const double per_dt = 1.0 / dt;
     for (std::size_t i = kSnowLayers; i-- > 0;) {
+        column.below[i] = column.own[i] = equivalent_c;
+        column.share_top[i] = column.share_down[i] = Real(1.0);
+        if (!any(c.snow_ice[i] > 0.0)) continue;
         const Real half = c.snow_thickness[i] * resistivity[i] * 0.5;
         const Real storage = (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) * per_dt;
-        column.below[i] = equivalent_c;
         column.share_down[i] = 1.0 / (conductance * half + 1.0);
         const Real under = conductance * column.share_down[i];
         const Real total = under + storage;
@@ -84,6 +86,7 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
     Real flow = rain;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real ice = c.snow_ice[i];
+        if (!any(ice > zero)) continue;  // water runs through
         const Real gone = smaller(ice, to_air);
         to_air = to_air - gone;
         Real left = ice - gone;

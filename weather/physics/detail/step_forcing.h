@@ -26,9 +26,36 @@ struct StepForcing {
     double diffuse = 1.0;        // share of shortwave
 };
 
+/// Where the sun stands matters for slopes and under a narrow sky only; it is the dearest part of a step.
+enum class SunUse { Direction, FlatOpenGround };
+
 /// One step [begin, begin + length] of a filled table.
-StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin_us, std::int64_t length_us);
-/// All whole steps from the first row; the last one may be shorter.
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin_us, std::int64_t length_us, SunUse sun);
+
+/// The steps of a table: whole ones from the first row; the last one may be shorter.
+struct StepPlan {
+    std::int64_t begin_us = 0, end_us = 0, length_us = 1;
+    std::size_t count = 0;
+
+    std::int64_t begin_of(std::size_t step) const { return begin_us + static_cast<std::int64_t>(step) * length_us; }
+    std::int64_t length_of(std::size_t step) const;
+};
+StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us);
+
+/// Makes the steps of a plan one after the other: 176 bytes each are quicker made again than kept.
+class StepWalk {
+public:
+    StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun);
+    StepForcing next();
+
+private:
+    const ForcingTable* table_;
+    const StepPlan* plan_;
+    std::size_t step_, row_;
+    SunUse sun_;
+};
+
+/// All steps, for many cells.
 std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us);
 
 }  // namespace petrichor::weather::detail

@@ -3,6 +3,7 @@
 #define PETRICHOR_WEATHER_DETAIL_SURFACE_KERNEL_H
 
 #include "weather/physics/detail/formulas.h"
+#include "weather/physics/detail/saturation_curve.h"
 #include "weather/physics/exchange.h"
 
 namespace petrichor::weather::detail {
@@ -13,7 +14,6 @@ struct SurfacePoint {
     Real absorbed;      // (1-albedo) SW + eps LW, W/m2
     Real emitting;      // eps * sb
     Real air_c;
-    Real air_k;
     Real q_air;
     Real pressure;
     Real exchange;      // rho * CHn * U, kg m-2 s-1
@@ -34,6 +34,61 @@ struct PointFluxes {
     Real net_radiation, sensible, latent, vapour, ground, rain_heat, balance, slope;
 };
 
+// Saturation humidity of the surface near a temperature.
+template <class Real>
+struct SurfaceVapour {
+    SaturationCurve<Real> curve;
+    Real dry;  // 1 / (P - 0.378 e) at the middle of the curve
+};
+template <class Real, class Mask>
+PETRICHOR_INLINE void centre_dry(SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p)
+{
+    v.dry = 1.0 / (p.pressure - v.curve.pressure_pa * (1.0 - kWaterToAirMass));
+}
+template <class Real, class Mask>
+PETRICHOR_INLINE SurfaceVapour<Real> surface_vapour(const SurfacePoint<Real, Mask>& p, const Real& surface_c)
+{
+    SurfaceVapour<Real> v;
+    v.curve = surface_curve(p.icy, surface_c);
+    centre_dry(v, p);
+    return v;
+}
+template <class Real, class Mask>
+PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapour<Real>& a, const SurfaceVapour<Real>& b)
+{
+    SurfaceVapour<Real> v = b;
+    v.curve.middle_c = select(mask, a.curve.middle_c, b.curve.middle_c);
+    v.curve.inverse = select(mask, a.curve.inverse, b.curve.inverse);
+    v.curve.pressure_pa = select(mask, a.curve.pressure_pa, b.curve.pressure_pa);
+    v.curve.slope = select(mask, a.curve.slope, b.curve.slope);
+    v.dry = select(mask, a.dry, b.dry);
+    return v;
+}
+// Expands again where a temperature is out of the curve's reach.
+template <class Real, class Mask>
+PETRICHOR_INLINE void follow(SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p, const Real& surface_c)
+{
+    const Real step = surface_c - v.curve.middle_c;
+    const auto far = (step > kCurveReach_k) | (step < -kCurveReach_k);
+    if (!any(far)) return;
+    SurfaceVapour<Real> fresh = v;
+    centre_curve(fresh.curve, surface_c);
+    centre_dry(fresh, p);
+    v = chosen(far, fresh, v);
+}
+// At the melting point no exponential is needed: e is the constant of its law.
+template <class Real, class Mask>
+PETRICHOR_INLINE SurfaceVapour<Real> vapour_at_melting_point(const SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p)
+{
+    SurfaceVapour<Real> at_zero = v;
+    at_zero.curve.middle_c = Real(0.0);
+    at_zero.curve.inverse = select(p.icy, Real(1.0 / kIceB), Real(1.0 / kWaterB));
+    at_zero.curve.pressure_pa = v.curve.scale;
+    at_zero.curve.slope = select(p.icy, Real(kIceA / kIceB), Real(kWaterA / kWaterB));
+    centre_dry(at_zero, p);
+    return at_zero;
+}
+
 // rho CH U with the stability of a surface temperature.
 template <class Real, class Mask>
 PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask>& p, const ExchangeParams& params,
@@ -47,20 +102,16 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask>& p, const Excha
 
 constexpr double kLongestStep_k = 20.0;
 
-// F and -dF/dTs at a surface temperature with a given exchange.
+// F and -dF/dTs at a surface temperature, with a given exchange. The vapour at it: pressure `vapour_pa`, its
+// slope d ln e / dT, and `dry` = 1 / (P - 0.378 e).
 template <class Real, class Mask>
-PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, const Real& surface_c,
-                                             const Real& exchange)
+PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask>& p, const Real& vapour_pa,
+                                               const Real& vapour_slope, const Real& dry, const Real& surface_c,
+                                               const Real& exchange)
 {
-    const Real a = select(p.icy, Real(22.4422), Real(17.5043));
-    const Real b = select(p.icy, Real(272.186), Real(241.3));
-    const Real scale = select(p.icy, Real(611.15), Real(611.213));
-    const Real inverse = 1.0 / (b + surface_c);
-    const Real vapour_pa = scale * exponential(a * surface_c * inverse);
-    const Real dry = 1.0 / (p.pressure - vapour_pa * (1.0 - kWaterToAirMass));
     const Real q = vapour_pa * kWaterToAirMass * dry;
     // dq/dT = q P / (P - 0.378 e) * d(ln e)/dT
-    const Real dq = q * p.pressure * dry * (a * b) * inverse * inverse;
+    const Real dq = q * p.pressure * dry * vapour_slope;
     const Real surface_k = surface_c + kZeroCelsiusK;
     const Real cubed = surface_k * surface_k * surface_k;
     // Dew and frost settle on dry ground too: only a loss is scaled by the wet fraction.
@@ -80,6 +131,50 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, 
     // No step of Newton's is longer than 20 K: in calm air a cold surface in strong sun would be thrown beyond boiling.
     f.slope = larger(f.slope, larger(f.balance, -f.balance) * (1.0 / kLongestStep_k));
     return f;
+}
+
+// At the middle of the curve.
+template <class Real, class Mask>
+PETRICHOR_INLINE PointFluxes<Real> fluxes_at_middle(const SurfacePoint<Real, Mask>& p, const SurfaceVapour<Real>& v,
+                                                    const Real& exchange)
+{
+    return fluxes_with(p, v.curve.pressure_pa, v.curve.slope, v.dry, v.curve.middle_c, exchange);
+}
+// At a temperature within reach of the curve.
+template <class Real, class Mask>
+PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, const SurfaceVapour<Real>& v,
+                                             const Real& surface_c, const Real& exchange)
+{
+    const SaturationPoint<Real> s = point_of(v.curve, surface_c);
+    // 1 / (P - 0.378 e) from its value at the middle; h is at most a few thousandths.
+    const Real h = v.curve.pressure_pa * s.growth * v.dry * (1.0 - kWaterToAirMass);
+    const Real dry = v.dry * ((h + 1.0) * (h * h + 1.0));
+    return fluxes_with(p, s.pressure_pa, s.slope, dry, surface_c, exchange);
+}
+
+// Newton's three steps from a first guess; the exchange and the vapour curve of the last one.
+template <class Real>
+struct SurfaceRoot {
+    Real surface_c, exchange;
+    SurfaceVapour<Real> vapour;
+};
+template <class Real, class Mask>
+PETRICHOR_INLINE SurfaceRoot<Real> surface_root(const SurfacePoint<Real, Mask>& p, const ExchangeParams& params,
+                                                const Real& first_guess_c)
+{
+    SurfaceRoot<Real> root;
+    root.vapour = surface_vapour(p, first_guess_c);
+    root.exchange = exchange_at(p, params, first_guess_c);
+    const auto first = fluxes_at_middle(p, root.vapour, root.exchange);
+    root.surface_c = first_guess_c + first.balance / first.slope;
+    for (int i = 1; i < 3; ++i) {
+        follow(root.vapour, p, root.surface_c);
+        root.exchange = exchange_at(p, params, root.surface_c);
+        const auto f = fluxes_at(p, root.vapour, root.surface_c, root.exchange);
+        root.surface_c = root.surface_c + f.balance / f.slope;
+    }
+    follow(root.vapour, p, root.surface_c);
+    return root;
 }
 
 }  // namespace petrichor::weather::detail

@@ -40,8 +40,9 @@ struct WetSurface {
     Real beta;                                 // wet share of the cell
 };
 
-template <class Real>
-PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k)
+// Under snow only the film's share is asked for: nothing evaporates there.
+template <class Real, class Mask>
+PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k, const Mask& bare)
 {
     WetSurface<Real> w;
     const Real all = (c.film + c.film_ice) + (c.crack + c.crack_ice) + (c.puddle + c.puddle_ice);
@@ -50,6 +51,10 @@ PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const Cel
         return w;
     }
     w.film_share = smaller((c.film + c.film_ice) * k.inverse_film_capacity, Real(1.0));
+    if (!any(bare)) {
+        w.crack_area = w.puddle_area = w.beta = Real(0.0);
+        return w;
+    }
     const Real crack = c.crack + c.crack_ice;
     const Real puddle = c.puddle + c.puddle_ice;
     w.crack_area = area_at(k.surface.cracks, level_of(k.surface.cracks, crack));
@@ -89,45 +94,32 @@ PETRICHOR_INLINE Real taken_from(Real& store, const Real& amount)
     return amount - moved;
 }
 
-// Horton's law, stepped: the depth wet ground takes up in dt, and its capacity afterwards.
+// Horton's law, stepped: the depth wet ground takes up in a substep, and its capacity afterwards.
 template <class Real, class Mask>
-PETRICHOR_INLINE Real infiltration_depth(CellVars<Real>& c, const Mask& wet, const CellConstants& k, double dt)
+PETRICHOR_INLINE Real infiltration_depth(CellVars<Real>& c, const Mask& wet, const CellConstants& k,
+                                         const PartConstants& part)
 {
     const HortonParams& h = k.surface.infiltration;
-    const double hours = dt / 3600.0;
-    const double decay = exponential(-h.decay_1_h * hours);
-    const double recovery = exponential(-h.recovery_1_h * hours);
     const Real excess = c.infiltration_mm_h - h.last_mm_h;
-    const Real depth = excess * ((1.0 - decay) / h.decay_1_h) + h.last_mm_h * hours;
-    const Real dry = (c.infiltration_mm_h - h.first_mm_h) * recovery + h.first_mm_h;
-    c.infiltration_mm_h = select(wet, excess * decay + h.last_mm_h, dry);
+    const Real depth = excess * part.horton_depth_h + h.last_mm_h * (part.dt_s / 3600.0);
+    const Real dry = (c.infiltration_mm_h - h.first_mm_h) * part.horton_recover + h.first_mm_h;
+    c.infiltration_mm_h = select(wet, excess * part.horton_keep + h.last_mm_h, dry);
     return select(wet, depth, Real(0.0));
 }
 template <class Real>
-PETRICHOR_INLINE void recover_infiltration(CellVars<Real>& c, const CellConstants& k, double dt)
+PETRICHOR_INLINE void recover_infiltration(CellVars<Real>& c, const CellConstants& k, const PartConstants& part)
 {
-    if (k.permeable) infiltration_depth(c, c.film < -1.0, k, dt);
+    const double first = k.surface.infiltration.first_mm_h;
+    if (k.permeable) c.infiltration_mm_h = (c.infiltration_mm_h - first) * part.horton_recover + first;
 }
 
-//   supply    rain, or what came out of the snow, kg/m2 of the substep
-//   vapour    leaving (> 0) or settling, bare ground only
-//   phase     melting (> 0) or freezing, bare ground only
+// Ice on the ground: sublimation and frost, melting, freezing. `film_supply` is what the film receives.
+//   phase  melting (> 0) or freezing
 template <class Real, class Mask>
-PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour, const Real& phase,
-                                 const Mask& icy, const WetSurface<Real>& wet, const CellConstants& k, double dt)
+PETRICHOR_KERNEL void change_ice(CellVars<Real>& c, Real& film_supply, const Real& to_air, const Real& settling,
+                                 const Real& phase, const Mask& icy)
 {
     const Real zero = 0.0;
-    const Real liquid = c.film + c.crack + c.puddle;
-    const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
-    const bool quiet = !any((supply > zero) | (liquid > zero) | (ice > zero) | (vapour < zero));
-    if (quiet) {
-        recover_infiltration(c, k, dt);
-        return;
-    }
-
-    // ---- ice: sublimation and frost, then melting
-    const Real to_air = larger(vapour, zero);
-    const Real settling = larger(vapour * -1.0, zero);
     Real sublimated = select(icy, to_air, zero);
     Real left = taken_from(c.film_ice, sublimated);
     left = taken_from(c.crack_ice, left);
@@ -137,7 +129,6 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     c.total_sublimation += select(icy, sublimated - settling, zero);
 
     Real melt = larger(phase, zero);
-    Real film_supply = supply + select(icy, zero, settling);
     Real before = c.film_ice;
     melt = taken_from(c.film_ice, melt);
     film_supply += before - c.film_ice;
@@ -148,7 +139,7 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     melt = taken_from(c.puddle_ice, melt);
     c.puddle += before - c.puddle_ice;
 
-    // ---- freezing: the thin film first, then cracks, then puddles
+    // Freezing: the thin film first, then cracks, then puddles.
     Real freeze = larger(phase * -1.0, zero);
     before = film_supply;
     freeze = taken_from(film_supply, freeze);
@@ -162,40 +153,70 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     before = c.puddle;
     freeze = taken_from(c.puddle, freeze);
     c.puddle_ice += before - c.puddle;
+}
+
+//   supply    rain, or what came out of the snow, kg/m2 of the substep
+//   vapour    leaving (> 0) or settling, bare ground only
+//   phase     melting (> 0) or freezing, bare ground only
+template <class Real, class Mask>
+PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour, const Real& phase,
+                                 const Mask& icy, const WetSurface<Real>& wet, const CellConstants& k,
+                                 const PartConstants& part)
+{
+    const Real zero = 0.0;
+    const Real liquid = c.film + c.crack + c.puddle;
+    const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
+    const bool quiet = !any((supply > zero) | (liquid > zero) | (ice > zero) | (vapour < zero));
+    if (quiet) {
+        recover_infiltration(c, k, part);
+        return;
+    }
+
+    const Real to_air = larger(vapour, zero);
+    const Real settling = larger(vapour * -1.0, zero);
+    Real film_supply = supply + select(icy, zero, settling);
+    if (any((ice > zero) | (icy & (settling > zero)) | (phase < zero))) {
+        change_ice(c, film_supply, to_air, settling, phase, icy);
+    }
 
     // ---- film: supply, its share of the evaporation, drainage above its capacity
     const Real evaporation = select(icy, zero, to_air);
     const Real per_wet = evaporation / larger(wet.beta, Real(1e-12));
     const Real open = 1.0 - wet.puddle_area;
     const Real film_wanted = per_wet * (open * (1.0 - wet.crack_area) * wet.film_share);
-    const auto film = drain_reservoir(c.film, (film_supply - film_wanted) * (1.0 / dt), k.surface.film_rate_1_s,
-                                      k.film_capacity, dt);
+    const auto film = drain_reservoir(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, part.film);
     c.film = film.water;
     Real evaporated = film_wanted - film.shortfall;
     Real flow = film.drained;
-    if (k.surface.traffic_loss_1_h > 0.0) {
-        const Real sprayed = c.film * (1.0 - exponential(Real(-k.surface.traffic_loss_1_h * dt / 3600.0)));
+    if (part.sprayed > 0.0) {
+        const Real sprayed = c.film * part.sprayed;
         c.film = c.film - sprayed;
         c.total_drainage += sprayed;
     }
 
     // ---- infiltration on the way down, then cracks and puddles fill
     Real infiltration = zero;
-    if (k.permeable) infiltration = infiltration_depth(c, (supply > zero) | (liquid > zero), k, dt);
+    if (k.permeable) infiltration = infiltration_depth(c, (supply > zero) | (liquid > zero), k, part);
     Real soaked = smaller(flow, infiltration);
     flow = flow - soaked;
-    const Real crack_room = larger(k.crack_capacity - (c.crack + c.crack_ice), zero);
-    const Real into_cracks = smaller(flow, crack_room);
-    c.crack += into_cracks;
-    flow = flow - into_cracks;
-    const auto cracks = lower_store(k.surface.cracks, c.crack, c.crack_ice, per_wet * open, infiltration);
-    const Real puddle_room = larger(k.puddle_capacity - (c.puddle + c.puddle_ice), zero);
-    const Real into_puddles = smaller(flow, puddle_room);
-    c.puddle += into_puddles;
-    flow = flow - into_puddles;
-    const auto puddles = lower_store(k.surface.puddles, c.puddle, c.puddle_ice, per_wet, infiltration);
-    evaporated += cracks.evaporated + puddles.evaporated;
-    soaked += cracks.infiltrated + puddles.infiltrated;
+    if (any((flow > zero) | (c.crack > zero))) {
+        const Real room = larger(k.crack_capacity - (c.crack + c.crack_ice), zero);
+        const Real filling = smaller(flow, room);
+        c.crack += filling;
+        flow = flow - filling;
+        const auto cracks = lower_store(k.surface.cracks, c.crack, c.crack_ice, per_wet * open, infiltration);
+        evaporated += cracks.evaporated;
+        soaked += cracks.infiltrated;
+    }
+    if (any((flow > zero) | (c.puddle > zero))) {
+        const Real room = larger(k.puddle_capacity - (c.puddle + c.puddle_ice), zero);
+        const Real filling = smaller(flow, room);
+        c.puddle += filling;
+        flow = flow - filling;
+        const auto puddles = lower_store(k.surface.puddles, c.puddle, c.puddle_ice, per_wet, infiltration);
+        evaporated += puddles.evaporated;
+        soaked += puddles.infiltrated;
+    }
 
     // ---- the wet area shrank during the substep; the energy is spent, so the water still goes
     Real owed = evaporation - evaporated;
