@@ -21,7 +21,7 @@ TEST(Program, HelpAndVersionSucceedOnStdout)
 {
     const Workplace place("help");
     for (const auto& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"--version"}, {"render", "--help"}, {"bench", "--help"},
+             {"--help"}, {"--version"}, {"render", "--help"}, {"bench", "--help"}, {"bench", "weather", "--help"},
              {"doctor", "--help"}, {"init", "--help"}}) {
         const Outcome outcome = run(arguments, place);
         EXPECT_EQ(outcome.exit_code, 0) << arguments[0];

@@ -1,22 +1,16 @@
-// petrichor bench: renders one frame again and again and reports medians.
-#include <sys/resource.h>
-#include <time.h>
+#include "cli/bench/render_bench.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "cli/bench/measure.h"
 #include "cli/render/camera.h"
-#include "cli/commands.h"
 #include "cli/render/scene_file.h"
 #include "cli/render/scene_textures.h"
 #include "cli/render/sequence.h"
@@ -26,59 +20,27 @@
 namespace petrichor::cli {
 namespace {
 
-struct BenchOptions {
-    std::string scene;
-    std::string size = "1280x720";
-    std::string camera;
-    std::string device;
-    std::string picture;
-    int repeat = 5;
-    int samples = 1;
-    int threads = 0;
-    bool json = false;
-    bool shadows = false;
-    bool ambient_occlusion = false;
-    bool image_based_light = false;
-    bool sky = false;
-    bool rain = false;
-};
-
 // What one repetition cost.
-struct Cost {
-    double cpu_ms = 0.0;
-    double wall_ms = 0.0;
+struct FrameCost {
+    Cost cost;
     std::vector<gpu::PassTime> passes;
 };
 
-double clock_ms(clockid_t clock)
-{
-    timespec now{};
-    clock_gettime(clock, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-double median_of(const std::vector<Cost>& costs, double Cost::* member)
+double median_of(const std::vector<FrameCost>& costs, double Cost::* member)
 {
     std::vector<double> values;
-    for (const Cost& cost : costs) values.push_back(cost.*member);
+    for (const FrameCost& frame : costs) values.push_back(frame.cost.*member);
     return median(values);
 }
 
 // Median of each pass, by its place in the frame.
-std::vector<gpu::PassTime> median_passes(const std::vector<Cost>& costs)
+std::vector<gpu::PassTime> median_passes(const std::vector<FrameCost>& costs)
 {
     std::vector<gpu::PassTime> passes = costs.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         std::vector<double> values;
-        for (const Cost& cost : costs) {
-            if (i < cost.passes.size()) values.push_back(cost.passes[i].milliseconds);
+        for (const FrameCost& frame : costs) {
+            if (i < frame.passes.size()) values.push_back(frame.passes[i].milliseconds);
         }
         passes[i].milliseconds = median(values);
     }
@@ -86,7 +48,7 @@ std::vector<gpu::PassTime> median_passes(const std::vector<Cost>& costs)
 }
 
 // The workload that renderers are compared by: the scene's own lights, nothing that is not asked for.
-gpu::Frame bench_frame(const gpu::Scene& scene, const BenchOptions& options, const ImageSize& size)
+gpu::Frame bench_frame(const gpu::Scene& scene, const RenderBenchOptions& options, const ImageSize& size)
 {
     gpu::Frame frame;
     ScenarioCamera camera;
@@ -118,26 +80,15 @@ gpu::Frame bench_frame(const gpu::Scene& scene, const BenchOptions& options, con
     return frame;
 }
 
-Cost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::RenderResult& result)
+FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::RenderResult& result)
 {
-    const double cpu_before_ms = clock_ms(CLOCK_PROCESS_CPUTIME_ID);
-    const double wall_before_ms = clock_ms(CLOCK_MONOTONIC);
-    result = renderer.render(frame);
-    Cost cost;
-    cost.wall_ms = clock_ms(CLOCK_MONOTONIC) - wall_before_ms;
-    cost.cpu_ms = clock_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_before_ms;
-    cost.passes = result.passes;
-    return cost;
+    FrameCost frame_cost;
+    frame_cost.cost = timed([&] { result = renderer.render(frame); });
+    frame_cost.passes = result.passes;
+    return frame_cost;
 }
 
-long peak_memory_mib()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss / 1024;
-}
-
-void print_json(const BenchOptions& options, const std::string& device, const std::vector<Cost>& costs,
+void print_json(const RenderBenchOptions& options, const std::string& device, const std::vector<FrameCost>& costs,
                 const gpu::RenderResult& result)
 {
     nlohmann::ordered_json report;
@@ -158,7 +109,7 @@ void print_json(const BenchOptions& options, const std::string& device, const st
     std::cout << report.dump(2) << "\n";
 }
 
-void print_text(const BenchOptions& options, const std::string& device, const std::vector<Cost>& costs,
+void print_text(const RenderBenchOptions& options, const std::string& device, const std::vector<FrameCost>& costs,
                 const gpu::RenderResult& result)
 {
     std::printf("%s, %d x %d, %d samples, on %s: medians of %d\n", options.scene.c_str(), result.width,
@@ -173,7 +124,9 @@ void print_text(const BenchOptions& options, const std::string& device, const st
     }
 }
 
-void bench(const BenchOptions& options)
+}  // namespace
+
+void run_render_bench(const RenderBenchOptions& options)
 {
     if (options.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     const ImageSize size = parse_size(options.size);
@@ -183,7 +136,7 @@ void bench(const BenchOptions& options)
     const gpu::Frame frame = bench_frame(scene, options, size);
     gpu::RenderResult result;
     timed_render(renderer, frame, result);  // warm-up: shaders are compiled on first use
-    std::vector<Cost> costs;
+    std::vector<FrameCost> costs;
     for (int i = 0; i < options.repeat; ++i) costs.push_back(timed_render(renderer, frame, result));
     if (!options.picture.empty()) {
         texproc::write_png8(options.picture, result.width, result.height, 4, result.display);
@@ -193,35 +146,6 @@ void bench(const BenchOptions& options)
     } else {
         print_text(options, renderer.device().name, costs, result);
     }
-}
-
-}  // namespace
-
-void add_bench(CLI::App& app)
-{
-    auto o = std::make_shared<BenchOptions>();
-    CLI::App* command =
-        app.add_subcommand("bench", "Time one frame: medians of CPU time, wall time and each pass.");
-    command->add_option("--scene", o->scene, "a .glb or .gltf file")->required();
-    command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels (1280x720)");
-    command->add_option("-r,--repeat", o->repeat, "timed frames after one to warm up (5)")
-        ->check(CLI::Range(1, 100000));
-    command->add_option("--samples", o->samples, "samples a pixel (1)")->check(CLI::Range(1, 256));
-    command->add_option("--camera", o->camera, "a camera of the scene (its first)");
-    command->add_option("--device", o->device, "part of a device name, or its number in `petrichor doctor`");
-    command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
-    command->add_option("--png", o->picture, "keep the picture that was timed");
-    command->add_flag("--json", o->json, "report for programs");
-    command->add_flag("--shadows", o->shadows, "with shadows of the sun");
-    command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion");
-    command->add_flag("--ibl", o->image_based_light, "with light from the sky");
-    command->add_flag("--sky", o->sky, "with the sky drawn");
-    command->add_flag("--rain", o->rain, "in heavy rain: ripples, puddles, shelter");
-    command->footer(
-        "Example: petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
-        "Without flags: no shadows, occlusion, sky light or anti-aliasing; tone mapped. The time runs from\n"
-        "the call until the pixels can be read.");
-    command->callback([o] { bench(*o); });
 }
 
 }  // namespace petrichor::cli
