@@ -14,7 +14,9 @@ namespace petrichor {
 class Error : public std::runtime_error {
 public:
     Error(const std::string& problem, std::string fix)
-        : std::runtime_error(problem), fix_(std::move(fix)) {}
+        : std::runtime_error(problem), fix_(std::move(fix))
+    {
+    }
 
     const std::string& fix() const noexcept { return fix_; }
 

@@ -24,10 +24,15 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, int c, ColorSpace s, float fill = 0.0f)
-        : width(w), height(h), channels(c), space(s),
+        : width(w),
+          height(h),
+          channels(c),
+          space(s),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) *
                      static_cast<std::size_t>(c),
-                 fill) {}
+                 fill)
+    {
+    }
 
     std::size_t index(int x, int y, int c) const
     {

@@ -1,6 +1,7 @@
 // The bridge between C++ and GLSL: a header that includes this one and keeps to the common subset
-// compiles as both. Common subset: no swizzles (vec3(v.x, v.y, v.z)), float literals with f, results
-// returned as a struct, no bool in buffers, `SHARED_CONST float NAME = 1.0f;` for constants.
+// compiles as both. Common subset: no swizzles (vec3(v.x, v.y, v.z)), float literals with f,
+// results returned as a struct, no bool in buffers, `SHARED_CONST float NAME = 1.0f;` for
+// constants.
 #ifndef PETRICHOR_BASE_INTEROP_H
 #define PETRICHOR_BASE_INTEROP_H
 
@@ -10,7 +11,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#define SHARED_BEGIN            \
+#define SHARED_BEGIN              \
     namespace petrichor::shared { \
     using namespace petrichor::shared_names;
 #define SHARED_END }

@@ -32,8 +32,8 @@ public:
                             "Choose a folder that you may write to.");
             }
         }
-        std::filesystem::path name = "." + destination_.stem().string() + ".part" +
-                                     std::to_string(::getpid());
+        std::filesystem::path name =
+            "." + destination_.stem().string() + ".part" + std::to_string(::getpid());
         name += destination_.extension();
         temporary_ = destination_.parent_path() / name;
     }
@@ -66,7 +66,8 @@ private:
     bool committed_ = false;
 };
 
-/// Writes `content` to `path`, whole or not at all. Throws Error (disk full, read-only folder, ...).
+/// Writes `content` to `path`, whole or not at all. Throws Error (disk full, read-only folder,
+/// ...).
 inline void write_text_file(const std::filesystem::path& path, std::string_view content)
 {
     OutputFile file(path);

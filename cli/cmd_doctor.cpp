@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/render/film.h"
 #include "cli/folders.h"
+#include "cli/render/film.h"
 #include "cli/words.h"
 #include "gpu/renderer.h"
 
@@ -72,11 +72,13 @@ Finding check_cache()
         require_writable_folder(folder);
         return {"cache", true, false, folder.string(), ""};
     } catch (const Error& error) {
-        return {"cache", false, false, error.what(), "Set PETRICHOR_CACHE to a folder you may write to."};
+        return {"cache", false, false, error.what(),
+                "Set PETRICHOR_CACHE to a folder you may write to."};
     }
 }
 
-void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices, bool can_render)
+void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,
+                bool can_render)
 {
     Json report;
     report["version"] = PETRICHOR_VERSION;
@@ -104,19 +106,24 @@ void print_json(const std::vector<Finding>& findings, const std::vector<gpu::Dev
     std::cout << report.dump(2) << "\n";
 }
 
-void print_text(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices, bool can_render)
+void print_text(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,
+                bool can_render)
 {
-    std::cout << "petrichor " PETRICHOR_VERSION ", " << std::thread::hardware_concurrency() << " threads\n";
+    std::cout << "petrichor " PETRICHOR_VERSION ", " << std::thread::hardware_concurrency()
+              << " threads\n";
     int index = 0;
     for (const gpu::DeviceInfo& device : devices) {
-        std::cout << (device.usable ? "  ok    " : "  no    ") << "device " << index++ << ": " << device.name
-                  << " (" << device.kind << ", Vulkan " << device.api_version << ", " << device.driver << ")";
+        std::cout << (device.usable ? "  ok    " : "  no    ") << "device " << index++ << ": "
+                  << device.name << " (" << device.kind << ", Vulkan " << device.api_version << ", "
+                  << device.driver << ")";
         if (!device.usable) std::cout << ": " << device.why_not;
         std::cout << "\n";
     }
     for (const Finding& one : findings) {
-        std::cout << (one.works ? "  ok    " : one.needed ? "  MISSING " : "  no    ") << one.name << ": "
-                  << one.detail << "\n";
+        std::cout << (one.works    ? "  ok    "
+                      : one.needed ? "  MISSING "
+                                   : "  no    ")
+                  << one.name << ": " << one.detail << "\n";
         if (!one.works) std::cout << "        " << one.fix << "\n";
     }
     std::cout << "  weather presets: " << join_words(preset_names("weather"))
@@ -127,7 +134,8 @@ void print_text(const std::vector<Finding>& findings, const std::vector<gpu::Dev
 void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
-    const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(), check_cache()};
+    const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
+                                        check_cache()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {
@@ -143,10 +151,11 @@ void doctor(bool json)
 void add_doctor(CLI::App& app)
 {
     auto json = std::make_shared<bool>(false);
-    CLI::App* command =
-        app.add_subcommand("doctor", "Tell what works on this machine, what is missing, how to get it.");
+    CLI::App* command = app.add_subcommand(
+        "doctor", "Tell what works on this machine, what is missing, how to get it.");
     command->add_flag("--json", *json, "the same for programs");
-    command->footer("Example: petrichor doctor --json\nExit code 2 when rendering is impossible here.");
+    command->footer(
+        "Example: petrichor doctor --json\nExit code 2 when rendering is impossible here.");
     command->callback([json] { doctor(*json); });
 }
 

@@ -7,7 +7,7 @@
 namespace petrichor::cli {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitUser = 2;  ///< the user can mend it
+inline constexpr int kExitUser = 2;   ///< the user can mend it
 inline constexpr int kExitOurs = 70;  ///< our fault
 inline constexpr int kExitInterrupted = 130;
 

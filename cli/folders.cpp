@@ -74,7 +74,8 @@ void require_writable_folder(const fs::path& folder)
 {
     std::error_code failed;
     fs::create_directories(folder, failed);
-    if (!failed && !fs::is_directory(folder)) failed = std::make_error_code(std::errc::not_a_directory);
+    if (!failed && !fs::is_directory(folder))
+        failed = std::make_error_code(std::errc::not_a_directory);
     std::string reason = failed ? failed.message() : "";
     if (reason.empty()) {
         const fs::path trial = folder / (".trial" + std::to_string(::getpid()));

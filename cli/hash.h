@@ -34,8 +34,7 @@ public:
 
     /// Numbers and flags, by their bits (so -0 and 0 differ, and a float differs from a double).
     template <class Number>
-        requires(std::is_arithmetic_v<Number> || std::is_enum_v<Number>)
-    void add(Number value)
+    requires(std::is_arithmetic_v<Number> || std::is_enum_v<Number>) void add(Number value)
     {
         std::uint64_t word = 0;
         std::memcpy(&word, &value, sizeof value);
@@ -44,11 +43,8 @@ public:
 
     /// A vector of numbers whose memory holds nothing else.
     template <class Number>
-        requires std::is_arithmetic_v<Number>
-    void add_numbers(std::span<const Number> values)
-    {
-        add_bytes(std::as_bytes(values));
-    }
+    requires std::is_arithmetic_v<Number>
+    void add_numbers(std::span<const Number> values) { add_bytes(std::as_bytes(values)); }
 
     /// 32 hexadecimal digits.
     std::string text() const
@@ -70,7 +66,8 @@ private:
         x *= 0xd6e8feb86659fd93ull;
         return x ^ (x >> 32);
     }
-    // Both lanes are bijections of their state for a given word, so a single difference never vanishes.
+    // Both lanes are bijections of their state for a given word, so a single difference never
+    // vanishes.
     void add_word(std::uint64_t word)
     {
         a_ = (a_ ^ word) * 0x9fb21c651e98df25ull;

@@ -35,8 +35,9 @@ int main(int argc, char** argv)
     CLI::App app{"Weather for physically based surfaces.", "petrichor"};
     app.require_subcommand(1);
     app.set_version_flag("--version", "petrichor " PETRICHOR_VERSION);
-    app.footer("Try: petrichor render            the demo street, into petrichor-demo/\n"
-               "     petrichor COMMAND --help    options and an example");
+    app.footer(
+        "Try: petrichor render            the demo street, into petrichor-demo/\n"
+        "     petrichor COMMAND --help    options and an example");
     cli::add_render(app, std::vector<std::string>(argv, argv + argc));
     cli::add_bench(app);
     cli::add_doctor(app);
@@ -50,7 +51,8 @@ int main(int argc, char** argv)
     } catch (const CLI::Success& done) {  // --help, --version
         return app.exit(done);
     } catch (const CLI::ParseError& wrong) {
-        std::cerr << "error petrichor: " << wrong.what() << "\n  Run with --help to see what is accepted.\n";
+        std::cerr << "error petrichor: " << wrong.what()
+                  << "\n  Run with --help to see what is accepted.\n";
         return cli::kExitUser;
     } catch (const cli::ExitCode& exit) {
         return exit.code;

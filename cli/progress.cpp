@@ -17,14 +17,18 @@ std::string duration_text(double seconds)
     } else if (whole < 3600) {
         std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
     } else {
-        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60,
+                      whole % 60);
     }
     return text;
 }
 
 Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(total), terminal_(::isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()), last_(start_)
+    : what_(std::move(what)),
+      total_(total),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_(start_)
 {
 }
 
@@ -42,8 +46,9 @@ void Progress::update(int done)
     last_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
     const double left_s = done > 0 ? elapsed_s / done * (total_ - done) : 0.0;
-    const std::string time =
-        last ? "in " + duration_text(elapsed_s) : done > 0 ? duration_text(left_s) + " left" : "";
+    const std::string time = last       ? "in " + duration_text(elapsed_s)
+                             : done > 0 ? duration_text(left_s) + " left"
+                                        : "";
     const std::string count = std::to_string(done) + "/" + std::to_string(total_);
     if (!terminal_) {
         std::cerr << "info " << what_ << ": " << count << ", " << time << std::endl;
@@ -52,8 +57,8 @@ void Progress::update(int done)
     constexpr int kWidth = 30;
     const int filled = total_ > 0 ? kWidth * done / total_ : kWidth;
     std::cerr << "\r" << what_ << " [" << std::string(static_cast<std::size_t>(filled), '#')
-              << std::string(static_cast<std::size_t>(kWidth - filled), '.') << "] " << count << ", " << time
-              << "\x1b[K" << std::flush;
+              << std::string(static_cast<std::size_t>(kWidth - filled), '.') << "] " << count
+              << ", " << time << "\x1b[K" << std::flush;
     drawn_ = true;
 }
 

@@ -23,7 +23,8 @@ void watch_for_interrupt()
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM}) {
-        // Also where a shell started us in the background with SIGINT ignored: who sends one means it.
+        // Also where a shell started us in the background with SIGINT ignored: who sends one means
+        // it.
         sigaction(signal, &action, nullptr);
     }
     std::signal(SIGXFSZ, SIG_IGN);

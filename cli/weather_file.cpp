@@ -23,14 +23,15 @@ struct Quantity {
 
 std::vector<Quantity> quantities()
 {
-    std::vector<Quantity> all{{"temperature_c", -100.0, 60.0}, {"rainfall", 0.0, 1.0},
-                              {"cloud_cover", 0.0, 1.0},       {"wind_m_s", 0.0, 80.0},
+    std::vector<Quantity> all{{"temperature_c", -100.0, 60.0},    {"rainfall", 0.0, 1.0},
+                              {"cloud_cover", 0.0, 1.0},          {"wind_m_s", 0.0, 80.0},
                               {"wind_from_deg", -3600.0, 3600.0}, {"visibility_m", 20.0, 2.0e5}};
     for (const auto& parameter : weather::artist_parameters()) {
         all.push_back({std::string(parameter.name), parameter.low, parameter.high});
     }
     all.push_back({"script_controlled", 0.0, 1.0});
-    for (const auto& state : weather::hand_set_states()) all.push_back({std::string(state.name), 0.0, 1.0});
+    for (const auto& state : weather::hand_set_states())
+        all.push_back({std::string(state.name), 0.0, 1.0});
     return all;
 }
 
@@ -68,14 +69,15 @@ void read_keys(const TomlValue& keys, weather::Interpolation interpolation, Weat
         for (const auto& [name, value] : entries) {
             if (name == "time_s") continue;
             const std::string& key_name = name;
-            const auto quantity =
-                std::find_if(known.begin(), known.end(),
-                             [&](const Quantity& q) { return q.name == key_name; });
+            const auto quantity = std::find_if(
+                known.begin(), known.end(), [&](const Quantity& q) { return q.name == key_name; });
             Channel& channel = channel_of(script, name);
             if (std::find(started.begin(), started.end(), name) == started.end()) {
                 started.push_back(name);
                 const bool hold = name == "script_controlled";  // a switch
-                channel = {.times = {}, .values = {}, .interpolation = hold ? weather::Interpolation::Hold : interpolation};
+                channel = {.times = {},
+                           .values = {},
+                           .interpolation = hold ? weather::Interpolation::Hold : interpolation};
             }
             channel.times.push_back(*time);
             channel.values.push_back(value.number(quantity->low, quantity->high));
@@ -94,7 +96,8 @@ std::vector<weather::CurveKey> read_curve(const TomlValue& curve)
     std::vector<weather::CurveKey> keys;
     for (const TomlValue& element : curve.elements()) {
         const auto n = element.numbers(4, -HUGE_VAL, HUGE_VAL);
-        if (!keys.empty() && n[0] <= keys.back().time) element.refuse("later than the key before it");
+        if (!keys.empty() && n[0] <= keys.back().time)
+            element.refuse("later than the key before it");
         keys.push_back({n[0], n[1], n[2], n[3]});
     }
     if (keys.empty()) curve.refuse("at least one [t, v, slope_in, slope_out]");
@@ -159,9 +162,9 @@ WeatherScript weather_script_from(const TomlValue& weather_table)
         if (name == "model") {
             value.choice({"artist"});
         } else if (name == "interpolation") {
-            interpolation = *weather::interpolation_named(
-                std::vector<std::string>{"hold", "linear", "smooth"}[static_cast<std::size_t>(
-                    value.choice({"hold", "linear", "smooth"}))]);
+            interpolation = *weather::interpolation_named(std::vector<std::string>{
+                "hold", "linear",
+                "smooth"}[static_cast<std::size_t>(value.choice({"hold", "linear", "smooth"}))]);
         } else if (name == "duration_s") {
             duration_s = value.number(0.0, 1e9);
         } else if (name == "keys") {
@@ -173,7 +176,8 @@ WeatherScript weather_script_from(const TomlValue& weather_table)
         }
     }
     if (!keys || keys->elements().empty()) {
-        weather_table.refuse("a table with keys = [{time_s = 0, temperature_c = .., rainfall = ..}]");
+        weather_table.refuse(
+            "a table with keys = [{time_s = 0, temperature_c = .., rainfall = ..}]");
     }
     read_keys(*keys, interpolation, script);
     if (duration_s) script.duration_s = *duration_s;
@@ -194,7 +198,8 @@ WeatherScript read_weather_script(std::string_view toml_text, const std::string&
     return script;
 }
 
-ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file, double time_scale)
+ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file,
+                                    double time_scale)
 {
     const toml::table root = parse_toml(toml_text, file);
     ArtistSettings settings;

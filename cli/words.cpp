@@ -18,14 +18,15 @@ char folded(char c)
 // Optimal string alignment distance: Levenshtein with swaps of neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b)
 {
-    std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    std::vector<std::vector<std::size_t>> cost(a.size() + 1,
+                                               std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
     for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const bool same = folded(a[i - 1]) == folded(b[j - 1]);
-            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1,
-                                   cost[i - 1][j - 1] + (same ? 0u : 1u)});
+            cost[i][j] = std::min(
+                {cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + (same ? 0u : 1u)});
             if (i > 1 && j > 1 && folded(a[i - 1]) == folded(b[j - 2]) &&
                 folded(a[i - 2]) == folded(b[j - 1])) {
                 cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
@@ -78,9 +79,8 @@ bool glob_matches(std::string_view pattern, std::string_view text)
             star = p++;
             star_text = t;
         } else if (p < pattern.size() &&
-                   (pattern[p] == '?' ||
-                    std::tolower(static_cast<unsigned char>(pattern[p])) ==
-                        std::tolower(static_cast<unsigned char>(text[t])))) {
+                   (pattern[p] == '?' || std::tolower(static_cast<unsigned char>(pattern[p])) ==
+                                             std::tolower(static_cast<unsigned char>(text[t])))) {
             ++p;
             ++t;
         } else if (star != std::string_view::npos) {

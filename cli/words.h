@@ -7,8 +7,10 @@
 
 namespace petrichor::cli {
 
-/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours; letter case and
-/// '-' against '_' are free), or "" when none is near: more than a third of the letters would change.
+/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours; letter case
+/// and
+/// '-' against '_' are free), or "" when none is near: more than a third of the letters would
+/// change.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 /// " Did you mean \"x\"?" for the nearest candidate, or "".

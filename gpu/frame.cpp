@@ -18,8 +18,8 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
                     bool weather)
 {
     DepthMaps& maps = *r.depth_maps;
-    const float aspect = static_cast<float>(frame.settings.width) /
-                         static_cast<float>(frame.settings.height);
+    const float aspect =
+        static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
     if (frame.settings.shadows) {
         const auto views = cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
         if (!maps.shadow_valid || views != maps.shadow_views) {
@@ -99,7 +99,8 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     if (!maps.shelter_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
         c.sky_from_world[i] = maps.sky_views[i].map_from_world;
-        c.sky_direction[i] = glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
+        c.sky_direction[i] =
+            glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
     }
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
@@ -129,8 +130,11 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_depth_maps(graph, frame, sun, r, weather.any);
     add_sky(graph, frame, sun, r);
 
-    const LightingVariant variant{weather.any, settings.shadows, settings.image_based_light,
-                                  settings.ambient_occlusion, r.scene->emissive(),
+    const LightingVariant variant{weather.any,
+                                  settings.shadows,
+                                  settings.image_based_light,
+                                  settings.ambient_occlusion,
+                                  r.scene->emissive(),
                                   settings.all_lights};
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {

@@ -18,16 +18,17 @@ using ResourceReader = std::function<std::vector<std::byte>(const std::string& u
 /// Reads a glTF 2.0 asset, text or binary (recognised from the content).
 ///
 /// Everything is checked before it is used: every index, byte range, count, node cycle and URI
-/// (absolute paths, "..", and schemes other than data: are refused). Textures, accessors and buffers
-/// that nothing uses are not read. Missing normals are computed flat, missing tangents as MikkTSpace
-/// defines them. Skins and morph targets stay at rest; points and lines are left out. The vertex
-/// attribute _WEATHER (VEC4, float or normalised) gives the weather masks of Primitive::weather.
+/// (absolute paths, "..", and schemes other than data: are refused). Textures, accessors and
+/// buffers that nothing uses are not read. Missing normals are computed flat, missing tangents as
+/// MikkTSpace defines them. Skins and morph targets stay at rest; points and lines are left out.
+/// The vertex attribute _WEATHER (VEC4, float or normalised) gives the weather masks of
+/// Primitive::weather.
 ///
 /// Extensions: KHR_lights_punctual, KHR_texture_transform,
 /// KHR_materials_{emissive_strength,specular,ior,clearcoat,sheen,anisotropy,transmission,unlit},
-/// KHR_mesh_quantization, EXT_mesh_gpu_instancing, EXT_texture_webp, PETRICHOR_materials_weather. Of
-/// the material extensions the factors are read, not the textures. An unknown required extension is
-/// an error, an unknown used one a warning in Scene::warnings.
+/// KHR_mesh_quantization, EXT_mesh_gpu_instancing, EXT_texture_webp, PETRICHOR_materials_weather.
+/// Of the material extensions the factors are read, not the textures. An unknown required extension
+/// is an error, an unknown used one a warning in Scene::warnings.
 ///
 ///   name     for messages, usually the file name
 ///   throws   Error that names the JSON path ("meshes[2].primitives[0].indices"), the value, the

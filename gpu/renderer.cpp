@@ -42,9 +42,10 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
     const Camera& camera = frame.camera;
     const bool fov = camera.vertical_fov_rad > 0.0f && camera.vertical_fov_rad < 3.14159f;
     if (!(camera.orthographic_height_m > 0.0f) && !fov) {
-        throw Error("render: the camera's vertical field of view must be in (0, 180) degrees, got " +
-                        std::to_string(camera.vertical_fov_rad * 57.29578f),
-                    "Set another field of view.");
+        throw Error(
+            "render: the camera's vertical field of view must be in (0, 180) degrees, got " +
+                std::to_string(camera.vertical_fov_rad * 57.29578f),
+            "Set another field of view.");
     }
     if (!(camera.near_m > 0.0f)) {
         throw Error("render: the camera's near distance must be above 0, got " +
@@ -87,9 +88,14 @@ const std::vector<AovInfo>& aov_table()
 
 struct Renderer::Impl {
     explicit Impl(const RendererOptions& options)
-        : device(options), pipelines(device), descriptors(device), shared_arena(device),
-          surface_maps(device, shared_arena), depth_maps(device, shared_arena),
-          sky(device, shared_arena), target_arena(std::make_unique<MemoryArena>(device)),
+        : device(options),
+          pipelines(device),
+          descriptors(device),
+          shared_arena(device),
+          surface_maps(device, shared_arena),
+          depth_maps(device, shared_arena),
+          sky(device, shared_arena),
+          target_arena(std::make_unique<MemoryArena>(device)),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
     {
@@ -129,7 +135,8 @@ struct Renderer::Impl {
             targets = make_frame_targets(device, *target_arena, s.width, s.height, words);
             target_words = words;
         }
-        const auto pixels = static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
+        const auto pixels =
+            static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
         while (targets.aovs.size() < s.aovs.size()) {
             targets.aovs.push_back(target_arena->buffer(
                 {.name = "aov", .size = pixels * sizeof(glm::vec4), .host = true}));
@@ -157,7 +164,9 @@ struct Renderer::Impl {
     std::string graph_text;
 };
 
-Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options))
+{
+}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -244,7 +253,8 @@ RenderResult Renderer::render(const Frame& frame)
     result.passes = graph.execute(impl.device, impl.pipelines, impl.descriptors);
     result.width = frame.settings.width;
     result.height = frame.settings.height;
-    const auto pixels = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+    const auto pixels =
+        static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
     const auto* beauty = reinterpret_cast<const std::uint16_t*>(impl.targets.beauty->mapped);
     const auto* display = reinterpret_cast<const std::uint8_t*>(impl.targets.display->mapped);
     result.beauty.assign(beauty, beauty + pixels * 4);
@@ -269,13 +279,19 @@ RenderResult Renderer::render(const Frame& frame)
     return result;
 }
 
-const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
+const DeviceInfo& Renderer::device() const
+{
+    return impl_->device.info();
+}
 
 const std::vector<std::string>& Renderer::validation_messages() const
 {
     return impl_->device.validation_messages();
 }
 
-std::string Renderer::describe_graph() const { return impl_->graph_text; }
+std::string Renderer::describe_graph() const
+{
+    return impl_->graph_text;
+}
 
 }  // namespace petrichor::gpu

@@ -42,17 +42,17 @@ struct MaterialWeather {
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};  ///< cracks constant, influence; puddles
                                                            ///< constant, influence
     glm::vec4 water_color{0.0f};                           ///< linear RGB, alpha = opacity
-    float flow_tiling = 2.0f;            ///< repeats per metre
-    float flow_speed = 0.05f;            ///< 0..2
-    float flow_interval_s = 1.0f;        ///< 0..8
-    float flow_refraction = 0.02f;       ///< 0..0.1
-    float flow_normal_strength = 1.0f;   ///< 0..2
-    float snow_slope_damp = 0.75f;       ///< 0..8
-    glm::vec2 snow_accumulation{0.0f, 1.0f};  ///< constant, influence
-    float snow_normal_strength = 1.0f;        ///< 0..2
-    float snow_detail_strength = 0.3f;        ///< 0..1
-    float snow_opacity = 0.5f;                ///< 0..1
-    bool sheltered = false;                   ///< never gets rain or snow (an interior)
+    float flow_tiling = 2.0f;                              ///< repeats per metre
+    float flow_speed = 0.05f;                              ///< 0..2
+    float flow_interval_s = 1.0f;                          ///< 0..8
+    float flow_refraction = 0.02f;                         ///< 0..0.1
+    float flow_normal_strength = 1.0f;                     ///< 0..2
+    float snow_slope_damp = 0.75f;                         ///< 0..8
+    glm::vec2 snow_accumulation{0.0f, 1.0f};               ///< constant, influence
+    float snow_normal_strength = 1.0f;                     ///< 0..2
+    float snow_detail_strength = 0.3f;                     ///< 0..1
+    float snow_opacity = 0.5f;                             ///< 0..1
+    bool sheltered = false;  ///< never gets rain or snow (an interior)
 };
 
 enum class AlphaMode { Opaque, Mask, Blend };
@@ -63,7 +63,7 @@ struct Material {
     glm::vec4 base_color{1.0f};  ///< linear
     TextureUse base_color_texture;
     float metallic = 1.0f;
-    float roughness = 1.0f;                ///< perceptual
+    float roughness = 1.0f;                 ///< perceptual
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic
     TextureUse normal_texture;              ///< +y up
     float normal_scale = 1.0f;
@@ -72,9 +72,9 @@ struct Material {
     glm::vec3 emissive{0.0f};  ///< linear, strength folded in
     TextureUse emissive_texture;
     float ior = 1.5f;
-    float specular = 1.0f;                 ///< KHR_materials_specular factor
-    glm::vec3 specular_color{1.0f};        ///< KHR_materials_specular colour
-    float transmission = 0.0f;             ///< KHR_materials_transmission factor
+    float specular = 1.0f;           ///< KHR_materials_specular factor
+    glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
+    float transmission = 0.0f;       ///< KHR_materials_transmission factor
     float clearcoat = 0.0f;
     float clearcoat_roughness = 0.0f;
     glm::vec3 sheen_color{0.0f};
@@ -96,8 +96,9 @@ struct Primitive {
     std::vector<glm::vec4> tangents;   ///< unit xyz, w = -1 or 1
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::vec4> colors;       ///< COLOR_0, linear; multiplies the base colour
-    std::vector<glm::vec4> weather;      ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
+    std::vector<glm::vec4> colors;  ///< COLOR_0, linear; multiplies the base colour
+    std::vector<glm::vec4>
+        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
 };

@@ -54,7 +54,8 @@ std::vector<LevelSize> level_sizes(int width, int height)
 {
     std::vector<LevelSize> sizes{{width, height}};
     while (sizes.back().width > 1 || sizes.back().height > 1) {
-        sizes.push_back({std::max(1, sizes.back().width / 2), std::max(1, sizes.back().height / 2)});
+        sizes.push_back(
+            {std::max(1, sizes.back().width / 2), std::max(1, sizes.back().height / 2)});
     }
     return sizes;
 }
@@ -73,8 +74,7 @@ std::vector<Footprint> footprints(int base, int count)
         for (std::int64_t t = f.first; t * count < end; ++t) {
             const std::int64_t covered =
                 std::min(end, (t + 1) * count) - std::max(begin, t * count);
-            f.weights.push_back(
-                static_cast<float>(static_cast<double>(covered) / count / scale));
+            f.weights.push_back(static_cast<float>(static_cast<double>(covered) / count / scale));
         }
     }
     return all;

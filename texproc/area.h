@@ -26,8 +26,8 @@ struct Footprint {
 /// The exact footprints of all `count` texels of a level over `base` texels, base >= count.
 std::vector<Footprint> footprints(int base, int count);
 
-/// The mean of every channel over the exact area of each texel of a smaller grid; at most the size of
-/// `image`. Values are taken as they are. Same bytes at any thread count (0: all cores).
+/// The mean of every channel over the exact area of each texel of a smaller grid; at most the size
+/// of `image`. Values are taken as they are. Same bytes at any thread count (0: all cores).
 Image area_reduced(const Image& image, int width, int height, int threads = 0);
 
 /// All levels from 1 on, every one exactly over the texels of level 0: from the last level whose

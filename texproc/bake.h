@@ -21,12 +21,13 @@ struct BakeOptions {
 Image ambient_occlusion(const Image& height, const BakeOptions& options = {});
 /// 0.5 flat, darker in hollows, brighter on ridges, against the mean within `reach`.
 Image cavity(const Image& height, const BakeOptions& options = {});
-/// 0.5 flat, darker where the surface is concave, brighter where it is convex: edges of three widths,
-/// the finest of a texel (of two, three, ... in maps of 2048, 3072, ...).
+/// 0.5 flat, darker where the surface is concave, brighter where it is convex: edges of three
+/// widths, the finest of a texel (of two, three, ... in maps of 2048, 3072, ...).
 Image curvature(const Image& height, const BakeOptions& options = {});
 
-/// Depth of standing water that the hollows narrower than twice `reach` can hold: the closing of the
-/// height by an octagon, less the height, relative to the deepest (that 0.5 % of the wet texels exceed).
+/// Depth of standing water that the hollows narrower than twice `reach` can hold: the closing of
+/// the height by an octagon, less the height, relative to the deepest (that 0.5 % of the wet texels
+/// exceed).
 struct Hollows {
     Image depth;        ///< 0 where no water stands, 1 at the deepest
     float deepest = 0;  ///< in units of the height map
@@ -38,7 +39,8 @@ Hollows puddles(const Image& height, const BakeOptions& options = {});
 /// The same for narrow hollows (a fifth of `reach`): joints and cracks.
 Hollows cracks(const Image& height, const BakeOptions& options = {});
 
-/// R G = 0.5 + 0.5 the direction (u, v) in which water runs, B = slope, 1 at 45 degrees. 3 channels.
+/// R G = 0.5 + 0.5 the direction (u, v) in which water runs, B = slope, 1 at 45 degrees. 3
+/// channels.
 Image flow_direction(const Image& height, const BakeOptions& options = {});
 
 /// How much water the material drinks, from perceptual roughness (lux-weather.md 12): sat((p - 0.5)

@@ -19,15 +19,15 @@ double coverage(const Image& image, float cutoff)
     return static_cast<double>(over) / (static_cast<double>(image.pixels.size()) / 4.0);
 }
 
-// Scales alpha so that as many texels as `wanted` asks for lie above the cutoff: the value that must
-// come to lie just above it is found by order, not by search.
+// Scales alpha so that as many texels as `wanted` asks for lie above the cutoff: the value that
+// must come to lie just above it is found by order, not by search.
 void keep_coverage(Image& level, float cutoff, double wanted)
 {
     std::vector<float> alpha;
     for (std::size_t i = 3; i < level.pixels.size(); i += 4) alpha.push_back(level.pixels[i]);
-    const std::size_t above = std::min(
-        alpha.size(),
-        static_cast<std::size_t>(std::lround(wanted * static_cast<double>(alpha.size()))));
+    const std::size_t above =
+        std::min(alpha.size(),
+                 static_cast<std::size_t>(std::lround(wanted * static_cast<double>(alpha.size()))));
     std::sort(alpha.begin(), alpha.end(), std::greater<>());
     // Between the last texel that counts and the first that does not.
     const float in = above > 0 ? alpha[above - 1] : 2.0f * std::max(alpha.front(), cutoff);

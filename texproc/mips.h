@@ -30,9 +30,9 @@ struct MipOptions {
 };
 
 /// Level 0 is the input; each next level is floor(half), at least 1, down to 1 x 1. Box: a texel is
-/// the mean over its exact area of level 0 (fractional edge weights for odd sizes). The others filter
-/// the level before. Colour is filtered as it is: linear light. Rolling a tileable image by the
-/// texels of a level rolls that level, bit for bit.
+/// the mean over its exact area of level 0 (fractional edge weights for odd sizes). The others
+/// filter the level before. Colour is filtered as it is: linear light. Rolling a tileable image by
+/// the texels of a level rolls that level, bit for bit.
 std::vector<Image> mip_chain(const Image& image, const MipOptions& options = {});
 
 /// One filtered reduction. Throws Error when the target is empty or larger than the image.

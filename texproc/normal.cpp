@@ -46,7 +46,10 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b)
     return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
-int wrapped(int i, int size) { return (i % size + size) % size; }
+int wrapped(int i, int size)
+{
+    return (i % size + size) % size;
+}
 
 }  // namespace
 
@@ -168,10 +171,9 @@ GreenDirection detect_green(const Image& normal)
     std::vector<float> su, sv;
     slopes(normal, su, sv);
     const auto at = [&](const std::vector<float>& s, int x, int y) {
-        return static_cast<double>(
-            s[static_cast<std::size_t>(wrapped(y, normal.height)) *
-                  static_cast<std::size_t>(normal.width) +
-              static_cast<std::size_t>(wrapped(x, normal.width))]);
+        return static_cast<double>(s[static_cast<std::size_t>(wrapped(y, normal.height)) *
+                                         static_cast<std::size_t>(normal.width) +
+                                     static_cast<std::size_t>(wrapped(x, normal.width))]);
     };
     std::vector<double> a, b;  // d su / dv and d sv / du: equal on a surface
     for (int y = 0; y < normal.height; ++y) {
@@ -220,8 +222,9 @@ IntegratedHeight height_from_normal(const Image& normal)
     detail::fft_2d(v, normal.width, normal.height, false);
     for (int y = 0; y < normal.height; ++y) {
         for (int x = 0; x < normal.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(normal.width) +
-                                  static_cast<std::size_t>(x);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(normal.width) +
+                static_cast<std::size_t>(x);
             const double wu = std::sin(6.283185307179586 * x / normal.width);
             const double wv = std::sin(6.283185307179586 * y / normal.height);
             const double power = wu * wu + wv * wv;

@@ -7,8 +7,8 @@
 
 namespace petrichor::texproc {
 
-// Normal maps here: 3 channels, 0.5 + 0.5 n, +y up (green up), unless said otherwise. v runs down the
-// image. A green-down map is turned by flip_green, which is its own inverse.
+// Normal maps here: 3 channels, 0.5 + 0.5 n, +y up (green up), unless said otherwise. v runs down
+// the image. A green-down map is turned by flip_green, which is its own inverse.
 
 void flip_green(Image& normal);
 
@@ -17,10 +17,10 @@ void renormalize(Image& normal);
 
 /// How two-channel layouts store x and y. Unpacking rebuilds z.
 enum class NormalLayout {
-    Rgb,   ///< x y z
-    Rg,    ///< x y, third channel 0 (also BC5)
-    Ag,    ///< R 1, G y, B 1, A x
-    Rxgb,  ///< R 0, G y, B z, A x
+    Rgb,       ///< x y z
+    Rg,        ///< x y, third channel 0 (also BC5)
+    Ag,        ///< R 1, G y, B 1, A x
+    Rxgb,      ///< R 0, G y, B z, A x
     RgSigned,  ///< x y as they are, -1..1: floats, and signed BC5
 };
 Image to_layout(const Image& normal, NormalLayout layout);

@@ -102,8 +102,9 @@ void copy_channel(const ChannelCopy& source, std::size_t first, std::size_t last
     } else if (source.type == PixelType::U8) {
         copy_values<std::uint8_t, To>(source, first, last, to, width, at);
     } else if constexpr (std::is_same_v<To, float>) {
-        source.type == PixelType::U16 ? copy_values<std::uint16_t, To>(source, first, last, to, width, at)
-                                      : copy_values<float, To>(source, first, last, to, width, at);
+        source.type == PixelType::U16
+            ? copy_values<std::uint16_t, To>(source, first, last, to, width, at)
+            : copy_values<float, To>(source, first, last, to, width, at);
     } else {
         copy_values<std::uint16_t, To>(source, first, last, to, width, at);
     }
@@ -198,7 +199,9 @@ PackChannel parse_pack_channel(const std::string& text)
                 source.channel = static_cast<int>(c);
                 part.resize(dot);
             }
-            const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_' || c == '-'; };
+            const auto letter = [](char c) {
+                return (c >= 'a' && c <= 'z') || c == '_' || c == '-';
+            };
             if (part.empty() || !std::all_of(part.begin(), part.end(), letter)) bad_source(text);
             source.role = part;
         }
@@ -212,35 +215,62 @@ const std::vector<PackPreset>& pack_presets()
     static const char* const kSmooth = "smoothness | 1 - roughness | 0.5";
     static const char* const kRough = "roughness | 1 - smoothness | 1";
     static const std::vector<PackPreset> presets{
-        {"unity-standard-metallic", "R metallic, A smoothness; import as linear",
-         {"metallic | 0", "0", "0", kSmooth}, {}},
-        {"urp-lit", "R metallic, A smoothness; import as linear",
-         {"metallic | 0", "0", "0", kSmooth}, {}},
-        {"unity-standard-specular", "RGB specular colour (sRGB), A smoothness",
-         {"specular.r | 0.22", "specular.g | 0.22", "specular.b | 0.22", kSmooth}, {"r", "g", "b"}},
-        {"unity-hdrp-mask", "R metallic, G occlusion, B detail mask, A smoothness; linear",
-         {"metallic | 0", "occlusion | 1", "detail | 1", kSmooth}, {}},
-        {"unity-hdrp-detail", "R albedo detail, G normal y, B smoothness detail, A normal x; linear",
+        {"unity-standard-metallic",
+         "R metallic, A smoothness; import as linear",
+         {"metallic | 0", "0", "0", kSmooth},
+         {}},
+        {"urp-lit",
+         "R metallic, A smoothness; import as linear",
+         {"metallic | 0", "0", "0", kSmooth},
+         {}},
+        {"unity-standard-specular",
+         "RGB specular colour (sRGB), A smoothness",
+         {"specular.r | 0.22", "specular.g | 0.22", "specular.b | 0.22", kSmooth},
+         {"r", "g", "b"}},
+        {"unity-hdrp-mask",
+         "R metallic, G occlusion, B detail mask, A smoothness; linear",
+         {"metallic | 0", "occlusion | 1", "detail | 1", kSmooth},
+         {}},
+        {"unity-hdrp-detail",
+         "R albedo detail, G normal y, B smoothness detail, A normal x; linear",
          {"albedo | 0.5", "normal.g | 0.5", "smoothness | 1 - roughness | 0.5", "normal.r | 0.5"},
          {}},
-        {"unreal-orm", "R occlusion, G roughness, B metallic; linear",
-         {"occlusion | 1", kRough, "metallic | 0"}, {}},
-        {"gltf-orm", "R occlusion, G roughness, B metallic; linear",
-         {"occlusion | 1", kRough, "metallic | 0"}, {}},
-        {"godot-orm", "R occlusion, G roughness, B metallic; linear",
-         {"occlusion | 1", kRough, "metallic | 0"}, {}},
-        {"unreal-arm", "R occlusion, G roughness, B metallic; linear",
-         {"occlusion | 1", kRough, "metallic | 0"}, {}},
-        {"rma", "R roughness, G metallic, B occlusion; linear",
-         {kRough, "metallic | 0", "occlusion | 1"}, {}},
-        {"mra", "R metallic, G roughness, B occlusion; linear",
-         {"metallic | 0", kRough, "occlusion | 1"}, {}},
-        {"terrain-layer-mask", "R metallic, G occlusion, B height, A smoothness; linear",
-         {"metallic | 0", "occlusion | 1", "height | 0.5", kSmooth}, {}},
-        {"weather-mask", "R porosity, G where puddles stand, B flow or cavity, A smoothness; linear",
-         {"porosity | 0.5", "puddle | 1 - height | 1", "flow | cavity | 0.5", kSmooth}, {}},
-        {"normal-ag", "R 1, G y, B 1, A x (two-channel normals of older engines)",
-         {"1", "normal.g", "1", "normal.r"}, {}},
+        {"unreal-orm",
+         "R occlusion, G roughness, B metallic; linear",
+         {"occlusion | 1", kRough, "metallic | 0"},
+         {}},
+        {"gltf-orm",
+         "R occlusion, G roughness, B metallic; linear",
+         {"occlusion | 1", kRough, "metallic | 0"},
+         {}},
+        {"godot-orm",
+         "R occlusion, G roughness, B metallic; linear",
+         {"occlusion | 1", kRough, "metallic | 0"},
+         {}},
+        {"unreal-arm",
+         "R occlusion, G roughness, B metallic; linear",
+         {"occlusion | 1", kRough, "metallic | 0"},
+         {}},
+        {"rma",
+         "R roughness, G metallic, B occlusion; linear",
+         {kRough, "metallic | 0", "occlusion | 1"},
+         {}},
+        {"mra",
+         "R metallic, G roughness, B occlusion; linear",
+         {"metallic | 0", kRough, "occlusion | 1"},
+         {}},
+        {"terrain-layer-mask",
+         "R metallic, G occlusion, B height, A smoothness; linear",
+         {"metallic | 0", "occlusion | 1", "height | 0.5", kSmooth},
+         {}},
+        {"weather-mask",
+         "R porosity, G where puddles stand, B flow or cavity, A smoothness; linear",
+         {"porosity | 0.5", "puddle | 1 - height | 1", "flow | cavity | 0.5", kSmooth},
+         {}},
+        {"normal-ag",
+         "R 1, G y, B 1, A x (two-channel normals of older engines)",
+         {"1", "normal.g", "1", "normal.r"},
+         {}},
         {"normal-rg", "R x, G y", {"normal.r", "normal.g", "0"}, {}},
     };
     return presets;

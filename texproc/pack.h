@@ -30,8 +30,8 @@ PackChannel parse_pack_channel(const std::string& text);
 struct PackPreset {
     std::string name;
     std::string note;
-    std::vector<std::string> channels;      ///< text form, 1..4 of them
-    std::vector<std::string> srgb_channels; ///< names of the packed channels that hold sRGB codes
+    std::vector<std::string> channels;       ///< text form, 1..4 of them
+    std::vector<std::string> srgb_channels;  ///< names of the packed channels that hold sRGB codes
 };
 
 /// The presets of the project: unity-hdrp-mask, gltf-orm, ...

@@ -14,7 +14,10 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 
-double sinc(double x) { return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * x) / (kPi * x); }
+double sinc(double x)
+{
+    return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * x) / (kPi * x);
+}
 
 double bessel0(double x)
 {
@@ -26,7 +29,10 @@ double bessel0(double x)
     return sum;
 }
 
-double radius_of(MipFilter filter) { return filter == MipFilter::Mitchell ? 2.0 : 3.0; }
+double radius_of(MipFilter filter)
+{
+    return filter == MipFilter::Mitchell ? 2.0 : 3.0;
+}
 
 double value_of(MipFilter filter, double x)
 {

@@ -107,7 +107,8 @@ CsvTable parse_csv(std::string_view text)
             table.header = cells_of(line);
             const std::size_t other = line.find_first_of(";\t|");
             if (table.header.size() == 1 && other != line.npos) {
-                const std::string shown = line[other] == '\t' ? "a tab" : std::string(1, line[other]);
+                const std::string shown =
+                    line[other] == '\t' ? "a tab" : std::string(1, line[other]);
                 table.problems.push_back(
                     {line_number, "", "columns are separated by " + shown + ", expected a comma"});
                 return table;
@@ -127,7 +128,8 @@ CsvTable parse_csv(std::string_view text)
                 {line_number, "",
                  std::to_string(cells.size()) + " cells, expected " +
                      std::to_string(table.header.size()) +
-                     (cells.size() > table.header.size() ? " (decimal commas must be points)" : "")});
+                     (cells.size() > table.header.size() ? " (decimal commas must be points)"
+                                                         : "")});
             continue;
         }
         table.rows.push_back(std::move(cells));

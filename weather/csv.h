@@ -20,18 +20,18 @@ std::string list_problems(const std::vector<Problem>& problems, std::size_t most
 
 /// A comma-separated table: a header and rows of as many cells. Cells are trimmed, quotes removed.
 struct CsvTable {
-    std::vector<std::string> header;              ///< as written
-    std::vector<std::vector<std::string>> rows;   ///< only rows with as many cells as the header
-    std::vector<std::size_t> lines;               ///< line number of each row
-    std::vector<Problem> problems;                ///< rows left out, and why
+    std::vector<std::string> header;             ///< as written
+    std::vector<std::vector<std::string>> rows;  ///< only rows with as many cells as the header
+    std::vector<std::size_t> lines;              ///< line number of each row
+    std::vector<Problem> problems;               ///< rows left out, and why
     bool usable = false;  ///< false: not a comma-separated text at all; `problems` says why
 
     /// Index of the column of that name, letter case ignored.
     std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// Reads comma-separated text: UTF-8 with or without byte order mark, any line ends; empty lines and
-/// lines that start with '#' are skipped. Never throws: a binary file, an empty text, another
+/// Reads comma-separated text: UTF-8 with or without byte order mark, any line ends; empty lines
+/// and lines that start with '#' are skipped. Never throws: a binary file, an empty text, another
 /// separator or rows of the wrong length end up in `problems`.
 CsvTable parse_csv(std::string_view text);
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "weather/physical_grid.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"
-#include "weather/physical_grid.h"
 
 namespace petrichor::weather {
 
@@ -15,7 +15,8 @@ namespace {
 // A number in 0..1 from seed and index alone: the same for any order and thread.
 double uniform(std::uint64_t seed, std::uint64_t index)
 {
-    std::uint64_t x = seed * 0x9E3779B97F4A7C15ull + index * 0xBF58476D1CE4E5B9ull + 0x94D049BB133111EBull;
+    std::uint64_t x =
+        seed * 0x9E3779B97F4A7C15ull + index * 0xBF58476D1CE4E5B9ull + 0x94D049BB133111EBull;
     x ^= x >> 30;
     x *= 0xBF58476D1CE4E5B9ull;
     x ^= x >> 27;
@@ -71,13 +72,15 @@ void percentiles(std::vector<double>& values, double* out)
 
 }  // namespace
 
-std::vector<EnsembleRow> run_ensemble(const ForcingTable& table, const PhysicalParams& params, const EnsembleParams& e,
-                                      std::size_t every_steps)
+std::vector<EnsembleRow> run_ensemble(const ForcingTable& table, const PhysicalParams& params,
+                                      const EnsembleParams& e, std::size_t every_steps)
 {
     if (e.members < 1 || e.members > 10000) {
-        throw Error("ensemble: members must be 1..10000, got " + std::to_string(e.members), "Give a number of members in range.");
+        throw Error("ensemble: members must be 1..10000, got " + std::to_string(e.members),
+                    "Give a number of members in range.");
     }
-    if (every_steps == 0) throw Error("ensemble: rows must be at least a step apart", "Give --every a step or more.");
+    if (every_steps == 0)
+        throw Error("ensemble: rows must be at least a step apart", "Give --every a step or more.");
     const auto count = static_cast<std::size_t>(e.members);
     std::vector<GridCell> cells;
     for (std::size_t m = 0; m < count; ++m) {
@@ -116,7 +119,8 @@ std::vector<EnsembleRow> run_ensemble(const ForcingTable& table, const PhysicalP
     return rows;
 }
 
-std::vector<Sensitivity> sensitivity_table(const ForcingTable& table, const PhysicalParams& params, const EnsembleSpread& spread)
+std::vector<Sensitivity> sensitivity_table(const ForcingTable& table, const PhysicalParams& params,
+                                           const EnsembleSpread& spread)
 {
     const std::vector<std::pair<std::string, Change>> changes = {
         {"as given", {}},

@@ -15,22 +15,14 @@ namespace petrichor::weather {
 namespace {
 
 constexpr FieldInfo kInfo[kFieldCount] = {
-    {"air_temp", "K", 173.15, 333.15, false},
-    {"rel_humidity", "%", 0.0, 110.0, false},
-    {"wind", "m/s", 0.0, 110.0, false},
-    {"pressure", "Pa", 30000.0, 110000.0, false},
-    {"sw_down", "W/m2", -15.0, 1600.0, false},
-    {"lw_down", "W/m2", 40.0, 700.0, false},
-    {"cloud", "1", 0.0, 1.0, false},
-    {"precip", "kg m-2 s-1", 0.0, 0.15, true},
-    {"rain", "kg m-2 s-1", 0.0, 0.15, true},
-    {"snow", "kg m-2 s-1", 0.0, 0.15, true},
-    {"dew_point", "K", 143.15, 313.15, false},
-    {"wind_from", "deg", 0.0, 360.0, false},
-    {"visibility", "m", 0.0, 1.0e6, false},
-    {"snow_depth", "m", 0.0, 30.0, false},
-    {"direct", "W/m2", -15.0, 1500.0, false},
-    {"diffuse", "W/m2", -15.0, 1300.0, false},
+    {"air_temp", "K", 173.15, 333.15, false},  {"rel_humidity", "%", 0.0, 110.0, false},
+    {"wind", "m/s", 0.0, 110.0, false},        {"pressure", "Pa", 30000.0, 110000.0, false},
+    {"sw_down", "W/m2", -15.0, 1600.0, false}, {"lw_down", "W/m2", 40.0, 700.0, false},
+    {"cloud", "1", 0.0, 1.0, false},           {"precip", "kg m-2 s-1", 0.0, 0.15, true},
+    {"rain", "kg m-2 s-1", 0.0, 0.15, true},   {"snow", "kg m-2 s-1", 0.0, 0.15, true},
+    {"dew_point", "K", 143.15, 313.15, false}, {"wind_from", "deg", 0.0, 360.0, false},
+    {"visibility", "m", 0.0, 1.0e6, false},    {"snow_depth", "m", 0.0, 30.0, false},
+    {"direct", "W/m2", -15.0, 1500.0, false},  {"diffuse", "W/m2", -15.0, 1300.0, false},
 };
 
 FieldReport& report_of(ReadReport& report, Field field)
@@ -52,15 +44,18 @@ void note_filled(ReadReport& report, Field field, std::size_t count, const std::
     const std::string rows = std::to_string(count);
     if (!f.filled_by.empty()) f.filled_by += "; ";
     f.filled_by.append(how).append(" (").append(rows).append(" rows)");
-    report.add({ReadNote::Kind::Filled, 0, f.name, std::string(how).append(" in ").append(rows).append(" rows")});
+    report.add({ReadNote::Kind::Filled, 0, f.name,
+                std::string(how).append(" in ").append(rows).append(" rows")});
 }
 
 std::size_t count_missing(const std::vector<double>& v)
 {
-    return static_cast<std::size_t>(std::count_if(v.begin(), v.end(), [](double x) { return std::isnan(x); }));
+    return static_cast<std::size_t>(
+        std::count_if(v.begin(), v.end(), [](double x) { return std::isnan(x); }));
 }
 
-// Bridges runs of NaN that are no longer than the limit; ends of the table repeat the nearest value.
+// Bridges runs of NaN that are no longer than the limit; ends of the table repeat the nearest
+// value.
 void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOptions& options)
 {
     auto& v = table[field];
@@ -83,11 +78,13 @@ void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOpti
             const std::size_t right = end < v.size() ? end : i - 1;
             const std::int64_t span = table.time_us[right] - table.time_us[left];
             const bool too_long = right > left && span > options.longest_gap_us;
-            if (!too_long || field == Field::AirTemp || field == Field::Wind || field == Field::Pressure) {
+            if (!too_long || field == Field::AirTemp || field == Field::Wind ||
+                field == Field::Pressure) {
                 for (std::size_t k = i; k < end; ++k) {
                     double x = 0.0;
                     if (right > left) {
-                        x = static_cast<double>(table.time_us[k] - table.time_us[left]) / static_cast<double>(span);
+                        x = static_cast<double>(table.time_us[k] - table.time_us[left]) /
+                            static_cast<double>(span);
                     }
                     v[k] = v[left] + (v[right] - v[left]) * x;
                 }
@@ -96,7 +93,8 @@ void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOpti
         }
         i = end;
     }
-    note_filled(report, field, short_gaps, rate ? "the file gives no amount, taken as 0" : "line between neighbours");
+    note_filled(report, field, short_gaps,
+                rate ? "the file gives no amount, taken as 0" : "line between neighbours");
     note_filled(report, field, long_gaps, "line across a long gap");
 }
 
@@ -109,7 +107,8 @@ void fill_humidity(ForcingTable& table, ReadReport& report)
     for (std::size_t i = 0; i < rh.size(); ++i) {
         if (!std::isnan(rh[i])) continue;
         if (!dew.empty() && !std::isnan(dew[i])) {
-            rh[i] = std::clamp(rel_humidity_of_dew_point_pct(table[Field::AirTemp][i], dew[i]), 1.0, 100.0);
+            rh[i] = std::clamp(rel_humidity_of_dew_point_pct(table[Field::AirTemp][i], dew[i]), 1.0,
+                               100.0);
             ++from_dew;
         } else {
             rh[i] = 70.0;
@@ -147,7 +146,8 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     cloud.resize(n, kMissing);
     sw.resize(n, kMissing);
     lw.resize(n, kMissing);
-    const bool place = !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
+    const bool place =
+        !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
     const double latitude = place ? table.site.latitude_deg : 45.0;
     const double longitude = place ? table.site.longitude_deg : 0.0;
     std::size_t from_sun = 0, assumed = 0, made_sw = 0, made_lw = 0;
@@ -178,14 +178,16 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
         sw[i] = std::max(sw[i], 0.0);
         if (std::isnan(lw[i])) {
             const double t = table[Field::AirTemp][i];
-            lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]), cloud[i]);
+            lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]),
+                                           cloud[i]);
             ++made_lw;
         }
     }
     const std::string where = place ? "" : " at 45 N 0 E: the file gives no place";
     note_filled(report, Field::Cloud, from_sun, "from shortwave, kept through the night");
     note_filled(report, Field::Cloud, assumed, "assumed");
-    note_filled(report, Field::Shortwave, made_sw, "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where);
+    note_filled(report, Field::Shortwave, made_sw,
+                "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where);
     note_filled(report, Field::Longwave, made_lw, "air and cloud (Prata 1996)");
 }
 
@@ -229,7 +231,8 @@ bool sky_for_precipitation(const ForcingTable& table, std::size_t row)
 {
     const auto& sight = table[Field::Visibility];
     const bool sight_known = !sight.empty() && !std::isnan(sight[row]) && sight[row] < 700.0e3;
-    return table[Field::Cloud][row] >= 0.95 && table[Field::RelHumidity][row] >= (sight_known ? 85.0 : 92.0) &&
+    return table[Field::Cloud][row] >= 0.95 &&
+           table[Field::RelHumidity][row] >= (sight_known ? 85.0 : 92.0) &&
            (!sight_known || sight[row] < 16.0e3);
 }
 
@@ -252,8 +255,9 @@ void estimate_precipitation(ForcingTable& table, ReadReport& report, const std::
         ++filled;
     }
     char how[160];
-    std::snprintf(how, sizeof how, "of these, estimated as %.2f mm/h under overcast, humid, hazy sky%s", rate * 3600.0,
-                  from_file ? ", the rate of the rows with an amount" : "");
+    std::snprintf(how, sizeof how,
+                  "of these, estimated as %.2f mm/h under overcast, humid, hazy sky%s",
+                  rate * 3600.0, from_file ? ", the rate of the rows with an amount" : "");
     note_filled(report, Field::Precip, filled, how);
 }
 
@@ -261,10 +265,12 @@ void warn_of_dry_gaps(ReadReport& report, const std::vector<bool>& known, bool e
 {
     // Amounts of the past leave the last row open: nothing falls after the end.
     if (known.size() < 2) return;
-    const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end() - 1, false));
+    const auto unknown =
+        static_cast<std::size_t>(std::count(known.begin(), known.end() - 1, false));
     if (unknown == 0) return;
     report.add({ReadNote::Kind::Warning, 0, "precipitation",
-                std::to_string(unknown) + " of " + std::to_string(known.size()) + " rows have no amount in the file: " +
+                std::to_string(unknown) + " of " + std::to_string(known.size()) +
+                    " rows have no amount in the file: " +
                     (estimated ? "estimated from cloud, humidity and sight" : "taken as dry")});
 }
 
@@ -290,12 +296,18 @@ std::string quoted(const std::string& text)
 const char* kind_name(ReadNote::Kind kind)
 {
     switch (kind) {
-        case ReadNote::Kind::Filled: return "filled";
-        case ReadNote::Kind::OutOfRange: return "out of range";
-        case ReadNote::Kind::BadRow: return "bad row";
-        case ReadNote::Kind::Time: return "time";
-        case ReadNote::Kind::Warning: return "warning";
-        case ReadNote::Kind::Info: break;
+        case ReadNote::Kind::Filled:
+            return "filled";
+        case ReadNote::Kind::OutOfRange:
+            return "out of range";
+        case ReadNote::Kind::BadRow:
+            return "bad row";
+        case ReadNote::Kind::Time:
+            return "time";
+        case ReadNote::Kind::Warning:
+            return "warning";
+        case ReadNote::Kind::Info:
+            break;
     }
     return "info";
 }
@@ -309,8 +321,10 @@ const FieldInfo& field_info(Field field)
 
 void ReadReport::add(ReadNote note)
 {
-    if (notes.size() < kMostNotes) notes.push_back(std::move(note));
-    else ++notes_dropped;
+    if (notes.size() < kMostNotes)
+        notes.push_back(std::move(note));
+    else
+        ++notes_dropped;
 }
 
 std::string to_text(const ReadReport& report)
@@ -321,7 +335,8 @@ std::string to_text(const ReadReport& report)
     for (const FieldReport& f : report.fields) {
         out += "  " + f.name + ": " + std::to_string(f.present) + " read";
         if (f.missing) out += ", " + std::to_string(f.missing) + " missing";
-        if (f.first_missing_line) out += " (first in line " + std::to_string(f.first_missing_line) + ")";
+        if (f.first_missing_line)
+            out += " (first in line " + std::to_string(f.first_missing_line) + ")";
         if (f.out_of_range) out += ", " + std::to_string(f.out_of_range) + " out of range";
         if (!f.filled_by.empty()) out += "; filled: " + f.filled_by;
         out += "\n";
@@ -384,19 +399,23 @@ std::string to_json(const ReadReport& report)
 void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options)
 {
     const std::size_t n = table.rows();
-    if (n == 0) throw Error("weather: the table has no rows", "Give a file with at least one row of weather.");
+    if (n == 0)
+        throw Error("weather: the table has no rows",
+                    "Give a file with at least one row of weather.");
     for (std::size_t i = 1; i < n; ++i) {
         if (table.time_us[i] <= table.time_us[i - 1]) {
-            throw Error("weather: times must increase, data row " + std::to_string(i + 1) + " does not",
-                        "Sort the rows and remove duplicates.");
+            throw Error(
+                "weather: times must increase, data row " + std::to_string(i + 1) + " does not",
+                "Sort the rows and remove duplicates.");
         }
     }
     for (std::size_t f = 0; f < kFieldCount; ++f) {
         auto& column = table.columns[f];
         if (column.empty()) continue;
         if (column.size() != n) {
-            throw Error(std::string("weather: column ") + kInfo[f].name + " has " + std::to_string(column.size()) +
-                            " values for " + std::to_string(n) + " rows",
+            throw Error(std::string("weather: column ") + kInfo[f].name + " has " +
+                            std::to_string(column.size()) + " values for " + std::to_string(n) +
+                            " rows",
                         "Make every column as long as time_us, or leave it empty.");
         }
         for (double& v : column) {
@@ -406,7 +425,8 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
         if (count_missing(column) == n) column.clear();
     }
     if (!table.has(Field::AirTemp)) {
-        throw Error("weather: no air temperature in the file", "Give a file with air temperature in every row.");
+        throw Error("weather: no air temperature in the file",
+                    "Give a file with air temperature in every row.");
     }
     bridge(table, report, Field::AirTemp, options);
     bridge(table, report, Field::DewPoint, options);
@@ -419,7 +439,8 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     const std::vector<bool> precip_known = known_precipitation(table);
     bridge(table, report, Field::Rain, options);
     bridge(table, report, Field::Snow, options);
-    if (!table.has(Field::Rain) && !table.has(Field::Snow)) bridge(table, report, Field::Precip, options);
+    if (!table.has(Field::Rain) && !table.has(Field::Snow))
+        bridge(table, report, Field::Precip, options);
     if (!table.has(Field::Wind)) {
         table[Field::Wind].assign(n, 2.0);
         note_filled(report, Field::Wind, n, "no wind in the file, assumed 2 m/s");
@@ -429,7 +450,8 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     fill_pressure(table, report);
     fill_precipitation(table, report);
     fill_radiation(table, report, options);
-    const bool estimate = options.missing_precip == MissingPrecip::Estimate && !table.has(Field::Rain) && !table.has(Field::Snow);
+    const bool estimate = options.missing_precip == MissingPrecip::Estimate &&
+                          !table.has(Field::Rain) && !table.has(Field::Snow);
     if (estimate) estimate_precipitation(table, report, precip_known);
     warn_of_dry_gaps(report, precip_known, estimate);
 }

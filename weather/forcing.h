@@ -37,7 +37,8 @@ enum class Field : std::uint8_t {
 };
 inline constexpr std::size_t kFieldCount = static_cast<std::size_t>(Field::Count);
 
-/// Name, unit and accepted range of a field; values outside are refused by the readers and reported.
+/// Name, unit and accepted range of a field; values outside are refused by the readers and
+/// reported.
 struct FieldInfo {
     const char* name;
     const char* unit;
@@ -56,15 +57,18 @@ struct Site {
     std::string name{};
 };
 
-/// Weather over time. Times are microseconds since 1970-01-01 UTC, strictly increasing; every column
-/// that is present is as long as `time_us`.
+/// Weather over time. Times are microseconds since 1970-01-01 UTC, strictly increasing; every
+/// column that is present is as long as `time_us`.
 struct ForcingTable {
     Site site;
     std::vector<std::int64_t> time_us;
     std::array<std::vector<double>, kFieldCount> columns;
 
     std::size_t rows() const { return time_us.size(); }
-    const std::vector<double>& operator[](Field f) const { return columns[static_cast<std::size_t>(f)]; }
+    const std::vector<double>& operator[](Field f) const
+    {
+        return columns[static_cast<std::size_t>(f)];
+    }
     std::vector<double>& operator[](Field f) { return columns[static_cast<std::size_t>(f)]; }
     bool has(Field f) const { return !(*this)[f].empty(); }
 };
@@ -80,9 +84,10 @@ struct ReadNote {
 /// What was there, what was missing, how it was filled.
 struct FieldReport {
     std::string name{};
-    std::size_t present = 0;       ///< values read
-    std::size_t missing = 0;       ///< rows without a value
-    std::size_t first_missing_line = 0;  ///< of the file, where the file says that a value is missing; else 0
+    std::size_t present = 0;  ///< values read
+    std::size_t missing = 0;  ///< rows without a value
+    std::size_t first_missing_line =
+        0;  ///< of the file, where the file says that a value is missing; else 0
     std::size_t out_of_range = 0;  ///< values refused
     std::size_t filled = 0;        ///< rows filled afterwards
     std::string filled_by;         ///< how
@@ -111,20 +116,24 @@ enum class MissingPrecip : std::uint8_t {
 struct FillOptions {
     double default_cloud = 0.5;  ///< where neither radiation nor cloud is known
     MissingPrecip missing_precip = MissingPrecip::Dry;
-    std::int64_t longest_gap_us = 6LL * 3600 * 1000000;  ///< bridged by a line; longer gaps are noted
+    std::int64_t longest_gap_us =
+        6LL * 3600 * 1000000;  ///< bridged by a line; longer gaps are noted
 };
 
-/// Makes a table complete: after it AirTemp, RelHumidity, Wind, Pressure, Shortwave, Longwave, Cloud and
-/// Precip have a finite value in every row (Rain and Snow where the file separates phases).
+/// Makes a table complete: after it AirTemp, RelHumidity, Wind, Pressure, Shortwave, Longwave,
+/// Cloud and Precip have a finite value in every row (Rain and Snow where the file separates
+/// phases).
 ///
-/// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70 %;
-/// pressure from the elevation; cloud from shortwave; shortwave from sun and cloud; longwave from
-/// humidity and cloud (Prata 1996). Every fill is added to the report.
+/// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70
+/// %; pressure from the elevation; cloud from shortwave; shortwave from sun and cloud; longwave
+/// from humidity and cloud (Prata 1996). Every fill is added to the report.
 ///
-/// Precipitation without an amount is 0 and warned of, or estimated: in rows with cloud of 0.95 or more, humidity
-/// of 85 % or more and visibility below 16 km (humidity of 92 % where that is unknown), at the rate that the rows of
-/// the file with a known amount have under the same sky, else 0.5 mm/h.
-///   throws  Error when there are no rows, times do not increase, or air temperature is missing throughout
+/// Precipitation without an amount is 0 and warned of, or estimated: in rows with cloud of 0.95 or
+/// more, humidity of 85 % or more and visibility below 16 km (humidity of 92 % where that is
+/// unknown), at the rate that the rows of the file with a known amount have under the same sky,
+/// else 0.5 mm/h.
+///   throws  Error when there are no rows, times do not increase, or air temperature is missing
+///   throughout
 void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options = {});
 
 /// Value of an "at" field at any time, linear between rows and constant outside.

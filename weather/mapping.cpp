@@ -42,10 +42,22 @@ double rate_of_rainfall_mm_h(const MappingParams& p, double rainfall)
     return p.rain_low_mm_h * (detail::exponential(unit(rainfall) * span) - 1.0);
 }
 
-double wetness_of_film(const MappingParams& p, double film) { return rise(film, p.film_scale_kg_m2); }
-double film_of_wetness_kg_m2(const MappingParams& p, double wetness) { return fall(wetness, p.film_scale_kg_m2); }
-double snow_of_depth(const MappingParams& p, double depth_m) { return rise(depth_m, p.snow_scale_m); }
-double depth_of_snow_m(const MappingParams& p, double snow) { return fall(snow, p.snow_scale_m); }
+double wetness_of_film(const MappingParams& p, double film)
+{
+    return rise(film, p.film_scale_kg_m2);
+}
+double film_of_wetness_kg_m2(const MappingParams& p, double wetness)
+{
+    return fall(wetness, p.film_scale_kg_m2);
+}
+double snow_of_depth(const MappingParams& p, double depth_m)
+{
+    return rise(depth_m, p.snow_scale_m);
+}
+double depth_of_snow_m(const MappingParams& p, double snow)
+{
+    return fall(snow, p.snow_scale_m);
+}
 
 double level_of_store(const Hypsometry& relief, double stored)
 {
@@ -57,7 +69,8 @@ double store_of_level_kg_m2(const Hypsometry& relief, double level)
     return stored_kg_m2(relief, unit(level) * relief.depth_mm);
 }
 
-WeatherMasks weather_masks(const MappingParams& p, const Surface& surface, const CellState& c, double step_s)
+WeatherMasks weather_masks(const MappingParams& p, const Surface& surface, const CellState& c,
+                           double step_s)
 {
     const double per_hour = step_s > 0.0 ? 3600.0 / step_s : 0.0;
     const double fell = c.step_rain + c.step_snow;
@@ -76,7 +89,8 @@ WeatherMasks weather_masks(const MappingParams& p, const Surface& surface, const
     return m;
 }
 
-CellState state_of_masks(const MappingParams& p, const Surface& surface, const WeatherMasks& m, const CellState& base)
+CellState state_of_masks(const MappingParams& p, const Surface& surface, const WeatherMasks& m,
+                         const CellState& base)
 {
     CellState c = base;
     const double depth = depth_of_snow_m(p, m.snow);

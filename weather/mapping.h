@@ -15,8 +15,8 @@ struct MappingParams {
     double snow_scale_m = 0.05;
 };
 
-// Each map is monotone, clamped to 0..1 and has its inverse beside it. The inverse of 1 is where the map first
-// reaches 1 to double precision (film, snow: 38 scales).
+// Each map is monotone, clamped to 0..1 and has its inverse beside it. The inverse of 1 is where
+// the map first reaches 1 to double precision (film, snow: 38 scales).
 
 /// R = ln(1 + p/P0) / ln(1 + P1/P0).
 double rainfall_of_rate(const MappingParams& params, double rate_mm_h);
@@ -36,20 +36,23 @@ double store_of_level_kg_m2(const Hypsometry& relief, double level);
 
 /// What the renderer reads, each 0..1.
 struct WeatherMasks {
-    double rainfall = 0.0;        ///< all precipitation
+    double rainfall = 0.0;  ///< all precipitation
     double rain = 0.0, snowfall = 0.0;
     double wetness = 0.0;
     double cracks = 0.0, puddles = 0.0;  ///< liquid and ice: a frozen puddle still fills its hollow
-    double water_to_snow = 0.0;   ///< frozen share of all surface water
+    double water_to_snow = 0.0;          ///< frozen share of all surface water
     double snow = 0.0;
 };
 
 /// Masks of a state whose last step took `step_s` seconds.
-WeatherMasks weather_masks(const MappingParams& params, const Surface& surface, const CellState& state, double step_s);
+WeatherMasks weather_masks(const MappingParams& params, const Surface& surface,
+                           const CellState& state, double step_s);
 
-/// A cell that shows these masks: stores filled, snow at 100 kg/m3, everything else as in `base`. weather_masks of
-/// the result gives back wetness, cracks, puddles and snow. Water is liquid, or ice when water_to_snow is above 0.5.
-CellState state_of_masks(const MappingParams& params, const Surface& surface, const WeatherMasks& masks, const CellState& base);
+/// A cell that shows these masks: stores filled, snow at 100 kg/m3, everything else as in `base`.
+/// weather_masks of the result gives back wetness, cracks, puddles and snow. Water is liquid, or
+/// ice when water_to_snow is above 0.5.
+CellState state_of_masks(const MappingParams& params, const Surface& surface,
+                         const WeatherMasks& masks, const CellState& base);
 
 }  // namespace petrichor::weather
 

@@ -16,7 +16,8 @@ constexpr std::size_t kCheckpointEvery = 24;
 void require(bool good, const char* name, double found, const char* accepted)
 {
     if (good) return;
-    throw Error(std::string("physical model: ") + name + " must be " + accepted + ", got " + std::to_string(found),
+    throw Error(std::string("physical model: ") + name + " must be " + accepted + ", got " +
+                    std::to_string(found),
                 std::string("Set ") + name + " to a value in the accepted range.");
 }
 
@@ -27,11 +28,13 @@ void check_params(const PhysicalParams& p)
     check_surface(p.surface);
     require(p.step_s >= 1.0 && p.step_s <= 86400.0, "step_s", p.step_s, "in 1..86400");
     require(p.substep_s >= 1.0 && p.substep_s <= 86400.0, "substep_s", p.substep_s, "in 1..86400");
-    require(p.step_s / p.substep_s <= 1000.0, "substep_s", p.substep_s, "at least a thousandth of step_s");
+    require(p.step_s / p.substep_s <= 1000.0, "substep_s", p.substep_s,
+            "at least a thousandth of step_s");
     require(p.sky_view >= 0.0 && p.sky_view <= 1.0, "sky_view", p.sky_view, "in 0..1");
-    require(p.precip_factor >= 0.0 && p.precip_factor <= 100.0, "precip_factor", p.precip_factor, "in 0..100");
-    require(std::isnan(p.deep_temp_k) || (p.deep_temp_k > 200.0 && p.deep_temp_k < 330.0), "deep_temp_k",
-            p.deep_temp_k, "in 200..330");
+    require(p.precip_factor >= 0.0 && p.precip_factor <= 100.0, "precip_factor", p.precip_factor,
+            "in 0..100");
+    require(std::isnan(p.deep_temp_k) || (p.deep_temp_k > 200.0 && p.deep_temp_k < 330.0),
+            "deep_temp_k", p.deep_temp_k, "in 200..330");
     const SnowParams& s = p.snow;
     require(s.max_layers >= 1 && s.max_layers <= 3, "snow.max_layers", s.max_layers, "1, 2 or 3");
     require(s.albedo_min >= 0.0 && s.albedo_min <= 1.0, "snow.albedo_min", s.albedo_min, "in 0..1");
@@ -39,18 +42,23 @@ void check_params(const PhysicalParams& p)
             "from albedo_min to 1");
     require(s.albedo_cold_h > 0.0, "snow.albedo_cold_h", s.albedo_cold_h, "above 0");
     require(s.albedo_melting_h > 0.0, "snow.albedo_melting_h", s.albedo_melting_h, "above 0");
-    require(s.albedo_refresh_kg_m2 > 0.0, "snow.albedo_refresh_kg_m2", s.albedo_refresh_kg_m2, "above 0");
-    require(s.irreducible_water >= 0.0 && s.irreducible_water < 1.0, "snow.irreducible_water", s.irreducible_water,
-            "in [0, 1)");
+    require(s.albedo_refresh_kg_m2 > 0.0, "snow.albedo_refresh_kg_m2", s.albedo_refresh_kg_m2,
+            "above 0");
+    require(s.irreducible_water >= 0.0 && s.irreducible_water < 1.0, "snow.irreducible_water",
+            s.irreducible_water, "in [0, 1)");
     require(s.cover_depth_m > 0.0, "snow.cover_depth_m", s.cover_depth_m, "above 0");
-    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, "snow.roughness_m", s.roughness_m, "in 1e-6..0.5");
-    require(s.emissivity > 0.0 && s.emissivity <= 1.0, "snow.emissivity", s.emissivity, "in (0, 1]");
-    require(s.constant_density_kg_m3 >= 10.0 && s.constant_density_kg_m3 <= 900.0, "snow.constant_density_kg_m3",
-            s.constant_density_kg_m3, "in 10..900");
-    require(p.exchange.min_wind_m_s > 0.0 && p.exchange.min_wind_m_s < 50.0, "exchange.min_wind_m_s",
-            p.exchange.min_wind_m_s, "above 0");
-    require(p.exchange.max_richardson >= 0.0, "exchange.max_richardson", p.exchange.max_richardson, "0 or more");
-    require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k, "above phase.all_snow_k");
+    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, "snow.roughness_m", s.roughness_m,
+            "in 1e-6..0.5");
+    require(s.emissivity > 0.0 && s.emissivity <= 1.0, "snow.emissivity", s.emissivity,
+            "in (0, 1]");
+    require(s.constant_density_kg_m3 >= 10.0 && s.constant_density_kg_m3 <= 900.0,
+            "snow.constant_density_kg_m3", s.constant_density_kg_m3, "in 10..900");
+    require(p.exchange.min_wind_m_s > 0.0 && p.exchange.min_wind_m_s < 50.0,
+            "exchange.min_wind_m_s", p.exchange.min_wind_m_s, "above 0");
+    require(p.exchange.max_richardson >= 0.0, "exchange.max_richardson", p.exchange.max_richardson,
+            "0 or more");
+    require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k,
+            "above phase.all_snow_k");
 }
 
 namespace {
@@ -61,8 +69,9 @@ ForcingTable needed_columns(const ForcingTable& table)
     ForcingTable out;
     out.site = table.site;
     out.time_us = table.time_us;
-    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
-                          Field::Longwave, Field::Precip, Field::Rain, Field::Snow}) {
+    for (const Field f :
+         {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
+          Field::Longwave, Field::Precip, Field::Rain, Field::Snow}) {
         out[f] = table[f];
     }
     return out;
@@ -78,7 +87,7 @@ struct PhysicalTimeline::Impl {
     detail::StepConstants step_constants;
     detail::StepConstants tail_constants;  // the last step may be shorter
     detail::CellPlace<double> place;
-    std::size_t first_step = 0;           // where the checkpoints begin
+    std::size_t first_step = 0;          // where the checkpoints begin
     std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
 
     detail::StepWalk walk_from(std::size_t step) const { return {table, plan, step, sun_use()}; }
@@ -95,31 +104,41 @@ struct PhysicalTimeline::Impl {
     // Index of the step that holds a time within the run.
     std::size_t step_of(std::int64_t time_us) const
     {
-        return std::min(static_cast<std::size_t>((time_us - plan.begin_us) / plan.length_us), plan.count - 1);
+        return std::min(static_cast<std::size_t>((time_us - plan.begin_us) / plan.length_us),
+                        plan.count - 1);
     }
     // The last checkpoint at or before a step.
     std::size_t checkpoint_before(std::size_t step) const
     {
         return std::min((step - first_step) / kCheckpointEvery, checkpoints.size() - 1);
     }
-    std::size_t step_of_checkpoint(std::size_t point) const { return first_step + point * kCheckpointEvery; }
+    std::size_t step_of_checkpoint(std::size_t point) const
+    {
+        return first_step + point * kCheckpointEvery;
+    }
 
     void begin(const ForcingTable& source, const PhysicalParams& wanted)
     {
         check_params(wanted);
         if (source.rows() == 0 || !source.has(Field::Longwave) || !source.has(Field::Precip)) {
-            throw Error("physical model: the forcing table is not complete", "Call fill_forcing on the table first.");
+            throw Error("physical model: the forcing table is not complete",
+                        "Call fill_forcing on the table first.");
         }
         table = needed_columns(source);
         params = wanted;
-        const double deep =
-            std::isnan(params.deep_temp_k) ? kZeroCelsiusK + detail::yearly_wave(table).mean_c : params.deep_temp_k;
+        const double deep = std::isnan(params.deep_temp_k)
+                                ? kZeroCelsiusK + detail::yearly_wave(table).mean_c
+                                : params.deep_temp_k;
         constants = detail::make_cell_constants(params, table.site, deep);
         place = detail::station_place(params.sky_view, params.precip_factor);
-        plan = detail::make_step_plan(table, static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
-        const auto seconds = [&](std::size_t step) { return static_cast<double>(plan.length_of(step)) * 1e-6; };
+        plan = detail::make_step_plan(table,
+                                      static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
+        const auto seconds = [&](std::size_t step) {
+            return static_cast<double>(plan.length_of(step)) * 1e-6;
+        };
         step_constants = detail::make_step_constants(constants, seconds(0), params.substep_s);
-        tail_constants = detail::make_step_constants(constants, seconds(plan.count - 1), params.substep_s);
+        tail_constants =
+            detail::make_step_constants(constants, seconds(plan.count - 1), params.substep_s);
     }
     void run(CellState cell, std::size_t from)
     {
@@ -136,7 +155,8 @@ struct PhysicalTimeline::Impl {
     void advance_partly(CellState& cell, std::size_t i, std::int64_t time_us) const
     {
         const std::int64_t begin_us = plan.begin_of(i);
-        const auto piece = detail::make_step_forcing(table, begin_us, time_us - begin_us, sun_use());
+        const auto piece =
+            detail::make_step_forcing(table, begin_us, time_us - begin_us, sun_use());
         detail::advance_cell(cell, piece, place, constants,
                              detail::make_step_constants(constants, piece.dt_s, params.substep_s));
     }
@@ -149,18 +169,20 @@ PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalPara
     impl_->run(detail::initial_cell(impl_->table, impl_->constants), 0);
 }
 
-PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params, const CellState& state,
-                                   std::int64_t at_us)
+PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params,
+                                   const CellState& state, std::int64_t at_us)
     : impl_(std::make_unique<Impl>())
 {
     impl_->begin(table, params);
     const detail::StepPlan& plan = impl_->plan;
     const std::int64_t since = at_us - plan.begin_us;
     if (since < 0 || at_us > plan.end_us || (since % plan.length_us != 0 && at_us != plan.end_us)) {
-        throw Error("physical model: the saved state is not at a step of this run",
-                    "Continue with the same weather file and step, from a time at which a step begins.");
+        throw Error(
+            "physical model: the saved state is not at a step of this run",
+            "Continue with the same weather file and step, from a time at which a step begins.");
     }
-    impl_->run(state, at_us == plan.end_us ? plan.count : static_cast<std::size_t>(since / plan.length_us));
+    impl_->run(state, at_us == plan.end_us ? plan.count
+                                           : static_cast<std::size_t>(since / plan.length_us));
 }
 
 PhysicalTimeline::PhysicalTimeline(PhysicalTimeline&&) noexcept = default;
@@ -172,9 +194,15 @@ std::int64_t PhysicalTimeline::begin_us() const
     return steps() > 0 ? impl_->plan.begin_of(impl_->first_step) : impl_->plan.end_us;
 }
 
-std::int64_t PhysicalTimeline::end_us() const { return impl_->plan.end_us; }
+std::int64_t PhysicalTimeline::end_us() const
+{
+    return impl_->plan.end_us;
+}
 
-std::size_t PhysicalTimeline::steps() const { return impl_->plan.count - impl_->first_step; }
+std::size_t PhysicalTimeline::steps() const
+{
+    return impl_->plan.count - impl_->first_step;
+}
 
 CellState PhysicalTimeline::state_at(std::int64_t time_us) const
 {
@@ -186,14 +214,17 @@ CellState PhysicalTimeline::state_at(std::int64_t time_us) const
     const std::size_t from = impl_->step_of_checkpoint(point);
     auto walk = impl_->walk_from(from);
     for (std::size_t i = from; i < target; ++i) impl_->advance(cell, walk);
-    if (!whole && time_us > impl_->plan.begin_of(target)) impl_->advance_partly(cell, target, time_us);
+    if (!whole && time_us > impl_->plan.begin_of(target))
+        impl_->advance_partly(cell, target, time_us);
     return cell;
 }
 
-std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64_t to_us, std::int64_t every_us) const
+std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64_t to_us,
+                                                std::int64_t every_us) const
 {
     if (every_us <= 0) {
-        throw Error("physical model: the interval of a series must be above 0", "Give --every a positive time.");
+        throw Error("physical model: the interval of a series must be above 0",
+                    "Give --every a positive time.");
     }
     std::vector<CellState> out;
     if (to_us < from_us) return out;
@@ -217,7 +248,8 @@ std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64
         }
         for (; at < target; ++at) impl_->advance(cell, walk);
         out.push_back(cell);
-        if (!whole && t > impl_->plan.begin_of(target)) impl_->advance_partly(out.back(), target, t);
+        if (!whole && t > impl_->plan.begin_of(target))
+            impl_->advance_partly(out.back(), target, t);
     }
     return out;
 }

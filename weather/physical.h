@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "weather/forcing.h"
 #include "weather/physics/cell_state.h"
 #include "weather/physics/exchange.h"
-#include "weather/forcing.h"
 #include "weather/physics/phase.h"
 #include "weather/physics/snow.h"
 #include "weather/physics/surfaces.h"
@@ -18,18 +18,19 @@ namespace petrichor::weather {
 
 /// Everything that is not weather: the defaults suit any site.
 ///
-/// Chosen defaults: three snow layers (night temperatures), overburden settling with Pahaut's new snow
-/// (depth), albedo by age (Verseghy), Louis stability with the Richardson number capped at 0.1 over
-/// everything (without a cap a calm clear night decouples the snow from the air).
+/// Chosen defaults: three snow layers (night temperatures), overburden settling with Pahaut's new
+/// snow (depth), albedo by age (Verseghy), Louis stability with the Richardson number capped at 0.1
+/// over everything (without a cap a calm clear night decouples the snow from the air).
 struct PhysicalParams {
     Surface surface;
     SnowParams snow;
     ExchangeParams exchange;
     PhaseParams phase;
-    double step_s = 3600.0;     ///< 1..86400
-    double substep_s = 600.0;   ///< while water is about, or snow or ice is within 1 K of 0 C
-    double deep_temp_k = kMissing;  ///< of the ground far below; NaN: yearly mean of the air, fitted
-    double sky_view = 1.0;      ///< share of the sky that is seen, 0..1
+    double step_s = 3600.0;    ///< 1..86400
+    double substep_s = 600.0;  ///< while water is about, or snow or ice is within 1 K of 0 C
+    double deep_temp_k =
+        kMissing;                ///< of the ground far below; NaN: yearly mean of the air, fitted
+    double sky_view = 1.0;       ///< share of the sky that is seen, 0..1
     double precip_factor = 1.0;  ///< >= 0
 };
 /// Throws Error that names the field when a value cannot be used.
@@ -45,8 +46,8 @@ public:
     /// `table` must have been through fill_forcing. Throws Error for parameters out of range.
     PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params);
     /// Continues from a state that save_state wrote; `at_us` must be a step of this timeline.
-    PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params, const CellState& state,
-                     std::int64_t at_us);
+    PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params,
+                     const CellState& state, std::int64_t at_us);
     PhysicalTimeline(PhysicalTimeline&&) noexcept;
     PhysicalTimeline& operator=(PhysicalTimeline&&) noexcept;
     ~PhysicalTimeline();
@@ -57,7 +58,8 @@ public:
 
     CellState state_at(std::int64_t time_us) const;
     /// States at begin, begin + every, .. end: one pass, the same bits as state_at.
-    std::vector<CellState> series(std::int64_t begin_us, std::int64_t end_us, std::int64_t every_us) const;
+    std::vector<CellState> series(std::int64_t begin_us, std::int64_t end_us,
+                                  std::int64_t every_us) const;
 
 private:
     struct Impl;

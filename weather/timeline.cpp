@@ -9,18 +9,17 @@
 namespace petrichor::weather {
 namespace {
 
-// Index of the key in force at `time_us`; 0 before the first. `strictly` excludes a key at the time.
+// Index of the key in force at `time_us`; 0 before the first. `strictly` excludes a key at the
+// time.
 std::size_t key_in_force(const Channel& channel, double time_us, bool strictly)
 {
     const auto& times = channel.times;
-    const auto after = strictly ? std::lower_bound(times.begin(), times.end(), time_us,
-                                                   [](TimeUs key, double t) {
-                                                       return static_cast<double>(key) < t;
-                                                   })
-                                : std::upper_bound(times.begin(), times.end(), time_us,
-                                                   [](double t, TimeUs key) {
-                                                       return t < static_cast<double>(key);
-                                                   });
+    const auto after =
+        strictly
+            ? std::lower_bound(times.begin(), times.end(), time_us,
+                               [](TimeUs key, double t) { return static_cast<double>(key) < t; })
+            : std::upper_bound(times.begin(), times.end(), time_us,
+                               [](double t, TimeUs key) { return t < static_cast<double>(key); });
     return after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
 }
 
@@ -36,8 +35,8 @@ double smooth_slope(const Channel& channel, std::size_t i)
     const std::size_t last = std::min(i + 1, channel.times.size() - 1);
     std::vector<CurveKey> keys;
     for (std::size_t k = first; k <= last; ++k) {
-        keys.push_back({(key_time(channel, k) - key_time(channel, i)) * 1e-6, channel.values[k],
-                        0.0, 0.0});
+        keys.push_back(
+            {(key_time(channel, k) - key_time(channel, i)) * 1e-6, channel.values[k], 0.0, 0.0});
     }
     return automatic_tangents(std::move(keys))[i - first].slope_out;
 }
@@ -121,9 +120,12 @@ std::optional<Interpolation> interpolation_named(std::string_view name)
 std::string_view name_of(Interpolation interpolation)
 {
     switch (interpolation) {
-        case Interpolation::Linear: return "linear";
-        case Interpolation::Smooth: return "smooth";
-        case Interpolation::Hold: break;
+        case Interpolation::Linear:
+            return "linear";
+        case Interpolation::Smooth:
+            return "smooth";
+        case Interpolation::Hold:
+            break;
     }
     return "hold";
 }
@@ -205,7 +207,8 @@ void check_timeline(const Timeline& timeline)
     }
     for (const auto& entry : timeline.states) {
         const auto known = hand_set_states();
-        if (std::none_of(known.begin(), known.end(), [&](const HandSetState& s) { return s.name == entry.first; })) {
+        if (std::none_of(known.begin(), known.end(),
+                         [&](const HandSetState& s) { return s.name == entry.first; })) {
             throw Error("timeline: no state that can be set by hand is named " + entry.first,
                         "Use wetness, cracks, puddles, snow or water_to_snow.");
         }

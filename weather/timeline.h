@@ -18,7 +18,10 @@ using TimeUs = std::int64_t;
 
 /// Nearest microsecond. `seconds` within +-9e9 (285 years); throws Error otherwise and for NaN.
 TimeUs to_time_us(double seconds);
-inline double to_seconds(TimeUs time) { return static_cast<double>(time) * 1e-6; }
+inline double to_seconds(TimeUs time)
+{
+    return static_cast<double>(time) * 1e-6;
+}
 
 /// What a channel does between two keys.
 enum class Interpolation {
@@ -62,8 +65,8 @@ struct Timeline {
     Channel temperature_c;
     Channel rainfall;  ///< 0..1
     std::map<std::string, Channel, std::less<>> parameters{};
-    /// States set by hand, 0..1, by the names of hand_set_states(). They count while script control is
-    /// off, each from its first key on; when the script takes over again it goes on from them.
+    /// States set by hand, 0..1, by the names of hand_set_states(). They count while script control
+    /// is off, each from its first key on; when the script takes over again it goes on from them.
     std::map<std::string, Channel, std::less<>> states{};
 
     /// Time of the last key of any channel; 0 without keys.
@@ -77,13 +80,14 @@ void check_timeline(const Timeline& timeline);
 /// A state that can be set by hand: all but rain, snowfall and water (lux-weather 2).
 struct HandSetState {
     std::string_view name;
-    double ArtistState::* member;
+    double ArtistState::*member;
 };
 std::span<const HandSetState> hand_set_states();
 
 /// `state` with what is set by hand at a time (or, `before`, until it); the caller has found script
 /// control to be off.
-ArtistState hand_set(const Timeline& timeline, ArtistState state, double time_us, bool before = false);
+ArtistState hand_set(const Timeline& timeline, ArtistState state, double time_us,
+                     bool before = false);
 
 /// The parameters in force from (or, `before`, until) a time: `base`, with what the timeline keys.
 ArtistParams params_at(const Timeline& timeline, const ArtistParams& base, double time_us);

@@ -14,18 +14,23 @@ void add_weather(CLI::App& bench)
     auto o = std::make_shared<WeatherBenchOptions>();
     CLI::App* command = bench.add_subcommand(
         "weather", "Time the weather models and readers beside a plain degree-day loop.");
-    command->add_option("--file", o->file, "a real weather file of any known kind (made-up weather)");
+    command->add_option("--file", o->file,
+                        "a real weather file of any known kind (made-up weather)");
     command->add_option("-r,--repeat", o->repeat, "runs of each row; medians are printed (5)")
         ->check(CLI::Range(1, 100000));
     command->add_option("--grid-repeat", o->grid_repeat, "runs of the long rows of many cells (1)")
         ->check(CLI::Range(1, 1000));
-    command->add_option("--cells", o->cells, "cells of the grid (10000)")->check(CLI::Range(1, 1000000));
-    command->add_option("--days", o->days, "length of the made-up weather (365)")->check(CLI::Range(2, 365));
-    command->add_option("--threads", o->threads, "most CPU threads (all)")->check(CLI::Range(1, 1024));
+    command->add_option("--cells", o->cells, "cells of the grid (10000)")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--days", o->days, "length of the made-up weather (365)")
+        ->check(CLI::Range(2, 365));
+    command->add_option("--threads", o->threads, "most CPU threads (all)")
+        ->check(CLI::Range(1, 1024));
     command->add_flag("--json", o->json, "report for programs");
     command->footer(
         "Example: petrichor bench weather --file denver.epw --repeat 9\n"
-        "CPU time is that of all threads together. `goal` is what the row should stay below; it is that of\n"
+        "CPU time is that of all threads together. `goal` is what the row should stay below; it is "
+        "that of\n"
         "10000 cells, 365 days and 1000 segments.");
     command->callback([o] { run_weather_bench(*o); });
 }
@@ -35,15 +40,17 @@ void add_weather(CLI::App& bench)
 void add_bench(CLI::App& app)
 {
     auto o = std::make_shared<RenderBenchOptions>();
-    CLI::App* command = app.add_subcommand(
-        "bench", "Time one frame: medians of CPU time, wall time and each pass. `bench weather`: the weather.");
+    CLI::App* command = app.add_subcommand("bench",
+                                           "Time one frame: medians of CPU time, wall time and "
+                                           "each pass. `bench weather`: the weather.");
     CLI::Option* scene = command->add_option("--scene", o->scene, "a .glb or .gltf file");
     command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels (1280x720)");
     command->add_option("-r,--repeat", o->repeat, "timed frames after one to warm up (5)")
         ->check(CLI::Range(1, 100000));
     command->add_option("--samples", o->samples, "samples a pixel (1)")->check(CLI::Range(1, 256));
     command->add_option("--camera", o->camera, "a camera of the scene (its first)");
-    command->add_option("--device", o->device, "part of a device name, or its number in `petrichor doctor`");
+    command->add_option("--device", o->device,
+                        "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
     command->add_option("--png", o->picture, "keep the picture that was timed");
     command->add_flag("--json", o->json, "report for programs");
@@ -55,7 +62,8 @@ void add_bench(CLI::App& app)
     command->footer(
         "Example: petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
         "         petrichor bench weather\n"
-        "Without flags: no shadows, occlusion, sky light or anti-aliasing; tone mapped. The time runs from\n"
+        "Without flags: no shadows, occlusion, sky light or anti-aliasing; tone mapped. The time "
+        "runs from\n"
         "the call until the pixels can be read.");
     add_weather(*command);
     command->callback([o, command, scene] {

@@ -26,7 +26,7 @@ struct FrameCost {
     std::vector<gpu::PassTime> passes;
 };
 
-double median_of(const std::vector<FrameCost>& costs, double Cost::* member)
+double median_of(const std::vector<FrameCost>& costs, double Cost::*member)
 {
     std::vector<double> values;
     for (const FrameCost& frame : costs) values.push_back(frame.cost.*member);
@@ -47,8 +47,10 @@ std::vector<gpu::PassTime> median_passes(const std::vector<FrameCost>& costs)
     return passes;
 }
 
-// The workload that renderers are compared by: the scene's own lights, nothing that is not asked for.
-gpu::Frame bench_frame(const gpu::Scene& scene, const RenderBenchOptions& options, const ImageSize& size)
+// The workload that renderers are compared by: the scene's own lights, nothing that is not asked
+// for.
+gpu::Frame bench_frame(const gpu::Scene& scene, const RenderBenchOptions& options,
+                       const ImageSize& size)
 {
     gpu::Frame frame;
     ScenarioCamera camera;
@@ -88,8 +90,8 @@ FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::Re
     return frame_cost;
 }
 
-void print_json(const RenderBenchOptions& options, const std::string& device, const std::vector<FrameCost>& costs,
-                const gpu::RenderResult& result)
+void print_json(const RenderBenchOptions& options, const std::string& device,
+                const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
 {
     nlohmann::ordered_json report;
     report["scene"] = std::filesystem::path(options.scene).filename().string();
@@ -109,13 +111,14 @@ void print_json(const RenderBenchOptions& options, const std::string& device, co
     std::cout << report.dump(2) << "\n";
 }
 
-void print_text(const RenderBenchOptions& options, const std::string& device, const std::vector<FrameCost>& costs,
-                const gpu::RenderResult& result)
+void print_text(const RenderBenchOptions& options, const std::string& device,
+                const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
 {
-    std::printf("%s, %d x %d, %d samples, on %s: medians of %d\n", options.scene.c_str(), result.width,
-                result.height, options.samples, device.c_str(), options.repeat);
-    std::printf("  cpu_ms_per_frame   %10.2f\n  wall_ms_per_frame  %10.2f\n  peak_memory_mib    %10ld\n",
-                median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), peak_memory_mib());
+    std::printf("%s, %d x %d, %d samples, on %s: medians of %d\n", options.scene.c_str(),
+                result.width, result.height, options.samples, device.c_str(), options.repeat);
+    std::printf(
+        "  cpu_ms_per_frame   %10.2f\n  wall_ms_per_frame  %10.2f\n  peak_memory_mib    %10ld\n",
+        median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), peak_memory_mib());
     for (const gpu::PassTime& pass : median_passes(costs)) {
         std::printf("    %-24s %8.2f ms\n", pass.name.c_str(), pass.milliseconds);
     }

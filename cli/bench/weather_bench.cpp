@@ -25,10 +25,10 @@ namespace {
 using weather::Field;
 using weather::ForcingTable;
 
-constexpr int kSeeks = 100;        // in one timing of a seek
+constexpr int kSeeks = 100;  // in one timing of a seek
 constexpr int kArtistSeeks = 10000;
 constexpr int kSegments = 1000;
-constexpr int kSteps = 60 * 60;    // a minute at 60 Hz
+constexpr int kSteps = 60 * 60;  // a minute at 60 Hz
 
 // Results go here, so that no work is left out.
 volatile double sink = 0.0;
@@ -38,7 +38,8 @@ std::string text_of(const std::string& file)
     std::ifstream in(file, std::ios::binary);
     std::ostringstream out;
     if (!in || !(out << in.rdbuf())) {
-        throw Error("bench: cannot read '" + file + "'", "Give an existing weather file, or leave --file out.");
+        throw Error("bench: cannot read '" + file + "'",
+                    "Give an existing weather file, or leave --file out.");
     }
     return out.str();
 }
@@ -52,11 +53,12 @@ double degree_day_run(const ForcingTable& table)
     double swe_kg_m2 = 0.0, sum = 0.0;
     for (std::size_t i = 0; i + 1 < table.rows(); ++i) {
         const double dt_s = static_cast<double>(table.time_us[i + 1] - table.time_us[i]) * 1e-6;
-        const double snow_share =
-            std::clamp((params.all_rain_k - temp_k[i]) / (params.all_rain_k - params.all_snow_k), 0.0, 1.0);
+        const double snow_share = std::clamp(
+            (params.all_rain_k - temp_k[i]) / (params.all_rain_k - params.all_snow_k), 0.0, 1.0);
         swe_kg_m2 += precip[i] * dt_s * snow_share;
-        swe_kg_m2 -= std::min(swe_kg_m2, weather::degree_day_melt_kg_m2(temp_k[i], temp_k[i + 1], dt_s,
-                                                                        params.melt_kg_m2_k_day));
+        swe_kg_m2 -=
+            std::min(swe_kg_m2, weather::degree_day_melt_kg_m2(temp_k[i], temp_k[i + 1], dt_s,
+                                                               params.melt_kg_m2_k_day));
         sum += swe_kg_m2;
     }
     return sum;
@@ -68,11 +70,15 @@ struct WeatherCase {
 };
 std::vector<WeatherCase> cases_of(const WeatherBenchOptions& options)
 {
-    if (!options.file.empty()) return {{"file", weather::read_weather(text_of(options.file)).table}};
+    if (!options.file.empty())
+        return {{"file", weather::read_weather(text_of(options.file)).table}};
     return {{"bare", sample_year(options.days, false)}, {"snow", sample_year(options.days, true)}};
 }
 
-std::string hours_text(const ForcingTable& table) { return std::to_string(table.rows()) + " h"; }
+std::string hours_text(const ForcingTable& table)
+{
+    return std::to_string(table.rows()) + " h";
+}
 
 weather::PhysicalParams meadow()
 {
@@ -94,23 +100,28 @@ void add_cell_rows(const WeatherCase& one, int repeat, std::vector<BenchRow>& ro
     const weather::PhysicalParams params = meadow();
     rows.push_back({"degree_day_" + one.name, "1 cell, " + hours_text(one.table),
                     median_cost(repeat, [&] { sink = degree_day_run(one.table); })});
-    rows.push_back({"cell_year_" + one.name, "1 cell, " + hours_text(one.table), median_cost(repeat, [&] {
-                        const weather::PhysicalTimeline run(one.table, params);
-                        sink = static_cast<double>(run.steps());
-                    }),
+    rows.push_back({"cell_year_" + one.name, "1 cell, " + hours_text(one.table),
+                    median_cost(repeat,
+                                [&] {
+                                    const weather::PhysicalTimeline run(one.table, params);
+                                    sink = static_cast<double>(run.steps());
+                                }),
                     5.0});
     const weather::PhysicalTimeline run(one.table, params);
     const std::int64_t length_us = run.end_us() - run.begin_us();
     std::int64_t n = 0;
     const Cost seeks = median_cost(repeat, [&] {
-        for (int i = 0; i < kSeeks; ++i) sink = run.state_at(run.begin_us() + (++n * 7919000003) % length_us).film;
+        for (int i = 0; i < kSeeks; ++i)
+            sink = run.state_at(run.begin_us() + (++n * 7919000003) % length_us).film;
     });
     rows.push_back({"seek_" + one.name, "1 state at any time", shared_out(seeks, kSeeks), 1.0});
 }
 
-void add_grid_rows(const WeatherCase& one, const WeatherBenchOptions& options, int threads, std::vector<BenchRow>& rows)
+void add_grid_rows(const WeatherCase& one, const WeatherBenchOptions& options, int threads,
+                   std::vector<BenchRow>& rows)
 {
-    const double base_m = std::isfinite(one.table.site.elevation_m) ? one.table.site.elevation_m : 0.0;
+    const double base_m =
+        std::isfinite(one.table.site.elevation_m) ? one.table.site.elevation_m : 0.0;
     const auto cells = sample_cells(static_cast<std::size_t>(options.cells), base_m);
     weather::GridParams params;
     params.surfaces = {weather::surface_preset("grass"), weather::surface_preset("asphalt")};
@@ -124,7 +135,8 @@ void add_grid_rows(const WeatherCase& one, const WeatherBenchOptions& options, i
         });
         rows.push_back({"grid_" + one.name + (all ? "_all_threads" : "_1_thread"),
                         std::to_string(options.cells) + " cells, " + hours_text(one.table) + ", " +
-                            std::to_string(params.threads) + (params.threads == 1 ? " thread" : " threads"),
+                            std::to_string(params.threads) +
+                            (params.threads == 1 ? " thread" : " threads"),
                         cost, 15000.0, static_cast<double>(bytes) / 1048576.0});
     }
 }
@@ -136,9 +148,12 @@ void add_reader_rows(const WeatherBenchOptions& options, std::vector<BenchRow>& 
     reading.year = kSampleYear;
     reading.month = kSampleMonth;
     const auto add = [&](const char* name, const std::string& text, double goal_ms) {
-        rows.push_back({name, std::to_string(text.size() / 1024) + " KiB", median_cost(options.repeat, [&] {
-                            sink = static_cast<double>(weather::read_weather(text, reading).table.rows());
-                        }),
+        rows.push_back({name, std::to_string(text.size() / 1024) + " KiB",
+                        median_cost(options.repeat,
+                                    [&] {
+                                        sink = static_cast<double>(
+                                            weather::read_weather(text, reading).table.rows());
+                                    }),
                         goal_ms});
     };
     add("read_epw", epw_of(table), 15.0);
@@ -151,9 +166,11 @@ void add_artist_rows(int repeat, std::vector<BenchRow>& rows)
     const weather::ArtistTimeline solved(sample_timeline(kSegments), {}, {});
     std::int64_t n = 0;
     const Cost seeks = median_cost(repeat, [&] {
-        for (int i = 0; i < kArtistSeeks; ++i) sink = solved.state_at((++n * 7919000003) % solved.end()).snow;
+        for (int i = 0; i < kArtistSeeks; ++i)
+            sink = solved.state_at((++n * 7919000003) % solved.end()).snow;
     });
-    rows.push_back({"artist_exact", "1 state at any time of 1000 segments", shared_out(seeks, kArtistSeeks), 0.020});
+    rows.push_back({"artist_exact", "1 state at any time of 1000 segments",
+                    shared_out(seeks, kArtistSeeks), 0.020});
     const weather::ArtistParams params;
     const Cost steps = median_cost(repeat, [&] {
         weather::ArtistState now;
@@ -171,20 +188,26 @@ int thread_count(const WeatherBenchOptions& options)
 
 std::string source_of(const WeatherBenchOptions& options)
 {
-    return options.file.empty() ? "made up" : std::filesystem::path(options.file).filename().string();
+    return options.file.empty() ? "made up"
+                                : std::filesystem::path(options.file).filename().string();
 }
 
 void print_text(const WeatherBenchOptions& options, const std::vector<BenchRow>& rows)
 {
-    std::printf("weather: %s; medians of %d (grids: %d), CPU time of all threads together\n", source_of(options).c_str(),
-                options.repeat, options.grid_repeat);
-    std::printf("  %-24s %13s %13s %11s %9s  %s\n", "", "cpu ms", "wall ms", "goal ms", "MiB", "for");
+    std::printf("weather: %s; medians of %d (grids: %d), CPU time of all threads together\n",
+                source_of(options).c_str(), options.repeat, options.grid_repeat);
+    std::printf("  %-24s %13s %13s %11s %9s  %s\n", "", "cpu ms", "wall ms", "goal ms", "MiB",
+                "for");
     for (const BenchRow& row : rows) {
         std::printf("  %-24s %13.5f %13.5f", row.name.c_str(), row.cost.cpu_ms, row.cost.wall_ms);
-        if (row.goal_ms > 0.0) std::printf(" %11.2f", row.goal_ms);
-        else std::printf(" %11s", "");
-        if (row.memory_mib > 0.0) std::printf(" %9.1f", row.memory_mib);
-        else std::printf(" %9s", "");
+        if (row.goal_ms > 0.0)
+            std::printf(" %11.2f", row.goal_ms);
+        else
+            std::printf(" %11s", "");
+        if (row.memory_mib > 0.0)
+            std::printf(" %9.1f", row.memory_mib);
+        else
+            std::printf(" %9s", "");
         std::printf("  %s\n", row.what.c_str());
     }
     std::printf("  peak memory of the program: %ld MiB\n", peak_memory_mib());
@@ -213,8 +236,10 @@ std::string json_report(const WeatherBenchOptions& options, const std::vector<Be
     report["peak_memory_mib"] = peak_memory_mib();
     report["rows"] = nlohmann::ordered_json::array();
     for (const BenchRow& row : rows) {
-        nlohmann::ordered_json entry{
-            {"name", row.name}, {"what", row.what}, {"cpu_ms", row.cost.cpu_ms}, {"wall_ms", row.cost.wall_ms}};
+        nlohmann::ordered_json entry{{"name", row.name},
+                                     {"what", row.what},
+                                     {"cpu_ms", row.cost.cpu_ms},
+                                     {"wall_ms", row.cost.wall_ms}};
         if (row.goal_ms > 0.0) entry["goal_ms"] = row.goal_ms;
         if (row.memory_mib > 0.0) entry["memory_mib"] = row.memory_mib;
         report["rows"].push_back(std::move(entry));
@@ -225,8 +250,10 @@ std::string json_report(const WeatherBenchOptions& options, const std::vector<Be
 void run_weather_bench(const WeatherBenchOptions& options)
 {
     const auto rows = weather_rows(options);
-    if (options.json) std::cout << json_report(options, rows) << "\n";
-    else print_text(options, rows);
+    if (options.json)
+        std::cout << json_report(options, rows) << "\n";
+    else
+        print_text(options, rows);
 }
 
 }  // namespace petrichor::cli

@@ -15,17 +15,17 @@ struct WeatherBenchOptions {
     int repeat = 5;       ///< of each row
     int grid_repeat = 1;  ///< of the rows of many cells
     int cells = 10000;
-    int days = 365;       ///< of the made-up weather
-    int threads = 0;      ///< 0: all
+    int days = 365;   ///< of the made-up weather
+    int threads = 0;  ///< 0: all
     bool json = false;
 };
 
 /// One line of the report.
 struct BenchRow {
-    std::string name;       ///< stable: scripts look for it
-    std::string what;       ///< that one time covers
-    Cost cost;              ///< medians
-    double goal_ms = 0.0;   ///< CPU time it should stay below; 0: none
+    std::string name;         ///< stable: scripts look for it
+    std::string what;         ///< that one time covers
+    Cost cost;                ///< medians
+    double goal_ms = 0.0;     ///< CPU time it should stay below; 0: none
     double memory_mib = 0.0;  ///< of the model itself; 0: not counted
 };
 /// Times every row, in the order of the report. Throws Error when the file cannot be read.

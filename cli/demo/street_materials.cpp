@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "texproc/generate/generate.h"
 #include "texproc/files/io.h"
+#include "texproc/generate/generate.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::cli {

@@ -90,7 +90,8 @@ std::vector<TomlValue> TomlValue::elements() const
 std::vector<double> TomlValue::numbers(std::size_t count, double low, double high) const
 {
     const toml::array* array = node_->as_array();
-    if (!array || array->size() != count) refuse("an array of " + std::to_string(count) + " numbers");
+    if (!array || array->size() != count)
+        refuse("an array of " + std::to_string(count) + " numbers");
     std::vector<double> values;
     for (const TomlValue& element : elements()) values.push_back(element.number(low, high));
     return values;
@@ -159,8 +160,8 @@ toml::table parse_toml(std::string_view text, const std::string& file)
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw Error(file + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " +
-                        std::string(error.description()),
+        throw Error(file + ":" + std::to_string(error.source().begin.line) +
+                        ": not valid TOML: " + std::string(error.description()),
                     "Correct this line; strings need quotes, tables are written [name].");
     }
 }

@@ -12,12 +12,14 @@
 
 namespace petrichor::cli {
 
-/// One value of a TOML file on its way in: every reader checks type and range, and throws Error with
-/// "file:line: table.key", the value found and the values accepted.
+/// One value of a TOML file on its way in: every reader checks type and range, and throws Error
+/// with "file:line: table.key", the value found and the values accepted.
 class TomlValue {
 public:
     TomlValue(const toml::node& node, std::string file, std::string key)
-        : node_(&node), file_(std::move(file)), key_(std::move(key)) {}
+        : node_(&node), file_(std::move(file)), key_(std::move(key))
+    {
+    }
 
     double number(double low, double high) const;
     int integer(int low, int high) const;

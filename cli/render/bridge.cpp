@@ -73,15 +73,16 @@ double cloud_cover_at(const weather::Timeline& timeline, double time_s)
 double visibility_m(double rain, double snowfall)
 {
     constexpr double kKoschmieder = 3.912;  // -ln(0.02)
-    const double extinction_1_m = kKoschmieder / 20000.0 + rain * (kKoschmieder / 3500.0) +
-                                  snowfall * (kKoschmieder / 620.0);
+    const double extinction_1_m =
+        kKoschmieder / 20000.0 + rain * (kKoschmieder / 3500.0) + snowfall * (kKoschmieder / 620.0);
     return kKoschmieder / extinction_1_m;
 }
 
 glm::vec2 wind_vector_m_s(double speed_m_s, double from_deg)
 {
     const double angle = from_deg * 3.14159265358979323846 / 180.0;
-    return {static_cast<float>(-speed_m_s * std::sin(angle)), static_cast<float>(speed_m_s * std::cos(angle))};
+    return {static_cast<float>(-speed_m_s * std::sin(angle)),
+            static_cast<float>(speed_m_s * std::cos(angle))};
 }
 
 WeatherMoment weather_moment(const WeatherScript& script, const weather::ArtistTimeline& weather,

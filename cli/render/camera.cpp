@@ -34,8 +34,9 @@ const gpu::Camera& named_camera(const gpu::Scene& scene, const std::string& name
     }
     throw Error("camera: the scene " + scene.name + " has no camera \"" + name + "\"." +
                     did_you_mean(name, names),
-                names.empty() ? "Leave the name out: the scene has no cameras and is framed as a whole."
-                              : "Use one of: " + join_words(names) + ".");
+                names.empty()
+                    ? "Leave the name out: the scene has no cameras and is framed as a whole."
+                    : "Use one of: " + join_words(names) + ".");
 }
 
 }  // namespace
@@ -62,11 +63,13 @@ gpu::Bounds content_bounds(const gpu::Scene& scene)
         std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
         middle.high[i] = *(values.end() - 1 - cut);
     }
-    const bool few_far_points = glm::length(middle.high - middle.low) < 0.4f * glm::length(all.high - all.low);
+    const bool few_far_points =
+        glm::length(middle.high - middle.low) < 0.4f * glm::length(all.high - all.low);
     return few_far_points ? middle : all;
 }
 
-gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m, double fov_rad)
+gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m,
+                           double fov_rad)
 {
     const glm::dvec3 away = position_m - look_at_m;
     const double distance = glm::length(away);
@@ -76,8 +79,9 @@ gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_
     const glm::dvec3 right = glm::normalize(glm::cross(up_hint, back));
     const glm::dvec3 up = glm::cross(back, right);
     gpu::Camera camera;
-    camera.to_world = glm::mat4(glm::vec4(glm::vec3(right), 0.0f), glm::vec4(glm::vec3(up), 0.0f),
-                                glm::vec4(glm::vec3(back), 0.0f), glm::vec4(glm::vec3(position_m), 1.0f));
+    camera.to_world =
+        glm::mat4(glm::vec4(glm::vec3(right), 0.0f), glm::vec4(glm::vec3(up), 0.0f),
+                  glm::vec4(glm::vec3(back), 0.0f), glm::vec4(glm::vec3(position_m), 1.0f));
     camera.vertical_fov_rad = static_cast<float>(fov_rad);
     return camera;
 }
@@ -99,11 +103,13 @@ gpu::Camera framing_camera(const gpu::Bounds& bounds, double aspect)
     const glm::dvec3 up = glm::cross(back, right);
     const double tan_y = std::tan(0.5 * kFramingFov_rad);
     const double tan_x = tan_y * aspect;
-    // Each corner asks for a distance from the centre at which it just touches the edge of the frame.
+    // Each corner asks for a distance from the centre at which it just touches the edge of the
+    // frame.
     double distance = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p = glm::dvec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                                        corner & 4 ? high.z : low.z) - centre;
+                                        corner & 4 ? high.z : low.z) -
+                             centre;
         const double nearer = glm::dot(p, back);
         distance = std::max({distance, nearer + std::abs(glm::dot(p, up)) / tan_y,
                              nearer + std::abs(glm::dot(p, right)) / tan_x});
@@ -121,10 +127,13 @@ gpu::Camera camera_at(const ScenarioCamera& camera, const gpu::Scene& scene,
     gpu::Camera result;
     const bool placed = !camera.keys.empty() && camera.keys.front().position_m.has_value();
     if (placed) {
-        const auto position = path_of(camera.keys, [](const CameraKey& key) { return *key.position_m; });
-        const auto target = path_of(camera.keys, [](const CameraKey& key) { return *key.look_at_m; });
+        const auto position =
+            path_of(camera.keys, [](const CameraKey& key) { return *key.position_m; });
+        const auto target =
+            path_of(camera.keys, [](const CameraKey& key) { return *key.look_at_m; });
         const auto fov = path_of(camera.keys, [](const CameraKey& key) {
-            return glm::dvec3(key.fov_degrees ? *key.fov_degrees * kDegree : kDefaultFov_rad, 0.0, 0.0);
+            return glm::dvec3(key.fov_degrees ? *key.fov_degrees * kDegree : kDefaultFov_rad, 0.0,
+                              0.0);
         });
         result = camera_towards(point_at(position, camera.interpolation, time_s),
                                 point_at(target, camera.interpolation, time_s),

@@ -8,19 +8,22 @@
 
 namespace petrichor::cli {
 
-/// Where the detail of a scene is: its bounds, or, when they are much larger because of a few far points
-/// (an endless ground plane, a sky dome), the bounds of the middle 96 % of its vertices on each axis.
+/// Where the detail of a scene is: its bounds, or, when they are much larger because of a few far
+/// points (an endless ground plane, a sky dome), the bounds of the middle 96 % of its vertices on
+/// each axis.
 gpu::Bounds content_bounds(const gpu::Scene& scene);
 
-/// A camera that sees all of the bounds from the front right and above (three-quarter view), as near as
-/// the frame allows. aspect = width / height. Empty bounds are taken as 1 m around the origin.
+/// A camera that sees all of the bounds from the front right and above (three-quarter view), as
+/// near as the frame allows. aspect = width / height. Empty bounds are taken as 1 m around the
+/// origin.
 gpu::Camera framing_camera(const gpu::Bounds& bounds, double aspect);
 
 /// A camera at a place that looks at a point, +y up (or -z when it looks straight up or down).
-gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m, double fov_rad);
+gpu::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m,
+                           double fov_rad);
 
-/// The camera of a moment: the scenario's own path, else the named camera of the scene, else its first
-/// one, else a framing camera. Throws Error when the name does not exist.
+/// The camera of a moment: the scenario's own path, else the named camera of the scene, else its
+/// first one, else a framing camera. Throws Error when the name does not exist.
 gpu::Camera camera_at(const ScenarioCamera& camera, const gpu::Scene& scene,
                       const gpu::Bounds& bounds, double aspect, double time_s);
 

@@ -33,8 +33,8 @@ void init(const InitOptions& options)
                     "Choose another name, or replace it with --force.");
     }
     write_text_file(file, starter_scenario(name, options.scene));
-    std::cout << "wrote " << file.string() << "\nrender it: petrichor render " << file.string() << " -o "
-              << name << "\n";
+    std::cout << "wrote " << file.string() << "\nrender it: petrichor render " << file.string()
+              << " -o " << name << "\n";
 }
 
 }  // namespace
@@ -42,11 +42,13 @@ void init(const InitOptions& options)
 void add_init(CLI::App& app)
 {
     auto options = std::make_shared<InitOptions>();
-    CLI::App* command = app.add_subcommand("init", "Write a scenario to start from, every key explained.");
+    CLI::App* command =
+        app.add_subcommand("init", "Write a scenario to start from, every key explained.");
     command->add_option("NAME", options->name, "file to write; .toml is added")->required();
     command->add_option("--scene", options->scene, "scene to put into it: a .glb or .gltf file");
     command->add_flag("--force", options->force, "replace an existing file");
-    command->footer("Example: petrichor init my-street --scene street.glb && petrichor render my-street.toml");
+    command->footer(
+        "Example: petrichor init my-street --scene street.glb && petrichor render my-street.toml");
     command->callback([options] { init(*options); });
 }
 

@@ -14,12 +14,12 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/folders.h"
-#include "cli/render/material_keys.h"
 #include "cli/progress.h"
+#include "cli/render/material_keys.h"
 #include "cli/render/render_job.h"
 #include "cli/render/scene_source.h"
-#include "cli/signals.h"
 #include "cli/render/weather_source.h"
+#include "cli/signals.h"
 #include "cli/words.h"
 
 namespace petrichor::cli {
@@ -71,7 +71,8 @@ Scenario scenario_of(const std::string& input)
     for (const std::string& name : names) {
         if (name == input) return read_scenario(data_folder() / "scenarios" / (name + ".toml"));
     }
-    throw Error("render: " + input + " is neither a scenario (.toml), nor a scene (.glb, .gltf), nor one of: " +
+    throw Error("render: " + input +
+                    " is neither a scenario (.toml), nor a scene (.glb, .gltf), nor one of: " +
                     join_words(names) + "." + did_you_mean(input, names),
                 "For example: petrichor render scene.glb --weather rain-then-snow");
 }
@@ -136,14 +137,17 @@ std::string resume_command(const RenderOptions& options)
 void list_aovs()
 {
     for (const gpu::AovInfo& aov : gpu::aov_table()) {
-        std::cout << aov.name << std::string(aov.name.size() < 16 ? 16 - aov.name.size() : 1, ' ') << aov.channels
-                  << std::string(aov.channels.size() < 5 ? 5 - aov.channels.size() : 1, ' ') << aov.meaning << "\n";
+        std::cout << aov.name << std::string(aov.name.size() < 16 ? 16 - aov.name.size() : 1, ' ')
+                  << aov.channels
+                  << std::string(aov.channels.size() < 5 ? 5 - aov.channels.size() : 1, ' ')
+                  << aov.meaning << "\n";
     }
 }
 
 void report_on(const RenderReport& report, const RenderRequest& request)
 {
-    for (const std::string& message : report.validation) std::cerr << "error validation: " << message << "\n";
+    for (const std::string& message : report.validation)
+        std::cerr << "error validation: " << message << "\n";
     for (const std::string& note : report.notes) std::cerr << "info render: " << note << "\n";
     std::cerr << "info render: " << report.rendered << " frames rendered";
     if (report.kept > 0) std::cerr << ", " << report.kept << " kept";
@@ -170,7 +174,8 @@ void render(const RenderOptions& options)
     RenderRequest request;
     request.folder = output_folder(options);
     request.range = {0, scenario.output.frames - 1};
-    if (!options.frames.empty()) request.range = parse_frame_range(options.frames, scenario.output.frames);
+    if (!options.frames.empty())
+        request.range = parse_frame_range(options.frames, scenario.output.frames);
     request.resume = options.resume;
     request.device = options.device;
     request.threads = options.threads;
@@ -182,12 +187,15 @@ void render(const RenderOptions& options)
     request.weather_name = weather.name;
     sequence.weather = weather.at;
     sequence.duration_s = scenario.output.duration_s.value_or(
-        weather.duration_s > 0.0 ? weather.duration_s : scenario.output.frames / scenario.output.fps);
+        weather.duration_s > 0.0 ? weather.duration_s
+                                 : scenario.output.frames / scenario.output.fps);
 
     require_writable_folder(request.folder);
     load_sequence_scene(sequence, options.threads);
-    for (const std::string& warning : sequence.scene.warnings) std::cerr << "warn scene: " << warning << "\n";
-    for (const std::string& unmatched : apply_material_overrides(scenario.materials, sequence.scene.materials)) {
+    for (const std::string& warning : sequence.scene.warnings)
+        std::cerr << "warn scene: " << warning << "\n";
+    for (const std::string& unmatched :
+         apply_material_overrides(scenario.materials, sequence.scene.materials)) {
         std::cerr << "warn " << unmatched << "\n";
     }
     const RenderReport report = render_sequence(sequence, request);
@@ -201,31 +209,40 @@ void add_render(CLI::App& app, std::vector<std::string> words)
 {
     auto o = std::make_shared<RenderOptions>();
     o->words = std::move(words);
-    CLI::App* command = app.add_subcommand("render", "Render a scenario or a scene into pictures and a film.");
+    CLI::App* command =
+        app.add_subcommand("render", "Render a scenario or a scene into pictures and a film.");
     command->add_option("SCENARIO|SCENE", o->input,
                         "scenario (.toml) or scene (.glb, .gltf); nothing: the demo street");
-    command->add_option("-w,--weather", o->weather, "weather preset or file; wins over the scenario's own");
+    command->add_option("-w,--weather", o->weather,
+                        "weather preset or file; wins over the scenario's own");
     command->add_option("-o,--output", o->folder, "folder for the frames (petrichor-NAME)");
-    command->add_option("-f,--frames", o->frames, "A:B renders frames A to B, both included; N only that one");
+    command->add_option("-f,--frames", o->frames,
+                        "A:B renders frames A to B, both included; N only that one");
     command->add_option("--count", o->count, "number of frames of the whole sequence")
         ->check(CLI::Range(1, 1000000));
     command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels");
     command->add_option("--samples", o->samples, "samples a pixel")->check(CLI::Range(1, 256));
     command->add_option("--seed", o->seed, "of the sample pattern");
     command->add_option("--camera", o->camera, "a camera of the scene");
-    command->add_option("--aov", o->aovs, "more images in the EXR, names joined by commas")->delimiter(',');
+    command->add_option("--aov", o->aovs, "more images in the EXR, names joined by commas")
+        ->delimiter(',');
     command->add_flag("--list-aovs", o->list_aovs, "name the images that --aov takes, and stop");
-    command->add_option("--device", o->device, "part of a device name, or its number in `petrichor doctor`");
+    command->add_option("--device", o->device,
+                        "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
-    command->add_flag("--resume", o->resume, "keep frames that are there and would come out the same");
+    command->add_flag("--resume", o->resume,
+                      "keep frames that are there and would come out the same");
     command->add_flag("--no-exr", o->no_exr, "write no EXR");
     command->add_flag("--no-png", o->no_png, "write no PNG, and so no film");
     command->add_flag("--no-film", o->no_film, "write no film");
-    command->add_flag("--dump-graph", o->dump_graph, "print the passes and what they read and write");
-    command->add_flag("--validate", o->validate, "run the Vulkan validation layer and print what it says");
-    command->footer("Examples: petrichor render\n"
-                    "          petrichor render street.glb --weather first-snow -o street --size 1280x720\n"
-                    "          petrichor render my-street.toml --frames 0:23 --aov depth --resume");
+    command->add_flag("--dump-graph", o->dump_graph,
+                      "print the passes and what they read and write");
+    command->add_flag("--validate", o->validate,
+                      "run the Vulkan validation layer and print what it says");
+    command->footer(
+        "Examples: petrichor render\n"
+        "          petrichor render street.glb --weather first-snow -o street --size 1280x720\n"
+        "          petrichor render my-street.toml --frames 0:23 --aov depth --resume");
     command->callback([o] { render(*o); });
 }
 

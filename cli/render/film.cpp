@@ -39,7 +39,8 @@ ProcessResult run_program(const std::vector<std::string>& arguments)
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 1);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 2);
     std::vector<char*> argv;
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     pid_t child = 0;
     const int failed = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
@@ -88,15 +89,17 @@ void make_film(const fs::path& folder, int first, int count, double fps, const f
     OutputFile output(film);
     // One thread, no dates: the same frames give the same film.
     const ProcessResult result = run_program(
-        {find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-threads", "1",
-         "-framerate", number_text(fps), "-start_number", std::to_string(first),
-         "-i", (folder / "frame_%04d.png").string(), "-frames:v", std::to_string(count),
+        {find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-threads", "1", "-framerate",
+         number_text(fps), "-start_number", std::to_string(first), "-i",
+         (folder / "frame_%04d.png").string(), "-frames:v", std::to_string(count),
          // sRGB pictures become video with the matrix and range written into the file.
-         "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
-         "-c:v", "libx264", "-crf", "16", "-preset", "medium", "-pix_fmt", "yuv420p",
-         "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
-         "-color_range", "tv", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-         "-movflags", "+faststart", output.temporary().string()});
+         "-vf",
+         "crop=trunc(iw/2)*2:trunc(ih/"
+         "2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+         "-c:v", "libx264", "-crf", "16", "-preset", "medium", "-pix_fmt", "yuv420p", "-colorspace",
+         "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv",
+         "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags",
+         "+faststart", output.temporary().string()});
     if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) != 0) {
         throw Error("film: ffmpeg failed: " + result.last_words,
                     "The frames are kept; render with --no-film, or make the film by hand.");

@@ -9,8 +9,8 @@ namespace petrichor::cli {
 /// The ffmpeg that PATH finds, or "".
 std::string find_ffmpeg();
 
-/// Makes an H.264 film (yuv420p, sRGB, plays everywhere) from frame_0000.png ... in a folder, whole or
-/// not at all. Odd sizes are cut by one pixel, which the format needs.
+/// Makes an H.264 film (yuv420p, sRGB, plays everywhere) from frame_0000.png ... in a folder, whole
+/// or not at all. Odd sizes are cut by one pixel, which the format needs.
 ///
 ///   first, count   frames first .. first + count - 1 must be there
 ///   throws         Error with ffmpeg's last words

@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// Numbers that half cannot hold exactly enough: identifiers, and distances over the range of a street.
+// Numbers that half cannot hold exactly enough: identifiers, and distances over the range of a
+// street.
 bool needs_float(const std::string& aov)
 {
     for (const char* word : {"depth", "id", "index", "class", "position"}) {
@@ -35,7 +36,8 @@ bool needs_float(const std::string& aov)
 std::vector<texproc::ExrChannel> exr_channels(const gpu::RenderResult& result)
 {
     std::vector<texproc::ExrChannel> channels;
-    const std::size_t pixels = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
+    const std::size_t pixels =
+        static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
     const char* const names[] = {"R", "G", "B", "A"};
     for (std::size_t c = 0; c < 4; ++c) {
         texproc::ExrChannel channel{names[c], std::vector<std::uint16_t>(pixels), {}};
@@ -87,7 +89,8 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
                             {"petrichor:settings", facts.settings}};
     if (kinds.exr) {
         const std::string name = frame_file_name(facts.frame, "exr");
-        texproc::write_exr(folder / name, result.width, result.height, exr_channels(result), metadata);
+        texproc::write_exr(folder / name, result.width, result.height, exr_channels(result),
+                           metadata);
         facts.files[name] = fs::file_size(folder / name);
     }
     if (kinds.png) {
@@ -96,7 +99,8 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
         std::vector<std::uint8_t> rgb;
         rgb.reserve(result.display.size() / 4 * 3);
         for (std::size_t i = 0; i + 3 < result.display.size(); i += 4) {
-            rgb.insert(rgb.end(), {result.display[i], result.display[i + 1], result.display[i + 2]});
+            rgb.insert(rgb.end(),
+                       {result.display[i], result.display[i + 1], result.display[i + 2]});
         }
         texproc::write_png8(folder / name, result.width, result.height, 3, rgb, metadata);
         facts.files[name] = fs::file_size(folder / name);
@@ -169,7 +173,8 @@ struct FrameWriter::Impl {
     }
 };
 
-FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, int waiting) : impl_(std::make_unique<Impl>())
+FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, int waiting)
+    : impl_(std::make_unique<Impl>())
 {
     impl_->folder = std::move(folder);
     impl_->kinds = kinds;
@@ -185,7 +190,8 @@ FrameWriter::~FrameWriter()
 void FrameWriter::write(FrameFacts facts, gpu::RenderResult result)
 {
     std::unique_lock lock(impl_->guard);
-    impl_->changed.wait(lock, [&] { return impl_->problem || impl_->queue.size() < impl_->waiting; });
+    impl_->changed.wait(lock,
+                        [&] { return impl_->problem || impl_->queue.size() < impl_->waiting; });
     if (impl_->problem) std::rethrow_exception(impl_->problem);
     impl_->queue.emplace_back(std::move(facts), std::move(result));
     lock.unlock();

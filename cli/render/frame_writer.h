@@ -18,8 +18,8 @@ struct WrittenKinds {
     bool png = true;
 };
 
-/// Writes frames in a thread of its own while the next ones are rendered: at most `waiting` frames are
-/// held in memory besides the one being written. frames.jsonl follows about once a second.
+/// Writes frames in a thread of its own while the next ones are rendered: at most `waiting` frames
+/// are held in memory besides the one being written. frames.jsonl follows about once a second.
 class FrameWriter {
 public:
     FrameWriter(std::filesystem::path folder, WrittenKinds kinds, int waiting = 2);
@@ -27,8 +27,8 @@ public:
     FrameWriter& operator=(const FrameWriter&) = delete;
     ~FrameWriter();  ///< writes what waits, and drops the error if there is one
 
-    /// Hands over a frame; `facts` lacks only beauty_hash, exposure and files. Waits while the queue is
-    /// full. Throws what went wrong with an earlier frame (disk full, ...).
+    /// Hands over a frame; `facts` lacks only beauty_hash, exposure and files. Waits while the
+    /// queue is full. Throws what went wrong with an earlier frame (disk full, ...).
     void write(FrameFacts facts, gpu::RenderResult result);
 
     /// Waits until everything is written, frames.jsonl included. Throws what went wrong.
@@ -43,8 +43,8 @@ private:
 };
 
 /// Writes one frame now: the files, and the line that belongs into frames.jsonl.
-std::string write_frame(const std::filesystem::path& folder, const WrittenKinds& kinds, FrameFacts facts,
-                        const gpu::RenderResult& result);
+std::string write_frame(const std::filesystem::path& folder, const WrittenKinds& kinds,
+                        FrameFacts facts, const gpu::RenderResult& result);
 
 }  // namespace petrichor::cli
 

@@ -62,7 +62,8 @@ Json camera_json(const gpu::Camera& camera, int width, int height)
         json["projection"] = rows(projection);
         json["vertical_fov_rad"] = shortest(camera.vertical_fov_rad);
         const double focal_px = 0.5 * height * focal;
-        json["intrinsics"] = {{"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
+        json["intrinsics"] = {
+            {"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
     }
     json["near_m"] = shortest(camera.near_m);
     return json;
@@ -74,9 +75,10 @@ Json sun_json(const gpu::Sky& sky)
     const double azimuth = static_cast<double>(sky.sun_azimuth_rad);
     return {{"elevation_rad", shortest(sky.sun_elevation_rad)},
             {"azimuth_rad", shortest(sky.sun_azimuth_rad)},
-            {"towards", {shortest(static_cast<float>(std::cos(elevation) * std::sin(azimuth))),
-                         shortest(static_cast<float>(std::sin(elevation))),
-                         shortest(static_cast<float>(-std::cos(elevation) * std::cos(azimuth)))}},
+            {"towards",
+             {shortest(static_cast<float>(std::cos(elevation) * std::sin(azimuth))),
+              shortest(static_cast<float>(std::sin(elevation))),
+              shortest(static_cast<float>(-std::cos(elevation) * std::cos(azimuth)))}},
             {"illuminance_lux", shortest(sky.sun_illuminance)},
             {"from_scene", !sky.analytic_sun}};
 }
@@ -163,10 +165,12 @@ std::map<int, FrameRecord> read_frame_records(const fs::path& folder)
     std::string line;
     while (std::getline(in, line)) {
         const Json json = Json::parse(line, nullptr, false);
-        if (!json.is_object() || !json.contains("frame") || !json["frame"].is_number_integer()) continue;
+        if (!json.is_object() || !json.contains("frame") || !json["frame"].is_number_integer())
+            continue;
         FrameRecord record;
         record.line = line;
-        if (json.contains("settings") && json["settings"].is_string()) record.settings = json["settings"];
+        if (json.contains("settings") && json["settings"].is_string())
+            record.settings = json["settings"];
         if (json.contains("files") && json["files"].is_object()) {
             for (const auto& [name, bytes] : json["files"].items()) {
                 if (bytes.is_number_unsigned()) record.files[name] = bytes.get<std::uintmax_t>();

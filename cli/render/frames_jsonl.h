@@ -10,16 +10,16 @@
 
 namespace petrichor::cli {
 
-/// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the same
-/// frame gives the same line on every run.
+/// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the
+/// same frame gives the same line on every run.
 struct FrameFacts {
     int frame = 0;
-    double time_s = 0.0;         ///< on the clock of weather, sun and camera
+    double time_s = 0.0;  ///< on the clock of weather, sun and camera
     double temperature_c = 0.0;
-    std::string weather;         ///< name of the preset or file, for the reader
-    std::string settings;        ///< fingerprint of everything that decides the picture
-    std::string beauty_hash;     ///< of the half-float pixels
-    float exposure = 1.0f;       ///< scale from scene light to the PNG
+    std::string weather;      ///< name of the preset or file, for the reader
+    std::string settings;     ///< fingerprint of everything that decides the picture
+    std::string beauty_hash;  ///< of the half-float pixels
+    float exposure = 1.0f;    ///< scale from scene light to the PNG
     gpu::Frame input;
     std::map<std::string, std::uintmax_t> files;  ///< name -> bytes
 };
@@ -36,7 +36,8 @@ struct FrameRecord {
     std::string line;
 };
 
-/// Reads folder/frames.jsonl by frame; lines that are not whole are left out, a missing file is empty.
+/// Reads folder/frames.jsonl by frame; lines that are not whole are left out, a missing file is
+/// empty.
 std::map<int, FrameRecord> read_frame_records(const std::filesystem::path& folder);
 
 /// True when every file of the record lies in the folder with its size.
@@ -44,7 +45,8 @@ bool files_are_whole(const FrameRecord& record, const std::filesystem::path& fol
 
 /// Adds or replaces lines in folder/frames.jsonl, in order of frames, whole or not at all. Several
 /// programs may do this to one folder at once: each sees what the others wrote.
-void merge_frame_lines(const std::filesystem::path& folder, const std::map<int, std::string>& lines);
+void merge_frame_lines(const std::filesystem::path& folder,
+                       const std::map<int, std::string>& lines);
 
 }  // namespace petrichor::cli
 

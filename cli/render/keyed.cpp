@@ -73,7 +73,8 @@ glm::dvec3 point_at(const std::vector<PathKey>& keys, Interpolation interpolatio
     if (interpolation == Interpolation::Hold) return keys[i].point;
     const double length = keys[i + 1].time_s - keys[i].time_s;
     const double u = (time_s - keys[i].time_s) / length;
-    if (interpolation == Interpolation::Linear) return glm::mix(keys[i].point, keys[i + 1].point, u);
+    if (interpolation == Interpolation::Linear)
+        return glm::mix(keys[i].point, keys[i + 1].point, u);
     return hermite(keys[i].point, keys[i + 1].point, path_slope(keys, i), path_slope(keys, i + 1),
                    length, u);
 }

@@ -17,8 +17,8 @@ struct NumberKey {
     double value = 0.0;
 };
 
-/// A number that may change over time. Times ascend strictly; before the first key and after the last
-/// the value is that key's.
+/// A number that may change over time. Times ascend strictly; before the first key and after the
+/// last the value is that key's.
 struct KeyedNumber {
     std::vector<NumberKey> keys;
     Interpolation interpolation = Interpolation::Smooth;

@@ -8,20 +8,26 @@ namespace {
 using gpu::MaterialWeather;
 using Values = std::vector<double>;
 
-float f(double value) { return static_cast<float>(value); }
+float f(double value)
+{
+    return static_cast<float>(value);
+}
 
 }  // namespace
 
 const std::vector<MaterialKey>& material_keys()
 {
     static const std::vector<MaterialKey> keys{
-        {"porosity", 1, 0.0, 1.0, "0.6", "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet",
+        {"porosity", 1, 0.0, 1.0, "0.6",
+         "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet",
          [](MaterialWeather& m, const Values& v) { m.porosity = f(v[0]); }},
-        {"height_scale_m", 1, 0.0, 10.0, "0.02", "height 1 of the height map above height 0, metres",
+        {"height_scale_m", 1, 0.0, 10.0, "0.02",
+         "height 1 of the height map above height 0, metres",
          [](MaterialWeather& m, const Values& v) { m.height_scale_m = f(v[0]); }},
         {"default_height", 1, 0.0, 1.0, "0.25", "height where the material has no height map",
          [](MaterialWeather& m, const Values& v) { m.default_height = f(v[0]); }},
-        {"water_slope_damp", 1, 0.0, 1.0, "0.5", "0 water stands on flat ground only .. 1 on slopes too",
+        {"water_slope_damp", 1, 0.0, 1.0, "0.5",
+         "0 water stands on flat ground only .. 1 on slopes too",
          [](MaterialWeather& m, const Values& v) { m.water_slope_damp = f(v[0]); }},
         {"water_accumulation", 4, -10.0, 10.0, "[0.0, 1.0, 0.0, 1.0]",
          "cracks: constant, influence of the weather; puddles: constant, influence",
@@ -45,11 +51,15 @@ const std::vector<MaterialKey>& material_keys()
          [](MaterialWeather& m, const Values& v) { m.flow_normal_strength = f(v[0]); }},
         {"snow_slope_damp", 1, 0.0, 8.0, "0.75", "how fast snow thins out on slopes",
          [](MaterialWeather& m, const Values& v) { m.snow_slope_damp = f(v[0]); }},
-        {"snow_accumulation", 2, -10.0, 10.0, "[0.0, 1.0]", "snow: constant, influence of the weather",
-         [](MaterialWeather& m, const Values& v) { m.snow_accumulation = {f(v[0]), f(v[1])}; }},
+        {"snow_accumulation", 2, -10.0, 10.0, "[0.0, 1.0]",
+         "snow: constant, influence of the weather",
+         [](MaterialWeather& m, const Values& v) {
+             m.snow_accumulation = {f(v[0]), f(v[1])};
+         }},
         {"snow_normal_strength", 1, 0.0, 2.0, "1.0", "bumpiness of the snow",
          [](MaterialWeather& m, const Values& v) { m.snow_normal_strength = f(v[0]); }},
-        {"snow_detail_strength", 1, 0.0, 1.0, "0.3", "how much of the surface shows through thin snow",
+        {"snow_detail_strength", 1, 0.0, 1.0, "0.3",
+         "how much of the surface shows through thin snow",
          [](MaterialWeather& m, const Values& v) { m.snow_detail_strength = f(v[0]); }},
         {"snow_opacity", 1, 0.0, 1.0, "0.5", "cover of thin snow",
          [](MaterialWeather& m, const Values& v) { m.snow_opacity = f(v[0]); }},
@@ -81,8 +91,9 @@ std::vector<std::string> apply_material_overrides(const std::vector<MaterialOver
             names.resize(12);
             names.push_back("...");
         }
-        unmatched.push_back(one.place + ": [materials.\"" + one.glob +
-                            "\"] matches no material of the scene; there are: " + join_words(names));
+        unmatched.push_back(
+            one.place + ": [materials.\"" + one.glob +
+            "\"] matches no material of the scene; there are: " + join_words(names));
     }
     return unmatched;
 }

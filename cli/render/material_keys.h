@@ -21,8 +21,8 @@ struct MaterialKey {
 };
 const std::vector<MaterialKey>& material_keys();
 
-/// Applies the overrides in the order of the file (a later one wins) and returns the globs that match
-/// no material, with a hint, for the log.
+/// Applies the overrides in the order of the file (a later one wins) and returns the globs that
+/// match no material, with a hint, for the log.
 std::vector<std::string> apply_material_overrides(const std::vector<MaterialOverride>& overrides,
                                                   std::vector<gpu::Material>& materials);
 

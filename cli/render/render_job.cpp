@@ -11,11 +11,11 @@
 
 #include "base/error.h"
 #include "cli/exit.h"
-#include "cli/render/film.h"
 #include "cli/folders.h"
+#include "cli/progress.h"
+#include "cli/render/film.h"
 #include "cli/render/frame_writer.h"
 #include "cli/render/frames_jsonl.h"
-#include "cli/progress.h"
 #include "cli/render/scene_file.h"
 #include "cli/render/scene_textures.h"
 #include "cli/signals.h"
@@ -52,7 +52,8 @@ std::vector<Pending> pending_frames(const Sequence& sequence, const RenderReques
     for (int i = request.range.first; i <= request.range.last; ++i) {
         Pending one{i, frame_at(sequence, i), ""};
         one.fingerprint = frame_fingerprint(sequence, one.frame.frame);
-        if (is_kept(records, i, one.fingerprint, sequence.scenario.output, request.folder)) continue;
+        if (is_kept(records, i, one.fingerprint, sequence.scenario.output, request.folder))
+            continue;
         pending.push_back(std::move(one));
     }
     return pending;
@@ -96,7 +97,8 @@ gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request)
 {
     gpu::Renderer renderer({.device = request.device, .validation = request.validation});
     const auto textures = prepare_textures(
-        sequence.scene, {.max_size = sequence.scenario.scene.max_texture, .threads = request.threads});
+        sequence.scene,
+        {.max_size = sequence.scenario.scene.max_texture, .threads = request.threads});
     renderer.load(sequence.scene, textures);
     if (!sequence.scenario.sky.environment.empty()) {
         renderer.set_environment(
@@ -105,13 +107,14 @@ gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request)
     return renderer;
 }
 
-void render_frames(Sequence& sequence, const RenderRequest& request, const std::vector<Pending>& pending,
-                   RenderReport& report)
+void render_frames(Sequence& sequence, const RenderRequest& request,
+                   const std::vector<Pending>& pending, RenderReport& report)
 {
     const ScenarioOutput& output = sequence.scenario.output;
     gpu::Renderer renderer = make_renderer(sequence, request);
-    std::cerr << "info render: " << pending.size() << " frames, " << output.width << "x" << output.height
-              << ", " << output.samples << " samples, on " << renderer.device().name << "\n";
+    std::cerr << "info render: " << pending.size() << " frames, " << output.width << "x"
+              << output.height << ", " << output.samples << " samples, on "
+              << renderer.device().name << "\n";
     std::uint32_t overflows = 0;
     {
         Progress progress("render", static_cast<int>(pending.size()));
@@ -136,8 +139,9 @@ void render_frames(Sequence& sequence, const RenderRequest& request, const std::
     }
     if (request.dump_graph) std::cout << renderer.describe_graph() << std::flush;
     if (overflows > 0) {
-        report.notes.push_back("up to " + std::to_string(overflows) +
-                               " tiles of a frame see more lights than a list holds; the faintest are left out");
+        report.notes.push_back(
+            "up to " + std::to_string(overflows) +
+            " tiles of a frame see more lights than a list holds; the faintest are left out");
     }
     report.validation = renderer.validation_messages();
 }
@@ -158,7 +162,8 @@ RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
     const int asked = request.range.last - request.range.first + 1;
     const auto stop = [&](int done) {
         return Interrupted("interrupted: " + std::to_string(done) + " of " + std::to_string(asked) +
-                           " frames are in " + request.folder.string() + "\n  Go on with: " + request.command);
+                           " frames are in " + request.folder.string() +
+                           "\n  Go on with: " + request.command);
     };
     const auto pending = pending_frames(sequence, request);
     report.kept = asked - static_cast<int>(pending.size());
@@ -171,7 +176,8 @@ RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
         if (interrupted()) throw stop(report.kept + report.rendered);
         throw;
     }
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.peak_mib = peak_memory_mib();
     return report;
 }

@@ -13,11 +13,11 @@ namespace petrichor::cli {
 struct RenderRequest {
     std::filesystem::path folder;  ///< where the frames go
     FrameRange range;
-    bool resume = false;     ///< keep frames that are whole and would come out the same
-    std::string device;      ///< as in gpu::RendererOptions
-    int threads = 0;         ///< of the image readers; 0: all cores
-    bool validation = false;  ///< run the validation layer; its messages are an error
-    bool dump_graph = false;  ///< print the passes of the last frame on stdout
+    bool resume = false;       ///< keep frames that are whole and would come out the same
+    std::string device;        ///< as in gpu::RendererOptions
+    int threads = 0;           ///< of the image readers; 0: all cores
+    bool validation = false;   ///< run the validation layer; its messages are an error
+    bool dump_graph = false;   ///< print the passes of the last frame on stdout
     std::string weather_name;  ///< for frames.jsonl
     std::string command;       ///< how to go on after Ctrl-C: the command line with --resume
 };
@@ -34,8 +34,8 @@ struct RenderReport {
 };
 
 /// Renders the frames of a range into a folder, writing while rendering: frame_0000.exr and .png,
-/// frames.jsonl, and film.mp4 once every frame of the sequence is there. The sequence's scene loses its
-/// encoded images on the way.
+/// frames.jsonl, and film.mp4 once every frame of the sequence is there. The sequence's scene loses
+/// its encoded images on the way.
 ///
 /// Every file is whole or absent at any time. Throws Error for what the user can mend, Interrupted
 /// after Ctrl-C (finished frames are kept).

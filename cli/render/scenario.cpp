@@ -58,53 +58,69 @@ const std::vector<Rule>& rules()
 {
     static const std::vector<Rule> table{
         {{"scene", "file", "\"scene.glb\"",
-          "glTF scene (.glb, .gltf), relative to this file; \"demo:street\" is the generated demo", false, true},
+          "glTF scene (.glb, .gltf), relative to this file; \"demo:street\" is the generated demo",
+          false, true},
          [](Scenario& s, const TomlValue& v) { s.scene.file = v.text(); }},
         {{"scene", "demo_seed", "1", "which street the demo generator builds"},
          [](Scenario& s, const TomlValue& v) {
              s.scene.demo_seed = static_cast<std::uint32_t>(v.integer(0, 1 << 30));
          }},
-        {{"scene", "max_texture", "4096", "larger textures are reduced to this many texels a side, 16 to 16384"},
+        {{"scene", "max_texture", "4096",
+          "larger textures are reduced to this many texels a side, 16 to 16384"},
          [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
 
-        {{"camera", "name", "\"Camera\"", "a camera of the scene; without one the whole scene is framed"},
+        {{"camera", "name", "\"Camera\"",
+          "a camera of the scene; without one the whole scene is framed"},
          [](Scenario& s, const TomlValue& v) { s.camera.name = v.text(); }},
-        {{"camera", "position_m", "[6.0, 2.0, 8.0]", "where a camera of your own stands: x, y (up), z"},
+        {{"camera", "position_m", "[6.0, 2.0, 8.0]",
+          "where a camera of your own stands: x, y (up), z"},
          [](Scenario& s, const TomlValue& v) { still_camera(s).position_m = v.point(); }},
         {{"camera", "look_at_m", "[0.0, 1.0, 0.0]", "the point it looks at"},
          [](Scenario& s, const TomlValue& v) { still_camera(s).look_at_m = v.point(); }},
         {{"camera", "fov_degrees", "45.0", "vertical field of view, 1 to 170"},
-         [](Scenario& s, const TomlValue& v) { still_camera(s).fov_degrees = v.number(1.0, 170.0); }},
+         [](Scenario& s, const TomlValue& v) {
+             still_camera(s).fov_degrees = v.number(1.0, 170.0);
+         }},
         {{"camera", "keys",
-          "[{ time_s = 0.0, position_m = [6.0, 2.0, 8.0], look_at_m = [0.0, 1.0, 0.0], fov_degrees = 45.0 },\n"
-          "    { time_s = 48.0, position_m = [4.0, 1.6, 7.0], look_at_m = [0.0, 1.0, 0.0], fov_degrees = 40.0 }]",
+          "[{ time_s = 0.0, position_m = [6.0, 2.0, 8.0], look_at_m = [0.0, 1.0, 0.0], fov_degrees "
+          "= 45.0 },\n"
+          "    { time_s = 48.0, position_m = [4.0, 1.6, 7.0], look_at_m = [0.0, 1.0, 0.0], "
+          "fov_degrees = 40.0 }]",
           "a camera that moves: one entry a point of the path"},
          [](Scenario& s, const TomlValue& v) { s.camera.keys = camera_path(v); }},
         {{"camera", "interpolation", "\"smooth\"", "between keys: hold, linear or smooth"},
          [](Scenario& s, const TomlValue& v) { s.camera.interpolation = v.interpolation(); }},
         {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
          [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
-        {{"camera", "exposure", "1.0e-4", "linear scale of the PNG; without it metered from sun and sky", true},
+        {{"camera", "exposure", "1.0e-4",
+          "linear scale of the PNG; without it metered from sun and sky", true},
          [](Scenario& s, const TomlValue& v) { s.camera.exposure = v.keyed(1e-12, 1e12); }},
         {{"camera", "exposure_bias", "0.0", "stops brighter (+) or darker (-), -10 to 10", true},
          [](Scenario& s, const TomlValue& v) { s.camera.exposure_bias = v.keyed(-10.0, 10.0); }},
 
         {{"sun", "source", "\"sky\"",
           "sky: a sun that matches the sky; scene: the directional lights of the scene instead"},
-         [](Scenario& s, const TomlValue& v) { s.sun.from_scene = v.choice({"sky", "scene"}) == 1; }},
+         [](Scenario& s, const TomlValue& v) {
+             s.sun.from_scene = v.choice({"sky", "scene"}) == 1;
+         }},
         {{"sun", "elevation_degrees", "35.0", "height above the horizon, -90 to 90", true, true},
          [](Scenario& s, const TomlValue& v) { s.sun.elevation_degrees = v.keyed(-90.0, 90.0); }},
         {{"sun", "azimuth_degrees", "140.0",
-          "clockwise from north (-z) over east (+x); go past 360 rather than back to 0", true, true},
+          "clockwise from north (-z) over east (+x); go past 360 rather than back to 0", true,
+          true},
          [](Scenario& s, const TomlValue& v) { s.sun.azimuth_degrees = v.keyed(-3600.0, 3600.0); }},
         {{"sun", "time_of_day_hours", "[[0.0, 14.0], [48.0, 18.5]]",
-          "local solar time instead of elevation and azimuth, 0 to 24 (48 is the next midnight)", true},
-         [](Scenario& s, const TomlValue& v) { s.sun.time_of_day_hours = v.keyed(-240.0, 2400.0); }},
+          "local solar time instead of elevation and azimuth, 0 to 24 (48 is the next midnight)",
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.sun.time_of_day_hours = v.keyed(-240.0, 2400.0);
+         }},
         {{"sun", "latitude_degrees", "50.0", "with time_of_day_hours: -90 south to 90 north"},
          [](Scenario& s, const TomlValue& v) { s.sun.latitude_degrees = v.number(-90.0, 90.0); }},
         {{"sun", "day_of_year", "80", "with time_of_day_hours: 1 to 366; 80 is the spring equinox"},
          [](Scenario& s, const TomlValue& v) { s.sun.day_of_year = v.number(1.0, 366.0); }},
-        {{"sun", "illuminance_lux", "100000.0", "of a clear sun on a plane that faces it, 0 to 200000"},
+        {{"sun", "illuminance_lux", "100000.0",
+          "of a clear sun on a plane that faces it, 0 to 200000"},
          [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
 
         {{"sky", "cloud_cover", "[[0.0, 0.9], [24.0, 0.4]]",
@@ -124,11 +140,13 @@ const std::vector<Rule>& rules()
         {{"sky", "ground_albedo", "0.2", "of the land beyond the scene, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.sky.ground_albedo = v.number(0.0, 1.0); }},
 
-        {{"lights", "lamps", "\"dusk\"", "point and spot lights and glowing materials: on, off, or on at dusk"},
+        {{"lights", "lamps", "\"dusk\"",
+          "point and spot lights and glowing materials: on, off, or on at dusk"},
          [](Scenario& s, const TomlValue& v) {
              s.lights.lamps = static_cast<Lamps>(v.choice({"on", "off", "dusk"}));
          }},
-        {{"lights", "dusk_degrees", "4.0", "lamps are fully lit with the sun at this elevation or lower"},
+        {{"lights", "dusk_degrees", "4.0",
+          "lamps are fully lit with the sun at this elevation or lower"},
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_degrees = v.number(-90.0, 90.0); }},
         {{"lights", "dusk_fade_degrees", "4.0", "and dark this far above it, 0 to 90"},
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
@@ -145,7 +163,8 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.render.shelter = v.boolean(); }},
         {{"render", "draw_sky", "true", "false: black where the scene ends"},
          [](Scenario& s, const TomlValue& v) { s.render.draw_sky = v.boolean(); }},
-        {{"render", "tone_map", "true", "of the PNG; false: plain sRGB. The EXR is never tone mapped"},
+        {{"render", "tone_map", "true",
+          "of the PNG; false: plain sRGB. The EXR is never tone mapped"},
          [](Scenario& s, const TomlValue& v) { s.render.tone_map = v.boolean(); }},
 
         {{"output", "width", "640", "pixels, 1 to 16384", false, true},
@@ -160,12 +179,14 @@ const std::vector<Rule>& rules()
          }},
         {{"output", "frames", "48", "number of frames, 1 to 1000000", false, true},
          [](Scenario& s, const TomlValue& v) { s.output.frames = v.integer(1, 1000000); }},
-        {{"output", "fps", "12.0", "frames a second of the film; also the clock of ripples", false, true},
+        {{"output", "fps", "12.0", "frames a second of the film; also the clock of ripples", false,
+          true},
          [](Scenario& s, const TomlValue& v) { s.output.fps = v.number(0.01, 1000.0); }},
         {{"output", "start_s", "0.0", "time of frame 0 on the clock of weather, sun and camera"},
          [](Scenario& s, const TomlValue& v) { s.output.start_s = v.number(-1e9, 1e9); }},
         {{"output", "duration_s", "48.0",
-          "from frame 0 to one frame after the last on that clock; without it as long as the weather"},
+          "from frame 0 to one frame after the last on that clock; without it as long as the "
+          "weather"},
          [](Scenario& s, const TomlValue& v) { s.output.duration_s = v.number(0.0, 1e9); }},
         {{"output", "exr", "true", "write frame_0000.exr: linear light, half float, all AOVs"},
          [](Scenario& s, const TomlValue& v) { s.output.exr = v.boolean(); }},
@@ -173,7 +194,8 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.output.png = v.boolean(); }},
         {{"output", "film", "true", "write film.mp4 where ffmpeg is installed (needs the PNGs)"},
          [](Scenario& s, const TomlValue& v) { s.output.film = v.boolean(); }},
-        {{"output", "aovs", "[]", "images beside the picture in the EXR; `petrichor render --list-aovs` names them"},
+        {{"output", "aovs", "[]",
+          "images beside the picture in the EXR; `petrichor render --list-aovs` names them"},
          [](Scenario& s, const TomlValue& v) { s.output.aovs = v.texts(); }},
     };
     return table;
@@ -196,7 +218,8 @@ void read_table(Scenario& scenario, const std::string& table, const TomlValue& v
     for (const Rule& rule : rules()) {
         if (rule.key.table == table) known.push_back(rule.key.name);
     }
-    // Read in the order of the rules, not of the file: what a file means does not depend on its order.
+    // Read in the order of the rules, not of the file: what a file means does not depend on its
+    // order.
     const auto entries = value.entries(known);
     for (const Rule& rule : rules()) {
         if (rule.key.table != table) continue;
@@ -218,7 +241,8 @@ void read_materials(Scenario& scenario, const toml::table& table)
     std::vector<std::string> known;
     for (const MaterialKey& key : material_keys()) known.push_back(key.name);
     for (const auto& [glob, node] : table) {
-        const TomlValue value(node, scenario.name, "[materials.\"" + std::string(glob.str()) + "\"]");
+        const TomlValue value(node, scenario.name,
+                              "[materials.\"" + std::string(glob.str()) + "\"]");
         MaterialOverride one{std::string(glob.str()), value.place(), {}};
         for (const auto& [name, entry] : value.entries(known)) {
             for (const MaterialKey& key : material_keys()) {
@@ -256,10 +280,11 @@ void check_camera(const Scenario& scenario, const toml::table& root)
     if (keys.empty()) return;
     const toml::table& table = *root["camera"].as_table();
     const TomlValue camera(*root.get("camera"), scenario.name, "camera");
-    if (table.contains("keys") &&
-        (table.contains("position_m") || table.contains("look_at_m") || table.contains("fov_degrees"))) {
-        throw Error(camera.place() + ": camera has keys and also position_m, look_at_m or fov_degrees",
-                    "Give either a path in keys or one fixed position.");
+    if (table.contains("keys") && (table.contains("position_m") || table.contains("look_at_m") ||
+                                   table.contains("fov_degrees"))) {
+        throw Error(
+            camera.place() + ": camera has keys and also position_m, look_at_m or fov_degrees",
+            "Give either a path in keys or one fixed position.");
     }
     if (keys.front().position_m.has_value() != keys.front().look_at_m.has_value()) {
         throw Error(camera.place() + ": camera needs position_m and look_at_m together",
@@ -280,7 +305,8 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
         const std::string table(key.str());
         const TomlValue value(node, name, table);
         if (std::find(known.begin(), known.end(), table) == known.end()) {
-            refuse_name(value.place(), node.is_table() ? "table" : "key outside of a table", table, known);
+            refuse_name(value.place(), node.is_table() ? "table" : "key outside of a table", table,
+                        known);
         }
         if (!node.is_table()) value.refuse("a table, written [" + table + "]");
         if (table == "weather") {
@@ -329,14 +355,17 @@ std::string table_meaning(const std::string& table)
 {
     static const std::vector<std::pair<std::string, std::string>> meanings{
         {"scene", "What is seen."},
-        {"camera", "Where from. Without this table: the scene's first camera, else the whole scene is framed."},
+        {"camera",
+         "Where from. Without this table: the scene's first camera, else the whole scene is "
+         "framed."},
         {"sun", "Without this table: the direction of the scene's own sun, else a morning sun."},
         {"sky", "What lights the scene besides the sun."},
         {"lights", "The lamps of the scene. Without this table they are always on."},
         {"render", "What the renderer computes; all of it without this table."},
         {"output", "The sequence and its files."},
         {"weather", "What falls from the sky, and when."},
-        {"materials", "What weather does to materials, by name; * stands for any letters. Later tables win."},
+        {"materials",
+         "What weather does to materials, by name; * stands for any letters. Later tables win."},
     };
     for (const auto& [name, meaning] : meanings) {
         if (name == table) return meaning;

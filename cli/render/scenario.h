@@ -57,8 +57,8 @@ struct ScenarioSky {
 enum class Lamps { On, Off, Dusk };
 
 struct ScenarioLights {
-    Lamps lamps = Lamps::On;    ///< point and spot lights and glowing materials of the scene
-    double dusk_degrees = 4.0;  ///< with Dusk: full light at this sun elevation and below ...
+    Lamps lamps = Lamps::On;         ///< point and spot lights and glowing materials of the scene
+    double dusk_degrees = 4.0;       ///< with Dusk: full light at this sun elevation and below ...
     double dusk_fade_degrees = 4.0;  ///< ... none this much above it
     double scale = 1.0;
 };
@@ -111,9 +111,9 @@ struct Scenario {
     std::vector<MaterialOverride> materials;
 };
 
-/// Reads a scenario from TOML text. Unknown tables and keys, wrong types and values out of range throw
-/// Error with "name:line" and, for names, the nearest one that exists. Of [weather] only `preset`
-/// is read here, its keys are cli/weather_file's.
+/// Reads a scenario from TOML text. Unknown tables and keys, wrong types and values out of range
+/// throw Error with "name:line" and, for names, the nearest one that exists. Of [weather] only
+/// `preset` is read here, its keys are cli/weather_file's.
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
 /// The same from a file; relative names in it are taken from the file's folder.
@@ -121,11 +121,11 @@ Scenario read_scenario(const std::filesystem::path& file);
 
 /// One key of a scenario file, for `petrichor init`, the documentation and the tests.
 struct ScenarioKey {
-    std::string table;    ///< "output"; "materials" stands for [materials."glob"]
-    std::string name;     ///< "width"
-    std::string example;  ///< a valid value, as TOML; the default where there is one
-    std::string meaning;  ///< one line: what it does, unit, range
-    bool keyed = false;   ///< takes a number or [[time_s, value], ...]
+    std::string table;     ///< "output"; "materials" stands for [materials."glob"]
+    std::string name;      ///< "width"
+    std::string example;   ///< a valid value, as TOML; the default where there is one
+    std::string meaning;   ///< one line: what it does, unit, range
+    bool keyed = false;    ///< takes a number or [[time_s, value], ...]
     bool starter = false;  ///< written active, not commented out, by `petrichor init`
 };
 

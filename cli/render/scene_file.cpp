@@ -15,14 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::byte> read_bytes(const fs::path& file, const std::string& what, const std::string& fix)
+std::vector<std::byte> read_bytes(const fs::path& file, const std::string& what,
+                                  const std::string& fix)
 {
     std::error_code failed;
     const auto size = fs::file_size(file, failed);
     std::ifstream in(file, std::ios::binary);
     if (failed || !in) {
         throw Error(what + ": cannot read " + file.string() +
-                        (failed ? ": " + failed.message() : std::string()), fix);
+                        (failed ? ": " + failed.message() : std::string()),
+                    fix);
     }
     std::vector<std::byte> bytes(size);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -40,8 +42,9 @@ LoadedScene read_scene(const fs::path& file)
     Hasher hasher;
     hasher.add_bytes(asset);
     const auto read_resource = [&](const std::string& uri) {
-        auto bytes = read_bytes(file.parent_path() / uri, "scene " + file.filename().string(),
-                                "Put the file that the scene names beside it, or export the scene as .glb.");
+        auto bytes =
+            read_bytes(file.parent_path() / uri, "scene " + file.filename().string(),
+                       "Put the file that the scene names beside it, or export the scene as .glb.");
         hasher.add(uri);
         hasher.add_bytes(bytes);
         return bytes;
@@ -73,7 +76,8 @@ gpu::EnvironmentMap read_environment(const fs::path& file)
     map.rgb.reserve(image.pixels.size() / static_cast<std::size_t>(image.channels) * 3);
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < 3; ++c) map.rgb.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
+            for (int c = 0; c < 3; ++c)
+                map.rgb.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
         }
     }
     return map;

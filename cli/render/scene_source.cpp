@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/render/camera.h"
 #include "cli/demo/street.h"
 #include "cli/hash.h"
+#include "cli/render/camera.h"
 #include "cli/render/scene_file.h"
 #include "cli/words.h"
 
@@ -49,7 +49,8 @@ LoadedScene load(const Scenario& scenario, int threads)
         return loaded;
     }
     if (file.rfind("demo:", 0) == 0) {
-        throw Error(scenario.name + ": no generated scene \"" + file + "\"." + did_you_mean(file, {kDemoStreet}),
+        throw Error(scenario.name + ": no generated scene \"" + file + "\"." +
+                        did_you_mean(file, {kDemoStreet}),
                     std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
     }
     return read_scene(scenario.folder / file);

@@ -12,9 +12,9 @@
 #include "cli/exit.h"
 #include "cli/signals.h"
 #include "texproc/files/io.h"
+#include "texproc/files/raw_image.h"
 #include "texproc/mips.h"
 #include "texproc/prefilter/prefilter.h"
-#include "texproc/files/raw_image.h"
 
 namespace petrichor::cli {
 namespace {
@@ -132,7 +132,8 @@ Image with_channels(const Image& image, int channels)
 
 Image decode(const gpu::EncodedImage& encoded, ColorSpace space, int channels)
 {
-    return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}), channels);
+    return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}),
+                         channels);
 }
 
 Image first_channels(const Image& image, int channels)
@@ -173,19 +174,21 @@ void scale_normals(Image& normals, float scale)
 }
 
 // All levels of a surface map: roughness from the prefilter where it has a normal map of its size.
-std::vector<Image> surface_levels(const Image& surface, const gpu::Scene& scene, const TextureRecipe& recipe,
-                                  const texproc::MipOptions& mips)
+std::vector<Image> surface_levels(const Image& surface, const gpu::Scene& scene,
+                                  const TextureRecipe& recipe, const texproc::MipOptions& mips)
 {
     Image factored = surface;
-    for (std::size_t i = 1; i < factored.pixels.size(); i += 4) factored.pixels[i] *= recipe.roughness_factor;
+    for (std::size_t i = 1; i < factored.pixels.size(); i += 4)
+        factored.pixels[i] *= recipe.roughness_factor;
     std::vector<Image> levels = texproc::mip_chain(factored, mips);
     if (recipe.normal_image < 0) return levels;
     Image normals =
         decode(scene.textures[static_cast<std::size_t>(recipe.normal_image)], ColorSpace::Data, 3);
     if (normals.width != surface.width || normals.height != surface.height) return levels;
     scale_normals(normals, recipe.normal_scale);
-    const auto filtered = texproc::prefilter(normals, channel_of(factored, 1, 1.0f),
-                                             {.wrap_u = mips.wrap_u, .wrap_v = mips.wrap_v, .threads = 1});
+    const auto filtered =
+        texproc::prefilter(normals, channel_of(factored, 1, 1.0f),
+                           {.wrap_u = mips.wrap_u, .wrap_v = mips.wrap_v, .threads = 1});
     for (std::size_t level = 1; level < levels.size(); ++level) {
         const Image& roughness = filtered.roughness[level];
         for (std::size_t i = 0; i < roughness.pixels.size(); ++i) {
@@ -195,7 +198,8 @@ std::vector<Image> surface_levels(const Image& surface, const gpu::Scene& scene,
     return levels;
 }
 
-gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe, const TextureOptions& options)
+gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe,
+                     const TextureOptions& options)
 {
     const gpu::EncodedImage& encoded = scene.textures[static_cast<std::size_t>(recipe.image)];
     gpu::Texture texture;
@@ -213,7 +217,8 @@ gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe, const
             levels = texproc::mip_chain(decode(encoded, ColorSpace::Linear, 4), mips);
             break;
         case Kind::Normal:
-            texture.format = gpu::TexelFormat::Rg8Unorm;  // the third component follows: unit length
+            texture.format =
+                gpu::TexelFormat::Rg8Unorm;  // the third component follows: unit length
             mips.normals = true;
             levels = texproc::mip_chain(decode(encoded, ColorSpace::Data, 3), mips);
             for (Image& level : levels) level = first_channels(level, 2);
@@ -224,7 +229,8 @@ gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe, const
             break;
         case Kind::Scalar:
             texture.format = gpu::TexelFormat::R8Unorm;
-            levels = texproc::mip_chain(channel_of(decode(encoded, ColorSpace::Data, 4), 0, 1.0f), mips);
+            levels =
+                texproc::mip_chain(channel_of(decode(encoded, ColorSpace::Data, 4), 0, 1.0f), mips);
             break;
     }
     std::size_t first = 0;
@@ -257,9 +263,10 @@ std::vector<gpu::Texture> prepare_textures(gpu::Scene& scene, const TextureOptio
     std::vector<bool> used(scene.textures.size(), false);
     for (const gpu::Material& material : scene.materials) {
         for (const gpu::TextureUse* use :
-             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-              &material.occlusion_texture, &material.emissive_texture, &material.weather.height,
-              &material.weather.puddle_mask, &material.weather.snow_mask}) {
+             {&material.base_color_texture, &material.metallic_roughness_texture,
+              &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
+              &material.weather.height, &material.weather.puddle_mask,
+              &material.weather.snow_mask}) {
             if (use->present()) used[static_cast<std::size_t>(use->texture)] = true;
         }
     }

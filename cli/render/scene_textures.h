@@ -10,10 +10,11 @@ namespace petrichor::cli {
 
 struct TextureOptions {
     int max_size = 4096;  ///< larger images start at the mip level that fits, texels
-    int threads = 0;      ///< images at once; 0: the cores, at most 4 (a 4k image takes about 0.6 GiB)
+    int threads = 0;  ///< images at once; 0: the cores, at most 4 (a 4k image takes about 0.6 GiB)
 };
 
-/// What one texture of the renderer is made from. An image that materials use in two ways becomes two.
+/// What one texture of the renderer is made from. An image that materials use in two ways becomes
+/// two.
 struct TextureRecipe {
     enum class Kind {
         Color,    ///< base colour, emission: sRGB
@@ -23,18 +24,18 @@ struct TextureRecipe {
     };
     int image = 0;  ///< index into Scene::textures as loaded
     Kind kind = Kind::Color;
-    float alpha_cutoff = -1.0f;    ///< Color of a MASK material: keep the coverage in small levels
-    int normal_image = -1;         ///< Surface: the normal map whose lost detail becomes roughness
-    float normal_scale = 1.0f;     ///< Surface: scale of that normal map
+    float alpha_cutoff = -1.0f;     ///< Color of a MASK material: keep the coverage in small levels
+    int normal_image = -1;          ///< Surface: the normal map whose lost detail becomes roughness
+    float normal_scale = 1.0f;      ///< Surface: scale of that normal map
     float roughness_factor = 1.0f;  ///< Surface with a normal map: multiplied in here
 
     bool operator==(const TextureRecipe&) const = default;
 };
 
-/// Decides how each image is filtered, from how the materials use it, and lets the materials point at
-/// the results: afterwards scene.textures has one entry a recipe (those added have no bytes). A normal
-/// and a metallic-roughness texture of one material are paired when they share the coordinates and
-/// the wrapping; the material's roughness factor then moves into the texture.
+/// Decides how each image is filtered, from how the materials use it, and lets the materials point
+/// at the results: afterwards scene.textures has one entry a recipe (those added have no bytes). A
+/// normal and a metallic-roughness texture of one material are paired when they share the
+/// coordinates and the wrapping; the material's roughness factor then moves into the texture.
 std::vector<TextureRecipe> plan_textures(gpu::Scene& scene);
 
 /// Decodes and filters all textures of a scene, in parallel; result[i] belongs to scene.textures[i]

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/error.h"
-#include "cli/render/camera.h"
 #include "cli/hash.h"
+#include "cli/render/camera.h"
 #include "cli/render/sun.h"
 
 namespace petrichor::cli {
@@ -23,7 +23,8 @@ std::optional<int> whole_number(std::string_view text)
 {
     int value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
+    if (problem != std::errc() || end != text.data() + text.size() || value < 0)
+        return std::nullopt;
     return value;
 }
 
@@ -56,8 +57,8 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
 {
     static_assert(sizeof(gpu::Sky) == 9 * sizeof(float), "hash the new field too");
     for (const float value :
-         {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover, sky.turbidity,
-          sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad}) {
+         {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover,
+          sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad}) {
         hasher.add(value);
     }
     hasher.add(sky.analytic_sun);
@@ -86,8 +87,9 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.seed);
     hasher.add(settings.exposure);
     hasher.add(settings.exposure_bias_stops);
-    for (const bool flag : {settings.shadows, settings.ambient_occlusion, settings.image_based_light,
-                            settings.draw_sky, settings.tone_map, settings.shelter}) {
+    for (const bool flag :
+         {settings.shadows, settings.ambient_occlusion, settings.image_based_light,
+          settings.draw_sky, settings.tone_map, settings.shelter}) {
         hasher.add(flag);
     }
     for (const std::string& aov : settings.aovs) hasher.add(aov);
@@ -119,8 +121,8 @@ FrameRange parse_frame_range(std::string_view text, int count)
                     "For example --frames 0:9 for the first ten, --frames 30 for one.");
     }
     if (range.last >= count) {
-        throw Error("frames: the sequence has frames 0 to " + std::to_string(count - 1) + ", got \"" +
-                        std::string(text) + "\"",
+        throw Error("frames: the sequence has frames 0 to " + std::to_string(count - 1) +
+                        ", got \"" + std::string(text) + "\"",
                     "Ask for frames it has, or make it longer with --count or output.frames.");
     }
     return range;
@@ -182,7 +184,8 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     out.sky.turbidity = narrow(value_at(scenario.sky.turbidity, time_s, 2.5));
     out.sky.ground_albedo = narrow(scenario.sky.ground_albedo);
     out.sky.environment_scale = narrow(scenario.sky.environment_scale);
-    out.sky.environment_rotation_rad = narrow(scenario.sky.environment_rotation_degrees * kPi / 180.0);
+    out.sky.environment_rotation_rad =
+        narrow(scenario.sky.environment_rotation_degrees * kPi / 180.0);
     out.sky.analytic_sun = !scenario.sun.from_scene;
 
     const double lamps = lamp_scale(scenario.lights, sun.elevation_rad);

@@ -34,8 +34,8 @@ void check_size(const ImageSize& size);
 /// A scene and a scenario that together say what every frame shows.
 struct Sequence {
     Scenario scenario;
-    gpu::Scene scene;     ///< as loaded; the pixels may be gone
-    gpu::Bounds bounds;   ///< of the scene's content, for framing
+    gpu::Scene scene;         ///< as loaded; the pixels may be gone
+    gpu::Bounds bounds;       ///< of the scene's content, for framing
     double duration_s = 0.0;  ///< frame 0 to one after the last, on the scenario's clock
     std::function<WeatherMoment(double time_s)> weather;  ///< a function of the time alone
     std::string content;  ///< fingerprint of the files behind scene and environment
@@ -54,8 +54,8 @@ struct SequenceFrame {
 /// number, so any frame can be rendered alone.
 SequenceFrame frame_at(const Sequence& sequence, int frame);
 
-/// Fingerprint of everything that decides the picture of a frame: a picture made under the same one is
-/// the same picture.
+/// Fingerprint of everything that decides the picture of a frame: a picture made under the same one
+/// is the same picture.
 std::string frame_fingerprint(const Sequence& sequence, const gpu::Frame& frame);
 
 }  // namespace petrichor::cli

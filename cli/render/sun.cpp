@@ -16,8 +16,9 @@ SunDirection solar_position(double latitude_rad, double day_of_year, double hour
     const double declination =
         23.45 * kDegree * std::sin(2.0 * kPi * (284.0 + day_of_year) / 365.0);
     const double hour_angle = (hours - 12.0) * 15.0 * kDegree;  // positive in the afternoon
-    const double sin_elevation = std::sin(latitude_rad) * std::sin(declination) +
-                                 std::cos(latitude_rad) * std::cos(declination) * std::cos(hour_angle);
+    const double sin_elevation =
+        std::sin(latitude_rad) * std::sin(declination) +
+        std::cos(latitude_rad) * std::cos(declination) * std::cos(hour_angle);
     // East and north components of the direction to the sun.
     const double east = -std::cos(declination) * std::sin(hour_angle);
     const double north = std::cos(latitude_rad) * std::sin(declination) -

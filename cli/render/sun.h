@@ -13,8 +13,9 @@ struct SunDirection {
     double azimuth_rad = 0.0;  ///< clockwise from north (-z) towards east (+x)
 };
 
-/// Where the sun stands by local solar time; hours beyond 0..24 are other days. Good to half a degree.
-/// source: Cooper 1969, The absorption of radiation in solar stills (declination); spherical astronomy.
+/// Where the sun stands by local solar time; hours beyond 0..24 are other days. Good to half a
+/// degree. source: Cooper 1969, The absorption of radiation in solar stills (declination);
+/// spherical astronomy.
 SunDirection solar_position(double latitude_rad, double day_of_year, double hours);
 
 /// The direction that light travelling along `travel` comes from.

@@ -35,7 +35,9 @@ WeatherSource from_script(WeatherScript script, std::string name)
     source.duration_s = script.duration_s;
     const auto weather = std::make_shared<const weather::ArtistTimeline>(script.solve());
     const auto shared = std::make_shared<const WeatherScript>(std::move(script));
-    source.at = [shared, weather](double time_s) { return weather_moment(*shared, *weather, time_s); };
+    source.at = [shared, weather](double time_s) {
+        return weather_moment(*shared, *weather, time_s);
+    };
     return source;
 }
 
@@ -61,12 +63,14 @@ WeatherSource named(const std::string& asked, const fs::path& folder)
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) continue;
         const std::string name = fs::path(asked).stem().string();
-        if (file.extension() == ".toml") return from_script(read_weather_script(text_of(file), asked), name);
+        if (file.extension() == ".toml")
+            return from_script(read_weather_script(text_of(file), asked), name);
         return from_weather_file(file, name);
     }
-    throw Error("weather: \"" + asked + "\" is neither a preset nor a file." + did_you_mean(asked, presets),
-                presets.empty() ? "Name a .toml file with a [weather] table, or a weather file."
-                                : "Presets: " + join_words(presets) + ".");
+    throw Error(
+        "weather: \"" + asked + "\" is neither a preset nor a file." + did_you_mean(asked, presets),
+        presets.empty() ? "Name a .toml file with a [weather] table, or a weather file."
+                        : "Presets: " + join_words(presets) + ".");
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ struct WeatherSource {
     std::function<WeatherMoment(double time_s)> at;
 };
 
-/// The weather that a command asks for: `asked` (the name of a preset, a .toml file, or any weather file, of which an
-/// hour is a second of the film), else the scenario's
-/// [weather], else a dry clear day. Throws Error when there is no such preset or file.
+/// The weather that a command asks for: `asked` (the name of a preset, a .toml file, or any weather
+/// file, of which an hour is a second of the film), else the scenario's [weather], else a dry clear
+/// day. Throws Error when there is no such preset or file.
 WeatherSource weather_source(const Scenario& scenario, const std::string& asked);
 
 }  // namespace petrichor::cli

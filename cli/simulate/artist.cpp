@@ -51,7 +51,9 @@ const std::vector<double ArtistState::*>& state_members()
 std::uint64_t fingerprint(const WeatherScript& script, const ArtistRun& run)
 {
     std::uint64_t hash = run.stepped ? 2 : 1;
-    const auto add = [&](double value) { hash = weather::state_hash({.water_to_snow = value}, hash); };
+    const auto add = [&](double value) {
+        hash = weather::state_hash({.water_to_snow = value}, hash);
+    };
     const auto add_channel = [&](const weather::Channel& channel) {
         add(static_cast<double>(channel.interpolation));
         for (std::size_t i = 0; i < channel.times.size(); ++i) {
@@ -141,19 +143,29 @@ struct Tabulation {
 std::vector<PlotPanel> artist_panels()
 {
     return {
-        {.title = "temperature, \u00b0C", .forcing = true,
-         .series = {{.column = "temperature_c", .label = "", .color = "#d9541e"}}, .low = 0.0, .high = 0.0, .group = "weather"},
-        {.title = "precipitation, 0..1", .forcing = true,
-         .series = {{.column = "rain", .label = "rain", .color = "#1d6fd1", .filled = true},
-                    {.column = "snowfall", .label = "snowfall", .color = "#7a8aa8", .filled = true}}, .group = "weather"},
+        {.title = "temperature, \u00b0C",
+         .forcing = true,
+         .series = {{.column = "temperature_c", .label = "", .color = "#d9541e"}},
+         .low = 0.0,
+         .high = 0.0,
+         .group = "weather"},
+        {.title = "precipitation, 0..1",
+         .forcing = true,
+         .series =
+             {{.column = "rain", .label = "rain", .color = "#1d6fd1", .filled = true},
+              {.column = "snowfall", .label = "snowfall", .color = "#7a8aa8", .filled = true}},
+         .group = "weather"},
         {.title = "water, 0..1",
          .series = {{.column = "wetness", .label = "film", .color = "#0e9f8e"},
                     {.column = "cracks", .label = "cracks", .color = "#9162d6"},
-                    {.column = "puddles", .label = "puddles", .color = "#3b6fe0"}}, .group = "water"},
+                    {.column = "puddles", .label = "puddles", .color = "#3b6fe0"}},
+         .group = "water"},
         {.title = "snow and phase, 0..1",
-         .series = {{.column = "snow_amount", .label = "snow shown", .color = "#8fb3d9", .filled = true},
-                    {.column = "snow", .label = "snow on the ground", .color = "#4a80bd"},
-                    {.column = "water_to_snow", .label = "frozen", .color = "#d97706"}}, .group = "snow"},
+         .series =
+             {{.column = "snow_amount", .label = "snow shown", .color = "#8fb3d9", .filled = true},
+              {.column = "snow", .label = "snow on the ground", .color = "#4a80bd"},
+              {.column = "water_to_snow", .label = "frozen", .color = "#d97706"}},
+         .group = "snow"},
     };
 }
 
@@ -196,8 +208,7 @@ void run_exact(const WeatherScript& script, const ArtistRun& run, Window window,
                                  solution.rainfall_at(time)));
     }
     if (run.checkpoint) {
-        const auto end =
-            static_cast<TimeUs>(std::llround(time_us_of(window.last, run.every_s)));
+        const auto end = static_cast<TimeUs>(std::llround(time_us_of(window.last, run.every_s)));
         const auto anchor = solution.checkpoint_at(end);
         *run.checkpoint =
             to_text({fingerprint(script, run), end, anchor.anchor, anchor.anchor_state});
@@ -222,8 +233,9 @@ void run_stepped(const WeatherScript& script, const ArtistRun& run, Window windo
             input_us = time_us_of(done, run.step_s);
             const auto params = weather::params_at(timeline, script.params, input_us);
             if (!params.script_controlled) state = weather::hand_set(timeline, state, input_us);
-            state = weather::step(state, params, weather::value_at(timeline.temperature_c, input_us),
-                                  weather::value_at(timeline.rainfall, input_us), dt_s);
+            state =
+                weather::step(state, params, weather::value_at(timeline.temperature_c, input_us),
+                              weather::value_at(timeline.rainfall, input_us), dt_s);
         }
         out.add(time_s_of(m, run.every_s), state,
                 weather::outputs(state, weather::params_at(timeline, script.params, input_us),

@@ -1,4 +1,5 @@
-// petrichor simulate: weather over time, from keys, a preset or weather files to tables, plots, reports and maps.
+// petrichor simulate: weather over time, from keys, a preset or weather files to tables, plots,
+// reports and maps.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -59,7 +60,8 @@ std::string params_text(const SimulateOptions& options)
     return options.params.empty() ? "" : read_input_file(options.params);
 }
 
-std::optional<double> time_of(const std::string& text, const char* option, std::optional<std::int64_t> start_us)
+std::optional<double> time_of(const std::string& text, const char* option,
+                              std::optional<std::int64_t> start_us)
 {
     if (text.empty()) return std::nullopt;
     return parse_time(text, option, start_us);
@@ -67,17 +69,21 @@ std::optional<double> time_of(const std::string& text, const char* option, std::
 
 // ---- artist ----
 
-WeatherScript script_of_keys(const Input& input, const std::string& interpolation, std::vector<std::string>& notes)
+WeatherScript script_of_keys(const Input& input, const std::string& interpolation,
+                             std::vector<std::string>& notes)
 {
     WeatherScript script;
     const std::string word = interpolation.empty() ? "hold" : interpolation;
     auto reading = weather::parse_timeline_csv(input.text, *weather::interpolation_named(word));
     script.timeline = std::move(reading.timeline);
     script.duration_s = weather::to_seconds(script.timeline.end());
-    notes.push_back("read " + std::to_string(script.timeline.temperature_c.times.size()) + " keys of temperature, " +
-                    std::to_string(script.timeline.rainfall.times.size()) + " of rainfall, interpolation " + word);
+    notes.push_back("read " + std::to_string(script.timeline.temperature_c.times.size()) +
+                    " keys of temperature, " +
+                    std::to_string(script.timeline.rainfall.times.size()) +
+                    " of rainfall, interpolation " + word);
     if (!reading.bridged.empty()) {
-        notes.push_back("left out " + std::to_string(reading.bridged.size()) + " bad rows: " + weather::list_problems(reading.bridged));
+        notes.push_back("left out " + std::to_string(reading.bridged.size()) +
+                        " bad rows: " + weather::list_problems(reading.bridged));
     }
     return script;
 }
@@ -94,22 +100,27 @@ ArtistInput artist_input(const std::vector<Input>& inputs, const SimulateOptions
     const Input& first = inputs.front();
     ArtistInput result;
     if (first.kind != InputKind::Keys && !options.interpolation.empty()) {
-        throw Error("simulate: --interp is for CSV keys; " + first.file + " has its own interpolation",
-                    "Leave --interp out, or change interpolation in the file.");
+        throw Error(
+            "simulate: --interp is for CSV keys; " + first.file + " has its own interpolation",
+            "Leave --interp out, or change interpolation in the file.");
     }
     if (first.kind == InputKind::Script) {
         result.script = read_weather_script(first.text, first.file);
     } else if (first.kind == InputKind::Keys) {
         result.script = script_of_keys(first, options.interpolation, result.notes);
     } else {
-        result.read = read_forcing(inputs, with_site_table(options.physical.site, params_text(options)));
+        result.read =
+            read_forcing(inputs, with_site_table(options.physical.site, params_text(options)));
         result.script = script_of_forcing(result.read->table, first.name);
-        result.notes.emplace_back("an hour of weather is a second of the artist model (time_scale 1/3600); --params changes that");
+        result.notes.emplace_back(
+            "an hour of weather is a second of the artist model (time_scale 1/3600); --params "
+            "changes that");
     }
     if (result.script.name.empty()) result.script.name = first.name;
     if (!options.params.empty()) {
         const double scale = result.script.params.time_scale;
-        const ArtistSettings settings = read_artist_settings(params_text(options), options.params, result.read ? scale : 1.0);
+        const ArtistSettings settings =
+            read_artist_settings(params_text(options), options.params, result.read ? scale : 1.0);
         result.script.params = settings.params;
         result.script.initial = settings.initial;
     }
@@ -124,8 +135,10 @@ SimulationTable simulate_artist(const std::vector<Input>& inputs, const Simulate
     ArtistRun run;
     run.stepped = options.mode == "stepped";
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt");
-    run.every_s = options.every.empty() ? Fraction{input.read ? 3600 : 1, 1} : parse_duration(options.every, "--every");
-    if (options.every.empty() && run.stepped && run.step_s.value() > run.every_s.value()) run.every_s = run.step_s;
+    run.every_s = options.every.empty() ? Fraction{input.read ? 3600 : 1, 1}
+                                        : parse_duration(options.every, "--every");
+    if (options.every.empty() && run.stepped && run.step_s.value() > run.every_s.value())
+        run.every_s = run.step_s;
     run.from_s = time_of(options.from, "--from", start_us).value_or(0.0);
     run.to_s = time_of(options.to, "--to", start_us);
     std::string checkpoint;
@@ -146,7 +159,9 @@ SimulationTable simulate_artist(const std::vector<Input>& inputs, const Simulate
 
 std::string title_of(const std::vector<Input>& inputs)
 {
-    return inputs.size() == 1 ? inputs.front().name : inputs.front().name + " and " + std::to_string(inputs.size() - 1) + " more";
+    return inputs.size() == 1
+               ? inputs.front().name
+               : inputs.front().name + " and " + std::to_string(inputs.size() - 1) + " more";
 }
 
 // The weather and the physical model's share of the options.
@@ -159,8 +174,9 @@ struct PhysicalInput {
 PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOptions& options)
 {
     if (inputs.front().kind != InputKind::Weather) {
-        throw Error("simulate: " + inputs.front().file + " holds keys of the artist model, not weather",
-                    "Give the physical model an EPW, TMY3, METAR, CSV or other weather file.");
+        throw Error(
+            "simulate: " + inputs.front().file + " holds keys of the artist model, not weather",
+            "Give the physical model an EPW, TMY3, METAR, CSV or other weather file.");
     }
     PhysicalInput input;
     PhysicalRun& run = input.run;
@@ -171,13 +187,17 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     run.from_s = time_of(options.from, "--from", start_us);
     run.to_s = time_of(options.to, "--to", start_us);
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt").value();
-    run.every_s = options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();
-    if (run.threads == 0) run.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    run.every_s =
+        options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();
+    if (run.threads == 0)
+        run.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!options.resume.empty()) run.resume = read_input_file(options.resume);
     if (!options.observed.empty()) {
         run.observed = read_input_file(options.observed);
         run.observed_file = options.observed;
-        if (run.observed.empty()) throw Error("observations: " + options.observed + " is empty", "Give a file with observations.");
+        if (run.observed.empty())
+            throw Error("observations: " + options.observed + " is empty",
+                        "Give a file with observations.");
     }
     if (!options.height_map.empty()) {
         const Relief relief = read_relief(options.height_map, options.height_range_m);
@@ -201,10 +221,15 @@ SimulationTable simulate_physical(const std::vector<Input>& inputs, const Simula
 
 SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOptions& options)
 {
-    for (const auto& [given, name] : {std::pair{!options.checkpoint.empty() || !options.resume.empty(), "--checkpoint and --resume"},
-                                      {!options.observed.empty(), "--observed"}, {options.physical.members > 0, "--ensemble"},
-                                      {!options.height_map.empty(), "--height-map"}}) {
-        if (given) throw Error(std::string("grid: ") + name + " cannot be used with --grid", "Leave it out, or run one cell without --grid.");
+    for (const auto& [given, name] :
+         {std::pair{!options.checkpoint.empty() || !options.resume.empty(),
+                    "--checkpoint and --resume"},
+          {!options.observed.empty(), "--observed"},
+          {options.physical.members > 0, "--ensemble"},
+          {!options.height_map.empty(), "--height-map"}}) {
+        if (given)
+            throw Error(std::string("grid: ") + name + " cannot be used with --grid",
+                        "Leave it out, or run one cell without --grid.");
     }
     PhysicalInput input = physical_input(inputs, options);
     if (options.every.empty()) input.run.every_s = 86400.0;
@@ -213,10 +238,12 @@ SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOp
     run.model = input.run;
     const std::int64_t start_us = input.read.table.time_us.front();
     for (const std::string& text : options.map_times) {
-        run.map_times_us.push_back(start_us + static_cast<std::int64_t>(parse_time(text, "--at", start_us) * 1e6));
+        run.map_times_us.push_back(
+            start_us + static_cast<std::int64_t>(parse_time(text, "--at", start_us) * 1e6));
     }
     if (!options.maps.empty() && run.map_times_us.empty()) {
-        const double end_s = run.model.to_s.value_or(static_cast<double>(input.read.table.time_us.back() - start_us) * 1e-6);
+        const double end_s = run.model.to_s.value_or(
+            static_cast<double>(input.read.table.time_us.back() - start_us) * 1e-6);
         run.map_times_us.push_back(start_us + static_cast<std::int64_t>(end_s * 1e6));
     }
     std::sort(run.map_times_us.begin(), run.map_times_us.end());
@@ -228,7 +255,9 @@ SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOp
         }
     };
     Progress progress("grid", 1000);
-    run.on_progress = [&](std::size_t done, std::size_t of) { progress.update(static_cast<int>(done * 1000 / of)); };
+    run.on_progress = [&](std::size_t done, std::size_t of) {
+        progress.update(static_cast<int>(done * 1000 / of));
+    };
     return run_grid(input.read, title_of(inputs), terrain, run);
 }
 
@@ -240,9 +269,12 @@ SimulationTable simulate(const std::vector<Input>& inputs, const SimulateOptions
     const bool weather_file = inputs.front().kind == InputKind::Weather;
     if (!options.terrain.file.empty()) return simulate_grid(inputs, options);
     if (options.model == "artist" || (options.model == "auto" && !weather_file)) {
-        if (!options.observed.empty() || options.physical.members > 0 || options.physical.sensitivity || !options.height_map.empty()) {
-            throw Error("simulate: --observed, --ensemble, --sensitivity and --height-map are for the physical model",
-                        "Give a weather file with --model physical, or leave them out.");
+        if (!options.observed.empty() || options.physical.members > 0 ||
+            options.physical.sensitivity || !options.height_map.empty()) {
+            throw Error(
+                "simulate: --observed, --ensemble, --sensitivity and --height-map are for the "
+                "physical model",
+                "Give a weather file with --model physical, or leave them out.");
         }
         return simulate_artist(inputs, options);
     }
@@ -253,8 +285,10 @@ void write_fit(const std::vector<Input>& inputs, const SimulateOptions& options)
 {
     const PhysicalInput input = physical_input(inputs, options);
     const std::string toml = fitted_artist_toml(input.read, input.run);
-    if (options.outputs.empty() || options.outputs.front() == "-") std::cout << toml;
-    else write_text_file(options.outputs.front(), toml);
+    if (options.outputs.empty() || options.outputs.front() == "-")
+        std::cout << toml;
+    else
+        write_text_file(options.outputs.front(), toml);
 }
 
 void run(const SimulateOptions& options)
@@ -264,7 +298,8 @@ void run(const SimulateOptions& options)
         return;
     }
     if (options.inputs.empty()) {
-        throw Error("simulate: no input", "Give a weather file, a CSV of keys, a weather TOML, or a preset (--list).");
+        throw Error("simulate: no input",
+                    "Give a weather file, a CSV of keys, a weather TOML, or a preset (--list).");
     }
     const std::vector<Input> inputs = read_inputs(options.inputs);
     if (options.fit_artist) return write_fit(inputs, options);
@@ -272,7 +307,8 @@ void run(const SimulateOptions& options)
     SimulationTable table = simulate(inputs, options);
     table.panels = chosen_panels(table, options.plot);
     for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
-    for (const std::string& warning : table.warnings) std::cerr << "warn simulate: " << warning << '\n';
+    for (const std::string& warning : table.warnings)
+        std::cerr << "warn simulate: " << warning << '\n';
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty() && options.maps.empty() && !options.json) outputs.push_back("-");
     for (const std::string& output : outputs) {
@@ -284,27 +320,66 @@ void run(const SimulateOptions& options)
 
 void add_time_options(CLI::App& command, SimulateOptions& o)
 {
-    const char* group = "Time (seconds, 1/60, 30min, 6h, 1d; with a weather file also dates: 2005-12-01, 2005-12-01T06:00, 12-01)";
-    command.add_option("--dt", o.step, "step: of the stepped artist model (default 1/60), of the physical model (default 1h)")->group(group);
+    const char* group =
+        "Time (seconds, 1/60, 30min, 6h, 1d; with a weather file also dates: 2005-12-01, "
+        "2005-12-01T06:00, 12-01)";
+    command
+        .add_option(
+            "--dt", o.step,
+            "step: of the stepped artist model (default 1/60), of the physical model (default 1h)")
+        ->group(group);
     command.add_option("--from", o.from, "first time to write")->group(group);
-    command.add_option("--to", o.to, "last time to write (default: the last key or row)")->group(group);
-    command.add_option("--every", o.every, "rows at whole multiples of this (default 1 s, with a weather file 1h, with --grid 1d)")->group(group);
+    command.add_option("--to", o.to, "last time to write (default: the last key or row)")
+        ->group(group);
+    command
+        .add_option(
+            "--every", o.every,
+            "rows at whole multiples of this (default 1 s, with a weather file 1h, with --grid 1d)")
+        ->group(group);
 }
 
 void add_relief_and_grid_options(CLI::App& command, SimulateOptions& o)
 {
-    const char* relief = "Relief of the material (physical model): stores of cracks and puddles from a height map";
-    command.add_option("--height-map", o.height_map, "tileable image, white is high")->group(relief);
-    command.add_option("--height-range-m", o.height_range_m, "from black to white")->group(relief)->capture_default_str();
+    const char* relief =
+        "Relief of the material (physical model): stores of cracks and puddles from a height map";
+    command.add_option("--height-map", o.height_map, "tileable image, white is high")
+        ->group(relief);
+    command.add_option("--height-range-m", o.height_range_m, "from black to white")
+        ->group(relief)
+        ->capture_default_str();
     const char* grid = "Landscape (physical model on every cell; -o gets the regional series)";
-    command.add_option("--grid", o.terrain.file, "terrain: ESRI ASCII grid (.asc), float TIFF or EXR in metres, or a height map image")->group(grid);
-    command.add_option("--cell-size-m", o.terrain.cell_size_m, "of a texel of the terrain")->group(grid);
-    command.add_option("--grid-height-m", o.terrain.height_range_m, "LOW:HIGH, metres of black and white")->group(grid);
-    command.add_option("--grid-size", o.terrain.longest_side, "cells along the longer side; larger terrains are averaged")->group(grid)->capture_default_str();
-    command.add_option("--surface-mask", o.terrain.mask, "image of surfaces over the terrain")->group(grid);
-    command.add_option("--surfaces", o.terrain.surfaces, "names for the mask: grass,rock: black is the first, white the last")->group(grid);
-    command.add_option("--map", o.maps, "write a map: OUT.exr (a layer a state) or OUT.png (to look at); may be repeated")->allow_extra_args(false)->group(grid);
-    command.add_option("--at", o.map_times, "when to write maps (default: the end); may be repeated")->allow_extra_args(false)->group(grid);
+    command
+        .add_option(
+            "--grid", o.terrain.file,
+            "terrain: ESRI ASCII grid (.asc), float TIFF or EXR in metres, or a height map image")
+        ->group(grid);
+    command.add_option("--cell-size-m", o.terrain.cell_size_m, "of a texel of the terrain")
+        ->group(grid);
+    command
+        .add_option("--grid-height-m", o.terrain.height_range_m,
+                    "LOW:HIGH, metres of black and white")
+        ->group(grid);
+    command
+        .add_option("--grid-size", o.terrain.longest_side,
+                    "cells along the longer side; larger terrains are averaged")
+        ->group(grid)
+        ->capture_default_str();
+    command.add_option("--surface-mask", o.terrain.mask, "image of surfaces over the terrain")
+        ->group(grid);
+    command
+        .add_option("--surfaces", o.terrain.surfaces,
+                    "names for the mask: grass,rock: black is the first, white the last")
+        ->group(grid);
+    command
+        .add_option(
+            "--map", o.maps,
+            "write a map: OUT.exr (a layer a state) or OUT.png (to look at); may be repeated")
+        ->allow_extra_args(false)
+        ->group(grid);
+    command
+        .add_option("--at", o.map_times, "when to write maps (default: the end); may be repeated")
+        ->allow_extra_args(false)
+        ->group(grid);
 }
 
 }  // namespace
@@ -313,46 +388,68 @@ void add_simulate(CLI::App& app)
 {
     auto options = std::make_shared<SimulateOptions>();
     SimulateOptions& o = *options;
-    CLI::App* command = app.add_subcommand("simulate", "Weather over time: tables, plots, reports, maps.");
+    CLI::App* command =
+        app.add_subcommand("simulate", "Weather over time: tables, plots, reports, maps.");
     command->add_option("INPUT", o.inputs,
-                        "weather files of one place, a CSV of keys (time_s,temperature_c,rainfall and any parameter; - reads "
+                        "weather files of one place, a CSV of keys (time_s,temperature_c,rainfall "
+                        "and any parameter; - reads "
                         "standard input), a weather TOML, or the name of a preset");
-    command->add_option("--model", o.model, "artist: 0..1; physical: SI; auto: physical for weather files, else artist")
+    command
+        ->add_option("--model", o.model,
+                     "artist: 0..1; physical: SI; auto: physical for weather files, else artist")
         ->check(CLI::IsMember({"auto", "artist", "physical"}))
         ->capture_default_str();
-    command->add_option("--mode", o.mode, "artist model: exact, closed form; stepped, as the original by --dt")
+    command
+        ->add_option("--mode", o.mode,
+                     "artist model: exact, closed form; stepped, as the original by --dt")
         ->check(CLI::IsMember({"exact", "stepped"}))
         ->capture_default_str();
     command->add_option("--interp", o.interpolation, "between the keys of a CSV (default hold)")
         ->check(CLI::IsMember({"hold", "linear", "smooth"}));
     command->add_option("--params", o.params, "TOML with [artist], [artist.initial] or [site]");
-    command->add_option("-o,--output", o.outputs,
-                        "OUT.csv, .json, .svg, .png or .html; - is CSV on standard output (default)")
+    command
+        ->add_option("-o,--output", o.outputs,
+                     "OUT.csv, .json, .svg, .png or .html; - is CSV on standard output (default)")
         ->allow_extra_args(false);
-    command->add_option("--plot", o.plot, "panels of plots: auto, all, or some of snow,heat,water,masks (physical), water,snow (artist)")
+    command
+        ->add_option("--plot", o.plot,
+                     "panels of plots: auto, all, or some of snow,heat,water,masks (physical), "
+                     "water,snow (artist)")
         ->capture_default_str();
     command->add_option("--checkpoint", o.checkpoint, "write the state at the end to this file");
     command->add_option("--resume", o.resume, "continue from such a file, with identical bits");
-    command->add_flag("--json", o.json, "print a summary as JSON: what was read and filled, scores, ranges, hashes");
+    command->add_flag("--json", o.json,
+                      "print a summary as JSON: what was read and filled, scores, ranges, hashes");
     command->add_flag("--hash", o.hash, "end the CSV with a line of state hashes");
     command->add_flag("--list", o.list, "list the presets");
     add_time_options(*command, o);
     add_physical_options(*command, o.physical);
-    command->add_option("--observed", o.observed, "observations to plot and score: CSV with date and columns named as in the output, or FSM's")
+    command
+        ->add_option("--observed", o.observed,
+                     "observations to plot and score: CSV with date and columns named as in the "
+                     "output, or FSM's")
         ->group("Physical model");
-    command->add_flag("--fit-artist", o.fit_artist, "write artist parameters fitted to the file as TOML instead (-o P.toml)")->group("Physical model");
+    command
+        ->add_flag("--fit-artist", o.fit_artist,
+                   "write artist parameters fitted to the file as TOML instead (-o P.toml)")
+        ->group("Physical model");
     add_relief_and_grid_options(*command, o);
     command->footer(
         "Examples:\n"
-        "  petrichor simulate rain-then-snow -o report.html     a preset, as an interactive report\n"
+        "  petrichor simulate rain-then-snow -o report.html     a preset, as an interactive "
+        "report\n"
         "  petrichor simulate keys.csv --interp linear --every 0.5 -o state.csv\n"
         "  petrichor simulate keys.csv --mode stepped --dt 1/60 --params look.toml -o plot.svg\n"
-        "  petrichor simulate denver.epw --from 01-01 --to 02-01 --plot masks -o street.png -o street.csv\n"
-        "  petrichor simulate met.txt --latitude 45.3 --longitude 5.77 --elevation-m 1325 --surface grass \\\n"
-        "      --observed obs.txt -o winter.html                  model and observation, with scores\n"
+        "  petrichor simulate denver.epw --from 01-01 --to 02-01 --plot masks -o street.png -o "
+        "street.csv\n"
+        "  petrichor simulate met.txt --latitude 45.3 --longitude 5.77 --elevation-m 1325 "
+        "--surface grass \\\n"
+        "      --observed obs.txt -o winter.html                  model and observation, with "
+        "scores\n"
         "  petrichor simulate denver.epw --model artist -o artist.csv\n"
         "  petrichor simulate denver.epw --fit-artist -o rates.toml\n"
-        "  petrichor simulate alps.csv --grid dem.asc --at 2006-02-01 --map snow.exr --map snow.png -o region.csv");
+        "  petrichor simulate alps.csv --grid dem.asc --at 2006-02-01 --map snow.exr --map "
+        "snow.png -o region.csv");
     command->callback([options] { run(*options); });
 }
 

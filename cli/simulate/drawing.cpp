@@ -46,7 +46,8 @@ struct SvgWriter {
     {
         std::string svg = "<g fill=\"" + dots.color + "\">\n";
         for (const DrawnPoint& p : dots.points) {
-            svg += "<circle cx=\"" + number(p.x) + "\" cy=\"" + number(p.y) + "\" r=\"" + number(dots.radius) + "\"/>\n";
+            svg += "<circle cx=\"" + number(p.x) + "\" cy=\"" + number(p.y) + "\" r=\"" +
+                   number(dots.radius) + "\"/>\n";
         }
         return svg + "</g>\n";
     }
@@ -73,7 +74,9 @@ std::array<double, 3> rgb_of(const std::string& color)
 class Canvas {
 public:
     Canvas(int width, int height, double scale)
-        : width_(width), height_(height), scale_(scale),
+        : width_(width),
+          height_(height),
+          scale_(scale),
           rgb_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 255.0f)
     {
     }
@@ -120,7 +123,8 @@ public:
 
     void operator()(const DrawnDots& dots)
     {
-        for (const DrawnPoint& p : dots.points) segment(p, p, 2.0 * dots.radius, rgb_of(dots.color));
+        for (const DrawnPoint& p : dots.points)
+            segment(p, p, 2.0 * dots.radius, rgb_of(dots.color));
     }
 
     void operator()(const DrawnText& text)
@@ -202,9 +206,11 @@ private:
     {
         if (alpha <= 0.0) return;
         const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                static_cast<std::size_t>(x)) * 3;
+                                static_cast<std::size_t>(x)) *
+                               3;
         for (std::size_t c = 0; c < 3; ++c) {
-            rgb_[at + c] += static_cast<float>(alpha * (color[c] - static_cast<double>(rgb_[at + c])));
+            rgb_[at + c] +=
+                static_cast<float>(alpha * (color[c] - static_cast<double>(rgb_[at + c])));
         }
     }
 
@@ -221,11 +227,20 @@ std::string escaped(const std::string& text)
     std::string result;
     for (char c : text) {
         switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
         }
     }
     return result;
@@ -240,10 +255,11 @@ std::string to_svg(const Drawing& drawing)
 {
     const std::string width = number(drawing.width);
     const std::string height = number(drawing.height);
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " +
-                      height + "\" width=\"" + width + "\" height=\"" + height +
-                      "\" font-family=\"system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif\">\n"
-                      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+    std::string svg =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
+        "\" width=\"" + width + "\" height=\"" + height +
+        "\" font-family=\"system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif\">\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     for (const DrawnShape& shape : drawing.shapes) svg += std::visit(SvgWriter{}, shape);
     return svg + "</svg>\n";
 }

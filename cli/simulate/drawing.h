@@ -60,8 +60,8 @@ struct Pixels {
     int height = 0;
     std::vector<std::uint8_t> rgb;
 };
-/// The drawing at `scale` pixels a unit, smooth edges, letters drawn as strokes (ASCII and the degree
-/// sign; anything else becomes a box). The same bytes on every machine.
+/// The drawing at `scale` pixels a unit, smooth edges, letters drawn as strokes (ASCII and the
+/// degree sign; anything else becomes a box). The same bytes on every machine.
 Pixels to_pixels(const Drawing& drawing, double scale);
 
 /// & < > " as entities, for text in SVG and HTML.

@@ -13,30 +13,64 @@
 namespace petrichor::cli {
 namespace {
 
-constexpr const char* kColumns[] = {"time_s",          "air_temp_c",         "snow_cover_fraction", "snow_line_m",  "rain_to_snow_height_m",
-                                    "snow_depth_m",    "snow_depth_max_m",   "swe_kg_m2",           "snow_albedo",  "surface_temp_c",
-                                    "film_kg_m2",      "puddle_kg_m2",       "ice_kg_m2",           "runoff_kg_m2", "total_precip_kg_m2",
+constexpr const char* kColumns[] = {"time_s",
+                                    "air_temp_c",
+                                    "snow_cover_fraction",
+                                    "snow_line_m",
+                                    "rain_to_snow_height_m",
+                                    "snow_depth_m",
+                                    "snow_depth_max_m",
+                                    "swe_kg_m2",
+                                    "snow_albedo",
+                                    "surface_temp_c",
+                                    "film_kg_m2",
+                                    "puddle_kg_m2",
+                                    "ice_kg_m2",
+                                    "runoff_kg_m2",
+                                    "total_precip_kg_m2",
                                     "mass_residual_kg_m2"};
 
 std::vector<PlotPanel> panels()
 {
-    const auto one = [](const char* title, const char* column, const char* color, const char* group, bool forcing = false) {
-        return PlotPanel{.title = title, .forcing = forcing, .series = {{.column = column, .label = "", .color = color}}, .low = 0.0, .high = 0.0, .group = group};
+    const auto one = [](const char* title, const char* column, const char* color, const char* group,
+                        bool forcing = false) {
+        return PlotPanel{.title = title,
+                         .forcing = forcing,
+                         .series = {{.column = column, .label = "", .color = color}},
+                         .low = 0.0,
+                         .high = 0.0,
+                         .group = group};
     };
     return {
         one("air temperature at the station, \u00b0C", "air_temp_c", "#c8442e", "weather", true),
-        {.title = "snow-covered share of the ground", .series = {{.column = "snow_cover_fraction", .label = "", .color = "#4a80bd", .filled = true}}, .group = "snow"},
+        {.title = "snow-covered share of the ground",
+         .series =
+             {{.column = "snow_cover_fraction", .label = "", .color = "#4a80bd", .filled = true}},
+         .group = "snow"},
         {.title = "height, m",
          .series = {{.column = "snow_line_m", .label = "snow line", .color = "#1f5f9e"},
-                    {.column = "rain_to_snow_height_m", .label = "rain turns to snow", .color = "#9aa6b5"}}, .low = 0.0, .high = 0.0, .group = "snow"},
+                    {.column = "rain_to_snow_height_m",
+                     .label = "rain turns to snow",
+                     .color = "#9aa6b5"}},
+         .low = 0.0,
+         .high = 0.0,
+         .group = "snow"},
         {.title = "snow depth, m",
-         .series = {{.column = "snow_depth_max_m", .label = "deepest", .color = "#9cc0e6"}, {.column = "snow_depth_m", .label = "mean", .color = "#4a80bd", .filled = true}},
-         .low = 0.0, .high = 0.0, .group = "snow"},
+         .series =
+             {{.column = "snow_depth_max_m", .label = "deepest", .color = "#9cc0e6"},
+              {.column = "snow_depth_m", .label = "mean", .color = "#4a80bd", .filled = true}},
+         .low = 0.0,
+         .high = 0.0,
+         .group = "snow"},
         one("mean snow water equivalent, kg/m\u00b2", "swe_kg_m2", "#1f5f9e", "snow"),
         one("mean surface temperature, \u00b0C", "surface_temp_c", "#c8442e", "heat"),
         {.title = "mean water on the ground, kg/m\u00b2",
-         .series = {{.column = "film_kg_m2", .label = "film", .color = "#0e9f8e"}, {.column = "puddle_kg_m2", .label = "puddles", .color = "#3b6fe0"}, {.column = "ice_kg_m2", .label = "ice", .color = "#85929e"}},
-         .low = 0.0, .high = 0.0, .group = "water"},
+         .series = {{.column = "film_kg_m2", .label = "film", .color = "#0e9f8e"},
+                    {.column = "puddle_kg_m2", .label = "puddles", .color = "#3b6fe0"},
+                    {.column = "ice_kg_m2", .label = "ice", .color = "#85929e"}},
+         .low = 0.0,
+         .high = 0.0,
+         .group = "water"},
     };
 }
 
@@ -48,7 +82,8 @@ struct Cells {
 
 Cells cells_of(const Terrain& terrain)
 {
-    const auto all = weather::make_grid_cells(terrain.heights_m, terrain.width, terrain.height, terrain.spacing_m);
+    const auto all = weather::make_grid_cells(terrain.heights_m, terrain.width, terrain.height,
+                                              terrain.spacing_m);
     Cells inside;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!terrain.inside[i]) continue;
@@ -59,13 +94,16 @@ Cells cells_of(const Terrain& terrain)
     return inside;
 }
 
-std::vector<double> regional_row(const weather::PhysicalGrid& grid, const Cells& inside, const weather::ForcingTable& table)
+std::vector<double> regional_row(const weather::PhysicalGrid& grid, const Cells& inside,
+                                 const weather::ForcingTable& table)
 {
     const std::int64_t us = grid.time_us();
-    const double air_c = weather::value_at(table, weather::Field::AirTemp, us) - weather::kZeroCelsiusK;
+    const double air_c =
+        weather::value_at(table, weather::Field::AirTemp, us) - weather::kZeroCelsiusK;
     const std::size_t count = inside.cells.size();
     std::vector<double> heights(count), depths(count);
-    double cover = 0, depth = 0, deepest = 0, swe = 0, albedo = 0, surface = 0, film = 0, puddle = 0, ice = 0, runoff = 0, precip = 0, residual = 0;
+    double cover = 0, depth = 0, deepest = 0, swe = 0, albedo = 0, surface = 0, film = 0,
+           puddle = 0, ice = 0, runoff = 0, precip = 0, residual = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const weather::CellState c = grid.state(i);
         const auto d = weather::diagnostics(c);
@@ -86,37 +124,59 @@ std::vector<double> regional_row(const weather::PhysicalGrid& grid, const Cells&
     }
     const double n = static_cast<double>(count);
     const double station_m = table.site.elevation_m;
-    return {static_cast<double>(us - table.time_us.front()) * 1e-6, air_c, cover / n, snow_line_m(heights, depths),
-            station_m + (air_c - 1.0) / weather::kLapseRate_k_m, depth / n, deepest, swe / n, albedo / n, surface / n, film / n, puddle / n, ice / n,
-            runoff / n, precip / n, residual};
+    return {static_cast<double>(us - table.time_us.front()) * 1e-6,
+            air_c,
+            cover / n,
+            snow_line_m(heights, depths),
+            station_m + (air_c - 1.0) / weather::kLapseRate_k_m,
+            depth / n,
+            deepest,
+            swe / n,
+            albedo / n,
+            surface / n,
+            film / n,
+            puddle / n,
+            ice / n,
+            runoff / n,
+            precip / n,
+            residual};
 }
 
 GridMap map_of(const weather::PhysicalGrid& grid, const Cells& inside, std::size_t cells)
 {
     GridMap map{grid.time_us(), std::vector<weather::CellState>(cells)};
-    for (std::size_t i = 0; i < inside.place.size(); ++i) map.states[inside.place[i]] = grid.state(i);
+    for (std::size_t i = 0; i < inside.place.size(); ++i)
+        map.states[inside.place[i]] = grid.state(i);
     return map;
 }
 
-std::size_t step_at(std::int64_t us, const weather::PhysicalGrid& grid, std::int64_t begin_us, std::int64_t end_us, std::int64_t step_us)
+std::size_t step_at(std::int64_t us, const weather::PhysicalGrid& grid, std::int64_t begin_us,
+                    std::int64_t end_us, std::int64_t step_us)
 {
     if (us < begin_us || us > end_us) {
         throw Error("grid: there is no weather at " + weather::iso_from_us(us),
-                    "Give times from " + weather::iso_from_us(begin_us) + " to " + weather::iso_from_us(end_us) + ".");
+                    "Give times from " + weather::iso_from_us(begin_us) + " to " +
+                        weather::iso_from_us(end_us) + ".");
     }
-    return std::min(grid.steps(), static_cast<std::size_t>((us - begin_us + step_us / 2) / step_us));
+    return std::min(grid.steps(),
+                    static_cast<std::size_t>((us - begin_us + step_us / 2) / step_us));
 }
 
 }  // namespace
 
-double snow_line_m(const std::vector<double>& heights_m, const std::vector<double>& depths_m, double least_m)
+double snow_line_m(const std::vector<double>& heights_m, const std::vector<double>& depths_m,
+                   double least_m)
 {
     std::vector<std::size_t> order(heights_m.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return heights_m[a] < heights_m[b] || (heights_m[a] == heights_m[b] && a < b); });
-    // Wrong when the line lies below the cell at k: snow among those before, bare ground from it on.
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return heights_m[a] < heights_m[b] || (heights_m[a] == heights_m[b] && a < b);
+    });
+    // Wrong when the line lies below the cell at k: snow among those before, bare ground from it
+    // on.
     const auto white = [&](std::size_t i) { return depths_m[i] > least_m; };
-    auto wrong = static_cast<std::ptrdiff_t>(std::count_if(order.begin(), order.end(), [&](std::size_t i) { return !white(i); }));
+    auto wrong = static_cast<std::ptrdiff_t>(
+        std::count_if(order.begin(), order.end(), [&](std::size_t i) { return !white(i); }));
     std::ptrdiff_t least_wrong = wrong;
     double line = heights_m[order.front()];
     for (std::size_t k = 0; k < order.size(); ++k) {
@@ -128,14 +188,17 @@ double snow_line_m(const std::vector<double>& heights_m, const std::vector<doubl
     return line;
 }
 
-SimulationTable run_grid(const weather::ReadResult& read, const std::string& name, const Terrain& terrain, const GridRun& run)
+SimulationTable run_grid(const weather::ReadResult& read, const std::string& name,
+                         const Terrain& terrain, const GridRun& run)
 {
     if (std::isnan(read.table.site.elevation_m)) {
-        throw Error("grid: the weather file does not say how high its station lies", "Give --elevation-m.");
+        throw Error("grid: the weather file does not say how high its station lies",
+                    "Give --elevation-m.");
     }
     weather::GridParams params;
     params.model = physical_params(run.model);
-    for (const std::string& surface : terrain.surfaces) params.surfaces.push_back(weather::surface_preset(surface));
+    for (const std::string& surface : terrain.surfaces)
+        params.surfaces.push_back(weather::surface_preset(surface));
     params.threads = run.model.threads;
     const Cells inside = cells_of(terrain);
     weather::PhysicalGrid grid(read.table, params, inside.cells);
@@ -154,12 +217,20 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
     const auto step_us = static_cast<std::int64_t>(std::llround(run.model.step_s * 1e6));
     const double steps_a_row = run.model.every_s / run.model.step_s;
     if (steps_a_row < 1.0 || std::abs(steps_a_row - std::round(steps_a_row)) > 1e-9) {
-        throw Error("grid: --every must be a whole number of steps of " + std::to_string(run.model.step_s) + " s", "Give --every as a multiple of --dt.");
+        throw Error("grid: --every must be a whole number of steps of " +
+                        std::to_string(run.model.step_s) + " s",
+                    "Give --every as a multiple of --dt.");
     }
     const std::int64_t end_us = grid.time_us() + static_cast<std::int64_t>(grid.steps()) * step_us;
-    const auto bounded = [&](double seconds) { return std::clamp(origin + static_cast<std::int64_t>(std::llround(seconds * 1e6)), origin, end_us); };
-    const std::size_t first = step_at(bounded(run.model.from_s.value_or(0.0)), grid, origin, end_us, step_us);
-    std::size_t last = run.model.to_s ? step_at(bounded(*run.model.to_s), grid, origin, end_us, step_us) : grid.steps();
+    const auto bounded = [&](double seconds) {
+        return std::clamp(origin + static_cast<std::int64_t>(std::llround(seconds * 1e6)), origin,
+                          end_us);
+    };
+    const std::size_t first =
+        step_at(bounded(run.model.from_s.value_or(0.0)), grid, origin, end_us, step_us);
+    std::size_t last = run.model.to_s
+                           ? step_at(bounded(*run.model.to_s), grid, origin, end_us, step_us)
+                           : grid.steps();
     std::vector<std::size_t> map_steps;
     for (const std::int64_t us : run.map_times_us) {
         map_steps.push_back(step_at(us, grid, origin, end_us, step_us));
@@ -169,8 +240,10 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
     std::size_t next_map = 0;
     for (;;) {
         const std::size_t now = grid.step();
-        if (now >= first && (now % row_every == 0 || now == last)) table.rows.push_back(regional_row(grid, inside, read.table));
-        for (; next_map < map_steps.size() && map_steps[next_map] <= now; ++next_map) run.on_map(map_of(grid, inside, terrain.cells()));
+        if (now >= first && (now % row_every == 0 || now == last))
+            table.rows.push_back(regional_row(grid, inside, read.table));
+        for (; next_map < map_steps.size() && map_steps[next_map] <= now; ++next_map)
+            run.on_map(map_of(grid, inside, terrain.cells()));
         if (now >= last) break;
         std::size_t to = std::min(last, (now / row_every + 1) * row_every);
         if (next_map < map_steps.size()) to = std::min(to, map_steps[next_map]);
@@ -180,8 +253,9 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
     table.state_hash = grid.hash();
     table.table_hash = table.state_hash;
     char books[120];
-    std::snprintf(books, sizeof books, "mass closes within %.1e kg/m2 a step in every cell; %.1f MiB of states", table.rows.back().back(),
-                  static_cast<double>(grid.bytes()) / 1048576.0);
+    std::snprintf(books, sizeof books,
+                  "mass closes within %.1e kg/m2 a step in every cell; %.1f MiB of states",
+                  table.rows.back().back(), static_cast<double>(grid.bytes()) / 1048576.0);
     table.notes.emplace_back(books);
     return table;
 }

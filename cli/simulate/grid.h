@@ -14,27 +14,31 @@ namespace petrichor::cli {
 /// The state of every cell of a terrain at one time.
 struct GridMap {
     std::int64_t time_us = 0;
-    std::vector<weather::CellState> states;  ///< as many as the terrain has cells; those outside are as at the start
+    std::vector<weather::CellState>
+        states;  ///< as many as the terrain has cells; those outside are as at the start
 };
 
 struct GridRun {
-    PhysicalRun model;                   ///< step, rows (every_s, from_s, to_s), threads, surface
+    PhysicalRun model;  ///< step, rows (every_s, from_s, to_s), threads, surface
     std::vector<std::int64_t> map_times_us;  ///< when on_map is called, ascending
     std::function<void(const GridMap&)> on_map;
     std::function<void(std::size_t done, std::size_t of)> on_progress;  ///< in steps; may be empty
 };
 
-/// Runs the physical model on every cell of a terrain: air by 6.5 K/km from the station's height, sun by slope and
-/// aspect, sky by the horizon.
+/// Runs the physical model on every cell of a terrain: air by 6.5 K/km from the station's height,
+/// sun by slope and aspect, sky by the horizon.
 ///
-/// The table holds the regional series: share of snow-covered ground, snow line, means over the cells inside. The
-/// states never depend on the number of threads.
-///   throws  Error when the weather has no elevation, for times outside the weather, and as run_physical
-SimulationTable run_grid(const weather::ReadResult& read, const std::string& name, const Terrain& terrain, const GridRun& run);
+/// The table holds the regional series: share of snow-covered ground, snow line, means over the
+/// cells inside. The states never depend on the number of threads.
+///   throws  Error when the weather has no elevation, for times outside the weather, and as
+///   run_physical
+SimulationTable run_grid(const weather::ReadResult& read, const std::string& name,
+                         const Terrain& terrain, const GridRun& run);
 
-/// The height that best parts bare ground below from snow above (depth over `least_m`): as few cells as possible are on
-/// the wrong side. All bare: the highest cell. All white: the lowest.
-double snow_line_m(const std::vector<double>& heights_m, const std::vector<double>& depths_m, double least_m = 0.05);
+/// The height that best parts bare ground below from snow above (depth over `least_m`): as few
+/// cells as possible are on the wrong side. All bare: the highest cell. All white: the lowest.
+double snow_line_m(const std::vector<double>& heights_m, const std::vector<double>& depths_m,
+                   double least_m = 0.05);
 
 }  // namespace petrichor::cli
 

@@ -18,7 +18,9 @@ using Rgb = std::array<double, 3>;
 
 struct Layer {
     const char* name;
-    std::function<double(const CellState&, const weather::CellDiagnostics&, const weather::WeatherMasks&)> value;
+    std::function<double(const CellState&, const weather::CellDiagnostics&,
+                         const weather::WeatherMasks&)>
+        value;
 };
 
 const std::vector<Layer>& layers()
@@ -26,9 +28,11 @@ const std::vector<Layer>& layers()
     static const std::vector<Layer> kLayers{
         {"snow_depth.m", [](const auto&, const auto& d, const auto&) { return d.snow_depth_m; }},
         {"swe.kg_m2", [](const auto&, const auto& d, const auto&) { return d.swe_kg_m2; }},
-        {"snow_density.kg_m3", [](const auto&, const auto& d, const auto&) { return d.snow_density_kg_m3; }},
+        {"snow_density.kg_m3",
+         [](const auto&, const auto& d, const auto&) { return d.snow_density_kg_m3; }},
         {"snow_albedo", [](const auto& c, const auto&, const auto&) { return c.snow_albedo; }},
-        {"surface_temp.C", [](const auto& c, const auto&, const auto&) { return c.surface_temp_c; }},
+        {"surface_temp.C",
+         [](const auto& c, const auto&, const auto&) { return c.surface_temp_c; }},
         {"film.kg_m2", [](const auto& c, const auto&, const auto&) { return c.film; }},
         {"crack.kg_m2", [](const auto& c, const auto&, const auto&) { return c.crack; }},
         {"puddle.kg_m2", [](const auto& c, const auto&, const auto&) { return c.puddle; }},
@@ -38,7 +42,8 @@ const std::vector<Layer>& layers()
         {"mask.cracks", [](const auto&, const auto&, const auto& m) { return m.cracks; }},
         {"mask.puddles", [](const auto&, const auto&, const auto& m) { return m.puddles; }},
         {"mask.snow", [](const auto&, const auto&, const auto& m) { return m.snow; }},
-        {"mask.water_to_snow", [](const auto&, const auto&, const auto& m) { return m.water_to_snow; }},
+        {"mask.water_to_snow",
+         [](const auto&, const auto&, const auto& m) { return m.water_to_snow; }},
     };
     return kLayers;
 }
@@ -50,28 +55,35 @@ std::vector<weather::Surface> surfaces_of(const Terrain& terrain)
     return out;
 }
 
-void write_layers(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map, double step_s)
+void write_layers(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map,
+                  double step_s)
 {
     std::vector<texproc::ExrChannel> channels{{"elevation.m", {}, terrain.heights_m}};
-    for (const Layer& layer : layers()) channels.push_back({layer.name, {}, std::vector<float>(terrain.cells(), 0.0f)});
+    for (const Layer& layer : layers())
+        channels.push_back({layer.name, {}, std::vector<float>(terrain.cells(), 0.0f)});
     const auto surfaces = surfaces_of(terrain);
     for (std::size_t i = 0; i < terrain.cells(); ++i) {
         if (!terrain.inside[i]) continue;
         const CellState& c = map.states[i];
         const auto d = weather::diagnostics(c);
         const auto masks = weather::weather_masks({}, surfaces[terrain.surface[i]], c, step_s);
-        for (std::size_t k = 0; k < layers().size(); ++k) channels[k + 1].floats[i] = static_cast<float>(layers()[k].value(c, d, masks));
+        for (std::size_t k = 0; k < layers().size(); ++k)
+            channels[k + 1].floats[i] = static_cast<float>(layers()[k].value(c, d, masks));
     }
-    texproc::write_exr(path, static_cast<int>(terrain.width), static_cast<int>(terrain.height), channels,
-                       {{"time_utc", weather::iso_from_us(map.time_us)}, {"cell_size_m", std::to_string(terrain.spacing_m)}});
+    texproc::write_exr(path, static_cast<int>(terrain.width), static_cast<int>(terrain.height),
+                       channels,
+                       {{"time_utc", weather::iso_from_us(map.time_us)},
+                        {"cell_size_m", std::to_string(terrain.spacing_m)}});
 }
 
 // Colour of dry ground: what an eye expects of the preset.
 Rgb ground_color(const std::string& surface)
 {
     constexpr std::pair<const char*, Rgb> kColors[] = {
-        {"grass", {0.34, 0.42, 0.22}}, {"soil", {0.40, 0.31, 0.22}}, {"rock", {0.45, 0.43, 0.41}}, {"gravel", {0.52, 0.50, 0.47}},
-        {"sand", {0.76, 0.68, 0.50}},  {"wood", {0.47, 0.35, 0.24}}, {"roof_tile", {0.58, 0.30, 0.22}}, {"brick", {0.55, 0.32, 0.26}}};
+        {"grass", {0.34, 0.42, 0.22}},     {"soil", {0.40, 0.31, 0.22}},
+        {"rock", {0.45, 0.43, 0.41}},      {"gravel", {0.52, 0.50, 0.47}},
+        {"sand", {0.76, 0.68, 0.50}},      {"wood", {0.47, 0.35, 0.24}},
+        {"roof_tile", {0.58, 0.30, 0.22}}, {"brick", {0.55, 0.32, 0.26}}};
     for (const auto& [name, color] : kColors) {
         if (surface == name) return color;
     }
@@ -88,7 +100,8 @@ Rgb cell_color(const std::string& surface, const CellState& c)
 {
     const auto d = weather::diagnostics(c);
     Rgb color = ground_color(surface);
-    color = mixed(color, {color[0] * 0.55, color[1] * 0.55, color[2] * 0.6}, weather::wetness_of_film({}, c.film));
+    color = mixed(color, {color[0] * 0.55, color[1] * 0.55, color[2] * 0.6},
+                  weather::wetness_of_film({}, c.film));
     color = mixed(color, {0.72, 0.80, 0.88}, 0.6 * std::min(1.0, d.surface_ice_kg_m2 / 2.0));
     // Deep snow is white, wet snow greyer.
     const double white = 0.45 + 0.58 * std::clamp(c.snow_albedo, 0.4, 0.9);
@@ -99,8 +112,10 @@ Rgb cell_color(const std::string& surface, const CellState& c)
 double hillshade(const Terrain& t, double x, double y)
 {
     const auto height = [&](double u, double v) {
-        const auto cu = static_cast<std::size_t>(std::clamp(u, 0.0, static_cast<double>(t.width) - 1.0));
-        const auto cv = static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(t.height) - 1.0));
+        const auto cu =
+            static_cast<std::size_t>(std::clamp(u, 0.0, static_cast<double>(t.width) - 1.0));
+        const auto cv =
+            static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(t.height) - 1.0));
         return static_cast<double>(t.heights_m[cv * t.width + cu]);
     };
     const double east = (height(x + 1, y) - height(x - 1, y)) / (2.0 * t.spacing_m);
@@ -117,15 +132,20 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
         for (std::size_t x = 0; x < terrain.width; ++x) {
             const std::size_t i = y * terrain.width + x;
             if (!terrain.inside[i]) continue;
-            const double light = 0.30 + 0.72 * hillshade(terrain, static_cast<double>(x), static_cast<double>(y));
-            for (std::size_t k = 0; k < 3; ++k) small[i][k] = cell_color(terrain.surfaces[terrain.surface[i]], map.states[i])[k] * light;
+            const double light =
+                0.30 + 0.72 * hillshade(terrain, static_cast<double>(x), static_cast<double>(y));
+            for (std::size_t k = 0; k < 3; ++k)
+                small[i][k] =
+                    cell_color(terrain.surfaces[terrain.surface[i]], map.states[i])[k] * light;
         }
     }
     // Bilinear between the middles of cells.
     const std::size_t width = terrain.width * zoom, height = terrain.height * zoom;
     std::vector<std::uint8_t> rgb(width * height * 3);
     const auto place = [&](std::size_t pixel, std::size_t cells) {
-        const double at = std::clamp((static_cast<double>(pixel) + 0.5) / static_cast<double>(zoom) - 0.5, 0.0, static_cast<double>(cells) - 1.0);
+        const double at =
+            std::clamp((static_cast<double>(pixel) + 0.5) / static_cast<double>(zoom) - 0.5, 0.0,
+                       static_cast<double>(cells) - 1.0);
         const auto low = static_cast<std::size_t>(at);
         return std::tuple{low, std::min(low + 1, cells - 1), at - static_cast<double>(low)};
     };
@@ -133,27 +153,38 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
         const auto [y0, y1, fy] = place(y, terrain.height);
         for (std::size_t x = 0; x < width; ++x) {
             const auto [x0, x1, fx] = place(x, terrain.width);
-            const Rgb top = mixed(small[y0 * terrain.width + x0], small[y0 * terrain.width + x1], fx);
-            const Rgb color = mixed(top, mixed(small[y1 * terrain.width + x0], small[y1 * terrain.width + x1], fx), fy);
+            const Rgb top =
+                mixed(small[y0 * terrain.width + x0], small[y0 * terrain.width + x1], fx);
+            const Rgb color = mixed(
+                top, mixed(small[y1 * terrain.width + x0], small[y1 * terrain.width + x1], fx), fy);
             for (std::size_t k = 0; k < 3; ++k) {
-                rgb[(y * width + x) * 3 + k] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0)));
+                rgb[(y * width + x) * 3 + k] =
+                    static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0)));
             }
         }
     }
-    texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height), 3, rgb, {{"time_utc", weather::iso_from_us(map.time_us)}});
+    texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height), 3, rgb,
+                        {{"time_utc", weather::iso_from_us(map.time_us)}});
 }
 
 }  // namespace
 
-void write_grid_map(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map, const PhysicalRun& model)
+void write_grid_map(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map,
+                    const PhysicalRun& model)
 {
     const std::string kind = weather::lower(path.extension().string());
-    if (kind == ".exr") write_layers(path, terrain, map, model.step_s);
-    else if (kind == ".png") write_preview(path, terrain, map);
-    else throw Error("grid: cannot write the map " + path.string() + ": unknown kind \"" + kind + "\"", "Use .exr (all layers) or .png (to look at).");
+    if (kind == ".exr")
+        write_layers(path, terrain, map, model.step_s);
+    else if (kind == ".png")
+        write_preview(path, terrain, map);
+    else
+        throw Error(
+            "grid: cannot write the map " + path.string() + ": unknown kind \"" + kind + "\"",
+            "Use .exr (all layers) or .png (to look at).");
 }
 
-std::filesystem::path map_path(const std::filesystem::path& path, std::int64_t time_us, bool several)
+std::filesystem::path map_path(const std::filesystem::path& path, std::int64_t time_us,
+                               bool several)
 {
     if (!several) return path;
     std::string stamp = weather::iso_from_us(time_us).substr(0, 16);

@@ -33,10 +33,12 @@ Input read_one(const std::string& word)
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
         if (std::find(presets.begin(), presets.end(), word) == presets.end()) {
-            throw Error("simulate: no file and no preset \"" + word + "\"." + did_you_mean(word, presets),
-                        presets.empty() ? "Give a weather file, a CSV of keys or a weather TOML."
-                                        : "Give a weather file, a CSV of keys, a weather TOML, or one of: " +
-                                              join_words(presets) + ".");
+            throw Error(
+                "simulate: no file and no preset \"" + word + "\"." + did_you_mean(word, presets),
+                presets.empty()
+                    ? "Give a weather file, a CSV of keys or a weather TOML."
+                    : "Give a weather file, a CSV of keys, a weather TOML, or one of: " +
+                          join_words(presets) + ".");
         }
         path = data_folder() / "weather" / (word + ".toml");
     }
@@ -79,7 +81,9 @@ InputKind kind_of_text(std::string_view text)
         if (words.empty() || words.front() == '#') continue;
         const std::string low = weather::lower(words);
         const auto has = [&](const char* word) { return low.find(word) != low.npos; };
-        return has("time_s") && !has("time_utc") && (has("temperature_c") || has("rainfall")) ? InputKind::Keys : InputKind::Weather;
+        return has("time_s") && !has("time_utc") && (has("temperature_c") || has("rainfall"))
+                   ? InputKind::Keys
+                   : InputKind::Weather;
     }
     return InputKind::Weather;
 }
@@ -92,7 +96,8 @@ std::vector<Input> read_inputs(const std::vector<std::string>& words)
         for (const Input& input : inputs) {
             if (input.kind == InputKind::Weather) continue;
             throw Error("simulate: " + input.file + " cannot be joined with other inputs",
-                        "Give several weather files of one place, or one file of keys, one weather TOML or one preset.");
+                        "Give several weather files of one place, or one file of keys, one weather "
+                        "TOML or one preset.");
         }
     }
     return inputs;

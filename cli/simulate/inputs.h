@@ -22,13 +22,15 @@ struct Input {
     std::string text;
 };
 
-/// Reads the inputs named on the command line: files, names of presets, - for standard input. The kind is
-/// recognised from the content.
-///   throws  Error for a missing or huge file, a name that is no preset (with the nearest), and for kinds that do not
+/// Reads the inputs named on the command line: files, names of presets, - for standard input. The
+/// kind is recognised from the content.
+///   throws  Error for a missing or huge file, a name that is no preset (with the nearest), and for
+///   kinds that do not
 ///           go together: several inputs must all be weather files
 std::vector<Input> read_inputs(const std::vector<std::string>& words);
 
-/// The kind of a text that is no TOML: keys name time_s and an input of the artist model in their first line.
+/// The kind of a text that is no TOML: keys name time_s and an input of the artist model in their
+/// first line.
 InputKind kind_of_text(std::string_view text);
 
 /// The whole file, or of a binary one only the head, so that its reader refuses it without delay.

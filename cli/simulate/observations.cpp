@@ -26,7 +26,11 @@ std::string table_column_of(std::string_view name, const std::vector<std::string
 {
     const std::string low = weather::lower(weather::trimmed(name));
     constexpr std::pair<const char*, const char*> kOtherNames[] = {
-        {"albedo", "snow_albedo"}, {"depth_m", "snow_depth_m"}, {"swe", "swe_kg_m2"}, {"swe_mm", "swe_kg_m2"}, {"surface_temperature_c", "surface_temp_c"}};
+        {"albedo", "snow_albedo"},
+        {"depth_m", "snow_depth_m"},
+        {"swe", "swe_kg_m2"},
+        {"swe_mm", "swe_kg_m2"},
+        {"surface_temperature_c", "surface_temp_c"}};
     for (const auto& [other, column] : kOtherNames) {
         if (low == other) return column;
     }
@@ -52,18 +56,27 @@ public:
     }
     void bad(std::size_t line, const std::string& why)
     {
-        if (bad_++ < 5) observations_.notes.push_back(file_ + " line " + std::to_string(line) + ": " + why + ", left out");
+        if (bad_++ < 5)
+            observations_.notes.push_back(file_ + " line " + std::to_string(line) + ": " + why +
+                                          ", left out");
     }
     void good() { ++good_; }
     void set_daily(bool daily) { observations_.daily = daily; }
     Observations finish()
     {
-        if (bad_ > 5) observations_.notes.push_back(file_ + ": " + std::to_string(bad_ - 5) + " more rows left out");
-        std::erase_if(observations_.columns, [](const ObservedColumn& c) { return c.values.empty(); });
+        if (bad_ > 5)
+            observations_.notes.push_back(file_ + ": " + std::to_string(bad_ - 5) +
+                                          " more rows left out");
+        std::erase_if(observations_.columns,
+                      [](const ObservedColumn& c) { return c.values.empty(); });
         if (observations_.columns.empty() || bad_ > good_) {
-            throw Error("observations: " + file_ + ": " + std::to_string(good_) + " good rows, " + std::to_string(bad_) + " bad" +
-                            (observations_.notes.empty() ? "" : "\n  " + join_words(observations_.notes, "\n  ")),
-                        "Give a CSV with date and, for example, snow_depth_m and swe_kg_m2, or the nine columns of FSM.");
+            throw Error("observations: " + file_ + ": " + std::to_string(good_) + " good rows, " +
+                            std::to_string(bad_) + " bad" +
+                            (observations_.notes.empty()
+                                 ? ""
+                                 : "\n  " + join_words(observations_.notes, "\n  ")),
+                        "Give a CSV with date and, for example, snow_depth_m and swe_kg_m2, or the "
+                        "nine columns of FSM.");
         }
         return std::move(observations_);
     }
@@ -79,16 +92,19 @@ Observations read_fsm_observations(std::string_view text, const std::string& fil
 {
     Collector out(file);
     out.set_daily(true);
-    const std::size_t albedo = out.column("snow_albedo"), depth = out.column("snow_depth_m"), swe = out.column("swe_kg_m2"),
-                      surface = out.column("surface_temp_c");
+    const std::size_t albedo = out.column("snow_albedo"), depth = out.column("snow_depth_m"),
+                      swe = out.column("swe_kg_m2"), surface = out.column("surface_temp_c");
     weather::Lines lines(text);
     while (const auto line = lines.next()) {
         if (weather::trimmed(*line).empty()) continue;
         const auto f = weather::words(*line);
-        const bool whole = f.size() == 9 && weather::to_integer(f[0]) && weather::to_integer(f[1]) && weather::to_integer(f[2]);
-        const auto us = whole ? weather::us_from_civil({*weather::to_integer(f[0]), static_cast<int>(*weather::to_integer(f[1])),
-                                                        static_cast<int>(*weather::to_integer(f[2])), 0, 0, 0.0})
-                              : std::nullopt;
+        const bool whole = f.size() == 9 && weather::to_integer(f[0]) &&
+                           weather::to_integer(f[1]) && weather::to_integer(f[2]);
+        const auto us =
+            whole ? weather::us_from_civil(
+                        {*weather::to_integer(f[0]), static_cast<int>(*weather::to_integer(f[1])),
+                         static_cast<int>(*weather::to_integer(f[2])), 0, 0, 0.0})
+                  : std::nullopt;
         if (!us) {
             out.bad(lines.number(), "is not year month day and six numbers");
             continue;
@@ -102,7 +118,8 @@ Observations read_fsm_observations(std::string_view text, const std::string& fil
     return out.finish();
 }
 
-Observations read_csv_observations(std::string_view text, const std::string& file, const std::vector<std::string>& table_columns)
+Observations read_csv_observations(std::string_view text, const std::string& file,
+                                   const std::vector<std::string>& table_columns)
 {
     Collector out(file);
     weather::Lines lines(text);
@@ -114,7 +131,9 @@ Observations read_csv_observations(std::string_view text, const std::string& fil
         const auto words = weather::trimmed(*line);
         if (words.empty() || words.front() == '#') continue;
         for (const char c : {',', ';', '\t'}) {
-            if (std::count(line->begin(), line->end(), c) > std::count(line->begin(), line->end(), separator)) separator = c;
+            if (std::count(line->begin(), line->end(), c) >
+                std::count(line->begin(), line->end(), separator))
+                separator = c;
         }
         names = weather::split(*line, separator, 256);
     }
@@ -123,15 +142,18 @@ Observations read_csv_observations(std::string_view text, const std::string& fil
     std::vector<std::size_t> to(names.size(), kNone);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string low = weather::lower(weather::trimmed(names[i]));
-        if (time_at == kNone && (low == "date" || low == "time" || low == "datetime" || low == "time_utc")) {
+        if (time_at == kNone &&
+            (low == "date" || low == "time" || low == "datetime" || low == "time_utc")) {
             time_at = i;
             continue;
         }
         const std::string column = table_column_of(names[i], table_columns);
         if (!column.empty()) to[i] = out.column(column);
     }
-    if (time_at == kNone || std::all_of(to.begin(), to.end(), [&](std::size_t c) { return c == kNone; })) {
-        throw Error("observations: " + file + ": the header has no date or time, or no column of the simulation",
+    if (time_at == kNone ||
+        std::all_of(to.begin(), to.end(), [&](std::size_t c) { return c == kNone; })) {
+        throw Error("observations: " + file +
+                        ": the header has no date or time, or no column of the simulation",
                     "Name columns as in: date,snow_depth_m,swe_kg_m2,surface_temp_c,albedo.");
     }
     bool daily = true;
@@ -141,7 +163,9 @@ Observations read_csv_observations(std::string_view text, const std::string& fil
         const auto f = weather::split(*line, separator, 256);
         const auto us = f.size() == names.size() ? weather::us_from_iso(f[time_at]) : std::nullopt;
         if (!us) {
-            out.bad(lines.number(), f.size() == names.size() ? "'" + weather::shown(f[time_at]) + "' is not a date" : "has " + std::to_string(f.size()) + " columns");
+            out.bad(lines.number(), f.size() == names.size()
+                                        ? "'" + weather::shown(f[time_at]) + "' is not a date"
+                                        : "has " + std::to_string(f.size()) + " columns");
             continue;
         }
         out.good();
@@ -174,7 +198,8 @@ struct Rows {
         return table.rows[i - 1][column] + (table.rows[i][column] - table.rows[i - 1][column]) * x;
     }
     // Mean over [from, from + a day), weighted by another column where there is one.
-    std::optional<double> daily_mean(std::size_t column, double from_s, std::optional<std::size_t> weight) const
+    std::optional<double> daily_mean(std::size_t column, double from_s,
+                                     std::optional<std::size_t> weight) const
     {
         double sum = 0.0, weights = 0.0;
         const auto begin = std::lower_bound(times.begin(), times.end(), from_s - 1e-6);
@@ -193,7 +218,8 @@ std::optional<double> depth_on(const Observations& observed, std::int64_t us)
     for (const ObservedColumn& c : observed.columns) {
         if (c.column != "snow_depth_m") continue;
         const auto at = std::lower_bound(c.time_us.begin(), c.time_us.end(), us);
-        if (at != c.time_us.end() && *at == us) return c.values[static_cast<std::size_t>(at - c.time_us.begin())];
+        if (at != c.time_us.end() && *at == us)
+            return c.values[static_cast<std::size_t>(at - c.time_us.begin())];
         return 0.0;  // depth is observed, but not on this day
     }
     return std::nullopt;
@@ -201,7 +227,9 @@ std::optional<double> depth_on(const Observations& observed, std::int64_t us)
 
 std::string unit_of(const std::string& column)
 {
-    const auto ends = [&](std::string_view end) { return column.size() > end.size() && column.ends_with(end); };
+    const auto ends = [&](std::string_view end) {
+        return column.size() > end.size() && column.ends_with(end);
+    };
     if (ends("_kg_m2")) return "kg/m2";
     if (ends("_w_m2")) return "W/m2";
     if (ends("_temp_c")) return "K";
@@ -212,16 +240,20 @@ std::string unit_of(const std::string& column)
 Score score_of(const Rows& rows, const Observations& observed, const ObservedColumn& one)
 {
     const std::size_t column = column_index(rows.table, one.column);
-    const bool mean = observed.daily && (one.column == "surface_temp_c" || one.column == "snow_albedo");
+    const bool mean =
+        observed.daily && (one.column == "surface_temp_c" || one.column == "snow_albedo");
     const std::size_t sun = column_index(rows.table, "sw_down_w_m2");
     const bool by_sun = one.column == "snow_albedo" && sun < rows.table.columns.size();
     Score score{one.column, unit_of(one.column), 0, 0.0, 0.0, ""};
-    score.how = !observed.daily ? "at the time of the observation" : (mean ? "daily mean, snow deeper than 0.1 m" : "at 12 h");
+    score.how = !observed.daily ? "at the time of the observation"
+                                : (mean ? "daily mean, snow deeper than 0.1 m" : "at 12 h");
     for (std::size_t i = 0; i < one.values.size(); ++i) {
         const double day_s = static_cast<double>(one.time_us[i] - rows.table.utc_start_us) * 1e-6;
         std::optional<double> model;
         if (mean) {
-            if (depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1 || day_s < rows.first_s() || day_s + kDay_s > rows.last_s() + 3600.0) continue;
+            if (depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1 || day_s < rows.first_s() ||
+                day_s + kDay_s > rows.last_s() + 3600.0)
+                continue;
             model = rows.daily_mean(column, day_s, by_sun ? std::optional(sun) : std::nullopt);
         } else {
             const double at_s = day_s + (observed.daily ? 0.5 * kDay_s : 0.0);
@@ -241,14 +273,18 @@ Score score_of(const Rows& rows, const Observations& observed, const ObservedCol
 }
 
 // On days without much snow the measured surface is not the snow's.
-PlotDots dots_of(const SimulationTable& table, const Observations& observed, const ObservedColumn& one)
+PlotDots dots_of(const SimulationTable& table, const Observations& observed,
+                 const ObservedColumn& one)
 {
     PlotDots dots{"observed", "#111827", {}, {}};
     const double shift_s = observed.daily ? 0.5 * kDay_s : 0.0;
     for (std::size_t i = 0; i < one.values.size(); ++i) {
-        const double at_s = static_cast<double>(one.time_us[i] - table.utc_start_us) * 1e-6 + shift_s;
-        if (table.rows.empty() || at_s < table.rows.front()[0] || at_s > table.rows.back()[0]) continue;
-        if (one.column == "snow_albedo" && depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1) continue;
+        const double at_s =
+            static_cast<double>(one.time_us[i] - table.utc_start_us) * 1e-6 + shift_s;
+        if (table.rows.empty() || at_s < table.rows.front()[0] || at_s > table.rows.back()[0])
+            continue;
+        if (one.column == "snow_albedo" && depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1)
+            continue;
         dots.time_s.push_back(at_s);
         dots.values.push_back(one.values[i]);
     }
@@ -257,14 +293,21 @@ PlotDots dots_of(const SimulationTable& table, const Observations& observed, con
 
 }  // namespace
 
-Observations read_observations(std::string_view text, const std::string& file, const std::vector<std::string>& table_columns)
+Observations read_observations(std::string_view text, const std::string& file,
+                               const std::vector<std::string>& table_columns)
 {
     if (text.find('\0') != text.npos || weather::trimmed(text.substr(0, 65536)).empty()) {
-        throw Error("observations: " + file + " is " + (text.find('\0') != text.npos ? "a binary file" : "empty"), "Give a text file.");
+        throw Error("observations: " + file + " is " +
+                        (text.find('\0') != text.npos ? "a binary file" : "empty"),
+                    "Give a text file.");
     }
     const auto first = weather::words(weather::Lines(text).next().value_or(""), 16);
-    const bool fsm = first.size() == 9 && std::all_of(first.begin(), first.end(), [](std::string_view w) { return weather::to_number(w).has_value(); });
-    return fsm ? read_fsm_observations(text, file) : read_csv_observations(text, file, table_columns);
+    const bool fsm =
+        first.size() == 9 && std::all_of(first.begin(), first.end(), [](std::string_view w) {
+            return weather::to_number(w).has_value();
+        });
+    return fsm ? read_fsm_observations(text, file)
+               : read_csv_observations(text, file, table_columns);
 }
 
 void compare(const SimulationTable& fine, const Observations& observed, SimulationTable& table)
@@ -279,12 +322,14 @@ void compare(const SimulationTable& fine, const Observations& observed, Simulati
             continue;
         }
         char line[200];
-        std::snprintf(line, sizeof line, "observed %s: RMSE %.4g %s, bias %+.3g, %zu values (%s)", one.column.c_str(), score.rmse, score.unit.c_str(),
-                      score.bias, score.count, score.how.c_str());
+        std::snprintf(line, sizeof line, "observed %s: RMSE %.4g %s, bias %+.3g, %zu values (%s)",
+                      one.column.c_str(), score.rmse, score.unit.c_str(), score.bias, score.count,
+                      score.how.c_str());
         table.notes.emplace_back(line);
         table.scores.push_back(score);
         for (PlotPanel& panel : table.panels) {
-            if (std::any_of(panel.series.begin(), panel.series.end(), [&](const PlotSeries& s) { return s.column == one.column; })) {
+            if (std::any_of(panel.series.begin(), panel.series.end(),
+                            [&](const PlotSeries& s) { return s.column == one.column; })) {
                 panel.dots.push_back(dots_of(table, observed, one));
             }
         }

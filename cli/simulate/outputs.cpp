@@ -25,8 +25,9 @@ void check_output(const std::filesystem::path& path)
     for (const char* kind : {".csv", ".json", ".svg", ".png", ".html"}) {
         if (kind_of(path) == kind) return;
     }
-    throw Error("simulate: cannot write " + path.string() + ": unknown kind \"" + kind_of(path) + "\"",
-                "Use .csv, .json, .svg, .png or .html, or - for CSV on standard output.");
+    throw Error(
+        "simulate: cannot write " + path.string() + ": unknown kind \"" + kind_of(path) + "\"",
+        "Use .csv, .json, .svg, .png or .html, or - for CSV on standard output.");
 }
 
 void write_table(const SimulationTable& table, const std::filesystem::path& path, bool with_hash)
@@ -45,7 +46,8 @@ void write_table(const SimulationTable& table, const std::filesystem::path& path
         write_text_file(path, html_report(table));
     } else {
         const Pixels pixels = to_pixels(plot_of(table), 2.0);
-        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb, {{"state_hash", hash_text(table.state_hash)}});
+        texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb,
+                            {{"state_hash", hash_text(table.state_hash)}});
     }
 }
 

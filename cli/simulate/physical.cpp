@@ -21,17 +21,22 @@ weather::PhaseLaw phase_named(const std::string& name)
     if (name == "humidity") return weather::PhaseLaw::Humidity;
     if (name == "wet-bulb") return weather::PhaseLaw::WetBulb;
     if (name == "threshold") return weather::PhaseLaw::Threshold;
-    throw Error("simulate: there is no phase law '" + name + "'", "Use linear, humidity, wet-bulb or threshold.");
+    throw Error("simulate: there is no phase law '" + name + "'",
+                "Use linear, humidity, wet-bulb or threshold.");
 }
 
-// Times of the rows: whole multiples of `every` from the first row of the file, inside the window and the run.
+// Times of the rows: whole multiples of `every` from the first row of the file, inside the window
+// and the run.
 struct Window {
     std::int64_t from_us = 0, to_us = 0, every_us = 0;
 };
 
-Window window_of(const PhysicalRun& run, std::int64_t origin_us, std::int64_t begin_us, std::int64_t end_us, double every_s)
+Window window_of(const PhysicalRun& run, std::int64_t origin_us, std::int64_t begin_us,
+                 std::int64_t end_us, double every_s)
 {
-    const auto time_of = [&](double s) { return origin_us + static_cast<std::int64_t>(std::llround(s * 1e6)); };
+    const auto time_of = [&](double s) {
+        return origin_us + static_cast<std::int64_t>(std::llround(s * 1e6));
+    };
     Window w;
     w.every_us = std::max<std::int64_t>(1, std::llround(every_s * 1e6));
     w.from_us = std::max(run.from_s ? time_of(*run.from_s) : begin_us, begin_us);
@@ -39,14 +44,17 @@ Window window_of(const PhysicalRun& run, std::int64_t origin_us, std::int64_t be
     w.to_us = std::min(run.to_s ? time_of(*run.to_s) : end_us, end_us);
     if (w.to_us < w.from_us) {
         throw Error("simulate: there is nothing between --from and --to",
-                    "The weather goes from " + weather::iso_from_us(begin_us) + " to " + weather::iso_from_us(end_us) +
+                    "The weather goes from " + weather::iso_from_us(begin_us) + " to " +
+                        weather::iso_from_us(end_us) +
                         "; give times inside, as dates or in seconds from its first row.");
     }
-    if ((w.to_us - w.from_us) / w.every_us > 20000000) throw Error("simulate: more than 20 million rows", "Use a longer --every.");
+    if ((w.to_us - w.from_us) / w.every_us > 20000000)
+        throw Error("simulate: more than 20 million rows", "Use a longer --every.");
     return w;
 }
 
-SimulationTable headed_table(const weather::ReadResult& read, const std::string& name, const std::string& mode)
+SimulationTable headed_table(const weather::ReadResult& read, const std::string& name,
+                             const std::string& mode)
 {
     SimulationTable table;
     table.title = name;
@@ -58,14 +66,18 @@ SimulationTable headed_table(const weather::ReadResult& read, const std::string&
     return table;
 }
 
-void add_sensitivity(SimulationTable& table, const weather::ReadResult& read, const weather::PhysicalParams& params)
+void add_sensitivity(SimulationTable& table, const weather::ReadResult& read,
+                     const weather::PhysicalParams& params)
 {
-    table.notes.emplace_back("sensitivity: change, peak SWE kg/m2, snow days, mean film, mean puddle kg/m2, mean surface C");
+    table.notes.emplace_back(
+        "sensitivity: change, peak SWE kg/m2, snow days, mean film, mean puddle kg/m2, mean "
+        "surface C");
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const auto& s : weather::sensitivity_table(read.table, params)) {
         char line[160];
-        std::snprintf(line, sizeof line, "  %-20s %8.1f %7.1f %8.4f %8.4f %7.2f", s.change.c_str(), s.peak_swe_kg_m2, s.snow_days,
-                      s.mean_film_kg_m2, s.mean_puddle_kg_m2, s.mean_surface_c);
+        std::snprintf(line, sizeof line, "  %-20s %8.1f %7.1f %8.4f %8.4f %7.2f", s.change.c_str(),
+                      s.peak_swe_kg_m2, s.snow_days, s.mean_film_kg_m2, s.mean_puddle_kg_m2,
+                      s.mean_surface_c);
         table.notes.emplace_back(line);
         rows.push_back({{"change", s.change},
                         {"peak_swe_kg_m2", s.peak_swe_kg_m2},
@@ -78,60 +90,83 @@ void add_sensitivity(SimulationTable& table, const weather::ReadResult& read, co
 }
 
 // Median with the band between the 10 % and 90 % percentiles.
-PlotPanel percentile_panel(const char* title, const std::string& name, const char* color, const char* group)
+PlotPanel percentile_panel(const char* title, const std::string& name, const char* color,
+                           const char* group)
 {
     return {.title = title,
-            .series = {{.column = name + "_p50", .label = "median, 10 to 90 %", .color = color, .band_low = name + "_p10", .band_high = name + "_p90"}},
+            .series = {{.column = name + "_p50",
+                        .label = "median, 10 to 90 %",
+                        .color = color,
+                        .band_low = name + "_p10",
+                        .band_high = name + "_p90"}},
             .low = 0.0,
             .high = 0.0,
             .group = group};
 }
 
-SimulationTable run_ensemble_table(const weather::ReadResult& read, const PhysicalRun& run, const weather::PhysicalParams& params,
-                                   SimulationTable table)
+SimulationTable run_ensemble_table(const weather::ReadResult& read, const PhysicalRun& run,
+                                   const weather::PhysicalParams& params, SimulationTable table)
 {
     const double steps = run.every_s / run.step_s;
     if (steps < 1.0 || std::abs(steps - std::round(steps)) > 1e-9) {
-        throw Error("ensemble: --every must be a whole number of steps (" + std::to_string(run.step_s) + " s)", "Give --every as a multiple of --dt.");
+        throw Error("ensemble: --every must be a whole number of steps (" +
+                        std::to_string(run.step_s) + " s)",
+                    "Give --every as a multiple of --dt.");
     }
     weather::EnsembleParams ensemble;
     ensemble.members = run.members;
     ensemble.seed = run.seed;
     ensemble.threads = run.threads;
-    const auto rows = weather::run_ensemble(read.table, params, ensemble, static_cast<std::size_t>(std::llround(steps)));
-    const Window window = window_of(run, read.table.time_us.front(), rows.front().time_us, rows.back().time_us, run.every_s);
+    const auto rows = weather::run_ensemble(read.table, params, ensemble,
+                                            static_cast<std::size_t>(std::llround(steps)));
+    const Window window = window_of(run, read.table.time_us.front(), rows.front().time_us,
+                                    rows.back().time_us, run.every_s);
     table.columns = {"time_s"};
-    for (const char* name : {"snow_depth_m", "swe_kg_m2", "film_kg_m2", "puddle_kg_m2", "surface_temp_c"}) {
-        for (const char* share : {"p10", "p50", "p90"}) table.columns.push_back(std::string(name) + "_" + share);
+    for (const char* name :
+         {"snow_depth_m", "swe_kg_m2", "film_kg_m2", "puddle_kg_m2", "surface_temp_c"}) {
+        for (const char* share : {"p10", "p50", "p90"})
+            table.columns.push_back(std::string(name) + "_" + share);
     }
     for (const auto& r : rows) {
         if (r.time_us < window.from_us || r.time_us > window.to_us) continue;
         std::vector<double> row{static_cast<double>(r.time_us - read.table.time_us.front()) * 1e-6};
-        for (const double* three : {r.depth_m, r.swe_kg_m2, r.film_kg_m2, r.puddle_kg_m2, r.surface_c}) row.insert(row.end(), three, three + 3);
+        for (const double* three :
+             {r.depth_m, r.swe_kg_m2, r.film_kg_m2, r.puddle_kg_m2, r.surface_c})
+            row.insert(row.end(), three, three + 3);
         table.rows.push_back(std::move(row));
     }
-    table.panels = {percentile_panel("snow depth, m", "snow_depth_m", "#4a80bd", "snow"),
-                    percentile_panel("snow water equivalent, kg/m\u00b2", "swe_kg_m2", "#1f5f9e", "snow"),
-                    percentile_panel("film, kg/m\u00b2", "film_kg_m2", "#0e9f8e", "water"),
-                    percentile_panel("puddles, kg/m\u00b2", "puddle_kg_m2", "#3b6fe0", "water"),
-                    percentile_panel("surface temperature, \u00b0C", "surface_temp_c", "#c8442e", "heat")};
-    table.notes.push_back("ensemble of " + std::to_string(run.members) + " members, seed " + std::to_string(run.seed) +
-                          ": precipitation 20 %, temperature 1 K, wind 25 %, sky 15 W/m2 (one standard deviation)");
+    table.panels = {
+        percentile_panel("snow depth, m", "snow_depth_m", "#4a80bd", "snow"),
+        percentile_panel("snow water equivalent, kg/m\u00b2", "swe_kg_m2", "#1f5f9e", "snow"),
+        percentile_panel("film, kg/m\u00b2", "film_kg_m2", "#0e9f8e", "water"),
+        percentile_panel("puddles, kg/m\u00b2", "puddle_kg_m2", "#3b6fe0", "water"),
+        percentile_panel("surface temperature, \u00b0C", "surface_temp_c", "#c8442e", "heat")};
+    table.notes.push_back(
+        "ensemble of " + std::to_string(run.members) + " members, seed " +
+        std::to_string(run.seed) +
+        ": precipitation 20 %, temperature 1 K, wind 25 %, sky 15 W/m2 (one standard deviation)");
     return table;
 }
 
-weather::PhysicalTimeline timeline_of(const weather::ReadResult& read, const PhysicalRun& run, const weather::PhysicalParams& params)
+weather::PhysicalTimeline timeline_of(const weather::ReadResult& read, const PhysicalRun& run,
+                                      const weather::PhysicalParams& params)
 {
     if (run.resume.empty()) return {read.table, params};
     // "<time in microseconds>\n<state>"
     const auto end = run.resume.find('\n');
-    const auto at = end == std::string::npos ? std::nullopt : weather::to_integer(std::string_view(run.resume).substr(0, end));
-    if (!at) throw Error("simulate: --resume: this is not a checkpoint of the physical model", "Give a file that --checkpoint wrote.");
-    return {read.table, params, weather::load_state(std::string_view(run.resume).substr(end + 1)), *at};
+    const auto at = end == std::string::npos
+                        ? std::nullopt
+                        : weather::to_integer(std::string_view(run.resume).substr(0, end));
+    if (!at)
+        throw Error("simulate: --resume: this is not a checkpoint of the physical model",
+                    "Give a file that --checkpoint wrote.");
+    return {read.table, params, weather::load_state(std::string_view(run.resume).substr(end + 1)),
+            *at};
 }
 
-void fill_rows(SimulationTable& table, const weather::ReadResult& read, const weather::PhysicalParams& params,
-               const weather::PhysicalTimeline& timeline, const Window& window)
+void fill_rows(SimulationTable& table, const weather::ReadResult& read,
+               const weather::PhysicalParams& params, const weather::PhysicalTimeline& timeline,
+               const Window& window)
 {
     const std::int64_t origin = read.table.time_us.front();
     const auto states = timeline.series(window.from_us, window.to_us, window.every_us);
@@ -142,7 +177,8 @@ void fill_rows(SimulationTable& table, const weather::ReadResult& read, const we
         // A row between two steps belongs to a shorter step.
         const std::int64_t us = window.from_us + static_cast<std::int64_t>(i) * window.every_us;
         const double into = std::fmod(static_cast<double>(us - origin) * 1e-6, params.step_s);
-        table.rows.push_back(physical_row(read.table, params.surface, states[i], initial, us, into > 0.0 ? into : params.step_s));
+        table.rows.push_back(physical_row(read.table, params.surface, states[i], initial, us,
+                                          into > 0.0 ? into : params.step_s));
     }
     table.state_hash = weather::state_hash(states.back());
     table.table_hash = weather::state_hash(states);
@@ -151,7 +187,9 @@ void fill_rows(SimulationTable& table, const weather::ReadResult& read, const we
 std::string books_of(const weather::CellState& last)
 {
     char books[160];
-    std::snprintf(books, sizeof books, "mass closes within %.1e kg/m2 a step, energy within %.4f W/m2 RMS; visibility is the 5 %% optical range",
+    std::snprintf(books, sizeof books,
+                  "mass closes within %.1e kg/m2 a step, energy within %.4f W/m2 RMS; visibility "
+                  "is the 5 %% optical range",
                   std::abs(last.mass_residual_most), weather::energy_residual_rms_w_m2(last));
     return books;
 }
@@ -174,12 +212,14 @@ void add_read_report(SimulationTable& table, const weather::ReadResult& read)
     const auto lines = lines_of(weather::to_text(read.report));
     table.notes.insert(table.notes.end(), lines.begin(), lines.end());
     for (const weather::ReadNote& note : read.report.notes) {
-        if (note.kind == weather::ReadNote::Kind::Warning) table.warnings.push_back(note.field + ": " + note.text);
+        if (note.kind == weather::ReadNote::Kind::Warning)
+            table.warnings.push_back(note.field + ": " + note.text);
     }
     table.json_parts.emplace_back("read", weather::to_json(read.report));
 }
 
-SimulationTable run_physical(const weather::ReadResult& read, const std::string& name, const PhysicalRun& run)
+SimulationTable run_physical(const weather::ReadResult& read, const std::string& name,
+                             const PhysicalRun& run)
 {
     const weather::PhysicalParams params = physical_params(run);
     SimulationTable table = headed_table(read, name, params.surface.name);
@@ -193,19 +233,22 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     table.panels = physical_panels();
     add_physical_events(table);
     if (!run.observed.empty()) {
-        const Observations observed = read_observations(run.observed, run.observed_file, physical_columns());
+        const Observations observed =
+            read_observations(run.observed, run.observed_file, physical_columns());
         SimulationTable fine;
         const bool coarse = run.every_s > 3600.0;
         if (coarse) {
             fine.dated = true;
             fine.utc_start_us = origin;
-            fill_rows(fine, read, params, timeline, window_of(run, origin, timeline.begin_us(), end_us, 3600.0));
+            fill_rows(fine, read, params, timeline,
+                      window_of(run, origin, timeline.begin_us(), end_us, 3600.0));
         }
         compare(coarse ? fine : table, observed, table);
     }
     if (run.checkpoint) {
         const auto step_us = static_cast<std::int64_t>(std::llround(run.step_s * 1e6));
-        const std::int64_t at = window.to_us == end_us ? end_us : origin + (window.to_us - origin) / step_us * step_us;
+        const std::int64_t at =
+            window.to_us == end_us ? end_us : origin + (window.to_us - origin) / step_us * step_us;
         *run.checkpoint = std::to_string(at) + "\n" + weather::save_state(timeline.state_at(at));
     }
     table.notes.push_back(books_of(timeline.state_at(window.to_us)));
@@ -216,13 +259,18 @@ std::string fitted_artist_toml(const weather::ReadResult& read, const PhysicalRu
 {
     const weather::PhysicalParams params = physical_params(run);
     const auto fit = weather::fit_artist(read.table, params);
-    std::string out = "# Artist rates fitted to the physical model on " + params.surface.name + "; rates per hour, time in seconds.\n[artist]\n";
+    std::string out = "# Artist rates fitted to the physical model on " + params.surface.name +
+                      "; rates per hour, time in seconds.\n[artist]\n";
     char line[200];
     std::snprintf(line, sizeof line, "time_scale = %.17g\n", fit.params.time_scale);
     out += line;
     const auto put = [&](const char* key, double value, const weather::FittedRate& rate) {
-        if (rate.hours == 0) std::snprintf(line, sizeof line, "%s = %.9g  # default: nothing in the file tells\n", key, value);
-        else std::snprintf(line, sizeof line, "%s = %.9g  # residual %.4f RMS a step, %zu steps\n", key, value, rate.rms_residual, rate.hours);
+        if (rate.hours == 0)
+            std::snprintf(line, sizeof line, "%s = %.9g  # default: nothing in the file tells\n",
+                          key, value);
+        else
+            std::snprintf(line, sizeof line, "%s = %.9g  # residual %.4f RMS a step, %zu steps\n",
+                          key, value, rate.rms_residual, rate.hours);
         out += line;
     };
     put("accumulation_rate_wetness", fit.params.accumulation_rate_wetness, fit.wetness);

@@ -19,29 +19,32 @@ namespace petrichor::cli {
 /// How the physical model is run.
 struct PhysicalRun {
     SiteOptions site;
-    std::string phase = "linear";    ///< linear, humidity, wet-bulb, threshold
-    std::optional<weather::Hypsometry> cracks, puddles;  ///< of a height map, instead of the surface's own
+    std::string phase = "linear";  ///< linear, humidity, wet-bulb, threshold
+    std::optional<weather::Hypsometry> cracks,
+        puddles;  ///< of a height map, instead of the surface's own
     double step_s = 3600.0;
     double every_s = 3600.0;
     std::optional<double> from_s, to_s;  ///< of the rows; the run itself begins with the file
-    std::string resume;              ///< text of a checkpoint, or empty
+    std::string resume;                  ///< text of a checkpoint, or empty
     std::string* checkpoint = nullptr;
-    int members = 0;                 ///< > 0: an ensemble, percentiles instead of one state
+    int members = 0;  ///< > 0: an ensemble, percentiles instead of one state
     std::uint64_t seed = 1;
-    int threads = 0;                 ///< 0 becomes all cores at the command line; else >= 1
-    bool sensitivity = false;        ///< adds the sensitivity table to notes and JSON
-    std::string observed;            ///< text of observations to compare with, or empty
-    std::string observed_file;       ///< its name
+    int threads = 0;            ///< 0 becomes all cores at the command line; else >= 1
+    bool sensitivity = false;   ///< adds the sensitivity table to notes and JSON
+    std::string observed;       ///< text of observations to compare with, or empty
+    std::string observed_file;  ///< its name
 };
 
-/// Parameters of the model that a run asks for. Throws Error for a surface or phase law that does not exist.
+/// Parameters of the model that a run asks for. Throws Error for a surface or phase law that does
+/// not exist.
 weather::PhysicalParams physical_params(const PhysicalRun& run);
 
 /// Runs the physical model over a weather file that has been read.
 ///
-/// The notes hold what was read, missing and filled, and so does the JSON (key "read"). Row 0 is the initial state.
-/// Columns: physical_table.h; time_utc is written beside time_s.
-SimulationTable run_physical(const weather::ReadResult& read, const std::string& name, const PhysicalRun& run);
+/// The notes hold what was read, missing and filled, and so does the JSON (key "read"). Row 0 is
+/// the initial state. Columns: physical_table.h; time_utc is written beside time_s.
+SimulationTable run_physical(const weather::ReadResult& read, const std::string& name,
+                             const PhysicalRun& run);
 
 /// The fitted rates as a TOML [artist] table with the residuals as comments.
 std::string fitted_artist_toml(const weather::ReadResult& read, const PhysicalRun& run);

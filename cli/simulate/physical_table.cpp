@@ -14,16 +14,56 @@ namespace {
 using weather::Field;
 
 constexpr const char* kColumns[] = {
-    "time_s", "air_temp_c", "rel_humidity_pct", "wind_m_s", "pressure_pa", "sw_down_w_m2", "lw_down_w_m2", "cloud_fraction",
-    "rain_kg_m2_s", "snowfall_kg_m2_s",
-    "snow_depth_m", "swe_kg_m2", "snow_liquid_kg_m2", "snow_density_kg_m3", "snow_temp_c", "snow_albedo", "surface_temp_c",
-    "ground_temp_5cm_c", "film_kg_m2", "crack_kg_m2", "puddle_kg_m2", "ice_kg_m2", "film_ice_kg_m2", "crack_ice_kg_m2",
+    "time_s",
+    "air_temp_c",
+    "rel_humidity_pct",
+    "wind_m_s",
+    "pressure_pa",
+    "sw_down_w_m2",
+    "lw_down_w_m2",
+    "cloud_fraction",
+    "rain_kg_m2_s",
+    "snowfall_kg_m2_s",
+    "snow_depth_m",
+    "swe_kg_m2",
+    "snow_liquid_kg_m2",
+    "snow_density_kg_m3",
+    "snow_temp_c",
+    "snow_albedo",
+    "surface_temp_c",
+    "ground_temp_5cm_c",
+    "film_kg_m2",
+    "crack_kg_m2",
+    "puddle_kg_m2",
+    "ice_kg_m2",
+    "film_ice_kg_m2",
+    "crack_ice_kg_m2",
     "puddle_ice_kg_m2",
-    "sw_net_w_m2", "lw_net_w_m2", "sensible_w_m2", "latent_w_m2", "ground_heat_w_m2", "melt_w_m2", "runoff_kg_m2",
-    "total_precip_kg_m2", "total_evaporation_kg_m2", "total_sublimation_kg_m2", "total_drainage_kg_m2",
-    "total_infiltration_kg_m2", "total_melt_kg_m2", "mass_residual_kg_m2", "energy_residual_w_m2",
-    "fog_extinction_1_m", "rain_drop_mean_mm",
-    "rainfall", "rain", "snowfall", "wetness", "cracks", "puddles", "water_to_snow", "snow",
+    "sw_net_w_m2",
+    "lw_net_w_m2",
+    "sensible_w_m2",
+    "latent_w_m2",
+    "ground_heat_w_m2",
+    "melt_w_m2",
+    "runoff_kg_m2",
+    "total_precip_kg_m2",
+    "total_evaporation_kg_m2",
+    "total_sublimation_kg_m2",
+    "total_drainage_kg_m2",
+    "total_infiltration_kg_m2",
+    "total_melt_kg_m2",
+    "mass_residual_kg_m2",
+    "energy_residual_w_m2",
+    "fog_extinction_1_m",
+    "rain_drop_mean_mm",
+    "rainfall",
+    "rain",
+    "snowfall",
+    "wetness",
+    "cracks",
+    "puddles",
+    "water_to_snow",
+    "snow",
 };
 
 PlotSeries line(const char* column, const char* label, const char* color, double scale = 1.0)
@@ -43,8 +83,10 @@ const std::vector<std::string>& physical_columns()
     return kNames;
 }
 
-std::vector<double> physical_row(const weather::ForcingTable& table, const weather::Surface& surface, const weather::CellState& c,
-                                 const weather::CellState& initial, std::int64_t us, double interval_s)
+std::vector<double> physical_row(const weather::ForcingTable& table,
+                                 const weather::Surface& surface, const weather::CellState& c,
+                                 const weather::CellState& initial, std::int64_t us,
+                                 double interval_s)
 {
     const auto at = [&](Field f) { return weather::value_at(table, f, us); };
     const auto d = weather::diagnostics(c);
@@ -53,23 +95,71 @@ std::vector<double> physical_row(const weather::ForcingTable& table, const weath
     const double visibility = at(Field::Visibility);
     const double rain_mm_h = c.step_rain * per_s * 3600.0;
     return {
-        static_cast<double>(us - table.time_us.front()) * 1e-6, at(Field::AirTemp) - weather::kZeroCelsiusK, at(Field::RelHumidity), at(Field::Wind),
-        at(Field::Pressure), at(Field::Shortwave), at(Field::Longwave), at(Field::Cloud), c.step_rain * per_s, c.step_snow * per_s,
-        d.snow_depth_m, d.swe_kg_m2, d.snow_liquid_kg_m2, d.snow_density_kg_m3, d.snow_temp_k - weather::kZeroCelsiusK,
-        c.snow_albedo, c.surface_temp_c, c.ground_temp_c[2], c.film, c.crack, c.puddle, d.surface_ice_kg_m2, c.film_ice, c.crack_ice,
-        c.puddle_ice, c.flux_shortwave, c.flux_longwave, c.flux_sensible, c.flux_latent, c.flux_ground, c.flux_melt, c.step_runoff,
-        c.total_precip, c.total_evaporation, c.total_sublimation, c.total_drainage, c.total_infiltration, c.total_melt,
-        weather::mass_balance_kg_m2(c, initial), weather::energy_residual_rms_w_m2(c),
-        visibility > 0.0 ? weather::extinction_1_m(visibility, weather::VisibilityKind::Optical5Percent) : 0.0,
+        static_cast<double>(us - table.time_us.front()) * 1e-6,
+        at(Field::AirTemp) - weather::kZeroCelsiusK,
+        at(Field::RelHumidity),
+        at(Field::Wind),
+        at(Field::Pressure),
+        at(Field::Shortwave),
+        at(Field::Longwave),
+        at(Field::Cloud),
+        c.step_rain * per_s,
+        c.step_snow * per_s,
+        d.snow_depth_m,
+        d.swe_kg_m2,
+        d.snow_liquid_kg_m2,
+        d.snow_density_kg_m3,
+        d.snow_temp_k - weather::kZeroCelsiusK,
+        c.snow_albedo,
+        c.surface_temp_c,
+        c.ground_temp_c[2],
+        c.film,
+        c.crack,
+        c.puddle,
+        d.surface_ice_kg_m2,
+        c.film_ice,
+        c.crack_ice,
+        c.puddle_ice,
+        c.flux_shortwave,
+        c.flux_longwave,
+        c.flux_sensible,
+        c.flux_latent,
+        c.flux_ground,
+        c.flux_melt,
+        c.step_runoff,
+        c.total_precip,
+        c.total_evaporation,
+        c.total_sublimation,
+        c.total_drainage,
+        c.total_infiltration,
+        c.total_melt,
+        weather::mass_balance_kg_m2(c, initial),
+        weather::energy_residual_rms_w_m2(c),
+        visibility > 0.0
+            ? weather::extinction_1_m(visibility, weather::VisibilityKind::Optical5Percent)
+            : 0.0,
         rain_mm_h > 1e-6 ? weather::rain_drops(rain_mm_h).mean_diameter_mm : 0.0,
-        masks.rainfall, masks.rain, masks.snowfall, masks.wetness, masks.cracks, masks.puddles, masks.water_to_snow, masks.snow,
+        masks.rainfall,
+        masks.rain,
+        masks.snowfall,
+        masks.wetness,
+        masks.cracks,
+        masks.puddles,
+        masks.water_to_snow,
+        masks.snow,
     };
 }
 
 std::vector<PlotPanel> physical_panels()
 {
-    const auto free = [](const char* title, const char* group, std::vector<PlotSeries> series, bool forcing = false) {
-        return PlotPanel{.title = title, .forcing = forcing, .series = std::move(series), .low = 0.0, .high = 0.0, .group = group};
+    const auto free = [](const char* title, const char* group, std::vector<PlotSeries> series,
+                         bool forcing = false) {
+        return PlotPanel{.title = title,
+                         .forcing = forcing,
+                         .series = std::move(series),
+                         .low = 0.0,
+                         .high = 0.0,
+                         .group = group};
     };
     const auto unit = [](const char* title, const char* group, std::vector<PlotSeries> series) {
         return PlotPanel{.title = title, .series = std::move(series), .group = group};
@@ -77,18 +167,24 @@ std::vector<PlotPanel> physical_panels()
     return {
         free("air temperature, \u00b0C", "weather", {line("air_temp_c", "", "#c8442e")}, true),
         free("precipitation, mm/h", "weather",
-             {area("rain_kg_m2_s", "rain", "#1d6fd1", 3600.0), area("snowfall_kg_m2_s", "snow", "#7a8aa8", 3600.0)}, true),
-        free("radiation, W/m\u00b2", "heat", {line("sw_down_w_m2", "sun", "#e09c14"), line("lw_down_w_m2", "sky", "#8450b0")}, true),
+             {area("rain_kg_m2_s", "rain", "#1d6fd1", 3600.0),
+              area("snowfall_kg_m2_s", "snow", "#7a8aa8", 3600.0)},
+             true),
+        free("radiation, W/m\u00b2", "heat",
+             {line("sw_down_w_m2", "sun", "#e09c14"), line("lw_down_w_m2", "sky", "#8450b0")},
+             true),
         free("snow depth, m", "snow", {area("snow_depth_m", "model", "#4a80bd")}),
         free("snow water equivalent, kg/m\u00b2", "snow", {line("swe_kg_m2", "model", "#1f5f9e")}),
         unit("snow albedo", "albedo", {line("snow_albedo", "model", "#8a6d3b")}),
         free("surface temperature, \u00b0C", "heat", {line("surface_temp_c", "model", "#c8442e")}),
         free("water on the ground, kg/m\u00b2", "water",
-             {line("film_kg_m2", "film", "#0e9f8e"), line("crack_kg_m2", "cracks", "#9162d6"), line("puddle_kg_m2", "puddles", "#3b6fe0"),
-              line("ice_kg_m2", "ice", "#85929e")}),
+             {line("film_kg_m2", "film", "#0e9f8e"), line("crack_kg_m2", "cracks", "#9162d6"),
+              line("puddle_kg_m2", "puddles", "#3b6fe0"), line("ice_kg_m2", "ice", "#85929e")}),
         unit("water masks, 0..1", "masks",
-             {line("wetness", "wetness", "#0e9f8e"), line("cracks", "cracks", "#9162d6"), line("puddles", "puddles", "#3b6fe0")}),
-        unit("snow masks, 0..1", "masks", {area("snow", "snow", "#4a80bd"), line("water_to_snow", "frozen", "#d97706")}),
+             {line("wetness", "wetness", "#0e9f8e"), line("cracks", "cracks", "#9162d6"),
+              line("puddles", "puddles", "#3b6fe0")}),
+        unit("snow masks, 0..1", "masks",
+             {area("snow", "snow", "#4a80bd"), line("water_to_snow", "frozen", "#d97706")}),
     };
 }
 
@@ -107,11 +203,14 @@ void add_physical_events(SimulationTable& table)
     for (const Watch& w : watches) {
         for (std::size_t i = 1; i < table.rows.size() && table.events.size() < 400; ++i) {
             const double before = table.rows[i - 1][w.column], now = table.rows[i][w.column];
-            if (before <= w.level && now > w.level && *w.rises) table.events.push_back({table.rows[i][0], w.rises});
-            if (before > w.level && now <= w.level && *w.falls) table.events.push_back({table.rows[i][0], w.falls});
+            if (before <= w.level && now > w.level && *w.rises)
+                table.events.push_back({table.rows[i][0], w.rises});
+            if (before > w.level && now <= w.level && *w.falls)
+                table.events.push_back({table.rows[i][0], w.falls});
         }
     }
-    std::stable_sort(table.events.begin(), table.events.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    std::stable_sort(table.events.begin(), table.events.end(),
+                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
 }
 
 }  // namespace petrichor::cli

@@ -12,18 +12,21 @@
 
 namespace petrichor::cli {
 
-/// The columns of the physical model's table, in order: time_s, the forcing, every state in SI, fluxes, running totals
-/// and residuals, then the 0..1 masks.
+/// The columns of the physical model's table, in order: time_s, the forcing, every state in SI,
+/// fluxes, running totals and residuals, then the 0..1 masks.
 const std::vector<std::string>& physical_columns();
 
 /// One row of that table: the state at `us`, whose last step took `interval_s` seconds.
-std::vector<double> physical_row(const weather::ForcingTable& table, const weather::Surface& surface, const weather::CellState& state,
-                                 const weather::CellState& initial, std::int64_t us, double interval_s);
+std::vector<double> physical_row(const weather::ForcingTable& table,
+                                 const weather::Surface& surface, const weather::CellState& state,
+                                 const weather::CellState& initial, std::int64_t us,
+                                 double interval_s);
 
 /// What plots show of it: groups weather, snow, heat, water, masks.
 std::vector<PlotPanel> physical_panels();
 
-/// Adds "snow on the ground", "snow gone", "puddles full", "everything frozen", ... in order of time.
+/// Adds "snow on the ground", "snow gone", "puddles full", "everything frozen", ... in order of
+/// time.
 void add_physical_events(SimulationTable& table);
 
 }  // namespace petrichor::cli

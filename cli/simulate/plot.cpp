@@ -62,33 +62,43 @@ struct TimeAxis {
 };
 
 // A curve as pixels can show it: of many rows in one place only the lowest and the highest.
-std::vector<DrawnPoint> curve_points(const SimulationTable& table, const TimeAxis& time, const std::vector<double>& y)
+std::vector<DrawnPoint> curve_points(const SimulationTable& table, const TimeAxis& time,
+                                     const std::vector<double>& y)
 {
     std::vector<DrawnPoint> points;
     const std::size_t count = y.size();
-    const std::size_t bucket = count <= kMostPoints ? 1 : (2 * count + kMostPoints - 1) / kMostPoints;  // two points each
+    const std::size_t bucket =
+        count <= kMostPoints ? 1 : (2 * count + kMostPoints - 1) / kMostPoints;  // two points each
     for (std::size_t begin = 0; begin < count; begin += bucket) {
         const std::size_t end = std::min(begin + bucket, count);
-        const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin), y.begin() + static_cast<std::ptrdiff_t>(end));
-        std::size_t first = static_cast<std::size_t>(low - y.begin()), second = static_cast<std::size_t>(high - y.begin());
+        const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                     y.begin() + static_cast<std::ptrdiff_t>(end));
+        std::size_t first = static_cast<std::size_t>(low - y.begin()),
+                    second = static_cast<std::size_t>(high - y.begin());
         if (first > second) std::swap(first, second);
         points.push_back({time.x(table.rows[first][0]), y[first]});
         if (second != first) points.push_back({time.x(table.rows[second][0]), y[second]});
     }
-    if (count > 0 && points.back().x < time.x(table.rows.back()[0])) points.push_back({time.x(table.rows.back()[0]), y.back()});
+    if (count > 0 && points.back().x < time.x(table.rows.back()[0]))
+        points.push_back({time.x(table.rows.back()[0]), y.back()});
     return points;
 }
 
 // Title at the left with its score, legend at the right.
 void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel, double top)
 {
-    drawing.shapes.push_back(DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
+    drawing.shapes.push_back(
+        DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
     double title_end = kLeft + 1.08 * text_width(panel.title, 13.0) + 18.0;
     for (const Score& score : table.scores) {
-        const bool here = !panel.dots.empty() && std::any_of(panel.series.begin(), panel.series.end(), [&](const PlotSeries& s) { return s.column == score.column; });
+        const bool here =
+            !panel.dots.empty() &&
+            std::any_of(panel.series.begin(), panel.series.end(),
+                        [&](const PlotSeries& s) { return s.column == score.column; });
         if (!here) continue;
         char text[120];
-        std::snprintf(text, sizeof text, "RMSE %.3g %s, bias %+.2g", score.rmse, score.unit.c_str(), score.bias);
+        std::snprintf(text, sizeof text, "RMSE %.3g %s, bias %+.2g", score.rmse, score.unit.c_str(),
+                      score.bias);
         add_label(drawing, {title_end, top - 10}, Anchor::Start, text);
     }
     double legend_x = kWidth - kRight;
@@ -102,13 +112,14 @@ void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel
         if (series->label.empty()) continue;
         add_label(drawing, {legend_x, top - 10}, Anchor::End, series->label);
         legend_x -= text_width(series->label, 12.0) + 8.0;
-        drawing.shapes.push_back(DrawnLine{{{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
+        drawing.shapes.push_back(DrawnLine{
+            {{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
         legend_x -= 34.0;
     }
 }
 
-void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series, const TimeAxis& time,
-                const std::function<double(double)>& y, double bottom)
+void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series,
+                const TimeAxis& time, const std::function<double(double)>& y, double bottom)
 {
     const auto heights = [&](const std::string& name) {
         std::vector<double> values;
@@ -123,7 +134,8 @@ void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries
         band.points.insert(band.points.end(), upper.rbegin(), upper.rend());
         if (!band.points.empty()) drawing.shapes.push_back(std::move(band));
     }
-    DrawnLine curve{curve_points(table, time, heights(series.column)), series.color, table.rows.size() > 1500 ? 1.3 : 2.0, false};
+    DrawnLine curve{curve_points(table, time, heights(series.column)), series.color,
+                    table.rows.size() > 1500 ? 1.3 : 2.0, false};
     if (curve.points.empty()) return;
     if (series.filled) {
         DrawnArea area{curve.points, series.color, 0.22};
@@ -134,8 +146,9 @@ void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries
     drawing.shapes.push_back(std::move(curve));
 }
 
-void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel, const TimeAxis& time,
-               const std::vector<TimeTick>& time_ticks, double top, double height)
+void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
+               const TimeAxis& time, const std::vector<TimeTick>& time_ticks, double top,
+               double height)
 {
     const auto [low, high] = axis_range(table, panel);
     const auto y = [&, low = low, high = high](double value) {
@@ -148,16 +161,19 @@ void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& 
         add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
         add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End, number(tick, decimals_of(ticks)));
     }
-    for (const TimeTick& tick : time_ticks) add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
+    for (const TimeTick& tick : time_ticks)
+        add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
     if (low < 0.0 && high > 0.0) add_line(drawing, {kLeft, y(0)}, {right, y(0)}, kMark);
     for (std::size_t i = 0; i < std::min(table.events.size(), kMostEvents); ++i) {
         const double x = time.x(table.events[i].time_s);
         add_line(drawing, {x, top}, {x, top + height}, kMark, true);
     }
-    for (const PlotSeries& series : panel.series) add_series(drawing, table, series, time, y, y(low));
+    for (const PlotSeries& series : panel.series)
+        add_series(drawing, table, series, time, y, y(low));
     for (const PlotDots& dots : panel.dots) {
         DrawnDots drawn{{}, dots.color, dots.values.size() > 150 ? 1.7 : 2.4};
-        for (std::size_t i = 0; i < dots.values.size(); ++i) drawn.points.push_back({time.x(dots.time_s[i]), y(dots.values[i])});
+        for (std::size_t i = 0; i < dots.values.size(); ++i)
+            drawn.points.push_back({time.x(dots.time_s[i]), y(dots.values[i])});
         drawing.shapes.push_back(std::move(drawn));
     }
 }
@@ -179,8 +195,8 @@ bool shows_something(const SimulationTable& table, const PlotPanel& panel)
 
 std::size_t column_index(const SimulationTable& table, const std::string& name)
 {
-    return static_cast<std::size_t>(
-        std::find(table.columns.begin(), table.columns.end(), name) - table.columns.begin());
+    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
+                                    table.columns.begin());
 }
 
 std::vector<std::size_t> rows_to_draw(const SimulationTable& table, std::size_t most)
@@ -203,8 +219,8 @@ std::vector<double> axis_ticks(double low, double high, int most, bool time)
     }
     if (time) {
         std::erase_if(steps, [](double step) { return step >= 50.0; });
-        for (double step : {60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0, 7200.0, 10800.0, 21600.0,
-                            43200.0}) {
+        for (double step :
+             {60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0, 7200.0, 10800.0, 21600.0, 43200.0}) {
             steps.push_back(step);
         }
         for (double days : {1., 2., 5., 10., 20., 50., 100., 200., 500., 1000., 5000., 20000.}) {
@@ -278,14 +294,17 @@ std::vector<PlotPanel> chosen_panels(const SimulationTable& table, const std::st
     }
     std::vector<std::string> groups, asked;
     for (const PlotPanel& panel : table.panels) {
-        if (!panel.group.empty() && std::find(groups.begin(), groups.end(), panel.group) == groups.end()) groups.push_back(panel.group);
+        if (!panel.group.empty() &&
+            std::find(groups.begin(), groups.end(), panel.group) == groups.end())
+            groups.push_back(panel.group);
     }
     for (std::size_t at = 0; at <= wish.size();) {
         const std::size_t end = std::min(wish.find(',', at), wish.size());
         asked.push_back(wish.substr(at, end - at));
         at = end + 1;
         if (std::find(groups.begin(), groups.end(), asked.back()) == groups.end()) {
-            throw Error("--plot: there is no \"" + asked.back() + "\"", "Use auto, all, or some of: " + join_words(groups) + ".");
+            throw Error("--plot: there is no \"" + asked.back() + "\"",
+                        "Use auto, all, or some of: " + join_words(groups) + ".");
         }
     }
     for (const PlotPanel& panel : table.panels) {
@@ -300,11 +319,14 @@ namespace {
 std::string subtitle(const SimulationTable& table)
 {
     if (!table.dated || table.rows.empty()) return "";
-    return time_text(table, table.rows.front()[0]) + " to " + time_text(table, table.rows.back()[0]) + " UTC";
+    return time_text(table, table.rows.front()[0]) + " to " +
+           time_text(table, table.rows.back()[0]) + " UTC";
 }
 
-// The numbered list of events below the panels, in two columns, and their numbers under the time axis.
-void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& time, double numbers_y, double list_top)
+// The numbered list of events below the panels, in two columns, and their numbers under the time
+// axis.
+void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& time,
+                double numbers_y, double list_top)
 {
     const std::size_t count = std::min(table.events.size(), kMostEvents);
     const std::size_t half = (count + 1) / 2;
@@ -320,7 +342,8 @@ void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& 
         const double list_y = list_top + 10.0 + 18.0 * static_cast<double>(i < half ? i : i - half);
         add_label(drawing, {list_x + 14, list_y}, Anchor::End, std::to_string(i + 1));
         const bool dated = table.dated;  // dates are equally long, numbers are not
-        add_label(drawing, {list_x + (dated ? 28 : 98), list_y}, dated ? Anchor::Start : Anchor::End, time_text(table, event.time_s));
+        add_label(drawing, {list_x + (dated ? 28 : 98), list_y},
+                  dated ? Anchor::Start : Anchor::End, time_text(table, event.time_s));
         add_label(drawing, {list_x + (dated ? 152 : 112), list_y}, Anchor::Start, event.text);
     }
 }
@@ -332,7 +355,8 @@ Drawing plot_of(const SimulationTable& table)
     Drawing drawing;
     drawing.width = kWidth;
     const std::string under = subtitle(table);
-    const double head = kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
+    const double head =
+        kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
     drawing.height = head + kBottom - kPanelGap + 22.0;
     for (const PlotPanel& panel : table.panels) {
         drawing.height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
@@ -346,15 +370,21 @@ Drawing plot_of(const SimulationTable& table)
         time.first_s = table.rows.front()[0];
         time.last_s = table.rows.back()[0];
     }
-    const auto ticks = table.dated ? calendar_ticks(table.utc_start_us, time.first_s, time.last_s, 12)
-                                   : elapsed_ticks(time.first_s, time.last_s, 12);
+    const auto ticks = table.dated
+                           ? calendar_ticks(table.utc_start_us, time.first_s, time.last_s, 12)
+                           : elapsed_ticks(time.first_s, time.last_s, 12);
     drawing.shapes.push_back(
-        DrawnText{{kLeft, 26}, table.title + " (" + table.model + " model, " + table.mode + ")",
-                  kInk, 17.0, Anchor::Start, true});
+        DrawnText{{kLeft, 26},
+                  table.title + " (" + table.model + " model, " + table.mode + ")",
+                  kInk,
+                  17.0,
+                  Anchor::Start,
+                  true});
     if (!under.empty()) add_label(drawing, {kLeft, 46}, Anchor::Start, under);
     double line_y = under.empty() ? 46.0 : 63.0;
     for (const std::string& warning : table.warnings) {
-        drawing.shapes.push_back(DrawnText{{kLeft, line_y}, warning, kWarning, 12.0, Anchor::Start, false});
+        drawing.shapes.push_back(
+            DrawnText{{kLeft, line_y}, warning, kWarning, 12.0, Anchor::Start, false});
         line_y += 17.0;
     }
     double top = head + 18.0;
@@ -366,7 +396,9 @@ Drawing plot_of(const SimulationTable& table)
     const double bottom = top - kPanelGap;
     for (const TimeTick& tick : ticks) {
         const double room = 0.5 * text_width(tick.label, 12.0);
-        add_label(drawing, {std::clamp(time.x(tick.time_s), room, kWidth - room - 2.0), bottom + 34}, Anchor::Middle, tick.label);
+        add_label(drawing,
+                  {std::clamp(time.x(tick.time_s), room, kWidth - room - 2.0), bottom + 34},
+                  Anchor::Middle, tick.label);
     }
     add_events(drawing, table, time, bottom + 14, list_top);
     return drawing;
@@ -375,7 +407,8 @@ Drawing plot_of(const SimulationTable& table)
 std::string svg_plot(const SimulationTable& table)
 {
     std::string svg = to_svg(plot_of(table));
-    svg.insert(svg.find("\n") + 1, "<desc>" + escaped(table.title) + ", state " + hash_text(table.state_hash) + "</desc>\n");
+    svg.insert(svg.find("\n") + 1, "<desc>" + escaped(table.title) + ", state " +
+                                       hash_text(table.state_hash) + "</desc>\n");
     return svg;
 }
 

@@ -10,14 +10,15 @@
 
 namespace petrichor::cli {
 
-/// A plot of the panels of a table, forcing above, state below, over one time axis (dates where the table has them)
-/// with the first 40 events as numbered dashed lines, and its warnings under the title. 960 units wide.
+/// A plot of the panels of a table, forcing above, state below, over one time axis (dates where the
+/// table has them) with the first 40 events as numbered dashed lines, and its warnings under the
+/// title. 960 units wide.
 Drawing plot_of(const SimulationTable& table);
 /// The same as self-contained SVG.
 std::string svg_plot(const SimulationTable& table);
 
-/// Up to about `most` round numbers inside low..high, evenly spaced (steps of 1, 2, 5 x 10^n; for times
-/// also minutes, hours and days).
+/// Up to about `most` round numbers inside low..high, evenly spaced (steps of 1, 2, 5 x 10^n; for
+/// times also minutes, hours and days).
 std::vector<double> axis_ticks(double low, double high, int most, bool time);
 
 /// "12 s", "3 min", "2 h", "5 d": a time of the axis with its spacing in mind.
@@ -29,8 +30,8 @@ std::pair<double, double> axis_range(const SimulationTable& table, const PlotPan
 /// Decimals that tell the ticks of an axis apart.
 int decimals_of(const std::vector<double>& ticks);
 
-/// The panels that `wish` asks for: "all"; "auto", without those of a state that never shows anything; else the groups
-/// named, separated by commas, and those of the weather above them.
+/// The panels that `wish` asks for: "all"; "auto", without those of a state that never shows
+/// anything; else the groups named, separated by commas, and those of the weather above them.
 ///   throws  Error that lists the groups for any other word
 std::vector<PlotPanel> chosen_panels(const SimulationTable& table, const std::string& wish);
 

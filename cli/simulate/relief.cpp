@@ -23,7 +23,9 @@ weather::Hypsometry hypsometry_of(const texproc::Hollows& hollows, double range_
     const double piece_mm = depth_mm / static_cast<double>(relief.area_fraction.size() - 1);
     relief.volume_mm.assign(relief.area_fraction.size(), 0.0);
     for (std::size_t i = 1; i < relief.volume_mm.size(); ++i) {
-        relief.volume_mm[i] = relief.volume_mm[i - 1] + 0.5 * piece_mm * (relief.area_fraction[i - 1] + relief.area_fraction[i]);
+        relief.volume_mm[i] =
+            relief.volume_mm[i - 1] +
+            0.5 * piece_mm * (relief.area_fraction[i - 1] + relief.area_fraction[i]);
     }
     return relief;
 }
@@ -31,8 +33,9 @@ weather::Hypsometry hypsometry_of(const texproc::Hollows& hollows, double range_
 std::string described(const char* name, const weather::Hypsometry& relief)
 {
     char text[120];
-    std::snprintf(text, sizeof text, "%s up to %.2f mm deep on %.1f %% of the area, %.3f kg/m2", name, relief.depth_mm,
-                  100.0 * weather::wet_area(relief, relief.depth_mm), relief.capacity_kg_m2());
+    std::snprintf(text, sizeof text, "%s up to %.2f mm deep on %.1f %% of the area, %.3f kg/m2",
+                  name, relief.depth_mm, 100.0 * weather::wet_area(relief, relief.depth_mm),
+                  relief.capacity_kg_m2());
     return text;
 }
 
@@ -41,22 +44,27 @@ std::string described(const char* name, const weather::Hypsometry& relief)
 Relief read_relief(const std::filesystem::path& height_map, double range_m)
 {
     if (!(range_m > 0.0 && range_m <= 10.0)) {
-        throw Error("--height-range-m must be above 0 and at most 10, got " + std::to_string(range_m),
-                    "Give the height difference between black and white in metres, for example 0.02.");
+        throw Error(
+            "--height-range-m must be above 0 and at most 10, got " + std::to_string(range_m),
+            "Give the height difference between black and white in metres, for example 0.02.");
     }
     Image height = texproc::read_image(height_map);
     for (const float v : height.pixels) {
-        if (!std::isfinite(v)) throw Error("height map: " + height_map.string() + " has values that are not finite", "Repair the map.");
+        if (!std::isfinite(v))
+            throw Error("height map: " + height_map.string() + " has values that are not finite",
+                        "Repair the map.");
     }
     Relief relief;
     const texproc::Hollows cracks = texproc::cracks(height);
     relief.cracks = hypsometry_of(cracks, range_m);
     // Puddles are what the hollows hold above full cracks.
     for (int y = 0; y < height.height; ++y) {
-        for (int x = 0; x < height.width; ++x) height.at(x, y, 0) += cracks.deepest * cracks.depth.at(x, y, 0);
+        for (int x = 0; x < height.width; ++x)
+            height.at(x, y, 0) += cracks.deepest * cracks.depth.at(x, y, 0);
     }
     relief.puddles = hypsometry_of(texproc::puddles(height), range_m);
-    relief.note = "relief of " + height_map.filename().string() + ": " + described("cracks", relief.cracks) + "; " + described("puddles", relief.puddles);
+    relief.note = "relief of " + height_map.filename().string() + ": " +
+                  described("cracks", relief.cracks) + "; " + described("puddles", relief.puddles);
     return relief;
 }
 

@@ -13,7 +13,8 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMostRows = 4000;
 
-// What the script draws: times, panels with their values, events. Seven digits are plenty for pixels.
+// What the script draws: times, panels with their values, events. Seven digits are plenty for
+// pixels.
 std::string data_json(const SimulationTable& table)
 {
     const auto rows = rows_to_draw(table, kMostRows);
@@ -32,10 +33,14 @@ std::string data_json(const SimulationTable& table)
             const auto numbers = [&](const std::string& name) {
                 ordered_json out = ordered_json::array();
                 const std::size_t at = column_index(table, name);
-                for (std::size_t r : rows) out.push_back(short_number(line.scale * table.rows[r][at]));
+                for (std::size_t r : rows)
+                    out.push_back(short_number(line.scale * table.rows[r][at]));
                 return out;
             };
-            ordered_json entry{{"label", line.label}, {"color", line.color}, {"filled", line.filled}, {"values", numbers(line.column)}};
+            ordered_json entry{{"label", line.label},
+                               {"color", line.color},
+                               {"filled", line.filled},
+                               {"values", numbers(line.column)}};
             if (!line.band_low.empty()) {
                 entry["low"] = numbers(line.band_low);
                 entry["high"] = numbers(line.band_high);
@@ -233,11 +238,15 @@ std::string spelt_out(const std::string& column)
 std::string scores_table(const SimulationTable& table)
 {
     if (table.scores.empty()) return "";
-    std::string html = "<table class=\"scores\"><tr><th>model against observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
+    std::string html =
+        "<table class=\"scores\"><tr><th>model against "
+        "observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
     for (const Score& s : table.scores) {
         char cells[160];
-        std::snprintf(cells, sizeof cells, "<td>%.3g %s</td><td>%+.2g</td><td>%zu</td></tr>\n", s.rmse, s.unit.c_str(), s.bias, s.count);
-        html += "<tr><td>" + escaped(spelt_out(s.column)) + " <small>" + escaped(s.how) + "</small></td>" + cells;
+        std::snprintf(cells, sizeof cells, "<td>%.3g %s</td><td>%+.2g</td><td>%zu</td></tr>\n",
+                      s.rmse, s.unit.c_str(), s.bias, s.count);
+        html += "<tr><td>" + escaped(spelt_out(s.column)) + " <small>" + escaped(s.how) +
+                "</small></td>" + cells;
     }
     return html + "</table>\n";
 }
@@ -249,29 +258,32 @@ std::string html_report(const SimulationTable& table)
     const std::string title = escaped(table.title.empty() ? "weather" : table.title);
     std::string notes, warnings;
     for (const std::string& note : table.notes) notes += "<p>" + escaped(note) + "</p>\n";
-    for (const std::string& warning : table.warnings) warnings += "<p class=\"warn\">" + escaped(warning) + "</p>\n";
+    for (const std::string& warning : table.warnings)
+        warnings += "<p class=\"warn\">" + escaped(warning) + "</p>\n";
     if (table.rows.size() > rows_to_draw(table, kMostRows).size()) {
         notes += "<p>" + std::to_string(rows_to_draw(table, kMostRows).size()) + " of " +
                  std::to_string(table.rows.size()) + " rows are drawn; the CSV holds all.</p>\n";
     }
     return std::string("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           title + " - petrichor</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n" +
-           "<h1>" + title + "</h1>\n<p class=\"sub\">" + escaped(table.model) + " model, " +
-           escaped(table.mode) + "; state " + hash_text(table.state_hash) + "</p>\n" +
-           warnings + scores_table(table) + "<noscript>" + svg_plot(table) + "</noscript>\n" +
+           title + " - petrichor</title>\n<style>" + kStyle +
+           "</style>\n</head>\n<body>\n<main>\n" + "<h1>" + title + "</h1>\n<p class=\"sub\">" +
+           escaped(table.model) + " model, " + escaped(table.mode) + "; state " +
+           hash_text(table.state_hash) + "</p>\n" + warnings + scores_table(table) + "<noscript>" +
+           svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "
            "<button id=\"in\" aria-label=\"zoom in\">+</button> "
            "<button id=\"all\">all</button></span></div>\n"
            "<div id=\"charts\" tabindex=\"0\"></div></section>\n"
            "<section class=\"card\" id=\"eventcard\"><h2 style=\"font-size:1rem;margin:0 0 6px\">"
-           "Events</h2><ol id=\"events\"></ol></section>\n<footer><details><summary>What was read, filled and left out</summary>" +
+           "Events</h2><ol id=\"events\"></ol></section>\n<footer><details><summary>What was read, "
+           "filled and left out</summary>" +
            notes +
-           "</details><p>Drag to move, + and - or pinch to zoom (with a mouse: Shift and wheel); arrow keys "
+           "</details><p>Drag to move, + and - or pinch to zoom (with a mouse: Shift and wheel); "
+           "arrow keys "
            "read values.</p></footer>\n</main>\n<script type=\"application/json\" id=\"data\">" +
-           data_json(table) + "</script>\n<script>" + kScript +
-           "</script>\n</body>\n</html>\n";
+           data_json(table) + "</script>\n<script>" + kScript + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace petrichor::cli

@@ -31,7 +31,11 @@ ordered_json head_of(const SimulationTable& table)
     if (!table.scores.empty()) {
         ordered_json scores = ordered_json::object();
         for (const Score& s : table.scores) {
-            scores[s.column] = {{"rmse", s.rmse}, {"bias", s.bias}, {"unit", s.unit}, {"count", s.count}, {"how", s.how}};
+            scores[s.column] = {{"rmse", s.rmse},
+                                {"bias", s.bias},
+                                {"unit", s.unit},
+                                {"count", s.count},
+                                {"how", s.how}};
         }
         json["scores"] = scores;
     }
@@ -106,8 +110,7 @@ std::string json_summary(const SimulationTable& table)
             low = std::min(low, row[c]);
             high = std::max(high, row[c]);
         }
-        columns[table.columns[c]] = {
-            {"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
+        columns[table.columns[c]] = {{"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
     }
     json["columns"] = columns;
     return json.dump(2) + "\n";

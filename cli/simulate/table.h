@@ -12,9 +12,9 @@ namespace petrichor::cli {
 struct PlotSeries {
     std::string column;  ///< name of a column of the table
     std::string label;
-    std::string color;   ///< "#rrggbb"
-    bool filled = false;  ///< shaded down to the lower end of the axis
-    double scale = 1.0;   ///< from the unit of the column to that of the panel
+    std::string color;                    ///< "#rrggbb"
+    bool filled = false;                  ///< shaded down to the lower end of the axis
+    double scale = 1.0;                   ///< from the unit of the column to that of the panel
     std::string band_low{}, band_high{};  ///< columns between which a band is shaded, or empty
 };
 
@@ -28,7 +28,7 @@ struct PlotDots {
 
 /// One pair of axes over the common time axis.
 struct PlotPanel {
-    std::string title;  ///< with the unit
+    std::string title;     ///< with the unit
     bool forcing = false;  ///< forcing is drawn above, smaller; state below
     std::vector<PlotSeries> series;
     double low = 0.0;  ///< range of the axis; low == high: from the data, with 0 inside
@@ -43,8 +43,8 @@ struct Score {
     std::string unit;
     std::size_t count = 0;  ///< observations used
     double rmse = 0.0;
-    double bias = 0.0;      ///< model less observation
-    std::string how;        ///< what was compared: "at 12 h", "daily mean, snow deeper than 0.1 m"
+    double bias = 0.0;  ///< model less observation
+    std::string how;    ///< what was compared: "at 12 h", "daily mean, snow deeper than 0.1 m"
 };
 
 struct SimulationEvent {
@@ -52,25 +52,26 @@ struct SimulationEvent {
     std::string text;
 };
 
-/// What every model hands to the writers of CSV, JSON, plots and reports. A new model fills this and
-/// gets them all.
+/// What every model hands to the writers of CSV, JSON, plots and reports. A new model fills this
+/// and gets them all.
 struct SimulationTable {
-    std::string title;  ///< of plots: the name of the input
-    std::string model;  ///< "artist"
-    std::string mode;   ///< "exact", "stepped"
-    std::vector<std::string> columns;       ///< the first is time_s
-    bool utc = false;               ///< the CSV has time_utc after time_s
-    bool dated = false;             ///< the axes show dates
-    std::int64_t utc_start_us = 0;  ///< of time_s 0, microseconds since 1970, when utc or dated
+    std::string title;                 ///< of plots: the name of the input
+    std::string model;                 ///< "artist"
+    std::string mode;                  ///< "exact", "stepped"
+    std::vector<std::string> columns;  ///< the first is time_s
+    bool utc = false;                  ///< the CSV has time_utc after time_s
+    bool dated = false;                ///< the axes show dates
+    std::int64_t utc_start_us = 0;     ///< of time_s 0, microseconds since 1970, when utc or dated
     std::vector<std::vector<double>> rows;  ///< as many numbers a row as columns
     std::vector<SimulationEvent> events;    ///< ascending
     std::vector<PlotPanel> panels;
-    std::vector<std::string> notes;  ///< what was read, what was left out
+    std::vector<std::string> notes;     ///< what was read, what was left out
     std::vector<std::string> warnings;  ///< what a reader of the plot must know
     std::vector<Score> scores;
-    std::vector<std::pair<std::string, std::string>> json_parts;  ///< more of the JSON: key and JSON text
-    std::uint64_t state_hash = 0;    ///< of the last state
-    std::uint64_t table_hash = 0;    ///< of the states of all rows, in order
+    std::vector<std::pair<std::string, std::string>>
+        json_parts;                ///< more of the JSON: key and JSON text
+    std::uint64_t state_hash = 0;  ///< of the last state
+    std::uint64_t table_hash = 0;  ///< of the states of all rows, in order
 };
 
 /// 16 hexadecimal digits.

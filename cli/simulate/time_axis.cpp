@@ -10,7 +10,8 @@
 namespace petrichor::cli {
 namespace {
 
-constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                   "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 constexpr double kDay_s = 86400.0;
 
 struct Calendar {
@@ -18,7 +19,10 @@ struct Calendar {
     double first_s, last_s;
 
     double seconds(std::int64_t us) const { return static_cast<double>(us - start_us) * 1e-6; }
-    std::int64_t us(double seconds_in) const { return start_us + static_cast<std::int64_t>(std::llround(seconds_in * 1e6)); }
+    std::int64_t us(double seconds_in) const
+    {
+        return start_us + static_cast<std::int64_t>(std::llround(seconds_in * 1e6));
+    }
     bool inside(double time_s) const { return time_s >= first_s - 1e-6 && time_s <= last_s + 1e-6; }
 };
 
@@ -42,20 +46,24 @@ std::vector<TimeTick> clock_ticks(const Calendar& c, double step_s)
     const std::int64_t first = c.us(c.first_s);
     for (std::int64_t us = (first + step - 1) / step * step; c.inside(c.seconds(us)); us += step) {
         const auto civil = weather::civil_from_us(us);
-        ticks.push_back({c.seconds(us), civil.hour == 0 && civil.minute == 0 ? day_text(civil) : clock_text(civil)});
+        ticks.push_back({c.seconds(us), civil.hour == 0 && civil.minute == 0 ? day_text(civil)
+                                                                             : clock_text(civil)});
     }
     return ticks;
 }
 
-// Every `step` days of a month, counted from the 1st; none so late that the next month's first crowds it.
+// Every `step` days of a month, counted from the 1st; none so late that the next month's first
+// crowds it.
 std::vector<TimeTick> day_ticks(const Calendar& c, int step)
 {
     std::vector<TimeTick> ticks;
     constexpr std::int64_t kDay_us = 86400LL * 1000000;
-    for (std::int64_t us = (c.us(c.first_s) + kDay_us - 1) / kDay_us * kDay_us; c.inside(c.seconds(us)); us += kDay_us) {
+    for (std::int64_t us = (c.us(c.first_s) + kDay_us - 1) / kDay_us * kDay_us;
+         c.inside(c.seconds(us)); us += kDay_us) {
         const auto civil = weather::civil_from_us(us);
         const bool crowded = step > 1 && civil.day > 31 - step;
-        if ((civil.day - 1) % step == 0 && !crowded) ticks.push_back({c.seconds(us), day_text(civil)});
+        if ((civil.day - 1) % step == 0 && !crowded)
+            ticks.push_back({c.seconds(us), day_text(civil)});
     }
     return ticks;
 }
@@ -69,7 +77,8 @@ std::vector<TimeTick> month_ticks(const Calendar& c, int step)
     for (;; month += step) {
         const long long year = month / 12;
         const int index = static_cast<int>(month % 12);
-        const double at = c.seconds(weather::days_from_civil(year, index + 1, 1) * 86400LL * 1000000);
+        const double at =
+            c.seconds(weather::days_from_civil(year, index + 1, 1) * 86400LL * 1000000);
         if (at > c.last_s + 1e-6) break;
         if (c.inside(at)) ticks.push_back({at, index == 0 ? std::to_string(year) : kMonths[index]});
     }
@@ -105,8 +114,12 @@ std::vector<TimeTick> calendar_ticks(std::int64_t start_us, double first_s, doub
     }
     if (ticks.empty()) return elapsed_ticks(first_s, last_s, most);
     // The year once, where no tick says it.
-    const bool said = std::any_of(ticks.begin(), ticks.end(), [](const TimeTick& t) { return t.label.size() == 4 && t.label[0] <= '9'; });
-    if (!said) ticks.front().label += " " + std::to_string(weather::civil_from_us(c.us(ticks.front().time_s)).year);
+    const bool said = std::any_of(ticks.begin(), ticks.end(), [](const TimeTick& t) {
+        return t.label.size() == 4 && t.label[0] <= '9';
+    });
+    if (!said)
+        ticks.front().label +=
+            " " + std::to_string(weather::civil_from_us(c.us(ticks.front().time_s)).year);
     return ticks;
 }
 

@@ -15,9 +15,11 @@ struct TimeTick {
 /// Ticks of an axis that counts from the start of the run: round seconds, minutes, hours or days.
 std::vector<TimeTick> elapsed_ticks(double first_s, double last_s, int most);
 
-/// Ticks of an axis of dates (UTC): round minutes and hours, days of the month ("6 Jan"), first days of months
+/// Ticks of an axis of dates (UTC): round minutes and hours, days of the month ("6 Jan"), first
+/// days of months
 /// ("Feb"; "2006" in January), years. The first tick of a longer span is named in full.
-std::vector<TimeTick> calendar_ticks(std::int64_t start_us, double first_s, double last_s, int most);
+std::vector<TimeTick> calendar_ticks(std::int64_t start_us, double first_s, double last_s,
+                                     int most);
 
 }  // namespace petrichor::cli
 

@@ -13,8 +13,10 @@ namespace {
 
 [[noreturn]] void refuse_duration(std::string_view text, const std::string& option)
 {
-    throw Error(option + ": \"" + std::string(text) + "\" is not a time span above 0, like 0.5, 1/60, 30min, 6h or 1d",
-                "Give a decimal number or a fraction of two whole numbers, with s, min, h or d behind it if you like.");
+    throw Error(option + ": \"" + std::string(text) +
+                    "\" is not a time span above 0, like 0.5, 1/60, 30min, 6h or 1d",
+                "Give a decimal number or a fraction of two whole numbers, with s, min, h or d "
+                "behind it if you like.");
 }
 
 // A whole number of at most nine digits, or -1.
@@ -22,7 +24,8 @@ std::int64_t whole(std::string_view digits)
 {
     std::int64_t value = -1;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool good = result.ec == std::errc() && result.ptr == digits.data() + digits.size() && digits.size() <= 9 && digits.front() != '-';
+    const bool good = result.ec == std::errc() && result.ptr == digits.data() + digits.size() &&
+                      digits.size() <= 9 && digits.front() != '-';
     return good ? value : -1;
 }
 
@@ -51,7 +54,8 @@ Fraction fraction_from(std::string_view text)
 bool is_month_and_day(std::string_view text)
 {
     const auto digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
-    return text.size() >= 5 && digit(0) && digit(1) && text[2] == '-' && digit(3) && digit(4) && (text.size() == 5 || text[5] == 'T' || text[5] == ' ');
+    return text.size() >= 5 && digit(0) && digit(1) && text[2] == '-' && digit(3) && digit(4) &&
+           (text.size() == 5 || text[5] == 'T' || text[5] == ' ');
 }
 
 }  // namespace
@@ -65,10 +69,12 @@ Fraction parse_fraction(std::string_view text, const std::string& option)
 
 Fraction parse_duration(std::string_view text, const std::string& option)
 {
-    constexpr std::array<std::pair<std::string_view, std::int64_t>, 4> kUnits{{{"min", 60}, {"h", 3600}, {"d", 86400}, {"s", 1}}};
+    constexpr std::array<std::pair<std::string_view, std::int64_t>, 4> kUnits{
+        {{"min", 60}, {"h", 3600}, {"d", 86400}, {"s", 1}}};
     for (const auto& [unit, seconds] : kUnits) {
         if (text.size() <= unit.size() || text.substr(text.size() - unit.size()) != unit) continue;
-        Fraction fraction = fraction_from(weather::trimmed(text.substr(0, text.size() - unit.size())));
+        Fraction fraction =
+            fraction_from(weather::trimmed(text.substr(0, text.size() - unit.size())));
         if (fraction.numerator <= 0 || fraction.denominator <= 0) refuse_duration(text, option);
         fraction.numerator *= seconds;
         return fraction;
@@ -76,31 +82,39 @@ Fraction parse_duration(std::string_view text, const std::string& option)
     return parse_fraction(text, option);
 }
 
-double parse_time(const std::string& text, const std::string& option, std::optional<std::int64_t> start_us)
+double parse_time(const std::string& text, const std::string& option,
+                  std::optional<std::int64_t> start_us)
 {
     if (const auto seconds = weather::to_number(text)) {
         if (*seconds >= 0.0 && *seconds <= 9e9) return *seconds;
-        throw Error(option + ": times are seconds from 0 up, got " + text, "Give a time from the start of the run.");
+        throw Error(option + ": times are seconds from 0 up, got " + text,
+                    "Give a time from the start of the run.");
     }
-    const auto seconds_of = [&](std::int64_t us) { return static_cast<double>(us - *start_us) * 1e-6; };
+    const auto seconds_of = [&](std::int64_t us) {
+        return static_cast<double>(us - *start_us) * 1e-6;
+    };
     if (!start_us) {
         if (weather::us_from_iso(text) || is_month_and_day(text)) {
-            throw Error(option + ": \"" + text + "\" is a date, but keys count seconds", "Give seconds from the start of the run.");
+            throw Error(option + ": \"" + text + "\" is a date, but keys count seconds",
+                        "Give seconds from the start of the run.");
         }
-        throw Error(option + ": \"" + text + "\" is not a number of seconds", "Give seconds from the start of the run.");
+        throw Error(option + ": \"" + text + "\" is not a number of seconds",
+                    "Give seconds from the start of the run.");
     }
     if (is_month_and_day(text)) {
         const long long year = weather::civil_from_us(*start_us).year;
         for (const long long y : {year, year + 1}) {
             const auto us = weather::us_from_iso(std::to_string(y) + "-" + text);
             if (us && *us >= *start_us) return seconds_of(*us);
-            // The first hours of 1 January may lie before the first row, where the file's clock is behind UTC.
+            // The first hours of 1 January may lie before the first row, where the file's clock is
+            // behind UTC.
             if (us && *us > *start_us - 86400LL * 1000000) return 0.0;
         }
     } else if (const auto us = weather::us_from_iso(text)) {
         return seconds_of(*us);
     }
-    throw Error(option + ": \"" + text + "\" is neither seconds nor a date as 2005-12-01, 2005-12-01T06:00 or 12-01",
+    throw Error(option + ": \"" + text +
+                    "\" is neither seconds nor a date as 2005-12-01, 2005-12-01T06:00 or 12-01",
                 "The weather begins at " + weather::iso_from_us(*start_us) + ".");
 }
 

@@ -21,11 +21,14 @@ weather::ReadOptions read_options(const SiteOptions& options)
     read.site.longitude_deg = options.longitude_deg.value_or(weather::kMissing);
     read.site.elevation_m = options.elevation_m.value_or(weather::kMissing);
     read.station = options.station;
-    read.filling.missing_precip =
-        options.missing_precip == "estimate" ? weather::MissingPrecip::Estimate : weather::MissingPrecip::Dry;
+    read.filling.missing_precip = options.missing_precip == "estimate"
+                                      ? weather::MissingPrecip::Estimate
+                                      : weather::MissingPrecip::Dry;
     if (options.month.empty()) return read;
     const auto day = weather::us_from_iso(options.month + "-01");
-    if (!day) throw Error("simulate: --month must be like 2024-02, got '" + options.month + "'", "Give year and month.");
+    if (!day)
+        throw Error("simulate: --month must be like 2024-02, got '" + options.month + "'",
+                    "Give year and month.");
     const auto civil = weather::civil_from_us(*day);
     read.year = static_cast<int>(civil.year);
     read.month = civil.month;
@@ -53,14 +56,23 @@ SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
         if (name == "artist") continue;
         const TomlValue value(node, "--params", name);
         if (name != "site") refuse_name(value.place(), "table", name, {"site", "artist"});
-        const auto put = [](std::optional<double>& option, double number) { option = option.value_or(number); };
-        for (const auto& [k, v] : value.entries({"latitude", "longitude", "elevation_m", "temp_height_m", "wind_height_m", "surface"})) {
-            if (k == "latitude") put(options.latitude_deg, v.number(-90.0, 90.0));
-            else if (k == "longitude") put(options.longitude_deg, v.number(-180.0, 360.0));
-            else if (k == "elevation_m") put(options.elevation_m, v.number(-450.0, 9000.0));
-            else if (k == "temp_height_m") put(options.temp_height_m, v.number(0.3, 200.0));
-            else if (k == "wind_height_m") put(options.wind_height_m, v.number(0.6, 500.0));
-            else options.surface = v.text();
+        const auto put = [](std::optional<double>& option, double number) {
+            option = option.value_or(number);
+        };
+        for (const auto& [k, v] : value.entries({"latitude", "longitude", "elevation_m",
+                                                 "temp_height_m", "wind_height_m", "surface"})) {
+            if (k == "latitude")
+                put(options.latitude_deg, v.number(-90.0, 90.0));
+            else if (k == "longitude")
+                put(options.longitude_deg, v.number(-180.0, 360.0));
+            else if (k == "elevation_m")
+                put(options.elevation_m, v.number(-450.0, 9000.0));
+            else if (k == "temp_height_m")
+                put(options.temp_height_m, v.number(0.3, 200.0));
+            else if (k == "wind_height_m")
+                put(options.wind_height_m, v.number(0.6, 500.0));
+            else
+                options.surface = v.text();
         }
     }
     return options;
@@ -74,9 +86,11 @@ weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOpti
     weather::Site& site = read.table.site;
     site.temp_height_m = options.temp_height_m.value_or(site.temp_height_m);
     site.wind_height_m = options.wind_height_m.value_or(site.wind_height_m);
-    if (!(site.temp_height_m >= 0.3 && site.temp_height_m <= 200.0) || !(site.wind_height_m >= 0.6 && site.wind_height_m <= 500.0)) {
-        throw Error("simulate: sensor heights must be 0.3..200 m (temperature) and 0.6..500 m (wind)",
-                    "Set --temp-height-m and --wind-height-m.");
+    if (!(site.temp_height_m >= 0.3 && site.temp_height_m <= 200.0) ||
+        !(site.wind_height_m >= 0.6 && site.wind_height_m <= 500.0)) {
+        throw Error(
+            "simulate: sensor heights must be 0.3..200 m (temperature) and 0.6..500 m (wind)",
+            "Set --temp-height-m and --wind-height-m.");
     }
     return read;
 }
@@ -96,18 +110,22 @@ WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::s
         }
         return table.has(field);
     };
-    if (complete(Field::WindFrom)) script.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
-    if (complete(Field::Visibility)) script.visibility_m = weather::channel_of_field(table, Field::Visibility);
+    if (complete(Field::WindFrom))
+        script.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
+    if (complete(Field::Visibility))
+        script.visibility_m = weather::channel_of_field(table, Field::Visibility);
     return script;
 }
 
 WeatherScript faster_script(WeatherScript script, double factor)
 {
     const auto quicken = [&](weather::Channel& channel) {
-        for (weather::TimeUs& time : channel.times) time = static_cast<weather::TimeUs>(std::llround(static_cast<double>(time) / factor));
+        for (weather::TimeUs& time : channel.times)
+            time = static_cast<weather::TimeUs>(std::llround(static_cast<double>(time) / factor));
     };
-    for (weather::Channel* channel : {&script.timeline.temperature_c, &script.timeline.rainfall, &script.cloud_cover, &script.wind_m_s,
-                                      &script.wind_from_deg, &script.visibility_m}) {
+    for (weather::Channel* channel :
+         {&script.timeline.temperature_c, &script.timeline.rainfall, &script.cloud_cover,
+          &script.wind_m_s, &script.wind_from_deg, &script.visibility_m}) {
         quicken(*channel);
     }
     for (auto& [name, channel] : script.timeline.parameters) quicken(channel);

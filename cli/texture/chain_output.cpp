@@ -34,13 +34,15 @@ texproc::RawImage recoded(const texproc::RawImage& image, int bits)
 
 bool is_png(const fs::path& file)
 {
-    static constexpr std::array<char, 8> kSignature{'\x89', 'P', 'N', 'G', '\r', '\n', '\x1a', '\n'};
+    static constexpr std::array<char, 8> kSignature{'\x89', 'P',  'N',    'G',
+                                                    '\r',   '\n', '\x1a', '\n'};
     std::array<char, 8> start{};
     std::ifstream in(file, std::ios::binary);
     return in.read(start.data(), start.size()) && start == kSignature;
 }
 
-void write_level0(const ChainOutput& output, const texproc::RawImage& level0, const fs::path& source)
+void write_level0(const ChainOutput& output, const texproc::RawImage& level0,
+                  const fs::path& source)
 {
     const fs::path to = level_name(output.name, 0);
     const texproc::WriteOptions writing{.bits = output.bits, .threads = output.threads};

@@ -20,9 +20,10 @@ struct ChainOutput {
 /// Throws Error when the name can hold no levels: neither a %d nor a texture file.
 void check_chain_name(const std::string& name);
 
-/// Writes level 0 and the levels after it (levels[0] is not looked at) in integers of `bits`. Levels
-/// have the channels of level 0. source: the file that level 0 was read from, whole and unchanged, or
-/// empty; where it is what would be written its bytes are copied, which is faster and exact.
+/// Writes level 0 and the levels after it (levels[0] is not looked at) in integers of `bits`.
+/// Levels have the channels of level 0. source: the file that level 0 was read from, whole and
+/// unchanged, or empty; where it is what would be written its bytes are copied, which is faster and
+/// exact.
 void write_chain(const ChainOutput& output, const texproc::RawImage& level0,
                  const std::filesystem::path& source, const std::vector<Image>& levels);
 

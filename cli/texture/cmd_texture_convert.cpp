@@ -69,16 +69,18 @@ void check(const Arguments& a)
         }
     }
     if (!container && !a.format.empty() && !(extension == ".exr" && a.mips)) {
-        throw Error("texture convert: --format is for .dds and .ktx2 (and .exr with --mips), not '" +
-                        extension + "'",
-                    "Use --bits 8 or 16 (png, tif), 16 or 32 (exr).");
+        throw Error(
+            "texture convert: --format is for .dds and .ktx2 (and .exr with --mips), not '" +
+                extension + "'",
+            "Use --bits 8 or 16 (png, tif), 16 or 32 (exr).");
     }
     if (a.mips && !container && extension != ".exr") {
         throw Error("texture convert: '" + extension + "' does not hold mip levels",
                     "Write .dds, .ktx2 or .exr; or: petrichor texture mips IN -o 'out_%d.png'.");
     }
     if (a.zstd && extension != ".ktx2") {
-        throw Error("texture convert: --zstd is for .ktx2, not '" + extension + "'", "Leave it out.");
+        throw Error("texture convert: --zstd is for .ktx2, not '" + extension + "'",
+                    "Leave it out.");
     }
 }
 
@@ -93,8 +95,8 @@ texproc::PixelType type_for(const std::string& extension, int bits, texproc::Pix
     if (bits == 16) return PixelType::U16;
     if (bits == 32) return PixelType::F32;
     if (is_container(extension)) return own;
-    const bool deep = own != PixelType::U8 && (extension == ".png" || extension == ".tif" ||
-                                               extension == ".tiff");
+    const bool deep = own != PixelType::U8 &&
+                      (extension == ".png" || extension == ".tif" || extension == ".tiff");
     return deep ? PixelType::U16 : PixelType::U8;
 }
 
@@ -157,9 +159,10 @@ void add_texture_convert(CLI::App& texture)
     app->add_option("image", a->in, "PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2")
         ->required();
     app->add_option("-o,--out", a->out, "the extension decides")->required();
-    app->add_option("--format", a->format,
-                    "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; default: "
-                    "the numbers of the image");
+    app->add_option(
+        "--format", a->format,
+        "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; default: "
+        "the numbers of the image");
     app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
     app->add_flag("--linear", a->linear, "it is data (default)");
     app->add_flag("--mips", a->mips, "all levels down to 1 x 1 (dds, ktx2, exr)");

@@ -49,8 +49,7 @@ void print_score(const Arguments& a, const PrefilterMaps& maps, const texproc::P
     if (a.normal_out.empty()) shipped.normal.clear();
     texproc::ScoreOptions scoring;
     scoring.light = a.input.options.design_light;
-    std::cout << to_text(
-        texproc::score(maps.normal, maps.map, shipped, a.input.options, scoring));
+    std::cout << to_text(texproc::score(maps.normal, maps.map, shipped, a.input.options, scoring));
 }
 
 void run(Arguments& a)
@@ -116,24 +115,31 @@ void add_texture_prefilter(CLI::App& texture)
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
     app->add_flag("--score", a->score, "print the lobe error of the files as written");
-    app->add_option("-o,--out", a->out, "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2")
+    app->add_option(
+           "-o,--out", a->out,
+           "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2")
         ->required();
-    app->add_option("--normal-out", a->normal_out,
-                    "normals of level k: 'normal_%d.png' or normal.ktx2; without it only roughness changes");
-    app->add_option("--format", a->format, "of a texture file: r8, bc4, ...; default: plain numbers");
-    app->add_option("--normal-format", a->normal_format, "of a texture file of normals: bc5, bc7, ...");
+    app->add_option(
+        "--normal-out", a->normal_out,
+        "normals of level k: 'normal_%d.png' or normal.ktx2; without it only roughness changes");
+    app->add_option("--format", a->format,
+                    "of a texture file: r8, bc4, ...; default: plain numbers");
+    app->add_option("--normal-format", a->normal_format,
+                    "of a texture file of normals: bc5, bc7, ...");
     app->add_option("--anisotropy-out", a->anisotropy_out,
                     "direction (RG) and strength (B) as in glTF: 'aniso_%d.png'");
     std::string notes = "Rules:\n";
     for (const texproc::Rule& rule : texproc::rules()) {
-        notes += "  " + rule.name + std::string(14 - std::min<std::size_t>(13, rule.name.size()), ' ') +
-                 rule.note + "\n";
+        notes += "  " + rule.name +
+                 std::string(14 - std::min<std::size_t>(13, rule.name.size()), ' ') + rule.note +
+                 "\n";
     }
-    app->footer(notes +
-                "\nExample:\n  petrichor texture prefilter --normal wall_n.png --roughness wall_r.png "
-                "-o 'wall_r_%d.png' --normal-out 'wall_n_%d.png'\n"
-                "  petrichor texture prefilter --smoothness Wall_LuxSPEC.png --bits 8 -o wall_s.dds "
-                "--format bc4 --normal-out wall_n.dds --normal-format bc5");
+    app->footer(
+        notes +
+        "\nExample:\n  petrichor texture prefilter --normal wall_n.png --roughness wall_r.png "
+        "-o 'wall_r_%d.png' --normal-out 'wall_n_%d.png'\n"
+        "  petrichor texture prefilter --smoothness Wall_LuxSPEC.png --bits 8 -o wall_s.dds "
+        "--format bc4 --normal-out wall_n.dds --normal-format bc5");
     app->callback([a] { run(*a); });
 }
 

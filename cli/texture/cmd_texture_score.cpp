@@ -91,18 +91,20 @@ void print_json(const texproc::Score& s)
     std::printf("{\"levels\": [");
     const char* comma = "";
     for (const texproc::LevelScore& l : s.levels) {
-        std::printf("%s\n  {\"level\": %d, \"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
-                    "\"energy\": %.5f}",
-                    comma, l.level, l.plain, l.best, l.tested, l.energy);
+        std::printf(
+            "%s\n  {\"level\": %d, \"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
+            "\"energy\": %.5f}",
+            comma, l.level, l.plain, l.best, l.tested, l.energy);
         comma = ",";
     }
     std::printf("\n]");
     const std::pair<const char*, texproc::RangeScore> ranges[] = {{"fine", s.fine()},
                                                                   {"coarse", s.coarse()}};
     for (const auto& [name, r] : ranges) {
-        std::printf(",\n\"%s\": {\"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
-                    "\"worst_over_plain\": %.5f}",
-                    name, r.plain, r.best, r.tested, r.levels ? r.worst_over_plain : 0.0);
+        std::printf(
+            ",\n\"%s\": {\"plain\": %.5f, \"best\": %.5f, \"error\": %.5f, "
+            "\"worst_over_plain\": %.5f}",
+            name, r.plain, r.best, r.tested, r.levels ? r.worst_over_plain : 0.0);
     }
     std::printf("}\n");
 }
@@ -159,7 +161,9 @@ void add_texture_score(CLI::App& texture)
     CLI::App* app = texture.add_subcommand(
         "score", "how much light the mips of any tool misplace (0 none .. 2 all)");
     add_prefilter_input(*app, a->input);
-    app->add_option("--chain", a->chain, "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2");
+    app->add_option(
+        "--chain", a->chain,
+        "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2");
     app->add_option("--normal-chain", a->normal_chain,
                     "normals of level k; default: the mean normals");
     app->add_option("--light", a->scoring.light, "alpha of the light: 0 the sun, 0.1 a window")
@@ -169,11 +173,13 @@ void add_texture_score(CLI::App& texture)
     app->add_option("--seed", a->scoring.seed, "which texels and points")->capture_default_str();
     app->add_flag("--json", a->json, "for machines");
     app->add_flag("--selftest", a->self_test, "check the yardstick itself");
-    app->add_option("--protocol", a->protocol.effort,
-                    "score every rule on the named sets and on hard maps made from code: full (3 rolls "
-                    "of each map, 64 texels a level) or quick")
+    app->add_option(
+           "--protocol", a->protocol.effort,
+           "score every rule on the named sets and on hard maps made from code: full (3 rolls "
+           "of each map, 64 texels a level) or quick")
         ->check(CLI::IsMember({"full", "quick"}));
-    app->add_option("SETS", a->protocol.sets, "for --protocol: roughness maps, or folders of materials");
+    app->add_option("SETS", a->protocol.sets,
+                    "for --protocol: roughness maps, or folders of materials");
     app->add_option("--rules", a->protocol.rules, "for --protocol: only these, with commas between")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -182,12 +188,14 @@ void add_texture_score(CLI::App& texture)
         ->capture_default_str();
     app->add_option("--seeds", a->protocol.seeds, "for --protocol: rolls of every map")
         ->check(CLI::Range(1, 100));
-    app->add_flag("!--no-hard", a->protocol.hard, "for --protocol: without the maps made from code");
+    app->add_flag("!--no-hard", a->protocol.hard,
+                  "for --protocol: without the maps made from code");
     app->add_flag("!--no-puddles", a->protocol.puddles,
                   "for --protocol: no wet variant of sets with a height map");
     app->add_option("--csv", a->protocol.csv, "for --protocol: every level of every row");
     app->footer(
-        "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in brackets,\n"
+        "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in "
+        "brackets,\n"
         "where there is little to gain, the excess over the best lobe.\n\nExample:\n"
         "  petrichor texture score --normal n.png --roughness r.png --chain 'r_%d.png' "
         "--normal-chain 'n_%d.png'\n"

@@ -40,7 +40,8 @@ std::vector<texproc::RawImage> read_maps(const std::vector<std::string>& texts,
 {
     std::vector<texproc::RawImage> maps(texts.size());
     const auto read_from = [&](std::size_t first, std::size_t step) {
-        for (std::size_t i = first; i < texts.size(); i += step) maps[i] = read_map(texts[i], options);
+        for (std::size_t i = first; i < texts.size(); i += step)
+            maps[i] = read_map(texts[i], options);
     };
     if (threads == 1 || texts.size() < 2) {
         read_from(0, 1);

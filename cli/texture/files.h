@@ -20,8 +20,8 @@ MapFile parse_map_file(const std::string& text);
 /// Reads a map in its own numbers; a chosen channel comes alone.
 texproc::RawImage read_map(const std::string& text, const texproc::ReadOptions& options);
 
-/// Reads several maps, two at a time: a reading process costs a fifth of a second to start, so more of
-/// them would cost more than they bring. `threads` 1: one after the other.
+/// Reads several maps, two at a time: a reading process costs a fifth of a second to start, so more
+/// of them would cost more than they bring. `threads` 1: one after the other.
 std::vector<texproc::RawImage> read_maps(const std::vector<std::string>& texts,
                                          const texproc::ReadOptions& options, int threads = 0);
 

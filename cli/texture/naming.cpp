@@ -42,9 +42,11 @@ const std::vector<Pair>& pairs()
 std::size_t find_token(const std::string& name, const std::string& token)
 {
     const auto edge = [&](std::size_t i) {
-        return i >= name.size() || name[i] == '_' || name[i] == '-' || name[i] == '.' || name[i] == ' ';
+        return i >= name.size() || name[i] == '_' || name[i] == '-' || name[i] == '.' ||
+               name[i] == ' ';
     };
-    for (std::size_t at = name.find(token); at != std::string::npos; at = name.find(token, at + 1)) {
+    for (std::size_t at = name.find(token); at != std::string::npos;
+         at = name.find(token, at + 1)) {
         if ((at == 0 || edge(at - 1)) && edge(at + token.size())) return at;
     }
     return std::string::npos;
@@ -71,8 +73,8 @@ NormalPartner find_normal(const fs::path& map)
                 std::error_code ignored;
                 if (fs::is_regular_file(path, ignored)) {
                     const std::string n = normal;
-                    const bool down = n.find("DX") != std::string::npos ||
-                                      n.find("_dx") != std::string::npos;
+                    const bool down =
+                        n.find("DX") != std::string::npos || n.find("_dx") != std::string::npos;
                     return {path, down, pair.smoothness, pair.channel};
                 }
             }

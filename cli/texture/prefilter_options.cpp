@@ -17,13 +17,17 @@ void add_prefilter_input(CLI::App& app, PrefilterInput& input)
                                  "perceptual roughness map; FILE:g takes the green channel");
     app.add_option("--smoothness", input.smoothness, "smoothness map (1 - roughness)")
         ->excludes(rough);
-    app.add_flag("--alpha", input.options.alpha, "the map holds alpha (roughness squared), not roughness");
-    app.add_option("--normal-layout", input.layout, "rgb, rg (z rebuilt, as BC5), ag (x in A, y in G, z rebuilt) or rxgb (x in A, y in G, z "
-                   "in B)")
+    app.add_flag("--alpha", input.options.alpha,
+                 "the map holds alpha (roughness squared), not roughness");
+    app.add_option(
+           "--normal-layout", input.layout,
+           "rgb, rg (z rebuilt, as BC5), ag (x in A, y in G, z rebuilt) or rxgb (x in A, y in G, z "
+           "in B)")
         ->check(CLI::IsMember({"rgb", "rg", "ag", "rxgb"}))
         ->capture_default_str();
     app.add_flag("--green-down", input.options.green_down, "the normal map has +Y down (DirectX)");
-    app.add_option("--threads", input.options.threads, "0: all cores; the bytes do not depend on it");
+    app.add_option("--threads", input.options.threads,
+                   "0: all cores; the bytes do not depend on it");
     app.add_option("--max-pixels", input.reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
 }

@@ -61,7 +61,8 @@ std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
 
 }  // namespace
 
-void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading, int threads)
+void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading,
+                        int threads)
 {
     const std::vector<texproc::Variant> variants = chosen_variants(request);
     std::vector<texproc::ScoredMaps> materials;

@@ -15,15 +15,24 @@ const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 std::string result_name(VkResult result)
 {
     switch (result) {
-        case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of host memory";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
-        case VK_ERROR_DEVICE_LOST: return "device lost";
-        case VK_ERROR_INCOMPATIBLE_DRIVER: return "no driver found";
-        case VK_ERROR_LAYER_NOT_PRESENT: return "layer not present";
-        case VK_ERROR_EXTENSION_NOT_PRESENT: return "extension not present";
-        case VK_ERROR_FEATURE_NOT_PRESENT: return "feature not present";
-        case VK_ERROR_INITIALIZATION_FAILED: return "initialisation failed";
-        default: return "error " + std::to_string(result);
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "out of host memory";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "out of device memory";
+        case VK_ERROR_DEVICE_LOST:
+            return "device lost";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "no driver found";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "layer not present";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "extension not present";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "feature not present";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "initialisation failed";
+        default:
+            return "error " + std::to_string(result);
     }
 }
 
@@ -50,7 +59,8 @@ bool has_layer(const char* name)
 bool has_instance_extension(const char* name)
 {
     std::uint32_t count = 0;
-    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr) != VK_SUCCESS) return false;
+    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr) != VK_SUCCESS)
+        return false;
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
     return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& e) {
@@ -188,11 +198,20 @@ DeviceInfo describe(VkPhysicalDevice device)
                        std::to_string(VK_API_VERSION_MINOR(p.apiVersion)) + "." +
                        std::to_string(VK_API_VERSION_PATCH(p.apiVersion));
     switch (p.deviceType) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: info.kind = "discrete"; break;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: info.kind = "integrated"; break;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: info.kind = "virtual"; break;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: info.kind = "cpu"; break;
-        default: info.kind = "other";
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            info.kind = "discrete";
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            info.kind = "integrated";
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            info.kind = "virtual";
+            break;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            info.kind = "cpu";
+            break;
+        default:
+            info.kind = "other";
     }
     if (p.apiVersion < VK_API_VERSION_1_3) {
         info.why_not = "offers Vulkan " + info.api_version + ", 1.3 is needed";
@@ -251,8 +270,8 @@ Candidate choose(VkInstance instance, const std::string& wanted)
                           all[i].info.name.find(wanted) != std::string::npos;
         if (fits && all[i].info.usable) return all[i];
     }
-    throw Error("gpu: no Vulkan 1.3 device" + (wanted.empty() ? "" : " matches \"" + wanted + "\"") +
-                    "; found: " + found,
+    throw Error("gpu: no Vulkan 1.3 device" +
+                    (wanted.empty() ? "" : " matches \"" + wanted + "\"") + "; found: " + found,
                 wanted.empty() ? "Install a Vulkan driver; on a machine without a GPU the package "
                                  "mesa-vulkan-drivers renders on the CPU."
                                : "Name one of the devices found, or its number, after --device.");
@@ -263,8 +282,9 @@ Candidate choose(VkInstance instance, const std::string& wanted)
 void check(VkResult result, const char* doing)
 {
     if (result == VK_SUCCESS) return;
-    throw Error(std::string("gpu: ") + result_name(result) + " while " + doing,
-                "Use a smaller picture or scene, or another --device; `petrichor doctor` lists them.");
+    throw Error(
+        std::string("gpu: ") + result_name(result) + " while " + doing,
+        "Use a smaller picture or scene, or another --device; `petrichor doctor` lists them.");
 }
 
 std::vector<DeviceInfo> list_devices()
@@ -340,7 +360,8 @@ Device::Device(const RendererOptions& options)
         pool.queueFamilyIndex = queue_family_;
         pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
         VkCommandPool command_pool = VK_NULL_HANDLE;
-        check(vkCreateCommandPool(device_, &pool, nullptr, &command_pool), "creating a command pool");
+        check(vkCreateCommandPool(device_, &pool, nullptr, &command_pool),
+              "creating a command pool");
         command_pool_ = CommandPoolHandle(device_, command_pool);
 
         VkCommandBufferAllocateInfo allocate{};

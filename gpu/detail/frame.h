@@ -16,8 +16,8 @@ struct FrameResources {
     DepthMaps* depth_maps = nullptr;
     SkyMaps* sky = nullptr;
     LightTable* lights = nullptr;
-    GpuImage* environment = nullptr;      ///< lat-long, or null for the analytic sky
-    GpuBuffer* constants = nullptr;       ///< one range a sample
+    GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
+    GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;
     bool scene_has_constant_weather = false;
 };

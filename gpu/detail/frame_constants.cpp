@@ -62,7 +62,8 @@ shared::SkyParams sky_params(const Frame& frame)
     p.night_radiance = kNightRadiance;
     // Kasten and Czeplak 1980 for the light under clouds; a clear sky adds about 15 % to the sun.
     const float up = std::max(p.sun_direction.y, 0.0f);
-    const glm::vec3 level = sunlight_at_ground(sky) * up * 1.15f + glm::vec3(0.02f) * sky.sun_illuminance * up;
+    const glm::vec3 level =
+        sunlight_at_ground(sky) * up * 1.15f + glm::vec3(0.02f) * sky.sun_illuminance * up;
     const float through = 1.0f - 0.75f * std::pow(p.cloud_cover, 3.4f);
     const float white = std::clamp(frame.weather.snow_amount * 1.2f, 0.0f, 1.0f);
     const glm::vec3 albedo =
@@ -127,8 +128,7 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
     const SurfaceWeather& w = frame.weather;
     VisibleWeather visible;
     visible.snow = scene_has_constant_weather || w.snow_amount > 0.0f;
-    visible.water =
-        scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;
+    visible.water = scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;
     visible.any = visible.snow || visible.water || w.rain > 0.0f || w.film_albedo > 0.0f ||
                   w.film_smoothness > 0.0f || w.frost > 0.0f;
     return visible;

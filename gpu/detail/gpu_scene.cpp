@@ -23,11 +23,16 @@ void set_bytes(std::uint8_t (&target)[4], const std::vector<glm::vec4>& values, 
 VkFormat vk_format(TexelFormat format)
 {
     switch (format) {
-        case TexelFormat::Rgba8Srgb: return VK_FORMAT_R8G8B8A8_SRGB;
-        case TexelFormat::Rgba8Unorm: return VK_FORMAT_R8G8B8A8_UNORM;
-        case TexelFormat::Rg8Unorm: return VK_FORMAT_R8G8_UNORM;
-        case TexelFormat::R8Unorm: return VK_FORMAT_R8_UNORM;
-        case TexelFormat::Rgba16Float: return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case TexelFormat::Rgba8Srgb:
+            return VK_FORMAT_R8G8B8A8_SRGB;
+        case TexelFormat::Rgba8Unorm:
+            return VK_FORMAT_R8G8B8A8_UNORM;
+        case TexelFormat::Rg8Unorm:
+            return VK_FORMAT_R8G8_UNORM;
+        case TexelFormat::R8Unorm:
+            return VK_FORMAT_R8_UNORM;
+        case TexelFormat::Rgba16Float:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
     }
     return VK_FORMAT_UNDEFINED;
 }
@@ -35,9 +40,12 @@ VkFormat vk_format(TexelFormat format)
 VkSamplerAddressMode address_mode(Wrap wrap)
 {
     switch (wrap) {
-        case Wrap::Repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-        case Wrap::Clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        case Wrap::Mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::Repeat:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        case Wrap::Clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case Wrap::Mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
     }
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
@@ -102,7 +110,8 @@ shared::MaterialConstants constants_of(const Material& m, const std::vector<bool
     for (std::uint32_t i = 0; i < TEXTURE_SLOTS; ++i) {
         const TextureUse& use = *slots.use[i];
         c.transforms[i] = texture_transform(use);
-        const bool present = use.present() && static_cast<std::size_t>(use.texture) < loaded.size() &&
+        const bool present = use.present() &&
+                             static_cast<std::size_t>(use.texture) < loaded.size() &&
                              loaded[static_cast<std::size_t>(use.texture)];
         if (present) c.flags |= 1u << i;
         if (use.texcoord == 1) c.flags |= 65536u << i;
@@ -184,8 +193,9 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
             const glm::vec3 half = 0.5f * (range.high - range.low);
             draw.centre_m = glm::vec3(instance.to_world * glm::vec4(centre, 1.0f));
             const glm::mat3 linear(instance.to_world);
-            draw.radius_m = glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
-                                        glm::abs(linear[2]) * half.z);
+            draw.radius_m =
+                glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
+                            glm::abs(linear[2]) * half.z);
             draw.mirrored = glm::determinant(linear) < 0.0f;
             draws_.push_back(draw);
         }
@@ -197,14 +207,14 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
         };
         return key(a) < key(b);
     });
-    vertices_ = arena_.buffer({.name = "scene_vertices",
-                               .size = vertices.size() * sizeof(Vertex),
-                               .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    indices_ = arena_.buffer({.name = "scene_indices",
-                              .size = indices.size() * 4,
-                              .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    vertices_ = arena_.buffer(
+        {.name = "scene_vertices",
+         .size = vertices.size() * sizeof(Vertex),
+         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    indices_ = arena_.buffer(
+        {.name = "scene_indices",
+         .size = indices.size() * 4,
+         .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
 }
@@ -228,7 +238,8 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
                                    .usage = usage});
         upload_image(device, *image, texture.mips);
         images_.push_back(std::move(image));
-        image_samplers_.push_back(&sampler(device, texture.wrap_u, texture.wrap_v, texture.nearest));
+        image_samplers_.push_back(
+            &sampler(device, texture.wrap_u, texture.wrap_v, texture.nearest));
     }
 }
 

@@ -40,7 +40,7 @@ struct GpuMaterial {
     bool double_sided = false;
     bool masked = false;
     bool blended = false;
-    std::uint32_t slots = 0;  ///< texture slots present, one bit each
+    std::uint32_t slots = 0;        ///< texture slots present, one bit each
     std::vector<Binding> bindings;  ///< constants, then the texture slots
 };
 

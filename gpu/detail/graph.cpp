@@ -41,7 +41,8 @@ Needs needs_of(Use use)
                     VK_ACCESS_2_SHADER_STORAGE_READ_BIT, false};
         case Use::StorageWrite:
             return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, true};
+                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                    true};
         case Use::TexelRead:
             return {VK_IMAGE_LAYOUT_UNDEFINED, shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
         case Use::UniformRead:
@@ -53,8 +54,8 @@ Needs needs_of(Use use)
             return {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT, true};
         case Use::HostRead:
-            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT,
-                    false};
+            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_HOST_BIT,
+                    VK_ACCESS_2_HOST_READ_BIT, false};
     }
     return {};
 }
@@ -152,18 +153,18 @@ void PassContext::bind_compute(const std::string& shader,
     layout_ = pipeline.layout;
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
     const VkDescriptorSet set = descriptors_->set(pipeline.set_layouts[0], bindings);
-    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
-                            nullptr);
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set,
+                            0, nullptr);
 }
 
 void PassContext::push_bytes(const void* bytes, std::size_t size)
 {
     std::array<std::byte, kPushBytes> block{};
     std::memcpy(block.data(), bytes, size);
-    vkCmdPushConstants(commands_, layout_,
-                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
-                           VK_SHADER_STAGE_COMPUTE_BIT,
-                       0, kPushBytes, block.data());
+    vkCmdPushConstants(
+        commands_, layout_,
+        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
+        kPushBytes, block.data());
 }
 
 void PassContext::dispatch(int groups_x, int groups_y, int groups_z)
@@ -193,7 +194,8 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
             PassContext context(device, pipelines, descriptors, commands);
             if (pass.record) pass.record(context);
             device.end_label(commands);
-            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(), query++);
+            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(),
+                                 query++);
         }
     });
     std::vector<std::uint64_t> ticks(queries);
@@ -208,8 +210,7 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         const auto [slot, is_new] = by_name.try_emplace(passes_[i].name, times.size());
         if (is_new) times.push_back({passes_[i].name, 0.0});
-        times[slot->second].milliseconds +=
-            static_cast<double>(ticks[i + 1] - ticks[i]) * to_ms;
+        times[slot->second].milliseconds += static_cast<double>(ticks[i + 1] - ticks[i]) * to_ms;
     }
     return times;
 }
@@ -259,7 +260,8 @@ void record_mips(VkCommandBuffer commands, const GpuImage& image)
         return VkOffset3D{std::max(1, image.width >> mip), std::max(1, image.height >> mip), 1};
     };
     for (int mip = 1; mip < image.mips; ++mip) {
-        barrier(mip - 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        barrier(mip - 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkImageBlit blit{};
         const auto layers = static_cast<std::uint32_t>(image.layers);
         blit.srcSubresource = {image.aspect(), static_cast<std::uint32_t>(mip - 1), 0, layers};
@@ -269,7 +271,8 @@ void record_mips(VkCommandBuffer commands, const GpuImage& image)
         vkCmdBlitImage(commands, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                        image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit,
                        VK_FILTER_LINEAR);
-        barrier(mip - 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        barrier(mip - 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     }
 }
 

@@ -40,7 +40,9 @@ class PassContext {
 public:
     PassContext(const Device& device, PipelineCache& pipelines, DescriptorArena& descriptors,
                 VkCommandBuffer commands)
-        : device_(&device), pipelines_(&pipelines), descriptors_(&descriptors), commands_(commands) {}
+        : device_(&device), pipelines_(&pipelines), descriptors_(&descriptors), commands_(commands)
+    {
+    }
 
     VkCommandBuffer commands() const { return commands_; }
     PipelineCache& pipelines() const { return *pipelines_; }

@@ -14,7 +14,9 @@ public:
     Handle() = default;
     Handle(VkDevice device, T object) : device_(device), object_(object) {}
     Handle(Handle&& other) noexcept
-        : device_(other.device_), object_(std::exchange(other.object_, T{})) {}
+        : device_(other.device_), object_(std::exchange(other.object_, T{}))
+    {
+    }
     Handle& operator=(Handle&& other) noexcept
     {
         if (this != &other) {

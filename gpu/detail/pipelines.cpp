@@ -17,7 +17,8 @@ struct SpecializationInfo {
     explicit SpecializationInfo(const std::vector<Specialization>& constants)
     {
         for (std::size_t i = 0; i < constants.size(); ++i) {
-            entries.push_back({constants[i].id, static_cast<std::uint32_t>(i * sizeof(std::uint32_t)),
+            entries.push_back({constants[i].id,
+                               static_cast<std::uint32_t>(i * sizeof(std::uint32_t)),
                                sizeof(std::uint32_t)});
             values.push_back(constants[i].value);
         }
@@ -181,8 +182,8 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
 {
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
     for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
-    key += "|" + std::to_string(desc.depth) + "|" +
-           std::to_string(desc.color_write) + std::to_string(desc.depth_equal);
+    key += "|" + std::to_string(desc.depth) + "|" + std::to_string(desc.color_write) +
+           std::to_string(desc.depth_equal);
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
@@ -272,8 +273,9 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     info.pDynamicState = &dynamic;
     info.layout = layout(desc.sets);
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "creating a graphics pipeline");
+    check(
+        vkCreateGraphicsPipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "creating a graphics pipeline");
     device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.vertex + "+" + desc.fragment);
     made->pipeline = PipelineHandle(device_->handle(), pipeline);
     made->layout = info.layout;

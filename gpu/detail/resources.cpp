@@ -68,7 +68,8 @@ MemoryArena::Place MemoryArena::place(const VkMemoryRequirements& needs,
     block.memory = MemoryHandle(device_->handle(), memory);
     if (host) {
         void* mapped = nullptr;
-        check(vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped), "mapping memory");
+        check(vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+              "mapping memory");
         block.mapped = static_cast<std::byte*>(mapped);
     }
     bytes_ += block.size;
@@ -96,10 +97,12 @@ std::unique_ptr<GpuImage> MemoryArena::image(const ImageDesc& desc)
 
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.flags = desc.cube ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) : 0u;
+    info.flags =
+        desc.cube ? static_cast<VkImageCreateFlags>(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) : 0u;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = desc.format;
-    info.extent = {static_cast<std::uint32_t>(desc.width), static_cast<std::uint32_t>(desc.height), 1};
+    info.extent = {static_cast<std::uint32_t>(desc.width), static_cast<std::uint32_t>(desc.height),
+                   1};
     info.mipLevels = static_cast<std::uint32_t>(desc.mips);
     info.arrayLayers = static_cast<std::uint32_t>(desc.layers);
     info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -113,12 +116,13 @@ std::unique_ptr<GpuImage> MemoryArena::image(const ImageDesc& desc)
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device_->handle(), image, &needs);
     const Place where = place(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true);
-    check(vkBindImageMemory(device_->handle(), image, where.memory, where.offset), "binding an image");
+    check(vkBindImageMemory(device_->handle(), image, where.memory, where.offset),
+          "binding an image");
 
     const auto mips = static_cast<std::uint32_t>(desc.mips);
-    const VkImageViewType whole = desc.cube          ? VK_IMAGE_VIEW_TYPE_CUBE
-                                  : desc.layers > 1  ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                     : VK_IMAGE_VIEW_TYPE_2D;
+    const VkImageViewType whole = desc.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
+                                  : desc.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                    : VK_IMAGE_VIEW_TYPE_2D;
     made->view = make_view(*device_, *made, whole, 0, mips);
     device_->name(VK_OBJECT_TYPE_IMAGE_VIEW, made->view.get(), desc.name);
     if (desc.mips > 1 || desc.layers > 1) {
@@ -262,8 +266,7 @@ SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddre
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.magFilter = filter;
     info.minFilter = filter;
-    info.mipmapMode =
-        mip_nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    info.mipmapMode = mip_nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
     info.addressModeU = wrap_u;
     info.addressModeV = wrap_v;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;

@@ -27,8 +27,9 @@ struct GpuImage {
     int layers = 1;
     bool cube = false;
     ImageHandle image;
-    ImageViewHandle view;                 ///< all mips and layers; a cube when `cube`
-    std::vector<ImageViewHandle> mip_views;  ///< one mip, all layers as a 2D array (when mips > 1 or layers > 1)
+    ImageViewHandle view;  ///< all mips and layers; a cube when `cube`
+    std::vector<ImageViewHandle>
+        mip_views;  ///< one mip, all layers as a 2D array (when mips > 1 or layers > 1)
     ResourceState state;
 
     VkImageAspectFlags aspect() const;
@@ -102,8 +103,8 @@ void upload_image(const Device& device, GpuImage& target,
                   const std::vector<std::vector<std::byte>>& mips);
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,
-                           VkSamplerAddressMode wrap_v, bool compare = false,
-                           float mip_bias = 0.0f, bool mip_nearest = false);
+                           VkSamplerAddressMode wrap_v, bool compare = false, float mip_bias = 0.0f,
+                           bool mip_nearest = false);
 
 }  // namespace petrichor::gpu
 

@@ -117,8 +117,8 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     c.near_m = camera.near_m;
     c.ray_dx = axes.right * (2.0f * half_x / w);
     c.ray_dy = -axes.up * (2.0f * half_y / h);
-    const glm::vec3 corner = -axes.right * half_x + axes.up * half_y + c.ray_dx * jitter.x +
-                             c.ray_dy * jitter.y;
+    const glm::vec3 corner =
+        -axes.right * half_x + axes.up * half_y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
     c.ray_corner = axes.forward + corner;
     c.origin_corner = axes.position + corner;
     c.pixel_angle = 2.0f * half_y / h;
@@ -129,7 +129,8 @@ glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene)
 {
     const Axes axes = axes_of(camera);
     const float end = std::min(far_m(axes, camera, scene), 250.0f);
-    const float begin = std::max(camera.near_m, std::max(depth_range_m(axes, scene).x, 0.02f * end));
+    const float begin =
+        std::max(camera.near_m, std::max(depth_range_m(axes, scene).x, 0.02f * end));
     glm::vec3 ends;
     for (int i = 0; i < SHADOW_CASCADES; ++i) {
         const float t = static_cast<float>(i + 1) / SHADOW_CASCADES;
@@ -170,8 +171,8 @@ std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float
             centre = scene_centre;
             radius = scene_radius;
         }
-        views[static_cast<std::size_t>(i)] =
-            orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, DepthMaps::kShadowSize);
+        views[static_cast<std::size_t>(i)] = orthographic_view(
+            -to_sun, centre, std::max(radius, 1e-3f), scene, DepthMaps::kShadowSize);
     }
     return views;
 }
@@ -189,9 +190,8 @@ std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Boun
     const Window window = window_of(axes_of(camera), scene);
     std::array<DepthView, SKY_DIRECTIONS> views;
     for (int i = 0; i < SKY_DIRECTIONS; ++i) {
-        views[static_cast<std::size_t>(i)] =
-            orthographic_view(-sky_direction(i), window.centre_m, window.radius_m, scene,
-                              DepthMaps::kSkySize);
+        views[static_cast<std::size_t>(i)] = orthographic_view(
+            -sky_direction(i), window.centre_m, window.radius_m, scene, DepthMaps::kSkySize);
     }
     return views;
 }
@@ -199,11 +199,13 @@ std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Boun
 DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene)
 {
     const Axes axes = axes_of(camera);
-    // Drops fall at about 6.5 m/s. Steps of half a metre a second keep the map while the wind wavers.
+    // Drops fall at about 6.5 m/s. Steps of half a metre a second keep the map while the wind
+    // wavers.
     const glm::vec2 wind = glm::clamp(glm::round(wind_m_s * 2.0f) * 0.5f, -6.0f, 6.0f);
     const glm::vec3 fall = glm::normalize(glm::vec3(wind.x, -6.5f, wind.y));
     const Window window = window_of(axes, scene);
-    return orthographic_view(fall, window.centre_m, window.radius_m, scene, DepthMaps::kShelterSize);
+    return orthographic_view(fall, window.centre_m, window.radius_m, scene,
+                             DepthMaps::kShelterSize);
 }
 
 }  // namespace petrichor::gpu

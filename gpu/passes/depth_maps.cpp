@@ -132,26 +132,26 @@ DepthView orthographic_view(const glm::vec3& direction, const glm::vec3& centre_
 }
 
 DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
-    : shadow(arena.image({.name = "shadow",
-                          .format = VK_FORMAT_D32_SFLOAT,
-                          .width = kShadowSize,
-                          .height = kShadowSize,
-                          .layers = SHADOW_CASCADES,
-                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
-                                   VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
-      shelter(arena.image({.name = "shelter",
-                           .format = VK_FORMAT_D32_SFLOAT,
-                           .width = kShelterSize,
-                           .height = kShelterSize,
-                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
-                                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
-      sky(arena.image({.name = "sky_visibility",
-                       .format = VK_FORMAT_D32_SFLOAT,
-                       .width = kSkySize,
-                       .height = kSkySize,
-                       .layers = SKY_DIRECTIONS,
-                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT |
-                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
+    : shadow(arena.image(
+          {.name = "shadow",
+           .format = VK_FORMAT_D32_SFLOAT,
+           .width = kShadowSize,
+           .height = kShadowSize,
+           .layers = SHADOW_CASCADES,
+           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
+      shelter(arena.image(
+          {.name = "shelter",
+           .format = VK_FORMAT_D32_SFLOAT,
+           .width = kShelterSize,
+           .height = kShelterSize,
+           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
+      sky(arena.image(
+          {.name = "sky_visibility",
+           .format = VK_FORMAT_D32_SFLOAT,
+           .width = kSkySize,
+           .height = kSkySize,
+           .layers = SKY_DIRECTIONS,
+           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
       compare(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                            VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true))
 {

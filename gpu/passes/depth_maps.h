@@ -21,8 +21,8 @@ struct DepthView {
     }
 };
 
-/// Orthographic view along `direction` that covers a sphere, with its window snapped to whole texels;
-/// in depth it spans the whole scene.
+/// Orthographic view along `direction` that covers a sphere, with its window snapped to whole
+/// texels; in depth it spans the whole scene.
 DepthView orthographic_view(const glm::vec3& direction, const glm::vec3& centre_m, float radius_m,
                             const Bounds& scene, int size);
 

@@ -16,11 +16,11 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                         {targets.gbuffer.normals, Use::Sampled},
                         {targets.occlusion, Use::StorageWrite}},
                .record = [=, &targets](PassContext& pass) {
-                   pass.bind_compute("ambient_occlusion.comp", {},
-                                     {frame_binding(constants),
-                                      sampled(*targets.gbuffer.depth, targets.nearest),
-                                      sampled(*targets.gbuffer.normals, targets.nearest),
-                                      storage(*targets.occlusion)});
+                   pass.bind_compute(
+                       "ambient_occlusion.comp", {},
+                       {frame_binding(constants), sampled(*targets.gbuffer.depth, targets.nearest),
+                        sampled(*targets.gbuffer.normals, targets.nearest),
+                        storage(*targets.occlusion)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
 }
@@ -53,26 +53,33 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                .record = [=, &targets, &lights, &sky, &depth_maps](PassContext& pass) {
                    const GBuffer& in = targets.gbuffer;
                    const SamplerHandle& s = targets.nearest;
-                   pass.bind_compute(
-                       "lighting.comp",
-                       {{0, variant.weather ? 1u : 0u},
-                        {1, variant.shadows ? 1u : 0u},
-                        {2, variant.image_based_light ? 1u : 0u},
-                        {3, variant.ambient_occlusion ? 1u : 0u},
-                        {4, variant.emission ? 1u : 0u},
-                        {5, variant.all_lights ? 1u : 0u}},
-                       {frame_binding(constants),
-                        uniform(*sky.light, 0, sizeof(shared::SkyLight)), sampled(*in.depth, s),
-                        sampled(*in.color, s), sampled(*in.normals, s), sampled(*in.material, s),
-                        sampled(*in.weather, s), sampled(*in.emission, s),
-                        sampled(*targets.occlusion, s),
-                        sampled(*depth_maps.shadow, depth_maps.compare),
-                        sampled(*sky.specular, sky.linear),
-                        sampled(*sky.env_brdf, sky.linear), sampled(*sky.cube, sky.linear), texels(*lights.texels),
-                        texels(*targets.light_lists), storage(*targets.accumulated),
-                        sampled(*depth_maps.sky, depth_maps.compare),
-                        storage(*targets.radiance), storage(*targets.mirror_weight),
-                        storage(*targets.mirror_shape)});
+                   pass.bind_compute("lighting.comp",
+                                     {{0, variant.weather ? 1u : 0u},
+                                      {1, variant.shadows ? 1u : 0u},
+                                      {2, variant.image_based_light ? 1u : 0u},
+                                      {3, variant.ambient_occlusion ? 1u : 0u},
+                                      {4, variant.emission ? 1u : 0u},
+                                      {5, variant.all_lights ? 1u : 0u}},
+                                     {frame_binding(constants),
+                                      uniform(*sky.light, 0, sizeof(shared::SkyLight)),
+                                      sampled(*in.depth, s),
+                                      sampled(*in.color, s),
+                                      sampled(*in.normals, s),
+                                      sampled(*in.material, s),
+                                      sampled(*in.weather, s),
+                                      sampled(*in.emission, s),
+                                      sampled(*targets.occlusion, s),
+                                      sampled(*depth_maps.shadow, depth_maps.compare),
+                                      sampled(*sky.specular, sky.linear),
+                                      sampled(*sky.env_brdf, sky.linear),
+                                      sampled(*sky.cube, sky.linear),
+                                      texels(*lights.texels),
+                                      texels(*targets.light_lists),
+                                      storage(*targets.accumulated),
+                                      sampled(*depth_maps.sky, depth_maps.compare),
+                                      storage(*targets.radiance),
+                                      storage(*targets.mirror_weight),
+                                      storage(*targets.mirror_shape)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
 }
@@ -108,12 +115,11 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                         {targets.beauty, Use::StorageWrite},
                         {targets.display, Use::StorageWrite}},
                .record = [=, &targets, &sky](PassContext& pass) {
-                   pass.bind_compute("resolve.comp", {},
-                                     {frame_binding(constants),
-                                      uniform(*sky.light, 0, sizeof(shared::SkyLight)),
-                                      storage(*targets.accumulated),
-                                      storage_buffer(*targets.beauty),
-                                      storage_buffer(*targets.display)});
+                   pass.bind_compute(
+                       "resolve.comp", {},
+                       {frame_binding(constants), uniform(*sky.light, 0, sizeof(shared::SkyLight)),
+                        storage(*targets.accumulated), storage_buffer(*targets.beauty),
+                        storage_buffer(*targets.display)});
                    pass.dispatch_over(targets.width, targets.height, kTile);
                }});
     graph.add({.name = "read_back",
@@ -124,30 +130,30 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                .record = {}});
 }
 
-void add_aov(FrameGraph& graph, FrameTargets& targets,
-             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind,
-             const LightingVariant& variant)
+void add_aov(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
+             std::size_t slot, std::uint32_t kind, const LightingVariant& variant)
 {
     const GBuffer& g = targets.gbuffer;
-    graph.add({.name = "aov",
-               .uses = {{g.depth, Use::Sampled},
-                        {g.color, Use::Sampled},
-                        {g.normals, Use::Sampled},
-                        {g.material, Use::Sampled},
-                        {g.weather, Use::Sampled},
-                        {g.emission, Use::Sampled},
-                        {targets.aovs[slot], Use::StorageWrite}},
-               .record = [=, &targets](PassContext& pass) {
-                   const GBuffer& in = targets.gbuffer;
-                   pass.bind_compute(
-                       "aov.comp", {},
-                       {frame_binding(constants), sampled(*in.depth, targets.nearest),
-                        sampled(*in.color, targets.nearest), sampled(*in.normals, targets.nearest),
-                        sampled(*in.material, targets.nearest), sampled(*in.weather, targets.nearest),
-                        sampled(*in.emission, targets.nearest), storage_buffer(*targets.aovs[slot])});
-                   pass.push(glm::uvec3(kind, variant.weather ? 1u : 0u, variant.emission ? 1u : 0u));
-                   pass.dispatch_over(targets.width, targets.height, kTile);
-               }});
+    graph.add(
+        {.name = "aov",
+         .uses = {{g.depth, Use::Sampled},
+                  {g.color, Use::Sampled},
+                  {g.normals, Use::Sampled},
+                  {g.material, Use::Sampled},
+                  {g.weather, Use::Sampled},
+                  {g.emission, Use::Sampled},
+                  {targets.aovs[slot], Use::StorageWrite}},
+         .record = [=, &targets](PassContext& pass) {
+             const GBuffer& in = targets.gbuffer;
+             pass.bind_compute(
+                 "aov.comp", {},
+                 {frame_binding(constants), sampled(*in.depth, targets.nearest),
+                  sampled(*in.color, targets.nearest), sampled(*in.normals, targets.nearest),
+                  sampled(*in.material, targets.nearest), sampled(*in.weather, targets.nearest),
+                  sampled(*in.emission, targets.nearest), storage_buffer(*targets.aovs[slot])});
+             pass.push(glm::uvec3(kind, variant.weather ? 1u : 0u, variant.emission ? 1u : 0u));
+             pass.dispatch_over(targets.width, targets.height, kTile);
+         }});
     graph.add({.name = "read_back", .uses = {{targets.aovs[slot], Use::HostRead}}, .record = {}});
 }
 

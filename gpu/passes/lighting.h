@@ -23,8 +23,8 @@ struct LightingVariant {
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants);
 
-// Applies weather to the dry material, then light. Without image-based light the sample is added to the
-// sum at once, else by the reflections.
+// Applies weather to the dry material, then light. Without image-based light the sample is added to
+// the sum at once, else by the reflections.
 //
 //   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
@@ -32,8 +32,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                   DepthMaps& depth_maps, const ConstantsRange& constants,
                   const LightingVariant& variant);
 
-// Adds what smooth surfaces mirror of the picture itself, else of the sky; then adds the sample to the
-// sum.
+// Adds what smooth surfaces mirror of the picture itself, else of the sky; then adds the sample to
+// the sum.
 //
 //   reads    depth, radiance, mirror_weight, mirror_shape, sky maps
 //   edits    accumulated
@@ -51,9 +51,8 @@ void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
 //
 //   reads    the G-buffer
 //   writes   aovs[slot]
-void add_aov(FrameGraph& graph, FrameTargets& targets,
-             const ConstantsRange& constants, std::size_t slot, std::uint32_t kind,
-             const LightingVariant& variant);
+void add_aov(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
+             std::size_t slot, std::uint32_t kind, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu
 

@@ -37,11 +37,11 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     }
     table.count = static_cast<std::uint32_t>(ordered.size());
     if (texels.empty()) texels.emplace_back(0.0f);
-    table.texels = arena.buffer({.name = "lights",
-                                 .size = texels.size() * sizeof(glm::vec4),
-                                 .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                 .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    table.texels = arena.buffer(
+        {.name = "lights",
+         .size = texels.size() * sizeof(glm::vec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
     upload_buffer(device, *table.texels, std::as_bytes(std::span(texels)));
     return table;
 }
@@ -50,16 +50,16 @@ void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& light
                      const ConstantsRange& constants)
 {
     if (lights.words() > 0) {
-        graph.add({.name = "light_coarse",
-                   .uses = {{lights.texels, Use::TexelRead},
-                            {targets.coarse_lights, Use::StorageWrite}},
-                   .record = [=, &targets, &lights](PassContext& pass) {
-                       pass.bind_compute("light_coarse.comp", {},
-                                         {frame_binding(constants), texels(*lights.texels),
-                                          storage_buffer(*targets.coarse_lights)});
-                       pass.dispatch(static_cast<int>((lights.words() + 63) / 64),
-                                     targets.coarse_x() * targets.coarse_y());
-                   }});
+        graph.add(
+            {.name = "light_coarse",
+             .uses = {{lights.texels, Use::TexelRead}, {targets.coarse_lights, Use::StorageWrite}},
+             .record = [=, &targets, &lights](PassContext& pass) {
+                 pass.bind_compute("light_coarse.comp", {},
+                                   {frame_binding(constants), texels(*lights.texels),
+                                    storage_buffer(*targets.coarse_lights)});
+                 pass.dispatch(static_cast<int>((lights.words() + 63) / 64),
+                               targets.coarse_x() * targets.coarse_y());
+             }});
     }
     graph.add({.name = "light_lists",
                .uses = {{lights.texels, Use::TexelRead},

@@ -9,8 +9,9 @@
 
 namespace petrichor::gpu {
 
-/// Lights as the shaders read them: three texels each (centre and radius; colour in cd and cosine of the
-/// outer cone, -2 for a point light; axis and cosine of the inner cone). Directional lights come first.
+/// Lights as the shaders read them: three texels each (centre and radius; colour in cd and cosine
+/// of the outer cone, -2 for a point light; axis and cosine of the inner cone). Directional lights
+/// come first.
 struct LightTable {
     std::unique_ptr<GpuBuffer> texels;
     std::uint32_t count = 0;

@@ -36,7 +36,8 @@ std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int siz
                         .layers = 6,
                         .cube = true,
                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
 // Mips of the cube, then the lobes that the specular light reads.
@@ -49,9 +50,9 @@ void add_filtered(FrameGraph& graph, SkyMaps& maps)
                .uses = {{maps.cube, Use::Sampled}, {maps.specular, Use::StorageWrite}},
                .record = [&maps](PassContext& pass) {
                    for (int mip = 0; mip < SKY_PREFILTER_MIPS; ++mip) {
-                       pass.bind_compute("sky_specular.comp", {},
-                                         {sampled(*maps.cube, maps.linear),
-                                          storage(*maps.specular, mip)});
+                       pass.bind_compute(
+                           "sky_specular.comp", {},
+                           {sampled(*maps.cube, maps.linear), storage(*maps.specular, mip)});
                        pass.push(PrefilterParams{
                            static_cast<float>(mip) / static_cast<float>(SKY_PREFILTER_MIPS - 1),
                            static_cast<float>(kCubeSize), static_cast<float>(kCubeMips)});
@@ -75,11 +76,11 @@ SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
                             .width = kBrdfSize,
                             .height = kBrdfSize,
                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT})),
-      light(arena.buffer({.name = "sky_light",
-                          .size = sizeof(shared::SkyLight),
-                          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                          .host = true})),
+      light(arena.buffer(
+          {.name = "sky_light",
+           .size = sizeof(shared::SkyLight),
+           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+           .host = true})),
       linear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)),
       wrap_u(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
@@ -133,18 +134,18 @@ void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float
 
 void add_sky_light(FrameGraph& graph, SkyMaps& maps, const Metering& metering)
 {
-    graph.add({.name = "sky_light",
-               .uses = {{maps.cube, Use::Sampled}, {maps.light, Use::StorageWrite}},
-               .record = [&maps, metering](PassContext& pass) {
-                   pass.bind_compute("sky_light.comp", {},
-                                     {sampled(*maps.cube, maps.linear), storage_buffer(*maps.light)});
-                   pass.push(SkyLightParams{metering.sun_illuminance, metering.sun_up,
-                                            static_cast<float>(kIrradianceMip),
-                                            static_cast<float>(kCubeSize >> kIrradianceMip),
-                                            metering.exposure, metering.bias,
-                                            metering.ambient_scale, metering.floor_lux});
-                   pass.dispatch(1, 1);
-               }});
+    graph.add(
+        {.name = "sky_light",
+         .uses = {{maps.cube, Use::Sampled}, {maps.light, Use::StorageWrite}},
+         .record = [&maps, metering](PassContext& pass) {
+             pass.bind_compute("sky_light.comp", {},
+                               {sampled(*maps.cube, maps.linear), storage_buffer(*maps.light)});
+             pass.push(SkyLightParams{
+                 metering.sun_illuminance, metering.sun_up, static_cast<float>(kIrradianceMip),
+                 static_cast<float>(kCubeSize >> kIrradianceMip), metering.exposure, metering.bias,
+                 metering.ambient_scale, metering.floor_lux});
+             pass.dispatch(1, 1);
+         }});
 }
 
 }  // namespace petrichor::gpu

@@ -17,7 +17,8 @@ std::unique_ptr<GpuImage> map(MemoryArena& arena, const char* name, int size, in
                         .height = size,
                         .mips = mips,
                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
 void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
@@ -68,9 +69,9 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s)
     graph.add({.name = "ripple",
                .uses = {{maps.ripple_source, Use::Sampled}, {maps.ripple, Use::StorageWrite}},
                .record = [&maps, rain, time_s](PassContext& pass) {
-                   pass.bind_compute("ripple.comp", {},
-                                     {sampled(*maps.ripple_source, maps.trilinear),
-                                      storage(*maps.ripple, 0)});
+                   pass.bind_compute(
+                       "ripple.comp", {},
+                       {sampled(*maps.ripple_source, maps.trilinear), storage(*maps.ripple, 0)});
                    pass.push(RippleParams{rain, time_s, 1.0f});
                    pass.dispatch_over(kRippleSize, kRippleSize, kTile);
                }});

@@ -15,10 +15,22 @@ int divide_up(int value, int by)
 
 }  // namespace
 
-int FrameTargets::tiles_x() const { return divide_up(width, LIGHT_TILE); }
-int FrameTargets::tiles_y() const { return divide_up(height, LIGHT_TILE); }
-int FrameTargets::coarse_x() const { return divide_up(tiles_x(), LIGHT_COARSE); }
-int FrameTargets::coarse_y() const { return divide_up(tiles_y(), LIGHT_COARSE); }
+int FrameTargets::tiles_x() const
+{
+    return divide_up(width, LIGHT_TILE);
+}
+int FrameTargets::tiles_y() const
+{
+    return divide_up(height, LIGHT_TILE);
+}
+int FrameTargets::coarse_x() const
+{
+    return divide_up(tiles_x(), LIGHT_COARSE);
+}
+int FrameTargets::coarse_y() const
+{
+    return divide_up(tiles_y(), LIGHT_COARSE);
+}
 
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
                                 int light_words)

@@ -9,10 +9,11 @@ namespace petrichor::gpu {
 
 /// What the surface pass writes: the dry material and the weather at each pixel.
 struct GBuffer {
-    std::unique_ptr<GpuImage> depth;     ///< reversed, infinite far plane
-    std::unique_ptr<GpuImage> color;     ///< square root of base colour; ambient occlusion
-    std::unique_ptr<GpuImage> normals;   ///< base normal, cover normal (water or snow), octahedral
-    std::unique_ptr<GpuImage> material;  ///< perceptual roughness, metallic, porosity; model and reflectance
+    std::unique_ptr<GpuImage> depth;    ///< reversed, infinite far plane
+    std::unique_ptr<GpuImage> color;    ///< square root of base colour; ambient occlusion
+    std::unique_ptr<GpuImage> normals;  ///< base normal, cover normal (water or snow), octahedral
+    std::unique_ptr<GpuImage>
+        material;  ///< perceptual roughness, metallic, porosity; model and reflectance
     std::unique_ptr<GpuImage> weather;   ///< film, standing water, snow, frost; each 0..1
     std::unique_ptr<GpuImage> emission;  ///< linear radiance
 };
@@ -22,12 +23,14 @@ struct FrameTargets {
     int width = 0;
     int height = 0;
     GBuffer gbuffer;
-    SamplerHandle nearest;               ///< for texelFetch
-    std::unique_ptr<GpuImage> occlusion;    ///< screen-space ambient occlusion, 1 open
-    std::unique_ptr<GpuImage> radiance;     ///< of this sample, before smooth reflections; alpha as below
-    std::unique_ptr<GpuImage> mirror_weight;  ///< what a smooth surface reflects of its surroundings
-    std::unique_ptr<GpuImage> mirror_shape;   ///< its normal (octahedral), roughness, sky visibility
-    std::unique_ptr<GpuImage> accumulated;  ///< sum over samples; alpha counts surfaces
+    SamplerHandle nearest;                ///< for texelFetch
+    std::unique_ptr<GpuImage> occlusion;  ///< screen-space ambient occlusion, 1 open
+    std::unique_ptr<GpuImage>
+        radiance;  ///< of this sample, before smooth reflections; alpha as below
+    std::unique_ptr<GpuImage>
+        mirror_weight;                       ///< what a smooth surface reflects of its surroundings
+    std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
+    std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;
     std::unique_ptr<GpuBuffer> beauty;   ///< RGBA half bits, read by the host

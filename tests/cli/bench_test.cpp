@@ -41,10 +41,12 @@ TEST(BenchWeather, TimesEveryRowWithoutAnyFile)
     EXPECT_EQ(report["weather"], "made up");
     EXPECT_EQ(report["threads"], 2);
     EXPECT_GT(report["peak_memory_mib"], 0);
-    EXPECT_THAT(names_of(report),
-                ElementsAre("degree_day_bare", "cell_year_bare", "seek_bare", "degree_day_snow", "cell_year_snow", "seek_snow",
-                            "read_epw", "read_metar_year", "artist_exact", "artist_stepped", "grid_bare_1_thread",
-                            "grid_bare_all_threads", "grid_snow_1_thread", "grid_snow_all_threads"));
+    EXPECT_THAT(
+        names_of(report),
+        ElementsAre("degree_day_bare", "cell_year_bare", "seek_bare", "degree_day_snow",
+                    "cell_year_snow", "seek_snow", "read_epw", "read_metar_year", "artist_exact",
+                    "artist_stepped", "grid_bare_1_thread", "grid_bare_all_threads",
+                    "grid_snow_1_thread", "grid_snow_all_threads"));
     for (const auto& row : report["rows"]) {
         EXPECT_GE(row["cpu_ms"], 0.0) << row["name"];
         EXPECT_GT(row["wall_ms"], 0.0) << row["name"];
@@ -65,8 +67,9 @@ TEST(BenchWeather, TimesARealFile)
     std::filesystem::remove_all(folder);
     EXPECT_EQ(report["weather"], "town.epw");
     EXPECT_THAT(names_of(report),
-                ElementsAre("degree_day_file", "cell_year_file", "seek_file", "read_epw", "read_metar_year", "read_file",
-                            "artist_exact", "artist_stepped", "grid_file_1_thread", "grid_file_all_threads"));
+                ElementsAre("degree_day_file", "cell_year_file", "seek_file", "read_epw",
+                            "read_metar_year", "read_file", "artist_exact", "artist_stepped",
+                            "grid_file_1_thread", "grid_file_all_threads"));
 }
 
 TEST(BenchWeather, SaysWhichFileIsNotThere)
@@ -96,7 +99,8 @@ TEST(BenchSample, SnowyIsSnowyAndFilesAgree)
     EXPECT_EQ(bare.rows(), 8760u);
     const auto frosty_hours = [](const weather::ForcingTable& table) {
         int hours = 0;
-        for (std::size_t i = 0; i < table.rows(); ++i) hours += table[Field::AirTemp][i] < 273.15 && table[Field::Precip][i] > 0.0;
+        for (std::size_t i = 0; i < table.rows(); ++i)
+            hours += table[Field::AirTemp][i] < 273.15 && table[Field::Precip][i] > 0.0;
         return hours;
     };
     EXPECT_GT(frosty_hours(snowy), 200);

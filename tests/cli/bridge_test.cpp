@@ -22,7 +22,8 @@ TEST(WeatherMoment, PublishesTheStateOfTheModel)
         const WeatherMoment moment = weather_moment(script, weather, time_s);
         EXPECT_FLOAT_EQ(moment.surface.rain, static_cast<float>(state.rain));
         EXPECT_FLOAT_EQ(moment.surface.flood_puddles, static_cast<float>(published.flood_puddles));
-        EXPECT_FLOAT_EQ(moment.surface.snow_amount, static_cast<float>(state.snow * state.water_to_snow));
+        EXPECT_FLOAT_EQ(moment.surface.snow_amount,
+                        static_cast<float>(state.snow * state.water_to_snow));
         EXPECT_FLOAT_EQ(moment.surface.water_to_snow, static_cast<float>(state.water_to_snow));
         EXPECT_DOUBLE_EQ(moment.temperature_c, published.temperature_c);
     }
@@ -33,7 +34,8 @@ TEST(Frost, GrowsInDryColdAndGoesInWarmth)
 {
     const WeatherScript dry = script_of(
         "{ time_s = 0, temperature_c = 5, rainfall = 0 }, { time_s = 10, temperature_c = 5 },"
-        "{ time_s = 11, temperature_c = -10 }, { time_s = 30, temperature_c = -10 }, { time_s = 31, temperature_c = 8 }");
+        "{ time_s = 11, temperature_c = -10 }, { time_s = 30, temperature_c = -10 }, { time_s = "
+        "31, temperature_c = 8 }");
     EXPECT_EQ(frost_at(dry.timeline, 10.0, 1.0), 0.0);
     double before = 0.0;
     for (double t = 11.0; t <= 30.0; t += 0.5) {
@@ -43,8 +45,9 @@ TEST(Frost, GrowsInDryColdAndGoesInWarmth)
     }
     EXPECT_DOUBLE_EQ(before, 1.0);
     EXPECT_EQ(frost_at(dry.timeline, 45.0, 1.0), 0.0);
-    const WeatherScript snowing =
-        script_of("{ time_s = 0, temperature_c = -10, rainfall = 0.5 }, { time_s = 30, temperature_c = -10 }");
+    const WeatherScript snowing = script_of(
+        "{ time_s = 0, temperature_c = -10, rainfall = 0.5 }, { time_s = 30, temperature_c = -10 "
+        "}");
     EXPECT_EQ(frost_at(snowing.timeline, 30.0, 1.0), 0.0);
 }
 
@@ -57,7 +60,8 @@ TEST(CloudCover, ComesBeforeTheRainAndFollowsKeysWhenThereAreSome)
     EXPECT_NEAR(cloud_cover_at(script.timeline, 5.0), 0.12, 1e-9);
     EXPECT_GT(cloud_cover_at(script.timeline, 19.5), 0.2);
     EXPECT_NEAR(cloud_cover_at(script.timeline, 30.0), 0.95, 1e-9);
-    const WeatherScript keyed = script_of(keys + ", { time_s = 41, cloud_cover = 0.5, visibility_m = 900 }");
+    const WeatherScript keyed =
+        script_of(keys + ", { time_s = 41, cloud_cover = 0.5, visibility_m = 900 }");
     const auto weather = keyed.solve();
     EXPECT_DOUBLE_EQ(weather_moment(keyed, weather, 30.0).cloud_cover, 0.5);
     EXPECT_FLOAT_EQ(weather_moment(keyed, weather, 30.0).surface.visibility_m, 900.0f);

@@ -13,9 +13,9 @@
 #include "base/error.h"
 #include "cli/demo/glb_writer.h"
 #include "cli/demo/mesh_builder.h"
-#include "texproc/files/io.h"
 #include "cli/demo/street_parts.h"
 #include "gpu/gltf.h"
+#include "texproc/files/io.h"
 
 namespace petrichor::cli {
 namespace {

@@ -28,16 +28,18 @@ FrameFacts facts_of(int frame, const std::string& settings)
 TEST(FramesJsonl, LinesComeBackAndStayInOrder)
 {
     const Workplace place("jsonl");
-    merge_frame_lines(place.path(), {{7, frame_line(facts_of(7, "a"))}, {2, frame_line(facts_of(2, "a"))}});
-    merge_frame_lines(place.path(), {{5, frame_line(facts_of(5, "b"))}, {7, frame_line(facts_of(7, "c"))}});
+    merge_frame_lines(place.path(),
+                      {{7, frame_line(facts_of(7, "a"))}, {2, frame_line(facts_of(2, "a"))}});
+    merge_frame_lines(place.path(),
+                      {{5, frame_line(facts_of(5, "b"))}, {7, frame_line(facts_of(7, "c"))}});
     const auto records = read_frame_records(place.path());
     ASSERT_EQ(records.size(), 3u);
     EXPECT_EQ(records.at(2).settings, "a");
     EXPECT_EQ(records.at(7).settings, "c");
     EXPECT_EQ(records.at(7).files.at("frame.png"), 3u);
-    EXPECT_EQ(read_file(place / "frames.jsonl"),
-              frame_line(facts_of(2, "a")) + "\n" + frame_line(facts_of(5, "b")) + "\n" +
-                  frame_line(facts_of(7, "c")) + "\n");
+    EXPECT_EQ(read_file(place / "frames.jsonl"), frame_line(facts_of(2, "a")) + "\n" +
+                                                     frame_line(facts_of(5, "b")) + "\n" +
+                                                     frame_line(facts_of(7, "c")) + "\n");
 }
 
 TEST(FramesJsonl, NumbersAreShortAndThereIsNoClock)
@@ -50,7 +52,8 @@ TEST(FramesJsonl, NumbersAreShortAndThereIsNoClock)
 TEST(FramesJsonl, BrokenLinesAreLeftOut)
 {
     const Workplace place("broken");
-    write_file(place / "frames.jsonl", frame_line(facts_of(1, "a")) + "\nnot json\n{\"frame\":\"x\"}\n[]\n{\"fra");
+    write_file(place / "frames.jsonl",
+               frame_line(facts_of(1, "a")) + "\nnot json\n{\"frame\":\"x\"}\n[]\n{\"fra");
     EXPECT_EQ(read_frame_records(place.path()).size(), 1u);
     EXPECT_TRUE(read_frame_records(place / "nowhere").empty());
 }

@@ -28,7 +28,8 @@ TEST(ValueAt, SmoothNeverOvershoots)
         const auto& from = kSteps.keys[i];
         const auto& to = kSteps.keys[i + 1];
         for (int step = 0; step <= 100; ++step) {
-            const double value = value_at(kSteps, from.time_s + (to.time_s - from.time_s) * step / 100.0);
+            const double value =
+                value_at(kSteps, from.time_s + (to.time_s - from.time_s) * step / 100.0);
             EXPECT_GE(value, std::min(from.value, to.value) - 1e-12);
             EXPECT_LE(value, std::max(from.value, to.value) + 1e-12);
         }
@@ -47,13 +48,16 @@ TEST(PointAt, PassesThroughKeysWithSteadyVelocity)
     const std::vector<PathKey> path{
         {0.0, {0, 0, 0}}, {1.0, {1, 2, 0}}, {3.0, {5, 2, 1}}, {4.0, {6, 0, 1}}};
     for (const PathKey& key : path) {
-        EXPECT_LT(glm::length(point_at(path, Interpolation::Smooth, key.time_s) - key.point), 1e-12);
+        EXPECT_LT(glm::length(point_at(path, Interpolation::Smooth, key.time_s) - key.point),
+                  1e-12);
     }
     const double h = 1e-6;
     const auto before = (point_at(path, Interpolation::Smooth, 1.0) -
-                         point_at(path, Interpolation::Smooth, 1.0 - h)) / h;
+                         point_at(path, Interpolation::Smooth, 1.0 - h)) /
+                        h;
     const auto after = (point_at(path, Interpolation::Smooth, 1.0 + h) -
-                        point_at(path, Interpolation::Smooth, 1.0)) / h;
+                        point_at(path, Interpolation::Smooth, 1.0)) /
+                       h;
     EXPECT_LT(glm::length(before - after), 1e-4);
     EXPECT_GT(glm::length(before), 1.0);
 }

@@ -26,7 +26,8 @@ gpu::Primitive quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3
 }
 
 // A chequered picture in two colours.
-gpu::EncodedImage chequers(const std::string& name, std::vector<std::uint8_t> a, std::vector<std::uint8_t> b)
+gpu::EncodedImage chequers(const std::string& name, std::vector<std::uint8_t> a,
+                           std::vector<std::uint8_t> b)
 {
     constexpr int kSize = 32;
     std::vector<std::uint8_t> pixels;
@@ -45,7 +46,8 @@ gpu::EncodedImage chequers(const std::string& name, std::vector<std::uint8_t> a,
 }  // namespace
 
 Workplace::Workplace(const std::string& name)
-    : path_(fs::temp_directory_path() / ("petrichor-test-" + name + "-" + std::to_string(::getpid())))
+    : path_(fs::temp_directory_path() /
+            ("petrichor-test-" + name + "-" + std::to_string(::getpid())))
 {
     fs::remove_all(path_);
     fs::create_directories(path_);
@@ -78,7 +80,8 @@ Outcome run_petrichor(const Run& run, const fs::path& folder)
             ::setrlimit(RLIMIT_FSIZE, &limit);
         }
         std::vector<char*> argv{const_cast<char*>("petrichor")};
-        for (const std::string& argument : run.arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+        for (const std::string& argument : run.arguments)
+            argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
         ::execv(PETRICHOR_PROGRAM, argv.data());
         ::_exit(126);
@@ -126,7 +129,8 @@ std::string tiny_scene_glb()
     scene.materials = {stone};
     gpu::Mesh mesh;
     mesh.name = "court";
-    mesh.primitives = {quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), quad({-2, 0, -2}, {4, 0, 0}, {0, 2, 0})};
+    mesh.primitives = {quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}),
+                       quad({-2, 0, -2}, {4, 0, 0}, {0, 2, 0})};
     scene.meshes = {mesh};
     scene.instances = {{"court", 0, glm::mat4(1.0f)}};
     const auto bytes = write_glb(scene);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/demo/glb_writer.h"
-#include "texproc/files/io.h"
 #include "gpu/scene.h"
+#include "texproc/files/io.h"
 
 namespace petrichor::cli::testing_program {
 

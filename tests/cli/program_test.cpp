@@ -20,9 +20,14 @@ Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
 TEST(Program, HelpAndVersionSucceedOnStdout)
 {
     const Workplace place("help");
-    for (const auto& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"--version"}, {"render", "--help"}, {"bench", "--help"}, {"bench", "weather", "--help"},
-             {"doctor", "--help"}, {"init", "--help"}}) {
+    for (const auto& arguments :
+         std::vector<std::vector<std::string>>{{"--help"},
+                                               {"--version"},
+                                               {"render", "--help"},
+                                               {"bench", "--help"},
+                                               {"bench", "weather", "--help"},
+                                               {"doctor", "--help"},
+                                               {"init", "--help"}}) {
         const Outcome outcome = run(arguments, place);
         EXPECT_EQ(outcome.exit_code, 0) << arguments[0];
         EXPECT_THAT(outcome.out, Not(IsEmpty())) << arguments[0];
@@ -38,7 +43,10 @@ struct Mistake {
     std::vector<std::string> arguments;
     const char* message;
 };
-void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+void PrintTo(const Mistake& mistake, std::ostream* out)
+{
+    *out << mistake.name;
+}
 
 class ProgramMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(ProgramMistake, ExitsWithTwoAndSaysWhat)
@@ -49,12 +57,15 @@ TEST_P(ProgramMistake, ExitsWithTwoAndSaysWhat)
     write_file(place / "misspelt.toml", "[scene]\nfile = \"scene.glb\"\n[output]\nwidht = 64\n");
     write_file(place / "zero.toml", "[scene]\nfile = \"scene.glb\"\n[output]\nwidth = 0\n");
     write_file(place / "gone.toml", "[scene]\nfile = \"gone.glb\"\n");
-    write_file(place / "preset.toml", "[scene]\nfile = \"scene.glb\"\n[weather]\npreset = \"stomr\"\n");
-    write_file(place / "weather.toml",
-               "[scene]\nfile = \"scene.glb\"\n[weather]\nkeys = [\n{ time_s = 0, temperatur_c = 1 }]\n");
-    write_file(place / "texture.gltf",
-               R"({"asset":{"version":"2.0"},"images":[{"uri":"gone.png"}],"textures":[{"source":0}],)"
-               R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})");
+    write_file(place / "preset.toml",
+               "[scene]\nfile = \"scene.glb\"\n[weather]\npreset = \"stomr\"\n");
+    write_file(
+        place / "weather.toml",
+        "[scene]\nfile = \"scene.glb\"\n[weather]\nkeys = [\n{ time_s = 0, temperatur_c = 1 }]\n");
+    write_file(
+        place / "texture.gltf",
+        R"({"asset":{"version":"2.0"},"images":[{"uri":"gone.png"}],"textures":[{"source":0}],)"
+        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})");
     write_file(place / "file", "x");
     const Outcome outcome = run(GetParam().arguments, place);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
@@ -62,50 +73,64 @@ TEST_P(ProgramMistake, ExitsWithTwoAndSaysWhat)
     EXPECT_THAT(outcome.err, HasSubstr("\n  ")) << "says what to do";
     EXPECT_THAT(outcome.out, IsEmpty());
 }
-INSTANTIATE_TEST_SUITE_P(Table, ProgramMistake, testing::Values(
-    Mistake{"command", {"rendr"}, "Did you mean \"render\"?"},
-    Mistake{"option", {"render", "--framse", "1"}, "--framse"},
-    Mistake{"no_command", {}, "subcommand"},
-    Mistake{"size_zero", {"render", "scene.glb", "--size", "0x0"}, "0x0"},
-    Mistake{"size_words", {"render", "scene.glb", "--size", "large"}, "WIDTHxHEIGHT"},
-    Mistake{"size_large", {"render", "scene.glb", "--size", "99999x10"}, "99999x10"},
-    Mistake{"size_overflow", {"render", "scene.glb", "--size", "99999999999x10"}, "WIDTHxHEIGHT"},
-    Mistake{"size_memory", {"render", "scene.glb", "--size", "16384x16384"}, "together at most"},
-    Mistake{"frames", {"render", "scene.glb", "--frames", "9:3"}, "FIRST:LAST"},
-    Mistake{"frames_outside", {"render", "scene.glb", "--frames", "40:60"}, "frames 0 to 47"},
-    Mistake{"samples", {"render", "scene.glb", "--samples", "0"}, "samples"},
-    Mistake{"nothing_to_write", {"render", "scene.glb", "--no-exr", "--no-png"}, "nothing would be written"},
-    Mistake{"aov", {"render", "scene.glb", "--aov", "wettness"}, "no AOV \"wettness\""},
-    Mistake{"input", {"render", "dem"}, "Did you mean \"demo\"?"},
-    Mistake{"missing_scene", {"render", "gone.glb"}, "gone.glb"},
-    Mistake{"missing_scene_of_scenario", {"render", "gone.toml"}, "gone.glb"},
-    Mistake{"missing_scenario", {"render", "none.toml"}, "none.toml"},
-    Mistake{"missing_texture", {"render", "texture.gltf"}, "gone.png"},
-    Mistake{"truncated", {"render", "truncated.glb"}, "truncated.glb"},
-    Mistake{"misspelt_key", {"render", "misspelt.toml"}, "Did you mean \"width\"?"},
-    Mistake{"zero_width_key", {"render", "zero.toml"}, "zero.toml:4"},
-    Mistake{"weather_option", {"render", "scene.glb", "-w", "no-such"}, "neither a preset nor a file"},
-    Mistake{"weather_preset", {"render", "preset.toml"}, "stomr"},
-    Mistake{"weather_key", {"render", "weather.toml"}, "Did you mean \"temperature_c\"?"},
-    Mistake{"folder_is_a_file", {"render", "scene.glb", "-o", "file"}, "cannot write into the folder"},
-    Mistake{"folder_below_a_file", {"render", "scene.glb", "-o", "file/x"}, "cannot write into the folder"},
-    Mistake{"init_no_name", {"init"}, "NAME"},
-    Mistake{"init_exists", {"init", "zero"}, "exists already"},
-    Mistake{"bench_no_scene", {"bench"}, "--scene"},
-    Mistake{"bench_zero", {"bench", "--scene", "scene.glb", "--size", "0x1"}, "0x1"}),
+INSTANTIATE_TEST_SUITE_P(
+    Table, ProgramMistake,
+    testing::Values(
+        Mistake{"command", {"rendr"}, "Did you mean \"render\"?"},
+        Mistake{"option", {"render", "--framse", "1"}, "--framse"},
+        Mistake{"no_command", {}, "subcommand"},
+        Mistake{"size_zero", {"render", "scene.glb", "--size", "0x0"}, "0x0"},
+        Mistake{"size_words", {"render", "scene.glb", "--size", "large"}, "WIDTHxHEIGHT"},
+        Mistake{"size_large", {"render", "scene.glb", "--size", "99999x10"}, "99999x10"},
+        Mistake{
+            "size_overflow", {"render", "scene.glb", "--size", "99999999999x10"}, "WIDTHxHEIGHT"},
+        Mistake{
+            "size_memory", {"render", "scene.glb", "--size", "16384x16384"}, "together at most"},
+        Mistake{"frames", {"render", "scene.glb", "--frames", "9:3"}, "FIRST:LAST"},
+        Mistake{"frames_outside", {"render", "scene.glb", "--frames", "40:60"}, "frames 0 to 47"},
+        Mistake{"samples", {"render", "scene.glb", "--samples", "0"}, "samples"},
+        Mistake{"nothing_to_write",
+                {"render", "scene.glb", "--no-exr", "--no-png"},
+                "nothing would be written"},
+        Mistake{"aov", {"render", "scene.glb", "--aov", "wettness"}, "no AOV \"wettness\""},
+        Mistake{"input", {"render", "dem"}, "Did you mean \"demo\"?"},
+        Mistake{"missing_scene", {"render", "gone.glb"}, "gone.glb"},
+        Mistake{"missing_scene_of_scenario", {"render", "gone.toml"}, "gone.glb"},
+        Mistake{"missing_scenario", {"render", "none.toml"}, "none.toml"},
+        Mistake{"missing_texture", {"render", "texture.gltf"}, "gone.png"},
+        Mistake{"truncated", {"render", "truncated.glb"}, "truncated.glb"},
+        Mistake{"misspelt_key", {"render", "misspelt.toml"}, "Did you mean \"width\"?"},
+        Mistake{"zero_width_key", {"render", "zero.toml"}, "zero.toml:4"},
+        Mistake{"weather_option",
+                {"render", "scene.glb", "-w", "no-such"},
+                "neither a preset nor a file"},
+        Mistake{"weather_preset", {"render", "preset.toml"}, "stomr"},
+        Mistake{"weather_key", {"render", "weather.toml"}, "Did you mean \"temperature_c\"?"},
+        Mistake{"folder_is_a_file",
+                {"render", "scene.glb", "-o", "file"},
+                "cannot write into the folder"},
+        Mistake{"folder_below_a_file",
+                {"render", "scene.glb", "-o", "file/x"},
+                "cannot write into the folder"},
+        Mistake{"init_no_name", {"init"}, "NAME"},
+        Mistake{"init_exists", {"init", "zero"}, "exists already"},
+        Mistake{"bench_no_scene", {"bench"}, "--scene"},
+        Mistake{"bench_zero", {"bench", "--scene", "scene.glb", "--size", "0x1"}, "0x1"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Program, WithoutAVulkanDriverItSaysSo)
 {
     const Workplace place("novulkan");
     write_file(place / "scene.glb", tiny_scene_glb());
-    const std::vector<std::string> none{"VK_ICD_FILENAMES=/nonexistent", "VK_DRIVER_FILES=/nonexistent"};
+    const std::vector<std::string> none{"VK_ICD_FILENAMES=/nonexistent",
+                                        "VK_DRIVER_FILES=/nonexistent"};
     const Outcome render = run_petrichor(
         {.arguments = {"render", "scene.glb", "-o", "out"}, .environment = none}, place.path());
     EXPECT_EQ(render.exit_code, 2) << render.err;
     EXPECT_THAT(render.err, HasSubstr("Vulkan"));
     EXPECT_FALSE(std::filesystem::exists(place / "out/frames.jsonl"));
-    const Outcome doctor = run_petrichor({.arguments = {"doctor"}, .environment = none}, place.path());
+    const Outcome doctor =
+        run_petrichor({.arguments = {"doctor"}, .environment = none}, place.path());
     EXPECT_EQ(doctor.exit_code, 2);
     EXPECT_THAT(doctor.out, AllOf(HasSubstr("MISSING vulkan"), HasSubstr("mesa-vulkan-drivers")));
 }
@@ -117,7 +142,8 @@ TEST(Program, InitWritesAScenarioThatIsAccepted)
     EXPECT_EQ(first.exit_code, 0) << first.err;
     EXPECT_THAT(read_file(place / "mine.toml"), HasSubstr("file = \"gone.glb\""));
     // Everything in it is understood: what is missing is the scene.
-    write_file(place / "w.toml", "[weather]\nkeys = [{ time_s = 0, temperature_c = 1, rainfall = 0 }]\n");
+    write_file(place / "w.toml",
+               "[weather]\nkeys = [{ time_s = 0, temperature_c = 1, rainfall = 0 }]\n");
     const Outcome render = run({"render", "mine.toml", "--weather", "w.toml"}, place);
     EXPECT_EQ(render.exit_code, 2);
     EXPECT_THAT(render.err, HasSubstr("gone.glb"));
@@ -127,8 +153,10 @@ TEST(Program, DoctorReportsAsJson)
 {
     const Workplace place("doctor");
     const Outcome outcome = run({"doctor", "--json"}, place);
-    EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"version\""), HasSubstr("\"devices\""), HasSubstr("\"can_render\"")));
-    EXPECT_THAT(outcome.out, HasSubstr("\"demo\"")) << "the data folder is found from the build tree";
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"version\""), HasSubstr("\"devices\""),
+                                   HasSubstr("\"can_render\"")));
+    EXPECT_THAT(outcome.out, HasSubstr("\"demo\""))
+        << "the data folder is found from the build tree";
 }
 
 }  // namespace

@@ -46,7 +46,9 @@ std::map<std::string, std::string> contents(const fs::path& folder)
 
 class Render : public testing::Test {
 protected:
-    Render() : place_(std::string("render") + testing::UnitTest::GetInstance()->current_test_info()->name())
+    Render()
+        : place_(std::string("render") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())
     {
         write_file(place_ / "scene.glb", tiny_scene_glb());
         write_file(place_ / "s.toml", kScenario);
@@ -75,7 +77,9 @@ TEST_F(Render, AFrameIsTheSameHoweverItIsReached)
     ASSERT_EQ(whole.exit_code, 0) << whole.err;
     EXPECT_EQ(whole.out, "");
     const auto files = contents(place_ / "whole");
-    EXPECT_EQ(files.count("frame_0005.exr") + files.count("frame_0005.png") + files.count("frames.jsonl"), 3u);
+    EXPECT_EQ(
+        files.count("frame_0005.exr") + files.count("frame_0005.png") + files.count("frames.jsonl"),
+        3u);
     for (const auto& [name, bytes] : files) EXPECT_NE(name[0], '.') << name << " was left behind";
     EXPECT_NE(files.at("frame_0000.png"), files.at("frame_0005.png"));
 
@@ -110,14 +114,16 @@ TEST_F(Render, ResumeRedoesWhatIsDamagedOrOtherwiseMade)
     const auto records = read_frame_records(place_ / "out");
     ASSERT_EQ(records.size(), 3u);
     EXPECT_NE(records.at(1).settings, records.at(0).settings);
-    for (const auto& [frame, record] : records) EXPECT_TRUE(files_are_whole(record, place_ / "out"));
+    for (const auto& [frame, record] : records)
+        EXPECT_TRUE(files_are_whole(record, place_ / "out"));
 }
 
 TEST_F(Render, CtrlCKeepsWholeFramesAndSaysHowToGoOn)
 {
-    const Outcome stopped = run_petrichor(
-        {.arguments = {"render", "s.toml", "-o", "out", "--count", "500"},
-         .interrupt_when = place_ / "out/frame_0001.png"}, place_.path());
+    const Outcome stopped =
+        run_petrichor({.arguments = {"render", "s.toml", "-o", "out", "--count", "500"},
+                       .interrupt_when = place_ / "out/frame_0001.png"},
+                      place_.path());
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
     EXPECT_THAT(stopped.err, HasSubstr("of 500 frames are in out"));
     EXPECT_THAT(stopped.err, HasSubstr("petrichor render s.toml -o out --count 500 --resume"));
@@ -134,21 +140,24 @@ TEST_F(Render, CtrlCKeepsWholeFramesAndSaysHowToGoOn)
 
 TEST_F(Render, AFullDiskIsAnErrorAndLeavesNothingHalfWritten)
 {
-    const Outcome outcome = run_petrichor(
-        {.arguments = {"render", "s.toml", "-o", "out", "--size", "320x180"},
-         // the driver's own cache would run into the limit too
-         .environment = {"MESA_SHADER_CACHE_DISABLE=true"},
-         .file_limit_bytes = 20000}, place_.path());
+    const Outcome outcome =
+        run_petrichor({.arguments = {"render", "s.toml", "-o", "out", "--size", "320x180"},
+                       // the driver's own cache would run into the limit too
+                       .environment = {"MESA_SHADER_CACHE_DISABLE=true"},
+                       .file_limit_bytes = 20000},
+                      place_.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("frame_0000"));
-    for (const auto& [name, bytes] : contents(place_ / "out")) ADD_FAILURE() << name << " was left behind";
+    for (const auto& [name, bytes] : contents(place_ / "out"))
+        ADD_FAILURE() << name << " was left behind";
 }
 
 TEST_F(Render, ASceneNeedsNoScenario)
 {
-    const Outcome outcome = run_petrichor(
-        {.arguments = {"render", "scene.glb", "-o", "out", "--size", "33x17", "--count", "3", "--samples", "1",
-                       "--no-exr"}}, place_.path());
+    const Outcome outcome =
+        run_petrichor({.arguments = {"render", "scene.glb", "-o", "out", "--size", "33x17",
+                                     "--count", "3", "--samples", "1", "--no-exr"}},
+                      place_.path());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto files = contents(place_ / "out");
     EXPECT_EQ(files.count("frame_0002.png"), 1u);
@@ -157,11 +166,13 @@ TEST_F(Render, ASceneNeedsNoScenario)
 
 TEST_F(Render, BenchReportsAndKeepsThePicture)
 {
-    const Outcome outcome = run_petrichor(
-        {.arguments = {"bench", "--scene", "scene.glb", "--size", "64x36", "--repeat", "3", "--json", "--png",
-                       "timed.png"}}, place_.path());
+    const Outcome outcome =
+        run_petrichor({.arguments = {"bench", "--scene", "scene.glb", "--size", "64x36", "--repeat",
+                                     "3", "--json", "--png", "timed.png"}},
+                      place_.path());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const char* name : {"\"cpu_ms_per_frame\"", "\"wall_ms_per_frame\"", "\"peak_memory_mib\"", "\"lighting\""}) {
+    for (const char* name :
+         {"\"cpu_ms_per_frame\"", "\"wall_ms_per_frame\"", "\"peak_memory_mib\"", "\"lighting\""}) {
         EXPECT_THAT(outcome.out, HasSubstr(name));
     }
     EXPECT_GT(fs::file_size(place_ / "timed.png"), 100u);

@@ -61,7 +61,8 @@ porosity = 0.7
 water_accumulation = [0, 1, 0.5, 1]
 [materials."glass"]
 sheltered = true
-)", "s.toml");
+)",
+                                             "s.toml");
     EXPECT_EQ(scenario.scene.file, "town.glb");
     ASSERT_EQ(scenario.camera.keys.size(), 2u);
     EXPECT_EQ(scenario.camera.interpolation, Interpolation::Linear);
@@ -91,7 +92,8 @@ TEST(Scenario, MisspeltTablesAndMaterialKeysToo)
 {
     EXPECT_THAT(error_of("[outptu]\nframes = 3\n").problem, HasSubstr("Did you mean \"output\"?"));
     EXPECT_THAT(error_of("\n[materials.x]\nporosty = 1\n").problem, HasSubstr("s.toml:3"));
-    EXPECT_THAT(error_of("[materials.x]\nporosty = 1\n").problem, HasSubstr("Did you mean \"porosity\"?"));
+    EXPECT_THAT(error_of("[materials.x]\nporosty = 1\n").problem,
+                HasSubstr("Did you mean \"porosity\"?"));
     EXPECT_THAT(error_of("frames = 3\n").problem, HasSubstr("s.toml:1"));
     EXPECT_THAT(error_of("[camera]\nkeys = [{ time_s = 0, position = [0, 0, 0] }]\n").problem,
                 HasSubstr("Did you mean \"position_m\"?"));
@@ -102,7 +104,10 @@ struct BadValue {
     const char* text;
     const char* expected;
 };
-void PrintTo(const BadValue& value, std::ostream* out) { *out << value.name; }
+void PrintTo(const BadValue& value, std::ostream* out)
+{
+    *out << value.name;
+}
 
 class ScenarioBadValue : public testing::TestWithParam<BadValue> {};
 TEST_P(ScenarioBadValue, NamesPlaceFoundAndAccepted)
@@ -112,18 +117,22 @@ TEST_P(ScenarioBadValue, NamesPlaceFoundAndAccepted)
     EXPECT_THAT(message.problem, HasSubstr(GetParam().expected));
     EXPECT_FALSE(message.fix.empty());
 }
-INSTANTIATE_TEST_SUITE_P(Table, ScenarioBadValue, testing::Values(
-    BadValue{"zero_width", "[output]\nwidth = 0", "a whole number from 1 to 16384, got 0"},
-    BadValue{"fraction", "[output]\nframes = 2.5", "a whole number"},
-    BadValue{"text_for_number", "[output]\nfps = \"12\"", "a number from"},
-    BadValue{"not_finite", "[output]\nfps = nan", "a number from"},
-    BadValue{"choice", "[lights]\nlamps = \"maybe\"", "\"on\" or \"off\" or \"dusk\""},
-    BadValue{"unordered_keys", "[sun]\nelevation_degrees = [[3, 1], [2, 1]]", "later than the key before"},
-    BadValue{"short_point", "[camera]\nposition_m = [1, 2]", "an array of 3 numbers"},
-    BadValue{"half_a_camera_key", "[camera]\nkeys = [{ time_s = 1, position_m = [1, 2, 3] }]", "look_at_m"},
-    BadValue{"material_range", "[materials.x]\nporosity = 2", "from 0 to 1, got 2"},
-    BadValue{"not_a_table", "\noutput = 3", "a table"},
-    BadValue{"syntax", "[output]\nwidth = = 3", "not valid TOML"}),
+INSTANTIATE_TEST_SUITE_P(
+    Table, ScenarioBadValue,
+    testing::Values(
+        BadValue{"zero_width", "[output]\nwidth = 0", "a whole number from 1 to 16384, got 0"},
+        BadValue{"fraction", "[output]\nframes = 2.5", "a whole number"},
+        BadValue{"text_for_number", "[output]\nfps = \"12\"", "a number from"},
+        BadValue{"not_finite", "[output]\nfps = nan", "a number from"},
+        BadValue{"choice", "[lights]\nlamps = \"maybe\"", "\"on\" or \"off\" or \"dusk\""},
+        BadValue{"unordered_keys", "[sun]\nelevation_degrees = [[3, 1], [2, 1]]",
+                 "later than the key before"},
+        BadValue{"short_point", "[camera]\nposition_m = [1, 2]", "an array of 3 numbers"},
+        BadValue{"half_a_camera_key", "[camera]\nkeys = [{ time_s = 1, position_m = [1, 2, 3] }]",
+                 "look_at_m"},
+        BadValue{"material_range", "[materials.x]\nporosity = 2", "from 0 to 1, got 2"},
+        BadValue{"not_a_table", "\noutput = 3", "a table"},
+        BadValue{"syntax", "[output]\nwidth = = 3", "not valid TOML"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Scenario, TheStarterParsesAsItStands)
@@ -150,7 +159,8 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
     ASSERT_GT(scenario_keys().size(), 50u);
     std::set<std::string> seen;
     for (const ScenarioKey& key : scenario_keys()) {
-        EXPECT_TRUE(seen.insert(key.table + "." + key.name).second) << key.name << " is there twice";
+        EXPECT_TRUE(seen.insert(key.table + "." + key.name).second)
+            << key.name << " is there twice";
         const std::string table = key.table == "materials" ? "materials.\"*\"" : key.table;
         std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";
@@ -168,7 +178,8 @@ TEST(MaterialOverrides, MatchByGlobAndTheLaterOneWins)
 {
     const Scenario scenario = parse_scenario(
         "[materials.\"z*\"]\nporosity = 0.1\n[materials.\"*stone\"]\nporosity = 0.9\n"
-        "snow_accumulation = [0.5, 2]\n[materials.\"nothing\"]\nsheltered = true\n", "s.toml");
+        "snow_accumulation = [0.5, 2]\n[materials.\"nothing\"]\nsheltered = true\n",
+        "s.toml");
     std::vector<gpu::Material> materials(2);
     materials[0].name = "z_stone";
     materials[1].name = "brick";

@@ -12,7 +12,8 @@ namespace {
 
 using Kind = TextureRecipe::Kind;
 
-gpu::EncodedImage image_of(int size, const std::vector<std::uint8_t>& even, const std::vector<std::uint8_t>& odd)
+gpu::EncodedImage image_of(int size, const std::vector<std::uint8_t>& even,
+                           const std::vector<std::uint8_t>& odd)
 {
     std::vector<std::uint8_t> pixels;
     for (int i = 0; i < size * size; ++i) {
@@ -29,7 +30,8 @@ gpu::EncodedImage image_of(int size, const std::vector<std::uint8_t>& even, cons
 gpu::Scene scene_with_maps()
 {
     gpu::Scene scene;
-    scene.textures = {image_of(8, {255, 255, 255}, {0, 0, 0}), image_of(8, {228, 128, 208}, {28, 128, 208}),
+    scene.textures = {image_of(8, {255, 255, 255}, {0, 0, 0}),
+                      image_of(8, {228, 128, 208}, {28, 128, 208}),
                       image_of(8, {200, 64, 255}, {200, 64, 255})};
     gpu::Material material;
     material.base_color_texture.texture = 0;
@@ -58,9 +60,9 @@ TEST(PlanTextures, PairsNormalAndRoughness)
 TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
 {
     gpu::Scene scene = scene_with_maps();
-    scene.materials[0].emissive_texture.texture = 2;   // colour
+    scene.materials[0].emissive_texture.texture = 2;  // colour
     scene.materials.push_back(scene.materials[0]);
-    scene.materials[1].normal_texture = {};            // the same roughness without its bumps
+    scene.materials[1].normal_texture = {};  // the same roughness without its bumps
     const auto recipes = plan_textures(scene);
     ASSERT_EQ(recipes.size(), scene.textures.size());
     ASSERT_EQ(recipes.size(), 5u);

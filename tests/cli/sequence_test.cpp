@@ -19,7 +19,8 @@ TEST(FrameRange, ReadsEveryForm)
     EXPECT_EQ(parse_frame_range(":4", 10).first, 0);
     EXPECT_EQ(parse_frame_range("6", 10).first, 6);
     EXPECT_EQ(parse_frame_range("6", 10).last, 6);
-    for (const char* bad : {"", ":", "a:b", "7:3", "-1", "1:2:3", "10", "0:10", "1.5", "99999999999"}) {
+    for (const char* bad :
+         {"", ":", "a:b", "7:3", "-1", "1:2:3", "10", "0:10", "1.5", "99999999999"}) {
         EXPECT_THROW(parse_frame_range(bad, 10), Error) << bad;
     }
 }
@@ -28,7 +29,8 @@ TEST(Size, AcceptsWhatCanBeRendered)
 {
     EXPECT_EQ(parse_size("640x360").width, 640);
     EXPECT_EQ(parse_size("1X2").height, 2);
-    for (const char* bad : {"", "640", "0x1", "1x0", "-4x4", "4x4x4", "16385x1", "9000x9000", "1e3x1"}) {
+    for (const char* bad :
+         {"", "640", "0x1", "1x0", "-4x4", "4x4x4", "16385x1", "9000x9000", "1e3x1"}) {
         EXPECT_THROW(parse_size(bad), Error) << bad;
     }
 }
@@ -60,13 +62,15 @@ TEST(FrameAt, TimesRunFromTheStartOverTheDuration)
 TEST(FrameAt, CloudsComeFromTheWeatherUnlessGiven)
 {
     EXPECT_FLOAT_EQ(frame_at(sequence_of(""), 0).frame.sky.cloud_cover, 0.4f);
-    EXPECT_FLOAT_EQ(frame_at(sequence_of("[sky]\ncloud_cover = 0.9\n"), 0).frame.sky.cloud_cover, 0.9f);
+    EXPECT_FLOAT_EQ(frame_at(sequence_of("[sky]\ncloud_cover = 0.9\n"), 0).frame.sky.cloud_cover,
+                    0.9f);
 }
 
 TEST(FrameAt, LampsComeOnAtDusk)
 {
     const Sequence sequence = sequence_of(
-        "[sun]\nelevation_degrees = [[0, 12], [48, 0]]\n[lights]\nlamps = \"dusk\"\ndusk_degrees = 4\n"
+        "[sun]\nelevation_degrees = [[0, 12], [48, 0]]\n[lights]\nlamps = \"dusk\"\ndusk_degrees = "
+        "4\n"
         "dusk_fade_degrees = 4\nscale = 2\n");
     EXPECT_EQ(frame_at(sequence, 0).frame.scene_light_scale, 0.0f);
     EXPECT_EQ(frame_at(sequence, 47).frame.scene_light_scale, 2.0f);
@@ -89,9 +93,10 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
     EXPECT_EQ(print("[output]\nfilm = false\n", 5), base) << "the film is not in the picture";
     EXPECT_EQ(base.size(), 32u);
     for (const char* other :
-         {"[output]\nwidth = 641\n", "[output]\nseed = 2\n", "[output]\nsamples = 9\n", "[sun]\nelevation_degrees = 3\n",
-          "[sky]\ncloud_cover = 0.41\n", "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n",
-          "[camera]\nnear_m = 0.2\n", "[output]\naovs = [\"depth\"]\n", "[scene]\nmax_texture = 512\n",
+         {"[output]\nwidth = 641\n", "[output]\nseed = 2\n", "[output]\nsamples = 9\n",
+          "[sun]\nelevation_degrees = 3\n", "[sky]\ncloud_cover = 0.41\n",
+          "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n", "[camera]\nnear_m = 0.2\n",
+          "[output]\naovs = [\"depth\"]\n", "[scene]\nmax_texture = 512\n",
           "[materials.\"x\"]\nporosity = 0.5\n", "[sun]\nsource = \"scene\"\n"}) {
         EXPECT_NE(print(other, 5), base) << other;
     }
@@ -128,7 +133,8 @@ TEST(ContentBounds, ALargeGroundDoesNotHideTheTown)
     gpu::Scene scene;
     gpu::Primitive town;
     for (int i = 0; i < 1000; ++i) {
-        town.positions.emplace_back(static_cast<float>(i % 10), static_cast<float>(i / 100), static_cast<float>(i / 10 % 10));
+        town.positions.emplace_back(static_cast<float>(i % 10), static_cast<float>(i / 100),
+                                    static_cast<float>(i / 10 % 10));
     }
     gpu::Primitive ground;
     ground.positions = {{-500, 0, -500}, {500, 0, -500}, {500, 0, 500}, {-500, 0, 500}};
@@ -186,7 +192,8 @@ TEST(SunAt, FollowsTheScenesLightUnlessTold)
     gpu::Scene scene;
     gpu::Light light;
     light.kind = gpu::LightKind::Directional;
-    light.direction = glm::normalize(glm::vec3(-1.0f, -1.0f, 0.0f));  // from the east, 45 degrees high
+    light.direction =
+        glm::normalize(glm::vec3(-1.0f, -1.0f, 0.0f));  // from the east, 45 degrees high
     scene.lights = {light};
     EXPECT_NEAR(sun_at({}, scene, 0.0).elevation_rad / kDegree, 45.0, 1e-4);
     EXPECT_NEAR(sun_at({}, scene, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);

@@ -1,4 +1,5 @@
-// Landscapes: terrain files, the model on every cell, maps, the snow line; and stores from a height map.
+// Landscapes: terrain files, the model on every cell, maps, the snow line; and stores from a height
+// map.
 #include "cli/simulate/grid.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@
 #include "cli/simulate/grid_map.h"
 #include "cli/simulate/plot.h"
 #include "cli/simulate/relief.h"
-#include "texproc/files/io.h"
 #include "tests/cli/program.h"
+#include "texproc/files/io.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {
@@ -24,11 +25,14 @@ using testing_program::write_file;
 // A ridge from west to east, 1000 to 2200 m: its north side faces north, its south side south.
 std::string ridge_asc(int side = 16, double cell_m = 150.0)
 {
-    std::string text = "ncols " + std::to_string(side) + "\nNROWS " + std::to_string(side) + "\nxllcorner 0\nyllcorner 0\ncellsize " +
-                       std::to_string(cell_m) + "\nNODATA_value -9999\n";
+    std::string text = "ncols " + std::to_string(side) + "\nNROWS " + std::to_string(side) +
+                       "\nxllcorner 0\nyllcorner 0\ncellsize " + std::to_string(cell_m) +
+                       "\nNODATA_value -9999\n";
     for (int y = 0; y < side; ++y) {
         const double h = 1000.0 + 1200.0 * (1.0 - std::abs(2.0 * (y + 0.5) / side - 1.0));
-        for (int x = 0; x < side; ++x) text += (x == 0 && y == 0 ? std::string("-9999") : std::to_string(h + 3.0 * x)) + (x + 1 < side ? " " : "\n");
+        for (int x = 0; x < side; ++x)
+            text += (x == 0 && y == 0 ? std::string("-9999") : std::to_string(h + 3.0 * x)) +
+                    (x + 1 < side ? " " : "\n");
     }
     return text;
 }
@@ -40,8 +44,10 @@ weather::ReadResult mountain_weather()
     for (int hour = 0; hour < 480; ++hour) {
         const bool snows = hour < 168;
         char line[120];
-        std::snprintf(line, sizeof line, "2024-03-%02dT%02d:00Z,%.1f,%d,%.1f,%.1f,%.1f\n", 1 + hour / 24, hour % 24,
-                      (snows ? 0.0 : 6.0) + 4.0 * std::sin((hour % 24 - 9) * 0.2618), snows ? 95 : 55, snows ? 2.0 : 0.3, snows ? 0.4 : 0.0, snows ? 1.0 : 0.0);
+        std::snprintf(line, sizeof line, "2024-03-%02dT%02d:00Z,%.1f,%d,%.1f,%.1f,%.1f\n",
+                      1 + hour / 24, hour % 24,
+                      (snows ? 0.0 : 6.0) + 4.0 * std::sin((hour % 24 - 9) * 0.2618),
+                      snows ? 95 : 55, snows ? 2.0 : 0.3, snows ? 0.4 : 0.0, snows ? 1.0 : 0.0);
         text += line;
     }
     SiteOptions site;
@@ -97,8 +103,11 @@ TEST(Terrain, BadGridsAreNamedWithTheirLine)
     std::string word = good;
     word.replace(word.rfind(' ') + 1, 1, "x");
     EXPECT_NE(why(word).find("line 10"), std::string::npos) << why(word);
-    EXPECT_NE(why("ncols 99999999\nnrows 9\ncellsize 1\n1 2\n").find("1..16384"), std::string::npos);
-    EXPECT_NE(why("ncols 16384\nnrows 16384\ncellsize 1\n1 2\n").find("too short"), std::string::npos) << "no gigabyte for three numbers";
+    EXPECT_NE(why("ncols 99999999\nnrows 9\ncellsize 1\n1 2\n").find("1..16384"),
+              std::string::npos);
+    EXPECT_NE(why("ncols 16384\nnrows 16384\ncellsize 1\n1 2\n").find("too short"),
+              std::string::npos)
+        << "no gigabyte for three numbers";
     EXPECT_NE(why("ncols 2\nnrows nan\ncellsize 1\n1 2\n").find("line"), std::string::npos);
     EXPECT_NE(why("colour 2\n").find("no key"), std::string::npos);
 }
@@ -158,10 +167,13 @@ TEST(Grid, SnowLiesLongerHighUpAndOnNorthSlopes)
     const SimulationTable t = run_grid(read, "march", terrain, run);
     ASSERT_EQ(maps.size(), 1u);
     EXPECT_EQ(t.rows.size(), 21u);
-    const auto swe = [&](std::size_t row, std::size_t column) { return weather::diagnostics(maps[0].states[row * 16 + column]).swe_kg_m2; };
+    const auto swe = [&](std::size_t row, std::size_t column) {
+        return weather::diagnostics(maps[0].states[row * 16 + column]).swe_kg_m2;
+    };
     EXPECT_GT(swe(5, 8), swe(10, 8) + 5.0) << "rows 5 and 10 are equally high; 5 faces north";
     EXPECT_GT(swe(6, 8), swe(1, 8)) << "higher on the same side";
-    const std::size_t line = column_index(t, "snow_line_m"), cover = column_index(t, "snow_cover_fraction");
+    const std::size_t line = column_index(t, "snow_line_m"),
+                      cover = column_index(t, "snow_cover_fraction");
     EXPECT_GE(t.rows.back()[line], t.rows[7][line]) << "the snow line does not fall while it melts";
     EXPECT_GT(t.rows[7][line], 1000.0);
     EXPECT_LT(t.rows.back()[cover], t.rows[7][cover]);
@@ -178,7 +190,8 @@ TEST(Grid, SnowLiesLongerHighUpAndOnNorthSlopes)
     EXPECT_THROW(run_grid(nowhere, "march", terrain, daily_run()), Error);
 }
 
-// Thin snow on steep ground that faces a strong sun in calm air once threw the surface solver out of its range.
+// Thin snow on steep ground that faces a strong sun in calm air once threw the surface solver out
+// of its range.
 TEST(Grid, SteepSlopesInCalmSunStayFinite)
 {
     Workplace work("steep");
@@ -186,8 +199,10 @@ TEST(Grid, SteepSlopesInCalmSunStayFinite)
     TerrainOptions options;
     options.file = (work / "steep.asc").string();
     for (const char* surface : {"rock", "asphalt", "roof_metal"}) {
-        const SimulationTable t = run_grid(mountain_weather(), "march", read_terrain(options, surface), daily_run());
-        const std::size_t warm = column_index(t, "surface_temp_c"), deepest = column_index(t, "snow_depth_max_m");
+        const SimulationTable t =
+            run_grid(mountain_weather(), "march", read_terrain(options, surface), daily_run());
+        const std::size_t warm = column_index(t, "surface_temp_c"),
+                          deepest = column_index(t, "snow_depth_max_m");
         for (const auto& row : t.rows) {
             EXPECT_GT(row[warm], -40.0) << surface;
             EXPECT_LT(row[warm], 60.0) << surface;
@@ -202,7 +217,8 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
     const Terrain terrain = ridge();
     GridRun run = daily_run();
     const auto read = mountain_weather();
-    run.map_times_us = {read.table.time_us.front() + 7LL * 86400 * 1000000, read.table.time_us.front() + 19LL * 86400 * 1000000};
+    run.map_times_us = {read.table.time_us.front() + 7LL * 86400 * 1000000,
+                        read.table.time_us.front() + 19LL * 86400 * 1000000};
     run.on_map = [&](const GridMap& map) {
         write_grid_map(map_path(work / "map.exr", map.time_us, true), terrain, map, run.model);
         write_grid_map(map_path(work / "map.png", map.time_us, true), terrain, map, run.model);
@@ -212,7 +228,8 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
     EXPECT_EQ(exr.width, 16);
     EXPECT_EQ(exr.channels, 16);
     const auto& names = exr.channel_names;
-    for (const char* name : {"snow_depth.m", "swe.kg_m2", "surface_temp.C", "mask.snow", "elevation.m"}) {
+    for (const char* name :
+         {"snow_depth.m", "swe.kg_m2", "surface_temp.C", "mask.snow", "elevation.m"}) {
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
     }
     const auto brightness = [&](const char* file) {
@@ -222,7 +239,8 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
         for (const float v : image.pixels) sum += static_cast<double>(v);
         return sum / static_cast<double>(image.pixels.size());
     };
-    EXPECT_GT(brightness("map_20240308T0000.png"), brightness("map_20240320T0000.png") + 0.05) << "white, then less so";
+    EXPECT_GT(brightness("map_20240308T0000.png"), brightness("map_20240320T0000.png") + 0.05)
+        << "white, then less so";
     EXPECT_THROW(write_grid_map(work / "map.gif", terrain, {}, run.model), Error);
 }
 
@@ -243,7 +261,8 @@ TEST(Grid, TheSnowLinePartsSnowFromGround)
 TEST(Relief, StoresFollowTheHeightMap)
 {
     Workplace work("relief");
-    // A flat map with one square hollow: 16 x 16 of 256 x 256 texels, too wide for a crack, half of the range deep.
+    // A flat map with one square hollow: 16 x 16 of 256 x 256 texels, too wide for a crack, half of
+    // the range deep.
     Image height(256, 256, 1, ColorSpace::Data, 1.0f);
     for (int y = 100; y < 116; ++y) {
         for (int x = 100; x < 116; ++x) height.at(x, y, 0) = 0.5f;
@@ -251,9 +270,11 @@ TEST(Relief, StoresFollowTheHeightMap)
     texproc::write_image(work / "hollow.exr", height, {.bits = 32});
     const Relief relief = read_relief(work / "hollow.exr", 0.02);
     EXPECT_NEAR(relief.puddles.depth_mm, 10.0, 1e-3);
-    EXPECT_NEAR(relief.puddles.capacity_kg_m2(), 10.0 * 256.0 / 65536.0, 0.02 * 10.0 * 256.0 / 65536.0);
+    EXPECT_NEAR(relief.puddles.capacity_kg_m2(), 10.0 * 256.0 / 65536.0,
+                0.02 * 10.0 * 256.0 / 65536.0);
     EXPECT_LT(relief.cracks.capacity_kg_m2(), 1e-3);
-    EXPECT_NEAR(weather::wet_area(relief.puddles, 10.0), 256.0 / 65536.0, 4.1 / 65536.0) << "a disc does not reach into the corners";
+    EXPECT_NEAR(weather::wet_area(relief.puddles, 10.0), 256.0 / 65536.0, 4.1 / 65536.0)
+        << "a disc does not reach into the corners";
     texproc::write_image(work / "flat.exr", Image(64, 64, 1, ColorSpace::Data, 0.3f), {.bits = 32});
     EXPECT_LT(read_relief(work / "flat.exr", 0.02).puddles.capacity_kg_m2(), 1e-3);
     EXPECT_THROW(read_relief(work / "hollow.exr", 0.0), Error);

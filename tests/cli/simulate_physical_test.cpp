@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "cli/simulate/plot.h"
-#include "weather/physics/stores.h"
 #include "cli/simulate/report.h"
+#include "weather/physics/stores.h"
 
 namespace petrichor::cli {
 namespace {
@@ -22,8 +22,9 @@ std::string weather_csv()
         const bool cold = hour >= 96 && hour < 168;
         const bool falls = hour % 24 < 8 && hour < 168;
         char line[120];
-        std::snprintf(line, sizeof line, "2024-02-%02dT%02d:00Z,%d,%d,3,%.1f,%.1f\n", 1 + hour / 24, hour % 24, cold ? -6 : 9 + hour % 24 / 4,
-                      falls ? 95 : 60, falls ? 2.0 : 0.0, falls ? 1.0 : 0.2);
+        std::snprintf(line, sizeof line, "2024-02-%02dT%02d:00Z,%d,%d,3,%.1f,%.1f\n", 1 + hour / 24,
+                      hour % 24, cold ? -6 : 9 + hour % 24 / 4, falls ? 95 : 60, falls ? 2.0 : 0.0,
+                      falls ? 1.0 : 0.2);
         text += line;
     }
     return text;
@@ -42,7 +43,8 @@ PhysicalRun city()
 // Reads and runs.
 SimulationTable simulated(const std::string& csv, const PhysicalRun& run)
 {
-    return run_physical(read_forcing({{"x", "x.csv", InputKind::Weather, csv}}, run.site), "x", run);
+    return run_physical(read_forcing({{"x", "x.csv", InputKind::Weather, csv}}, run.site), "x",
+                        run);
 }
 
 std::size_t at(const SimulationTable& t, const char* name)
@@ -60,8 +62,10 @@ TEST(SimulatePhysical, TableHasTheContractedColumns)
     EXPECT_EQ(csv.rfind("time_s,time_utc,air_temp_c,", 0), 0u);
     EXPECT_NE(csv.find("\n0,2024-02-01T00:00:00Z,9,"), std::string::npos) << csv.substr(0, 900);
     EXPECT_NE(csv.find("\n3600,2024-02-01T01:00:00Z,"), std::string::npos);
-    for (const char* name : {"snow_depth_m", "swe_kg_m2", "snow_albedo", "surface_temp_c", "film_kg_m2", "crack_kg_m2", "puddle_kg_m2",
-                             "ice_kg_m2", "mass_residual_kg_m2", "energy_residual_w_m2", "wetness", "cracks", "puddles", "snow", "water_to_snow"}) {
+    for (const char* name :
+         {"snow_depth_m", "swe_kg_m2", "snow_albedo", "surface_temp_c", "film_kg_m2", "crack_kg_m2",
+          "puddle_kg_m2", "ice_kg_m2", "mass_residual_kg_m2", "energy_residual_w_m2", "wetness",
+          "cracks", "puddles", "snow", "water_to_snow"}) {
         at(t, name);
     }
     double wettest = 0, deepest = 0;
@@ -108,9 +112,12 @@ TEST(SimulatePhysical, WindowsAndCheckpointsGiveTheSameRows)
 TEST(SimulatePhysical, SiteTableAndBadNames)
 {
     PhysicalRun run;
-    run.site = with_site_table({}, "[site]\nlatitude = 47\nlongitude = 8\nelevation_m = 450\nsurface = \"grass\"\n[artist]\n");
+    run.site = with_site_table(
+        {},
+        "[site]\nlatitude = 47\nlongitude = 8\nelevation_m = 450\nsurface = \"grass\"\n[artist]\n");
     EXPECT_EQ(simulated(weather_csv(), run).mode, "grass");
-    EXPECT_EQ(with_site_table(city().site, "[site]\nlatitude = 10\n").latitude_deg, 47) << "the command line wins";
+    EXPECT_EQ(with_site_table(city().site, "[site]\nlatitude = 10\n").latitude_deg, 47)
+        << "the command line wins";
     EXPECT_THROW(with_site_table({}, "[site]\nlattitude = 47\n"), Error);
     EXPECT_THROW(with_site_table({}, "[site]\nlatitude = 470\n"), Error);
     EXPECT_THROW(with_site_table({}, "[place]\nlatitude = 47\n"), Error);
@@ -131,7 +138,8 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
     run.threads = 3;
     const SimulationTable b = simulated(weather_csv(), run);
     EXPECT_EQ(a.rows, b.rows);
-    const std::size_t low = at(a, "swe_kg_m2_p10"), middle = at(a, "swe_kg_m2_p50"), high = at(a, "swe_kg_m2_p90");
+    const std::size_t low = at(a, "swe_kg_m2_p10"), middle = at(a, "swe_kg_m2_p50"),
+                      high = at(a, "swe_kg_m2_p90");
     double widest = 0;
     for (const auto& row : a.rows) {
         EXPECT_LE(row[low], row[middle]);
@@ -157,9 +165,12 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
 
 TEST(SimulatePhysical, FittedRatesArePlausible)
 {
-    const std::string toml = fitted_artist_toml(read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site), city());
+    const std::string toml = fitted_artist_toml(
+        read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site), city());
     EXPECT_NE(toml.find("time_scale = 0.00027777"), std::string::npos) << toml;
-    const auto rate = [&](const std::string& key) { return std::stod(toml.substr(toml.find(key) + key.size() + 3)); };
+    const auto rate = [&](const std::string& key) {
+        return std::stod(toml.substr(toml.find(key) + key.size() + 3));
+    };
     EXPECT_GT(rate("accumulation_rate_wetness"), 0.3);
     EXPECT_LT(rate("accumulation_rate_wetness"), 50);
     // Puddles keep the film covered here, so it dries slowly.
@@ -199,7 +210,11 @@ TEST(SimulatePhysical, TheReadReportIsInNotesAndJson)
         EXPECT_NE(json.find(part), std::string::npos) << part;
     }
     EXPECT_NE(notes.find("bad row line 74"), std::string::npos) << notes;
-    EXPECT_NE(notes.find("air_temp: 239 read, 1 missing (first in line 55); filled: line between neighbours"), std::string::npos) << notes;
+    EXPECT_NE(
+        notes.find(
+            "air_temp: 239 read, 1 missing (first in line 55); filled: line between neighbours"),
+        std::string::npos)
+        << notes;
     EXPECT_NE(json.find("\"line\": 74"), std::string::npos);
     EXPECT_NE(json.find("\"first_missing_line\": 55"), std::string::npos);
     ASSERT_EQ(t.warnings.size(), 1u);
@@ -208,7 +223,8 @@ TEST(SimulatePhysical, TheReadReportIsInNotesAndJson)
 
 TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
 {
-    // The model's own values come back with no error: depth at 12 h, the surface as the mean of the day.
+    // The model's own values come back with no error: depth at 12 h, the surface as the mean of the
+    // day.
     const SimulationTable t = simulated(weather_csv(), city());
     const std::size_t depth = at(t, "snow_depth_m"), surface = at(t, "surface_temp_c");
     std::string csv = "date;depth_m;surface_temp_c\n";
@@ -216,7 +232,8 @@ TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
         double mean = 0;
         for (std::size_t h = 0; h < 24; ++h) mean += t.rows[day * 24 + h][surface] / 24;
         char line[100];
-        std::snprintf(line, sizeof line, "2024-02-%02zu;%.17g;%.17g\n", day + 1, t.rows[day * 24 + 12][depth] + 0.25, mean - 1.0);
+        std::snprintf(line, sizeof line, "2024-02-%02zu;%.17g;%.17g\n", day + 1,
+                      t.rows[day * 24 + 12][depth] + 0.25, mean - 1.0);
         csv += line;
     }
     PhysicalRun run = city();
@@ -235,7 +252,8 @@ TEST(SimulatePhysical, ObservationsAreScoredByTheRules)
         EXPECT_NE(svg_plot(scored).find("<circle"), std::string::npos);
         EXPECT_NE(html_report(scored).find("model against observation"), std::string::npos);
     }
-    for (const char* bad : {"", "date,colour\n2024-02-01,3\n", "nothing here\n", "date,swe_kg_m2\nx,1\ny,2\n"}) {
+    for (const char* bad :
+         {"", "date,colour\n2024-02-01,3\n", "nothing here\n", "date,swe_kg_m2\nx,1\ny,2\n"}) {
         run.observed = std::string(bad) + "\n";
         EXPECT_THROW(simulated(weather_csv(), run), Error) << bad;
     }
@@ -249,9 +267,11 @@ TEST(SimulatePhysical, PanelsAreChosen)
         for (const auto& panel : chosen_panels(t, wish)) all += panel.title + "|";
         return all;
     };
-    EXPECT_EQ(titles("masks"), "air temperature, \u00b0C|precipitation, mm/h|water masks, 0..1|snow masks, 0..1|");
+    EXPECT_EQ(titles("masks"),
+              "air temperature, \u00b0C|precipitation, mm/h|water masks, 0..1|snow masks, 0..1|");
     EXPECT_NE(titles("snow,water").find("water on the ground"), std::string::npos);
-    EXPECT_EQ(titles("all").find("precipitation, mm/h"), titles("auto").find("precipitation, mm/h"));
+    EXPECT_EQ(titles("all").find("precipitation, mm/h"),
+              titles("auto").find("precipitation, mm/h"));
     EXPECT_THROW(chosen_panels(t, "masks,hail"), Error);
     for (auto& row : t.rows) row[at(t, "snow_depth_m")] = 0.0;
     EXPECT_EQ(titles("auto").find("snow depth"), std::string::npos) << "nothing to see";
@@ -259,7 +279,8 @@ TEST(SimulatePhysical, PanelsAreChosen)
 
 TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
 {
-    const auto read = read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site);
+    const auto read =
+        read_forcing({{"x", "x.csv", InputKind::Weather, weather_csv()}}, city().site);
     const WeatherScript script = script_of_forcing(read.table, "x");
     EXPECT_EQ(script.duration_s, 239 * 3600.0);
     const auto& rain = script.timeline.rainfall;
@@ -273,7 +294,8 @@ TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
     weather::ForcingTable turning = read.table;
     turning[weather::Field::WindFrom].assign(turning.rows(), 350.0);
     turning[weather::Field::WindFrom][1] = 10.0;
-    EXPECT_NEAR(weather::value_at(script_of_forcing(turning, "x").wind_from_deg, 1800e6), 360.0, 1e-9);
+    EXPECT_NEAR(weather::value_at(script_of_forcing(turning, "x").wind_from_deg, 1800e6), 360.0,
+                1e-9);
     // A film of it: an hour is a second, the states are the same.
     const WeatherScript film = faster_script(script, 3600.0);
     EXPECT_NEAR(film.duration_s, 239.0, 1e-9);

@@ -25,9 +25,10 @@ WeatherScript five_parts()
 {
     WeatherScript script;
     script.name = "five parts";
-    script.timeline = weather::parse_timeline_csv("time_s,temperature_c,rainfall\n0,15,.6\n2,-8,.6\n"
-                                                  "6,-8,0\n8,6,0\n11,12,.3\n12.5,12,.3\n",
-                                                  weather::Interpolation::Hold)
+    script.timeline = weather::parse_timeline_csv(
+                          "time_s,temperature_c,rainfall\n0,15,.6\n2,-8,.6\n"
+                          "6,-8,0\n8,6,0\n11,12,.3\n12.5,12,.3\n",
+                          weather::Interpolation::Hold)
                           .timeline;
     script.duration_s = weather::to_seconds(script.timeline.end());
     return script;
@@ -53,7 +54,8 @@ TEST(Simulate, CsvKeepsItsContract)
               "water_to_snow,snow_melt,freeze_exp,melt,melt_exp,flood_cracks,flood_puddles,"
               "film_albedo,film_smoothness,snow_amount,rain_particles_s,snow_particles_s");
     EXPECT_EQ(lines[1].substr(0, 27), "0,15,0.59999999999999998,0,");
-    EXPECT_EQ(lines[1].substr(0, lines[1].find(",0.98999")), "0,15,0.59999999999999998,0,0,0,0,0,0,0,0.01");
+    EXPECT_EQ(lines[1].substr(0, lines[1].find(",0.98999")),
+              "0,15,0.59999999999999998,0,0,0,0,0,0,0,0.01");
     // 17 digits read back as the same bits.
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         std::istringstream in(lines[r + 1]);
@@ -68,8 +70,11 @@ TEST(Simulate, CsvKeepsItsContract)
 
 TEST(Simulate, SteppedFollowsTheFrameRate)
 {
-    const std::pair<Fraction, double> expected[] = {
-        {{1, 240}, .213886}, {{1, 60}, .213115}, {{1, 30}, .212080}, {{1, 10}, .208053}, {{1, 2}, .185222}};
+    const std::pair<Fraction, double> expected[] = {{{1, 240}, .213886},
+                                                    {{1, 60}, .213115},
+                                                    {{1, 30}, .212080},
+                                                    {{1, 10}, .208053},
+                                                    {{1, 2}, .185222}};
     for (const auto& [dt, wetness] : expected) {
         ArtistRun run;
         run.stepped = true;
@@ -158,8 +163,8 @@ TEST(Simulate, FractionsAreExact)
     EXPECT_EQ(parse_fraction("0.25", "--dt").value(), 0.25);
     EXPECT_EQ(parse_fraction(".5", "--dt").value(), 0.5);
     EXPECT_EQ(parse_fraction("2", "--dt").value(), 2.0);
-    for (const char* bad : {"", "0", "-1", "1/0", "/", "1/", "a", "1e-3", "nan", "0.0000000001", ".",
-                            "1.-5", "--"}) {
+    for (const char* bad :
+         {"", "0", "-1", "1/0", "/", "1/", "a", "1e-3", "nan", "0.0000000001", ".", "1.-5", "--"}) {
         EXPECT_THROW(parse_fraction(bad, "--dt"), Error) << bad;
     }
 }
@@ -176,7 +181,8 @@ TEST(Simulate, RefusesEmptyWindowsAndTooManyRows)
 
 TEST(Plot, TicksAreRoundAndInside)
 {
-    EXPECT_EQ(axis_ticks(0, 1, 5, false), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
+    EXPECT_EQ(axis_ticks(0, 1, 5, false),
+              (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
     EXPECT_EQ(axis_ticks(0, 7200, 6, true).at(1), 1800.0);
     EXPECT_EQ(time_label(7200, 3600), "2 h");
     EXPECT_EQ(time_label(0.5, 0.5), "0.5 s");
@@ -196,7 +202,8 @@ TEST(Plot, SvgIsWholeAndEscapesItsTitle)
     EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     std::size_t lines = 0;
-    for (std::size_t at = svg.find("<polyline"); at != svg.npos; at = svg.find("<polyline", at + 1)) {
+    for (std::size_t at = svg.find("<polyline"); at != svg.npos;
+         at = svg.find("<polyline", at + 1)) {
         ++lines;
     }
     EXPECT_GE(lines, 9u);
@@ -207,12 +214,13 @@ TEST(Plot, PixelsShowEveryCurveAndItsText)
 {
     const Pixels pixels = to_pixels(plot_of(run_artist(five_parts(), {})), 1.0);
     EXPECT_EQ(pixels.width, 960);
-    ASSERT_EQ(pixels.rgb.size(), static_cast<std::size_t>(pixels.width) *
-                                     static_cast<std::size_t>(pixels.height) * 3);
+    ASSERT_EQ(pixels.rgb.size(),
+              static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) * 3);
     const auto count = [&](int red, int green, int blue) {
         std::size_t found = 0;
         for (std::size_t i = 0; i < pixels.rgb.size(); i += 3) {
-            found += pixels.rgb[i] == red && pixels.rgb[i + 1] == green && pixels.rgb[i + 2] == blue;
+            found +=
+                pixels.rgb[i] == red && pixels.rgb[i + 1] == green && pixels.rgb[i + 2] == blue;
         }
         return found;
     };
@@ -261,16 +269,18 @@ std::string chromium()
     return "";
 }
 
-// The page in a browser: its script ran to the end, drew every panel, listed every event, put the cursor where the
-// link asks for it, and fits the width of a desktop and of a phone.
+// The page in a browser: its script ran to the end, drew every panel, listed every event, put the
+// cursor where the link asks for it, and fits the width of a desktop and of a phone.
 TEST(Report, OpensInChromium)
 {
     const std::string browser = chromium();
-    if (browser.empty()) GTEST_SKIP() << "no Chromium on this machine (Debian: apt install chromium)";
+    if (browser.empty())
+        GTEST_SKIP() << "no Chromium on this machine (Debian: apt install chromium)";
     ArtistRun run;
     run.every_s = {1, 20};
     const SimulationTable table = run_artist(five_parts(), run);
-    const fs::path folder = fs::temp_directory_path() / ("petrichor-report-" + std::to_string(::getpid()));
+    const fs::path folder =
+        fs::temp_directory_path() / ("petrichor-report-" + std::to_string(::getpid()));
     write_text_file(folder / "report.html", html_report(table));
     for (const char* size : {"1280,900", "500,800"}) {
         const std::string command =

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "texproc/files/texture.h"
 #include "tests/cli/program.h"
+#include "texproc/files/texture.h"
 
 namespace petrichor::cli {
 namespace {
@@ -48,8 +48,10 @@ TEST_F(Convert, WritesLevelsInBlocksWithTheirLabel)
     EXPECT_TRUE(texture.srgb);
     EXPECT_EQ(texproc::name_of(texture.format), "bc7");
     EXPECT_EQ(texture.levels.size(), 5u);
-    EXPECT_EQ(convert({"in.png", "-o", "one.dds", "--format", "bc1", "--threads", "1"}).exit_code, 0);
-    EXPECT_EQ(convert({"in.png", "-o", "five.dds", "--format", "bc1", "--threads", "5"}).exit_code, 0);
+    EXPECT_EQ(convert({"in.png", "-o", "one.dds", "--format", "bc1", "--threads", "1"}).exit_code,
+              0);
+    EXPECT_EQ(convert({"in.png", "-o", "five.dds", "--format", "bc1", "--threads", "5"}).exit_code,
+              0);
     EXPECT_EQ(read_file(place / "one.dds"), read_file(place / "five.dds"));
 }
 

@@ -45,7 +45,8 @@ water_to_snow_curve = [[0, 0, 2, 2], [1, 1, 0, 0]]
 [weather.artist.initial]
 water_to_snow = 0
 cracks = 0.4
-)", "w.toml");
+)",
+                                                     "w.toml");
     EXPECT_EQ(script.name, "test");
     EXPECT_EQ(script.duration_s, 9.0);
     EXPECT_EQ(script.timeline.rainfall.times, (std::vector<weather::TimeUs>{0, 4500000}));
@@ -87,8 +88,8 @@ TEST(WeatherFile, MessagesNameLineKeyAndTheNearestName)
 
 TEST(WeatherFile, ParameterFilesHoldOnlyArtist)
 {
-    const ArtistSettings settings =
-        read_artist_settings("[artist]\ntime_scale = 0.5\n[artist.initial]\nsnow = 0.7\n", "p.toml");
+    const ArtistSettings settings = read_artist_settings(
+        "[artist]\ntime_scale = 0.5\n[artist.initial]\nsnow = 0.7\n", "p.toml");
     EXPECT_EQ(settings.params.time_scale, 0.5);
     EXPECT_EQ(settings.initial.snow, 0.7);
     EXPECT_THROW(read_artist_settings("[artists]\n", "p.toml"), Error);
@@ -117,7 +118,8 @@ protected:
 TEST_F(Presets, AllReadSolveAndChange)
 {
     int count = 0;
-    for (const auto& entry : fs::directory_iterator(fs::path(PETRICHOR_SOURCE_DIR) / "data/weather")) {
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(PETRICHOR_SOURCE_DIR) / "data/weather")) {
         if (entry.path().extension() != ".toml") continue;
         SCOPED_TRACE(entry.path().string());
         const WeatherScript script = script_of(entry.path());

@@ -1,5 +1,5 @@
-// The fuzzer's corpus in the normal build: every file alone, cut short, and with bytes changed, so that the target
-// keeps working and what was once found stays found.
+// The fuzzer's corpus in the normal build: every file alone, cut short, and with bytes changed, so
+// that the target keeps working and what was once found stays found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ namespace {
 std::vector<std::filesystem::path> corpus()
 {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_FUZZ_CORPUS)) files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_FUZZ_CORPUS))
+        files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -44,7 +45,8 @@ TEST(ReadersCorpus, HoldsEveryKindOfFile)
         }
     }
     for (int i = 0; i <= static_cast<int>(WeatherFormat::Surfrad); ++i) {
-        EXPECT_TRUE(kinds.count(format_name(static_cast<WeatherFormat>(i)))) << format_name(static_cast<WeatherFormat>(i));
+        EXPECT_TRUE(kinds.count(format_name(static_cast<WeatherFormat>(i))))
+            << format_name(static_cast<WeatherFormat>(i));
     }
 }
 
@@ -57,7 +59,8 @@ TEST(ReadersCorpus, IsSmall)
 
 TEST(ReadersCorpus, EveryFileKeepsThePromises)
 {
-    for (const auto& file : corpus()) EXPECT_NO_THROW(testing_fuzz::read_bytes(bytes_of(file))) << file;
+    for (const auto& file : corpus())
+        EXPECT_NO_THROW(testing_fuzz::read_bytes(bytes_of(file))) << file;
 }
 
 TEST(ReadersCorpus, SoDoesEveryFileCutShort)
@@ -66,7 +69,8 @@ TEST(ReadersCorpus, SoDoesEveryFileCutShort)
         const std::string whole = bytes_of(file);
         const std::size_t stride = std::max<std::size_t>(1, whole.size() / 61);
         for (std::size_t length = 0; length < whole.size(); length += stride) {
-            EXPECT_NO_THROW(testing_fuzz::read_bytes(std::string_view(whole).substr(0, length))) << file << " to " << length;
+            EXPECT_NO_THROW(testing_fuzz::read_bytes(std::string_view(whole).substr(0, length)))
+                << file << " to " << length;
         }
     }
 }
@@ -84,7 +88,8 @@ TEST(ReadersCorpus, SoDoesEveryFileWithBytesChanged)
                 random = random * 6364136223846793005u + 1442695040888963407u;
                 changed[(random >> 33) % changed.size()] = kBytes[(random >> 20) % sizeof kBytes];
             }
-            EXPECT_NO_THROW(testing_fuzz::read_bytes(changed)) << file << " change " << i << ":\n" << changed;
+            EXPECT_NO_THROW(testing_fuzz::read_bytes(changed)) << file << " change " << i << ":\n"
+                                                               << changed;
         }
     }
 }

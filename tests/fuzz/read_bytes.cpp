@@ -22,11 +22,12 @@ void check_table(const ForcingTable& table)
     for (std::size_t i = 1; i < table.rows(); ++i) {
         require(table.time_us[i] > table.time_us[i - 1], "times increase");
     }
-    for (const Field field : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
-                              Field::Longwave, Field::Cloud, Field::Precip}) {
+    for (const Field field : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure,
+                              Field::Shortwave, Field::Longwave, Field::Cloud, Field::Precip}) {
         const FieldInfo& info = field_info(field);
         require(table[field].size() == table.rows(), std::string(info.name) + " is complete");
-        for (const double value : table[field]) require(std::isfinite(value), std::string(info.name) + " is finite");
+        for (const double value : table[field])
+            require(std::isfinite(value), std::string(info.name) + " is finite");
     }
 }
 
@@ -42,7 +43,8 @@ void read_bytes(std::string_view bytes)
         require(!to_text(result.report).empty(), "a report has text");
         require(!to_json(result.report).empty(), "a report has JSON");
     } catch (const Error& error) {
-        require(error.what()[0] != '\0' && !error.fix().empty(), "an error says what is wrong and what to do");
+        require(error.what()[0] != '\0' && !error.fix().empty(),
+                "an error says what is wrong and what to do");
     }
 }
 

@@ -1,6 +1,7 @@
 // libFuzzer target for all weather readers. Build and run:
 //   cmake --preset fuzz && cmake --build --preset fuzz --target readers_fuzz
-//   mkdir -p found && build/fuzz/tests/fuzz/readers_fuzz found tests/fuzz/corpus -max_total_time=3600 -rss_limit_mb=2048
+//   mkdir -p found && build/fuzz/tests/fuzz/readers_fuzz found tests/fuzz/corpus
+//   -max_total_time=3600 -rss_limit_mb=2048
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-// Laws and table values of the shared formulas, on the CPU. tests/gpu/parity_test.cpp shows that the
-// device computes the same.
+// Laws and table values of the shared formulas, on the CPU. tests/gpu/parity_test.cpp shows that
+// the device computes the same.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -129,7 +129,8 @@ TEST(Air, SkyIsBlueOverhead)
     EXPECT_LT(zenith.g, 8000.0f);
 }
 
-// ---- water and snow --------------------------------------------------------------------------------
+// ---- water and snow
+// --------------------------------------------------------------------------------
 
 TEST(WaterCover, FillsFromTheLowestPlaceUp)
 {
@@ -210,17 +211,20 @@ TEST(ApplyWater, DarkensPorousNotSmooth)
 TEST(ApplySnow, CoversWhatIsUnder)
 {
     const WeatheredMaterial under{glm::vec3(0.1f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f};
-    const WeatheredMaterial full = apply_snow(under, 1.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
+    const WeatheredMaterial full =
+        apply_snow(under, 1.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
     EXPECT_EQ(full.albedo, glm::vec3(0.9f));
     EXPECT_FLOAT_EQ(full.emission_scale, 0.5f);
     EXPECT_FLOAT_EQ(full.occlusion, 1.0f);
-    const WeatheredMaterial none = apply_snow(under, 0.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
+    const WeatheredMaterial none =
+        apply_snow(under, 0.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
     EXPECT_EQ(none.albedo, under.albedo);
 }
 
 TEST(Ripple, DryWeatherIsFlatAndLayersJoinOneByOne)
 {
-    for (int i = 0; i < kRippleLayers; ++i) EXPECT_EQ(ripple_layer(i, 0.0f, 1.0f, 1.0f).weight, 0.0f);
+    for (int i = 0; i < kRippleLayers; ++i)
+        EXPECT_EQ(ripple_layer(i, 0.0f, 1.0f, 1.0f).weight, 0.0f);
     EXPECT_EQ(ripple_layer(1, 0.25f, 1.0f, 1.0f).weight, 0.0f);
     EXPECT_FLOAT_EQ(ripple_layer(0, 0.25f, 1.0f, 1.0f).weight, 1.0f);
     EXPECT_FLOAT_EQ(ripple_layer(3, 1.0f, 1.0f, 1.0f).weight, 1.0f);

@@ -10,8 +10,8 @@ namespace {
 
 using nlohmann::json;
 using scene_files::expect_answer;
-using yard::Pointer;
 using yard::glb;
+using yard::Pointer;
 using yard::scene_json;
 
 // Whatever happens to the bytes, there is an answer. Seeded, so a failure can be repeated.

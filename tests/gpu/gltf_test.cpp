@@ -13,8 +13,8 @@ namespace petrichor::gpu {
 namespace {
 
 using nlohmann::json;
-using scene_files::to_bytes;
 using scene_files::expect_sound;
+using scene_files::to_bytes;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using yard::edited;

@@ -128,7 +128,8 @@ inline json edited(std::initializer_list<std::pair<const char*, json>> edits)
     return document;
 }
 
-inline std::string refusal(const std::vector<std::byte>& asset, const ResourceReader& reader = nullptr)
+inline std::string refusal(const std::vector<std::byte>& asset,
+                           const ResourceReader& reader = nullptr)
 {
     try {
         load_gltf(asset, "yard.glb", reader);

@@ -42,7 +42,8 @@ inline Primitive quad(const glm::vec3& corner, const glm::vec3& u, const glm::ve
 {
     Primitive p;
     const glm::vec3 normal = glm::normalize(glm::cross(u, v));
-    for (const glm::vec2 at : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+    for (const glm::vec2 at :
+         {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
         p.positions.push_back(corner + u * at.x + v * at.y);
         p.normals.push_back(normal);
         p.tangents.emplace_back(glm::normalize(u), 1.0f);
@@ -53,7 +54,8 @@ inline Primitive quad(const glm::vec3& corner, const glm::vec3& u, const glm::ve
     return p;
 }
 
-inline Material plain_material(const glm::vec3& color, float roughness = 0.8f, float metallic = 0.0f)
+inline Material plain_material(const glm::vec3& color, float roughness = 0.8f,
+                               float metallic = 0.0f)
 {
     Material m;
     m.base_color = glm::vec4(color, 1.0f);
@@ -86,7 +88,8 @@ float half_to_float(std::uint16_t bits);
 inline glm::vec3 pixel(const RenderResult& r, int x, int y)
 {
     const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(r.width) +
-                           static_cast<std::size_t>(x)) * 4;
+                           static_cast<std::size_t>(x)) *
+                          4;
     return {half_to_float(r.beauty[i]), half_to_float(r.beauty[i + 1]),
             half_to_float(r.beauty[i + 2])};
 }
@@ -104,7 +107,10 @@ inline float aov(const RenderResult& r, const std::string& name, int x, int y, i
     return 0.0f;
 }
 
-inline float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+inline float luminance(const glm::vec3& c)
+{
+    return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
 
 inline float half_to_float(std::uint16_t bits)
 {

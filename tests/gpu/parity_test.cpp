@@ -1,8 +1,8 @@
 // Every shared formula gives on the device what it gives on the CPU.
 //
-// Tolerance: the device's exp, pow and sin are good to about 1e-6 relative; formulas chain several of
-// them and subtract near-equal numbers, so 3e-4 relative plus 3e-5 absolute is allowed. Where a formula
-// jumps (a phase that wraps), a difference of one period is accepted.
+// Tolerance: the device's exp, pow and sin are good to about 1e-6 relative; formulas chain several
+// of them and subtract near-equal numbers, so 3e-4 relative plus 3e-5 absolute is allowed. Where a
+// formula jumps (a phase that wraps), a difference of one period is accepted.
 #include <cstring>
 
 #include "gpu/detail/graph.h"
@@ -39,21 +39,23 @@ TEST_P(Parity, DeviceAndCpuAgree)
     for (std::uint32_t i = 0; i < arguments.size(); ++i) {
         for (std::uint32_t c = 0; c < 4; ++c) arguments[i][static_cast<int>(c)] = number(4 * i + c);
     }
-    auto input = arena.buffer({.name = "arguments",
-                               .size = arguments.size() * sizeof(glm::vec4),
-                               .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    auto input = arena.buffer(
+        {.name = "arguments",
+         .size = arguments.size() * sizeof(glm::vec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
     upload_buffer(device, *input, std::as_bytes(std::span(arguments)));
-    auto output = arena.buffer({.name = "results", .size = kCount * sizeof(glm::vec4), .host = true});
+    auto output =
+        arena.buffer({.name = "results", .size = kCount * sizeof(glm::vec4), .host = true});
     FrameGraph graph;
-    graph.add({.name = "probe",
-               .uses = {{input, Use::TexelRead}, {output, Use::StorageWrite}},
-               .record = [&](PassContext& pass) {
-                   pass.bind_compute("formula_probe.comp", {}, {texels(*input), storage_buffer(*output)});
-                   pass.push(kind);
-                   pass.dispatch(kCount / 64, 1);
-               }});
+    graph.add(
+        {.name = "probe",
+         .uses = {{input, Use::TexelRead}, {output, Use::StorageWrite}},
+         .record = [&](PassContext& pass) {
+             pass.bind_compute("formula_probe.comp", {}, {texels(*input), storage_buffer(*output)});
+             pass.push(kind);
+             pass.dispatch(kCount / 64, 1);
+         }});
     graph.add({.name = "read_back", .uses = {{output, Use::HostRead}}, .record = {}});
     graph.execute(device, pipelines, descriptors);
 
@@ -71,8 +73,8 @@ TEST_P(Parity, DeviceAndCpuAgree)
             largest = std::max(largest, error / (1.0f + std::abs(expected[c])));
             if (error > 3e-5f + 3e-4f * std::abs(expected[c])) {
                 if (++different <= 3) {
-                    ADD_FAILURE() << "formula " << kind << " case " << i << " part " << c << ": device "
-                                  << got[c] << ", CPU " << expected[c];
+                    ADD_FAILURE() << "formula " << kind << " case " << i << " part " << c
+                                  << ": device " << got[c] << ", CPU " << expected[c];
                 }
             }
         }

@@ -50,15 +50,16 @@ TEST_F(RendererTest, WhiteFurnace)
 {
     for (const float roughness : {0.2f, 0.6f, 1.0f}) {
         for (const float metallic : {0.0f, 1.0f}) {
-            renderer->load(scene_of({ground()}, {plain_material(glm::vec3(1.0f), roughness, metallic)}),
-                           {});
+            renderer->load(
+                scene_of({ground()}, {plain_material(glm::vec3(1.0f), roughness, metallic)}), {});
             renderer->set_environment(constant_environment(1.0f));
             Frame frame = small_frame(look({0, 3, 0.1f}, {0, 0, 0}, 0.4f));
             frame.sky.sun_illuminance = 0.0f;
             frame.settings.ambient_occlusion = false;
             frame.weather.visibility_m = 1e9f;
             const glm::vec3 out = pixel(renderer->render(frame), 32, 18);
-            EXPECT_NEAR(out.g, 1.0f, 0.02f) << "roughness " << roughness << " metallic " << metallic;
+            EXPECT_NEAR(out.g, 1.0f, 0.02f)
+                << "roughness " << roughness << " metallic " << metallic;
         }
     }
 }
@@ -128,7 +129,7 @@ TEST_F(RendererTest, ARoofKeepsTheGroundDryAndFreeOfSnow)
     int sheltered = 0;
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
-            if (aov(rain, "position", x, y, 1) > 0.1f) continue;  // the roof itself
+            if (aov(rain, "position", x, y, 1) > 0.1f) continue;            // the roof itself
             if (std::abs(aov(rain, "position", x, y, 0)) > 4.5f) continue;  // the ends of the roof
             const float z = aov(rain, "position", x, y, 2);
             if (z > 0.6f && z < 5.0f) {
@@ -188,8 +189,8 @@ TEST_F(RendererTest, AFrameAloneIsTheFrameOfASequence)
     EXPECT_EQ(alone.exposure, last.exposure);
 }
 
-// No light that reaches a pixel is missing from its list, and sums keep their order: the same bits as
-// asking every light.
+// No light that reaches a pixel is missing from its list, and sums keep their order: the same bits
+// as asking every light.
 TEST_F(RendererTest, LightListsLoseNothing)
 {
     std::mt19937 random(7);

@@ -10,7 +10,10 @@
 namespace petrichor::texproc {
 namespace {
 
-Image flat(float value) { return Image(32, 32, 1, ColorSpace::Data, value); }
+Image flat(float value)
+{
+    return Image(32, 32, 1, ColorSpace::Data, value);
+}
 
 // A square pit of 6 texels, 0.4 deep.
 Image pit()
@@ -87,8 +90,9 @@ TEST(Bake, HollowsAreTheClosingByAnOctagonOnAnyTorus)
                         for (int dy = -1; dy <= 1; ++dy) {
                             for (int dx = -1; dx <= 1; ++dx) {
                                 if (step % 2 == 1 && dx != 0 && dy != 0) continue;
-                                best = std::max(best, sign * from.at((x + dx + map.width) % map.width,
-                                                                     (y + dy + map.height) % map.height, 0));
+                                best = std::max(
+                                    best, sign * from.at((x + dx + map.width) % map.width,
+                                                         (y + dy + map.height) % map.height, 0));
                             }
                         }
                         closed.at(x, y, 0) = sign * best;
@@ -165,8 +169,11 @@ TEST(WeatherTextures, DropsPointAwayFromTheirCentresAndTile)
             // One texel along the direction the envelope of the same drop is lower.
             const int u = static_cast<int>(std::lround(2.0f * (2.0f * c[1] - 1.0f)));
             const int v = static_cast<int>(std::lround(2.0f * (2.0f * c[2] - 1.0f)));
-            const float* d = &drops.pixels[drops.index((x + u + 256) % 256, (y + v + 256) % 256, 0)];
-            if (d[3] == c[3]) { EXPECT_LT(d[0], c[0]); }
+            const float* d =
+                &drops.pixels[drops.index((x + u + 256) % 256, (y + v + 256) % 256, 0)];
+            if (d[3] == c[3]) {
+                EXPECT_LT(d[0], c[0]);
+            }
         }
     }
     EXPECT_GT(inside, 10000);

@@ -17,7 +17,10 @@ namespace {
 
 constexpr Block kWritable[] = {Block::Bc1, Block::Bc3, Block::Bc4, Block::Bc5, Block::Bc7};
 
-std::uint32_t next(std::uint32_t& seed) { return seed = seed * 1664525u + 1013904223u; }
+std::uint32_t next(std::uint32_t& seed)
+{
+    return seed = seed * 1664525u + 1013904223u;
+}
 
 // Slopes, noise and edges: what materials are made of.
 RawImage material(int width, int height, int channels, std::uint32_t seed = 3)
@@ -26,7 +29,8 @@ RawImage material(int width, int height, int channels, std::uint32_t seed = 3)
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             for (int c = 0; c < channels; ++c) {
-                const double wave = 90 * std::sin(0.11 * x + 0.07 * (c + 1) * y) * std::cos(0.05 * y);
+                const double wave =
+                    90 * std::sin(0.11 * x + 0.07 * (c + 1) * y) * std::cos(0.05 * y);
                 const double edge = (x / 9 + y / 7 + c) % 3 == 0 ? 40 : 0;
                 const double noise = static_cast<double>(next(seed) >> 27);
                 const double v = 110 + wave + edge + noise;
@@ -45,8 +49,9 @@ double error(const RawImage& image, const RawImage& back, int channels)
     for (std::size_t p = 0; p < pixels; ++p) {
         for (int c = 0; c < channels; ++c) {
             const std::size_t at = static_cast<std::size_t>(c);
-            const int d = static_cast<int>(image.bytes[p * static_cast<std::size_t>(image.channels) + at]) -
-                          static_cast<int>(back.bytes[p * static_cast<std::size_t>(back.channels) + at]);
+            const int d =
+                static_cast<int>(image.bytes[p * static_cast<std::size_t>(image.channels) + at]) -
+                static_cast<int>(back.bytes[p * static_cast<std::size_t>(back.channels) + at]);
             total += d * d;
         }
     }
@@ -82,7 +87,8 @@ TEST(Blocks, OneColourIsExactWhereTheFormatCanSayIt)
     for (int round = 0; round < 300; ++round) {
         RawImage image{4, 4, 4, PixelType::U8, {}, {}};
         const std::uint32_t color = next(seed);
-        for (int i = 0; i < 64; ++i) image.bytes.push_back(static_cast<std::byte>(color >> (8 * (i % 4))));
+        for (int i = 0; i < 64; ++i)
+            image.bytes.push_back(static_cast<std::byte>(color >> (8 * (i % 4))));
         EXPECT_EQ(round_trip(image, Block::Bc7, {}), 0.0) << color;
         EXPECT_EQ(round_trip(image, Block::Bc4, {}), 0.0) << color;
         EXPECT_EQ(round_trip(image, Block::Bc5, {}), 0.0) << color;
@@ -96,7 +102,8 @@ TEST(Blocks, WhatLiesOnThePaletteIsExact)
     RawImage image{4, 4, 1, PixelType::U8, {}, {}};
     for (int t = 0; t < 16; ++t) image.bytes.push_back(static_cast<std::byte>(30 + 7 * (t % 8)));
     EXPECT_EQ(round_trip(image, Block::Bc4, {}), 0.0);
-    for (int t = 0; t < 16; ++t) image.bytes[static_cast<std::size_t>(t)] = std::byte(t % 3 ? 255 : 0);
+    for (int t = 0; t < 16; ++t)
+        image.bytes[static_cast<std::size_t>(t)] = std::byte(t % 3 ? 255 : 0);
     EXPECT_EQ(round_trip(image, Block::Bc4, {}), 0.0);
     for (int t = 0; t < 16; ++t) {  // 0, 255 and a narrow band between: the six-value mode
         constexpr int kBand[4] = {100, 103, 112, 115};
@@ -121,16 +128,22 @@ TEST(Blocks, BytesDoNotDependOnThreadsOrInstructionSet)
         const std::uint32_t spread = next(seed) >> 28;
         for (auto& plane : texels.plane) {
             const std::uint32_t base = next(seed) >> 25;
-            for (auto& v : plane) v = static_cast<std::uint8_t>(base + (next(seed) >> 24) * spread / 32);
+            for (auto& v : plane)
+                v = static_cast<std::uint8_t>(base + (next(seed) >> 24) * spread / 32);
         }
-        for (const BlockQuality q : {BlockQuality::Fast, BlockQuality::Normal, BlockQuality::Best}) {
+        for (const BlockQuality q :
+             {BlockQuality::Fast, BlockQuality::Normal, BlockQuality::Best}) {
             std::array<std::byte, 16> a{}, b{};
             const BlockOptions options{.quality = q};
             detail::kEncodeKernelBase.bc7(texels, options, a.data());
             detail::kEncodeKernelAvx2.bc7(texels, options, b.data());
             EXPECT_EQ(a, b) << round;
-            detail::kEncodeKernelBase.bc1(texels, options, round % 2 ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque, a.data());
-            detail::kEncodeKernelAvx2.bc1(texels, options, round % 2 ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque, b.data());
+            detail::kEncodeKernelBase.bc1(
+                texels, options, round % 2 ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque,
+                a.data());
+            detail::kEncodeKernelAvx2.bc1(
+                texels, options, round % 2 ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque,
+                b.data());
             detail::kEncodeKernelBase.bc4(texels.plane[1], q, a.data() + 8);
             detail::kEncodeKernelAvx2.bc4(texels.plane[1], q, b.data() + 8);
             EXPECT_EQ(a, b) << round;
@@ -142,7 +155,8 @@ TEST(Blocks, BytesDoNotDependOnThreadsOrInstructionSet)
 TEST(Blocks, AlphaOfBc1IsKeptAsHoles)
 {
     RawImage image = material(16, 16, 4);
-    for (std::size_t p = 0; p < 256; ++p) image.bytes[4 * p + 3] = std::byte(p % 5 == 0 || p < 32 ? 20 : 230);
+    for (std::size_t p = 0; p < 256; ++p)
+        image.bytes[4 * p + 3] = std::byte(p % 5 == 0 || p < 32 ? 20 : 230);
     const auto bytes = encode_blocks(image, Block::Bc1, {.punch_through = true});
     const RawImage back = decode_blocks(bytes, Block::Bc1, 16, 16);
     for (std::size_t p = 0; p < 256; ++p) {
@@ -152,15 +166,16 @@ TEST(Blocks, AlphaOfBc1IsKeptAsHoles)
     for (std::size_t p = 0; p < 256; ++p) EXPECT_EQ(static_cast<int>(opaque.bytes[4 * p + 3]), 255);
 }
 
-// Within BC3 the colours are read as four whatever the order of the ends: a block of three would come
-// out wrong.
+// Within BC3 the colours are read as four whatever the order of the ends: a block of three would
+// come out wrong.
 TEST(Blocks, ColoursOfBc3AreAlwaysFour)
 {
     std::uint32_t seed = 77;
     RawImage image{64, 64, 4, PixelType::U8, {}, {}};
     for (int i = 0; i < 64 * 64 * 4; ++i) {  // two tones and their middle: what three colours suit
         const std::uint32_t pick = next(seed) >> 30;
-        image.bytes.push_back(static_cast<std::byte>(40 + 60 * static_cast<int>(pick % 3) + (i % 4)));
+        image.bytes.push_back(
+            static_cast<std::byte>(40 + 60 * static_cast<int>(pick % 3) + (i % 4)));
     }
     for (const BlockQuality q : {BlockQuality::Fast, BlockQuality::Normal, BlockQuality::Best}) {
         const auto bytes = encode_blocks(image, Block::Bc3, {.quality = q});
@@ -199,19 +214,22 @@ TEST(Blocks, StepsAreTheNearestIntegers)
     for (int v = 0; v < 64; ++v) EXPECT_EQ(detail::widen6(v), std::lround(v * 255 / 63.0));
 }
 
-// The partition tables: every partition uses all its subsets, no two are equal, anchors lie in theirs.
+// The partition tables: every partition uses all its subsets, no two are equal, anchors lie in
+// theirs.
 TEST(Blocks, PartitionsOfBc7AreWhole)
 {
     for (const int subsets : {2, 3}) {
         for (int p = 0; p < 64; ++p) {
             EXPECT_EQ(detail::bc7_subset(subsets, p, 0), 0);
             for (int i = 0; i < subsets; ++i) {
-                EXPECT_EQ(detail::bc7_subset(subsets, p, detail::bc7_anchor(subsets, p, i)), i) << p;
+                EXPECT_EQ(detail::bc7_subset(subsets, p, detail::bc7_anchor(subsets, p, i)), i)
+                    << p;
             }
             for (int other = 0; other < p; ++other) {
                 bool same = true;
                 for (int t = 0; t < 16; ++t) {
-                    same = same && detail::bc7_subset(subsets, p, t) == detail::bc7_subset(subsets, other, t);
+                    same = same && detail::bc7_subset(subsets, p, t) ==
+                                       detail::bc7_subset(subsets, other, t);
                 }
                 EXPECT_FALSE(same) << p << " " << other;
             }
@@ -224,9 +242,10 @@ TEST(Blocks, Bc7DecodesAHandMadeBlock)
 {
     detail::BitWriter bits;
     bits.put(1 << 6, 7);
-    for (const int code : {5, 122, 0, 0, 127, 127, 127, 127}) bits.put(code, 7);  // r, g, b, a pairs
-    bits.put(0, 1);  // low bit of the first end
-    bits.put(1, 1);  // and of the second
+    for (const int code : {5, 122, 0, 0, 127, 127, 127, 127})
+        bits.put(code, 7);  // r, g, b, a pairs
+    bits.put(0, 1);         // low bit of the first end
+    bits.put(1, 1);         // and of the second
     bits.put(0, 3);
     for (int t = 1; t < 16; ++t) bits.put(t, 4);
     std::array<std::byte, 16> block;
@@ -237,7 +256,8 @@ TEST(Blocks, Bc7DecodesAHandMadeBlock)
         const int expected = (10 * (64 - weights[t]) + 245 * weights[t] + 32) / 64;
         EXPECT_EQ(static_cast<int>(image.bytes[4 * t]), expected);
         EXPECT_EQ(static_cast<int>(image.bytes[4 * t + 1]), (weights[t] + 32) / 64);
-        EXPECT_EQ(static_cast<int>(image.bytes[4 * t + 2]), (254 * (64 - weights[t]) + 255 * weights[t] + 32) / 64);
+        EXPECT_EQ(static_cast<int>(image.bytes[4 * t + 2]),
+                  (254 * (64 - weights[t]) + 255 * weights[t] + 32) / 64);
     }
 }
 
@@ -259,13 +279,15 @@ TEST(Blocks, ChoosesByTheCallersCosts)
         const Bc4Choice choice = encode_bc4_block(*costs);
         std::array<std::byte, 8> plain;
         const auto block = encode_bc4_block(values, BlockQuality::Normal);
-        std::transform(block.begin(), block.end(), plain.begin(), [](std::uint8_t b) { return std::byte{b}; });
+        std::transform(block.begin(), block.end(), plain.begin(),
+                       [](std::uint8_t b) { return std::byte{b}; });
         double cost = 0;
         const auto decoded = detail::decode_bc4(plain.data());
         for (std::size_t t = 0; t < 16; ++t) cost += static_cast<double>((*costs)[t][decoded[t]]);
         EXPECT_LE(choice.cost, cost + 2.0) << round;
         std::array<std::byte, 8> chosen;
-        std::transform(choice.block.begin(), choice.block.end(), chosen.begin(), [](std::uint8_t b) { return std::byte{b}; });
+        std::transform(choice.block.begin(), choice.block.end(), chosen.begin(),
+                       [](std::uint8_t b) { return std::byte{b}; });
         EXPECT_EQ(detail::decode_bc4(chosen.data()), choice.values);
         for (std::size_t t = 2; t < 16; ++t) (*costs)[t].fill(0.0f);
         EXPECT_EQ(encode_bc4_block(*costs, 40).cost, 0.0);
@@ -287,13 +309,17 @@ TEST(Blocks, QualityOnARealMaterial)
 {
     const char* assets = std::getenv("PETRICHOR_ASSETS");
     if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
-    RawImage whole = read_raw(std::filesystem::path(assets) / "materials/Rock020/Rock020_1K_Color.jpg");
+    RawImage whole =
+        read_raw(std::filesystem::path(assets) / "materials/Rock020/Rock020_1K_Color.jpg");
     RawImage image{256, 256, 3, PixelType::U8, {}, {}};
     for (std::size_t y = 0; y < 256; ++y) {
-        const auto row = whole.bytes.begin() + static_cast<std::ptrdiff_t>(y * 3 * static_cast<std::size_t>(whole.width));
+        const auto row = whole.bytes.begin() +
+                         static_cast<std::ptrdiff_t>(y * 3 * static_cast<std::size_t>(whole.width));
         image.bytes.insert(image.bytes.end(), row, row + 768);
     }
-    const auto psnr = [&](Block block) { return 10 * std::log10(255.0 * 255.0 / round_trip(image, block, {})); };
+    const auto psnr = [&](Block block) {
+        return 10 * std::log10(255.0 * 255.0 / round_trip(image, block, {}));
+    };
     EXPECT_GT(psnr(Block::Bc1), 36.8);
     EXPECT_GT(psnr(Block::Bc7), 44.6);
     EXPECT_GT(psnr(Block::Bc5), 46.0);

@@ -65,7 +65,8 @@ TEST_F(Dds, GoesThroughTheOneReader)
 TEST_F(Dds, DamagedFilesAreErrorsNotCrashes)
 {
     for (const char* name : {"bc7", "bc1", "rgba8", "rgb8", "rg16f"}) {
-        const auto file = whole_file(make_texture(small_chain(9, 5, 4, PixelType::U8), {.format = name}));
+        const auto file =
+            whole_file(make_texture(small_chain(9, 5, 4, PixelType::U8), {.format = name}));
         const ReadOptions limits{.max_pixels = 1 << 16, .max_bytes = 1 << 20};
         const int good = torture(file, [&](auto bytes) { (void)detail::parse_dds(bytes, limits); });
         EXPECT_EQ(good, 0) << name << ": a cut file was taken for whole";
@@ -74,7 +75,8 @@ TEST_F(Dds, DamagedFilesAreErrorsNotCrashes)
 
 TEST_F(Dds, ATruncatedFileSaysSo)
 {
-    const auto file = whole_file(make_texture(small_chain(64, 64, 4, PixelType::U8), {.format = "bc3"}));
+    const auto file =
+        whole_file(make_texture(small_chain(64, 64, 4, PixelType::U8), {.format = "bc3"}));
     write_bytes(folder / "cut.dds", std::span(file).first(file.size() - 1));
     try {
         (void)read_raw(folder / "cut.dds");
@@ -87,8 +89,8 @@ TEST_F(Dds, ATruncatedFileSaysSo)
 // Masks of the first version: 5:6:5, 10 bits, grey, blue first.
 TEST_F(Dds, ReadsTexelsWithMasks)
 {
-    const auto file = [](std::uint32_t flags, std::uint32_t bits, std::array<std::uint32_t, 4> masks,
-                         std::uint32_t texel) {
+    const auto file = [](std::uint32_t flags, std::uint32_t bits,
+                         std::array<std::uint32_t, 4> masks, std::uint32_t texel) {
         MipTexture texture{1, 1, texture_format("rgba8"), false, {std::vector<std::byte>(4)}};
         std::vector<std::byte> bytes = whole_file(texture);
         const auto put = [&](std::size_t at, std::uint32_t v) { std::memcpy(&bytes[at], &v, 4); };
@@ -98,8 +100,11 @@ TEST_F(Dds, ReadsTexelsWithMasks)
         put(128, texel);
         return decode_level(detail::parse_dds(bytes, {}), 0);
     };
-    const auto code = [](const RawImage& image, std::size_t i) { return static_cast<int>(image.bytes[i]); };
-    const RawImage narrow = file(0x40, 16, {0xf800, 0x7e0, 0x1f, 0}, (10u << 11) | (63u << 5) | 31u);
+    const auto code = [](const RawImage& image, std::size_t i) {
+        return static_cast<int>(image.bytes[i]);
+    };
+    const RawImage narrow =
+        file(0x40, 16, {0xf800, 0x7e0, 0x1f, 0}, (10u << 11) | (63u << 5) | 31u);
     ASSERT_EQ(narrow.channels, 3);
     EXPECT_EQ(code(narrow, 0), std::lround(10 * 255 / 31.0));
     EXPECT_EQ(code(narrow, 1), 255);
@@ -172,7 +177,8 @@ TEST_F(Dds, OrderedDitheringKeepsTheMean)
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 256; ++x) codes.at(x, y, 0) = static_cast<float>(x) / 255.0f;
     }
-    EXPECT_EQ(to_raw(codes, PixelType::U8, Rounding::Ordered).bytes, to_raw(codes, PixelType::U8).bytes);
+    EXPECT_EQ(to_raw(codes, PixelType::U8, Rounding::Ordered).bytes,
+              to_raw(codes, PixelType::U8).bytes);
 }
 
 }  // namespace

@@ -54,7 +54,10 @@ struct Kind {
     int channels;
     PixelType type;
 };
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name << kind.channels; }
+void PrintTo(const Kind& kind, std::ostream* out)
+{
+    *out << kind.name << kind.channels;
+}
 
 class RoundTrip : public Io, public testing::WithParamInterface<Kind> {};
 TEST_P(RoundTrip, KeepsEveryCode)
@@ -70,13 +73,15 @@ TEST_P(RoundTrip, KeepsEveryCode)
     ASSERT_EQ(back.type, kind.type);
     EXPECT_EQ(back.bytes, image.bytes);
 }
-INSTANTIATE_TEST_SUITE_P(Table, RoundTrip, testing::Values(
-    Kind{"a.png", 1, PixelType::U8}, Kind{"a.png", 2, PixelType::U8}, Kind{"a.png", 3, PixelType::U8},
-    Kind{"a.png", 4, PixelType::U8}, Kind{"b.png", 1, PixelType::U16},
-    Kind{"b.png", 2, PixelType::U16}, Kind{"b.png", 3, PixelType::U16},
-    Kind{"b.png", 4, PixelType::U16}, Kind{"a.tga", 3, PixelType::U8}, Kind{"a.tga", 4, PixelType::U8},
-    Kind{"a.tif", 4, PixelType::U8}, Kind{"a.tif", 1, PixelType::U16},
-    Kind{"a.tif", 4, PixelType::U16}, Kind{"f.exr", 4, PixelType::F32}));
+INSTANTIATE_TEST_SUITE_P(
+    Table, RoundTrip,
+    testing::Values(Kind{"a.png", 1, PixelType::U8}, Kind{"a.png", 2, PixelType::U8},
+                    Kind{"a.png", 3, PixelType::U8}, Kind{"a.png", 4, PixelType::U8},
+                    Kind{"b.png", 1, PixelType::U16}, Kind{"b.png", 2, PixelType::U16},
+                    Kind{"b.png", 3, PixelType::U16}, Kind{"b.png", 4, PixelType::U16},
+                    Kind{"a.tga", 3, PixelType::U8}, Kind{"a.tga", 4, PixelType::U8},
+                    Kind{"a.tif", 4, PixelType::U8}, Kind{"a.tif", 1, PixelType::U16},
+                    Kind{"a.tif", 4, PixelType::U16}, Kind{"f.exr", 4, PixelType::F32}));
 
 TEST_F(Io, ExrKeepsNamesHalvesAndFloats)
 {
@@ -156,7 +161,8 @@ TEST_F(Io, RefusesWithTheReason)
         }
         return std::string("no error");
     };
-    EXPECT_THAT(problem([&] { read_image(folder / "none.png"); }), testing::HasSubstr("no such file"));
+    EXPECT_THAT(problem([&] { read_image(folder / "none.png"); }),
+                testing::HasSubstr("no such file"));
     EXPECT_THAT(problem([&] { read_image(folder); }), testing::HasSubstr("not a file"));
     const fs::path text = write_file("text.png", "this is not an image at all, really");
     EXPECT_THAT(problem([&] { read_image(text); }), testing::HasSubstr("none of PNG"));
@@ -213,8 +219,8 @@ TEST_F(Io, EncodedPngBytesDecodeToTheSamePixels)
     EXPECT_THROW(encode_png8(1, 1, 5, few), Error);
 }
 
-// A PSD of 2 x 2 texels with channels of one byte, plain or run-length coded. `layers` negative: the
-// fourth channel is the transparency of the merged picture.
+// A PSD of 2 x 2 texels with channels of one byte, plain or run-length coded. `layers` negative:
+// the fourth channel is the transparency of the merged picture.
 std::string small_psd(int channels, const std::string& planes, bool runs, int layers)
 {
     const auto big = [](std::uint64_t value, int size) {
@@ -223,8 +229,8 @@ std::string small_psd(int channels, const std::string& planes, bool runs, int la
         return text;
     };
     std::string file = "8BPS" + big(1, 2) + std::string(6, '\0') +
-                       big(static_cast<std::uint64_t>(channels), 2) + big(2, 4) + big(2, 4) + big(8, 2) +
-                       big(3, 2) + big(0, 4) + big(0, 4);
+                       big(static_cast<std::uint64_t>(channels), 2) + big(2, 4) + big(2, 4) +
+                       big(8, 2) + big(3, 2) + big(0, 4) + big(0, 4);
     file += big(8, 4) + big(4, 4) + big(static_cast<std::uint16_t>(layers), 2) + big(0, 2);
     file += big(runs ? 1 : 0, 2);
     if (!runs) return file + planes;
@@ -238,7 +244,8 @@ std::string small_psd(int channels, const std::string& planes, bool runs, int la
 
 TEST_F(Io, PsdKeepsItsFourthChannel)
 {
-    const std::string planes{"\x10\x20\x30\x40\x11\x21\x31\x41\x12\x22\x32\x42\x05\x80\xff\x00", 16};
+    const std::string planes{"\x10\x20\x30\x40\x11\x21\x31\x41\x12\x22\x32\x42\x05\x80\xff\x00",
+                             16};
     for (const bool runs : {false, true}) {
         const RawImage image = read_raw(write_file("a.psd", small_psd(4, planes, runs, 1)));
         ASSERT_EQ(image.channels, 4);
@@ -247,7 +254,8 @@ TEST_F(Io, PsdKeepsItsFourthChannel)
                 EXPECT_EQ(static_cast<char>(image.bytes[4 * t + c]), planes[4 * c + t]) << t << c;
             }
         }
-        EXPECT_EQ(read_raw(write_file("b.psd", small_psd(3, planes.substr(0, 12), runs, 1))).channels, 3);
+        EXPECT_EQ(
+            read_raw(write_file("b.psd", small_psd(3, planes.substr(0, 12), runs, 1))).channels, 3);
     }
     // On white at half transparency: 0xbf was seen where the colour is 0x7f.
     const std::string seen = std::string(12, '\xbf') + std::string("\x80\xff\x00\x80", 4);

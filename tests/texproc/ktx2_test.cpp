@@ -13,7 +13,8 @@ class Ktx2 : public TextureFiles {};
 std::uint64_t number(const std::vector<std::byte>& file, std::size_t at, std::size_t size)
 {
     std::uint64_t v = 0;
-    for (std::size_t i = 0; i < size; ++i) v |= static_cast<std::uint64_t>(file.at(at + i)) << (8 * i);
+    for (std::size_t i = 0; i < size; ++i)
+        v |= static_cast<std::uint64_t>(file.at(at + i)) << (8 * i);
     return v;
 }
 
@@ -50,10 +51,10 @@ TEST_F(Ktx2, FollowsTheRulesOfTheContainer)
         const auto file = detail::ktx2_file(texture, 0);
         const std::size_t levels = number(file, 40, 4);
         ASSERT_EQ(levels, texture.levels.size());
-        const std::size_t texel = texture.format.block
-                                      ? block_bytes(*texture.format.block)
-                                      : static_cast<std::size_t>(texture.format.channels) *
-                                            size_of(texture.format.type);
+        const std::size_t texel =
+            texture.format.block
+                ? block_bytes(*texture.format.block)
+                : static_cast<std::size_t>(texture.format.channels) * size_of(texture.format.type);
         std::size_t before = number(file, 56, 4) + number(file, 60, 4);
         for (std::size_t k = levels; k-- > 0;) {
             const std::size_t at = number(file, 80 + 24 * k, 8);
@@ -103,7 +104,8 @@ TEST_F(Ktx2, DamagedFilesAreErrorsNotCrashes)
             const auto file = detail::ktx2_file(
                 make_texture(small_chain(9, 5, 4, PixelType::U8), {.format = name}), zstd);
             const ReadOptions limits{.max_pixels = 1 << 16, .max_bytes = 1 << 20};
-            const int good = torture(file, [&](auto bytes) { (void)detail::parse_ktx2(bytes, limits); });
+            const int good =
+                torture(file, [&](auto bytes) { (void)detail::parse_ktx2(bytes, limits); });
             EXPECT_EQ(good, 0) << name << " " << zstd;
         }
     }

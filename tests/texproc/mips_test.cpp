@@ -34,7 +34,10 @@ double mean(const Image& image, int channel)
 struct Size {
     int width, height;
 };
-void PrintTo(const Size& s, std::ostream* out) { *out << s.width << "x" << s.height; }
+void PrintTo(const Size& s, std::ostream* out)
+{
+    *out << s.width << "x" << s.height;
+}
 
 class Chain : public testing::TestWithParam<Size> {};
 
@@ -62,7 +65,8 @@ TEST_P(Chain, EveryTexelIsTheMeanOverItsAreaOfLevelZero)
                     const double h = std::min(v + 1.0, (y + 1) * sy) - std::max<double>(v, y * sy);
                     if (h <= 0.0) continue;
                     for (int u = 0; u < image.width; ++u) {
-                        const double w = std::min(u + 1.0, (x + 1) * sx) - std::max<double>(u, x * sx);
+                        const double w =
+                            std::min(u + 1.0, (x + 1) * sx) - std::max<double>(u, x * sx);
                         if (w <= 0.0) continue;
                         sum += w * h * static_cast<double>(image.at(u, v, 0));
                         area += w * h;
@@ -75,9 +79,9 @@ TEST_P(Chain, EveryTexelIsTheMeanOverItsAreaOfLevelZero)
     EXPECT_EQ(chain.back().width, 1);
     EXPECT_EQ(chain.back().height, 1);
 }
-INSTANTIATE_TEST_SUITE_P(Sizes, Chain, testing::Values(Size{1, 1}, Size{16, 16}, Size{32, 4},
-                                                       Size{5, 5}, Size{7, 13}, Size{1, 9},
-                                                       Size{12, 10}, Size{24, 36}));
+INSTANTIATE_TEST_SUITE_P(Sizes, Chain,
+                         testing::Values(Size{1, 1}, Size{16, 16}, Size{32, 4}, Size{5, 5},
+                                         Size{7, 13}, Size{1, 9}, Size{12, 10}, Size{24, 36}));
 
 TEST(Mips, RollingByATexelOfALevelRollsThatLevel)
 {
@@ -96,13 +100,16 @@ struct FilterCase {
     const char* name;
     MipFilter filter;
 };
-void PrintTo(const FilterCase& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const FilterCase& c, std::ostream* out)
+{
+    *out << c.name;
+}
 
 class Filters : public testing::TestWithParam<FilterCase> {};
 TEST_P(Filters, KeepAConstantAndRollWithTheInput)
 {
-    for (const Image& level : mip_chain(Image(24, 20, 2, ColorSpace::Data, 0.7f),
-                                        {.filter = GetParam().filter})) {
+    for (const Image& level :
+         mip_chain(Image(24, 20, 2, ColorSpace::Data, 0.7f), {.filter = GetParam().filter})) {
         for (const float v : level.pixels) EXPECT_NEAR(v, 0.7f, 1e-6f);
     }
     const Image image = noise(32, 64, 1);
@@ -132,7 +139,8 @@ TEST_P(Filters, PassLowAndStopHigh)
         Image wave(64, 64, 1, ColorSpace::Data);
         for (int y = 0; y < 64; ++y) {
             for (int x = 0; x < 64; ++x) {
-                wave.at(x, y, 0) = std::cos(6.2831853f * static_cast<float>(waves * x) / 64.0f + 0.3f);
+                wave.at(x, y, 0) =
+                    std::cos(6.2831853f * static_cast<float>(waves * x) / 64.0f + 0.3f);
             }
         }
         double sum = 0.0;
@@ -143,10 +151,11 @@ TEST_P(Filters, PassLowAndStopHigh)
     EXPECT_GT(energy(3), GetParam().filter == MipFilter::Mitchell ? 0.8 : 0.95);
     EXPECT_LT(energy(28), GetParam().filter == MipFilter::Box ? 0.06 : 0.01);
 }
-INSTANTIATE_TEST_SUITE_P(All, Filters, testing::Values(FilterCase{"box", MipFilter::Box},
-                                                       FilterCase{"kaiser", MipFilter::Kaiser},
-                                                       FilterCase{"lanczos3", MipFilter::Lanczos3},
-                                                       FilterCase{"mitchell", MipFilter::Mitchell}),
+INSTANTIATE_TEST_SUITE_P(All, Filters,
+                         testing::Values(FilterCase{"box", MipFilter::Box},
+                                         FilterCase{"kaiser", MipFilter::Kaiser},
+                                         FilterCase{"lanczos3", MipFilter::Lanczos3},
+                                         FilterCase{"mitchell", MipFilter::Mitchell}),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Mips, NormalsComeOutWithUnitLength)
@@ -177,7 +186,8 @@ TEST(Mips, AlphaCoverageIsKept)
     const auto kept = mip_chain(image, {.alpha_cutoff = 0.5f});
     const auto plain = mip_chain(image);
     for (std::size_t k = 1; k < 5; ++k) {
-        EXPECT_NEAR(share(kept[k]), share(image), 0.51 * 4.0 / static_cast<double>(kept[k].pixels.size()))
+        EXPECT_NEAR(share(kept[k]), share(image),
+                    0.51 * 4.0 / static_cast<double>(kept[k].pixels.size()))
             << "level " << k;
     }
     EXPECT_LT(share(plain[3]), 0.1) << "the test would not notice a chain that does nothing";

@@ -17,9 +17,11 @@ Image hills(int width, int height)
     Image h(width, height, 1, ColorSpace::Data);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            h.at(x, y, 0) = 0.5f + 0.2f * gradient_noise(5.0f * static_cast<float>(x) / static_cast<float>(width),
-                                                         4.0f * static_cast<float>(y) / static_cast<float>(height),
-                                                         5, 4, 9);
+            h.at(x, y, 0) =
+                0.5f +
+                0.2f * gradient_noise(5.0f * static_cast<float>(x) / static_cast<float>(width),
+                                      4.0f * static_cast<float>(y) / static_cast<float>(height), 5,
+                                      4, 9);
         }
     }
     return h;
@@ -67,8 +69,8 @@ TEST(Normal, GreenIsDetected)
 TEST(Normal, LayoutsAreLosslessForUnitNormals)
 {
     const Image n = normal_from_height(hills(16, 16), {.depth = 0.3f});
-    for (const NormalLayout layout :
-         {NormalLayout::Rgb, NormalLayout::Rg, NormalLayout::Ag, NormalLayout::Rxgb, NormalLayout::RgSigned}) {
+    for (const NormalLayout layout : {NormalLayout::Rgb, NormalLayout::Rg, NormalLayout::Ag,
+                                      NormalLayout::Rxgb, NormalLayout::RgSigned}) {
         const Image back = from_layout(to_layout(n, layout), layout);
         for (std::size_t i = 0; i < n.pixels.size(); ++i) {
             EXPECT_NEAR(back.pixels[i], n.pixels[i], 1e-4f);
@@ -107,14 +109,16 @@ TEST(Fft, AgreesWithTheSumAndInverts)
     for (const std::size_t n : {1u, 8u, 15u, 31u}) {
         std::vector<std::complex<double>> a(n);
         for (std::size_t i = 0; i < n; ++i) {
-            a[i] = {static_cast<double>(hash_unit(hash_u32(static_cast<std::uint32_t>(i)))), 0.25 * static_cast<double>(i)};
+            a[i] = {static_cast<double>(hash_unit(hash_u32(static_cast<std::uint32_t>(i)))),
+                    0.25 * static_cast<double>(i)};
         }
         auto f = a;
         detail::fft(f, false);
         for (std::size_t k = 0; k < n; ++k) {
             std::complex<double> sum = 0.0;
             for (std::size_t i = 0; i < n; ++i) {
-                sum += a[i] * std::polar(1.0, -6.283185307179586 * static_cast<double>(i * k) / static_cast<double>(n));
+                sum += a[i] * std::polar(1.0, -6.283185307179586 * static_cast<double>(i * k) /
+                                                  static_cast<double>(n));
             }
             EXPECT_NEAR(std::abs(f[k] - sum), 0.0, 1e-9);
         }

@@ -38,7 +38,8 @@ Maps make_maps(int width, int height, const Slopes& slopes)
 
 std::uint32_t hash(int x, int y)
 {
-    std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b9u ^ static_cast<std::uint32_t>(y) * 0x85ebca6bu;
+    std::uint32_t h =
+        static_cast<std::uint32_t>(x) * 0x9e3779b9u ^ static_cast<std::uint32_t>(y) * 0x85ebca6bu;
     h ^= h >> 15;
     h *= 0x2c1b3c6du;
     h ^= h >> 12;
@@ -108,7 +109,10 @@ struct Case {
     Maps (*maps)(int);
     double joint_fine, joint_coarse;  // least share of the room closed, per cent
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out)
+{
+    *out << c.name;
+}
 
 class Overlap : public testing::TestWithParam<Case> {};
 
@@ -123,8 +127,12 @@ TEST_P(Overlap, ClosesTheRoomAndNeverLosesToPlain)
         for (const LevelScore& l : s.levels) {
             EXPECT_LE(l.tested, l.plain + 0.005) << "level " << l.level << " light " << light;
         }
-        if (s.fine().room() >= 0.02) { EXPECT_GE(s.fine().gap(), c.joint_fine) << to_text(s); }
-        if (s.coarse().room() >= 0.02) { EXPECT_GE(s.coarse().gap(), c.joint_coarse) << to_text(s); }
+        if (s.fine().room() >= 0.02) {
+            EXPECT_GE(s.fine().gap(), c.joint_fine) << to_text(s);
+        }
+        if (s.coarse().room() >= 0.02) {
+            EXPECT_GE(s.coarse().gap(), c.joint_coarse) << to_text(s);
+        }
     }
 }
 
@@ -134,8 +142,12 @@ TEST_P(Overlap, RoughnessOnlyComesNearTheBestIsotropicLobe)
     options.rule = "overlap";
     options.joint = false;
     const Score s = scored(GetParam().maps(64), options);
-    if (s.fine().room() >= 0.02) { EXPECT_GE(s.fine().gap(), 85.0) << to_text(s); }
-    if (s.coarse().room() >= 0.02) { EXPECT_GE(s.coarse().gap(), 85.0) << to_text(s); }
+    if (s.fine().room() >= 0.02) {
+        EXPECT_GE(s.fine().gap(), 85.0) << to_text(s);
+    }
+    if (s.coarse().room() >= 0.02) {
+        EXPECT_GE(s.coarse().gap(), 85.0) << to_text(s);
+    }
 }
 INSTANTIATE_TEST_SUITE_P(Maps, Overlap,
                          testing::Values(Case{"two_gloss", two_gloss, 95, 95},
@@ -200,7 +212,8 @@ TEST(OverlapRule, ALineOfTexelsAndZeroNormalsWork)
     });
     std::memset(maps.normal.bytes.data(), 0, 12);  // (-1, -1, -1): points into the surface
     const float half = 0.5f;
-    for (int k = 0; k < 3; ++k) std::memcpy(&maps.normal.bytes[12 + 4 * static_cast<std::size_t>(k)], &half, 4);
+    for (int k = 0; k < 3; ++k)
+        std::memcpy(&maps.normal.bytes[12 + 4 * static_cast<std::size_t>(k)], &half, 4);
     PrefilterOptions options;
     for (const Rule& rule : rules()) {
         if (rule.name == "lux") continue;
@@ -265,7 +278,8 @@ TEST(StudentT, ASingleLobeComesBack)
     EXPECT_GT(dot(fit.normal, n), 0.99999f);
 }
 
-// The table against the closed form at normal incidence: 1 - a^2 ... is 0.306853 (1 - ln 2) at alpha 1.
+// The table against the closed form at normal incidence: 1 - a^2 ... is 0.306853 (1 - ln 2) at
+// alpha 1.
 TEST(LobeAlbedo, KnownValues)
 {
     EXPECT_NEAR(lobe_albedo(1.0f, 1.0f), 1.0f - std::log(2.0f), 1e-3f);

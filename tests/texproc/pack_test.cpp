@@ -47,8 +47,8 @@ TEST(Pack, HdrpMaskCopiesCodesAndFillsWhatIsMissing)
 
 TEST(Pack, GltfOrm)
 {
-    const auto out = pack(pack_preset("gltf-orm"),
-                          {{"smoothness", grey8({55})}, {"occlusion", grey8({7})}});
+    const auto out =
+        pack(pack_preset("gltf-orm"), {{"smoothness", grey8({55})}, {"occlusion", grey8({7})}});
     ASSERT_EQ(out.channels, 3);
     EXPECT_EQ(code(out, 0), 7);
     EXPECT_EQ(code(out, 1), 200);
@@ -57,8 +57,8 @@ TEST(Pack, GltfOrm)
 
 TEST(Pack, DepthsMixWithoutLosingACode)
 {
-    const auto out = pack(pack_preset("gltf-orm"),
-                          {{"roughness", grey16({513})}, {"metallic", grey8({3})}});
+    const auto out =
+        pack(pack_preset("gltf-orm"), {{"roughness", grey16({513})}, {"metallic", grey8({3})}});
     EXPECT_EQ(out.type, PixelType::U16);
     EXPECT_EQ(code(out, 1), 513);
     EXPECT_EQ(code(out, 2), 3 * 257);
@@ -71,7 +71,8 @@ TEST(Pack, AMapWithoutTheChannelGivesWayToTheNextAlternative)
     const PackPreset preset{"alpha", "", {"albedo.r", "opacity | albedo.a | 1"}, {}};
     RawImage rgb{1, 1, 3, PixelType::U8, {}, {std::byte{9}, std::byte{8}, std::byte{7}}};
     EXPECT_EQ(code(pack(preset, {{"albedo", rgb}}), 1), 255);
-    RawImage rgba{1, 1, 4, PixelType::U8, {}, {std::byte{9}, std::byte{8}, std::byte{7}, std::byte{6}}};
+    RawImage rgba{
+        1, 1, 4, PixelType::U8, {}, {std::byte{9}, std::byte{8}, std::byte{7}, std::byte{6}}};
     EXPECT_EQ(code(pack(preset, {{"albedo", rgba}}), 1), 6);
     EXPECT_EQ(code(pack(preset, {{"albedo", rgba}, {"opacity", grey8({33})}}), 1), 33);
 }
@@ -80,8 +81,9 @@ TEST(Pack, FloatsStayFloatsWhenAsked)
 {
     Image half(2, 1, 1, ColorSpace::Data);
     half.pixels = {0.125f, 1.75f};
-    const RawImage out = pack({"x", "", {"height", "1 - roughness", "0.25"}, {}},
-                              {{"height", to_raw(half, PixelType::F32)}, {"roughness", grey8({51, 255})}}, 32);
+    const RawImage out =
+        pack({"x", "", {"height", "1 - roughness", "0.25"}, {}},
+             {{"height", to_raw(half, PixelType::F32)}, {"roughness", grey8({51, 255})}}, 32);
     ASSERT_EQ(out.type, PixelType::F32);
     const Image image = to_image(out, ColorSpace::Data);
     EXPECT_EQ(image.at(1, 0, 0), 1.75f);
@@ -93,7 +95,8 @@ TEST(Pack, BytesDoNotDependOnThreads)
 {
     RawImage big{67, 129, 1, PixelType::U16, {}, {}};
     big.bytes.resize(big.values() * 2);
-    for (std::size_t i = 0; i < big.bytes.size(); ++i) big.bytes[i] = static_cast<std::byte>(i * 31 + i / 7);
+    for (std::size_t i = 0; i < big.bytes.size(); ++i)
+        big.bytes[i] = static_cast<std::byte>(i * 31 + i / 7);
     const std::map<std::string, RawImage> maps{{"roughness", big}, {"metallic", big}};
     const RawImage one = pack(pack_preset("gltf-orm"), maps, 8, 1);
     EXPECT_EQ(one.bytes, pack(pack_preset("gltf-orm"), maps, 8, 5).bytes);
@@ -146,9 +149,9 @@ TEST(Pack, RefusesWhatDoesNotFit)
 {
     EXPECT_THROW(pack_preset("unity"), Error);
     EXPECT_THROW(pack(pack_preset("gltf-orm"), {}), Error);
-    EXPECT_THROW(pack(pack_preset("gltf-orm"),
-                      {{"roughness", grey8({1, 2})}, {"metallic", grey8({1})}}),
-                 Error);
+    EXPECT_THROW(
+        pack(pack_preset("gltf-orm"), {{"roughness", grey8({1, 2})}, {"metallic", grey8({1})}}),
+        Error);
     EXPECT_THROW(pack(pack_preset("normal-rg"), {{"roughness", grey8({1})}}), Error);
     EXPECT_THROW(pack(pack_preset("normal-rg"), {{"normal", grey8({1})}}), Error);
 }

@@ -42,25 +42,31 @@ struct LuxCase {
     const char* name;
     float g, l, result;
 };
-void PrintTo(const LuxCase& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const LuxCase& c, std::ostream* out)
+{
+    *out << c.name;
+}
 
 class LuxValues : public testing::TestWithParam<LuxCase> {};
 TEST_P(LuxValues, AreThoseOfTheTool)
 {
     EXPECT_NEAR(lux_smoothness(GetParam().g, GetParam().l), GetParam().result, 6e-5f);
 }
-INSTANTIATE_TEST_SUITE_P(Table, LuxValues, testing::Values(
-    LuxCase{"flat", 1.0f, 1.0f, 0.99f}, LuxCase{"smooth", 1.0f, 0.9f, 0.6895f},
-    LuxCase{"half", 0.5f, 0.9f, 0.4114f}, LuxCase{"nearly_flat", 1.0f, 0.99f, 0.9002f},
-    LuxCase{"opposite", 1.0f, 0.0f, 0.0f}),
-    [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, LuxValues,
+                         testing::Values(LuxCase{"flat", 1.0f, 1.0f, 0.99f},
+                                         LuxCase{"smooth", 1.0f, 0.9f, 0.6895f},
+                                         LuxCase{"half", 0.5f, 0.9f, 0.4114f},
+                                         LuxCase{"nearly_flat", 1.0f, 0.99f, 0.9002f},
+                                         LuxCase{"opposite", 1.0f, 0.0f, 0.0f}),
+                         [](const auto& test) { return test.param.name; });
 
 // Codes by hand: flat normals (x = y = 127.5 cannot be stored, so 128) and smoothness 255.
 TEST(LuxCompatible, TruncatesTo252OnAFlatMap)
 {
     const auto out = lux_smoothness_mips({128, 128, 128, 128}, {128, 128, 128, 128}, {{255}}, 2);
     ASSERT_EQ(out.size(), 1u);
-    EXPECT_GE(out[0][0], 252);  // 252, or up to 254 where rounding left l a little below 1 (defect 10)
+    EXPECT_GE(out[0][0],
+              252);  // 252, or up to 254 where rounding left l a little below 1 (defect 10)
     EXPECT_LE(out[0][0], 254);
     // One texel whose x^2 + y^2 exceeds 1 poisons its footprint (defect 5).
     EXPECT_EQ(lux_smoothness_mips({255, 128, 128, 128}, {255, 128, 128, 128}, {{255}}, 2)[0][0], 0);
@@ -86,7 +92,8 @@ TEST(LuxCompatible, RunsAsARule)
 TEST(Moments, GaussianSlopesAddTheirVarianceToAlphaSquared)
 {
     const float p = 0.25f;  // alpha 0.0625
-    const auto out = prefilter(gaussian_normals(128, 0.1f), Image(128, 128, 1, ColorSpace::Data, p));
+    const auto out =
+        prefilter(gaussian_normals(128, 0.1f), Image(128, 128, 1, ColorSpace::Data, p));
     const float alpha = std::pow(out.roughness.back().pixels[0], 2.0f);
     // 2 sigma^2 = 0.02; the spherical estimate differs from slopes in the next order.
     EXPECT_NEAR(alpha, std::sqrt(0.0625f * 0.0625f + 0.02f), 0.003f);
@@ -95,10 +102,11 @@ TEST(Moments, GaussianSlopesAddTheirVarianceToAlphaSquared)
 TEST(Moments, WorkedExampleOfTheReference)
 {
     // alpha 0.04, kappa about 100: right 0.147, Lux 0.050.
-    const auto right = prefilter(gaussian_normals(128, 0.1f), Image(128, 128, 1, ColorSpace::Data, 0.2f));
+    const auto right =
+        prefilter(gaussian_normals(128, 0.1f), Image(128, 128, 1, ColorSpace::Data, 0.2f));
     EXPECT_NEAR(std::pow(right.roughness.back().pixels[0], 2.0f), 0.147f, 0.003f);
-    const auto lux = prefilter(gaussian_normals(128, 0.1f), Image(128, 128, 1, ColorSpace::Data, 0.2f),
-                               {.rule = "lux-formula"});
+    const auto lux = prefilter(gaussian_normals(128, 0.1f),
+                               Image(128, 128, 1, ColorSpace::Data, 0.2f), {.rule = "lux-formula"});
     EXPECT_NEAR(std::pow(lux.roughness.back().pixels[0], 2.0f), 0.050f, 0.001f);
 }
 
@@ -112,7 +120,8 @@ TEST(Moments, AFlatMapChangesNothing)
             for (const float v : level.pixels) EXPECT_NEAR(v, 0.3f, 1e-5f);
         }
         for (const Image& level : out.normal) {
-            for (std::size_t i = 2; i < level.pixels.size(); i += 3) EXPECT_EQ(level.pixels[i], 1.0f);
+            for (std::size_t i = 2; i < level.pixels.size(); i += 3)
+                EXPECT_EQ(level.pixels[i], 1.0f);
         }
     }
 }
@@ -135,7 +144,8 @@ TEST(Moments, SmoothnessIsOneMinusRoughness)
 
 TEST(Moments, NeverLosesRoughnessAndStaysInRange)
 {
-    const auto out = prefilter(gaussian_normals(64, 2.0f), Image(64, 64, 1, ColorSpace::Data, 0.1f));
+    const auto out =
+        prefilter(gaussian_normals(64, 2.0f), Image(64, 64, 1, ColorSpace::Data, 0.1f));
     for (const Image& level : out.roughness) {
         for (const float v : level.pixels) {
             EXPECT_GE(v, 0.1f - 1e-6f);

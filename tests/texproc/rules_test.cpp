@@ -14,7 +14,10 @@ struct Example {
     const char* rule;
     float alpha;
 };
-void PrintTo(const Example& e, std::ostream* out) { *out << e.rule; }
+void PrintTo(const Example& e, std::ostream* out)
+{
+    *out << e.rule;
+}
 
 class WorkedExample : public testing::TestWithParam<Example> {};
 TEST_P(WorkedExample, ComesOut)
@@ -62,7 +65,10 @@ TEST(Rules, FlatStaysRoughGrows)
     }
 }
 
-TEST(Rules, UnknownNamesAreListed) { EXPECT_THROW(rule_named("best"), Error); }
+TEST(Rules, UnknownNamesAreListed)
+{
+    EXPECT_THROW(rule_named("best"), Error);
+}
 
 }  // namespace
 }  // namespace petrichor::texproc

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "texproc/prefilter/detail/codes.h"
-#include "texproc/prefilter/scored_maps.h"
 #include "texproc/prefilter/protocol.h"
+#include "texproc/prefilter/scored_maps.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -44,8 +44,8 @@ TEST(Protocol, TheDefaultIsNeverWorseThanPlainOnHardMaps)
     ASSERT_EQ(rows.size(), hard_maps(128).size() * 2 * 2);
     for (const ProtocolRow& row : rows) {
         for (const LevelScore& l : row.score.levels) {
-            EXPECT_LE(l.tested, l.plain + 0.005)
-                << row.material << " " << row.variant << " level " << l.level << " light " << row.light;
+            EXPECT_LE(l.tested, l.plain + 0.005) << row.material << " " << row.variant << " level "
+                                                 << l.level << " light " << row.light;
         }
     }
     for (const ProtocolSummary& s : summarize(rows)) {
@@ -65,7 +65,8 @@ TEST(Protocol, SummariesFollowTheirDefinitions)
         r.score.levels = {{1, plain, best, tested, 0, 0}, {6, plain, best, plain + 0.01, 0, 0}};
         return r;
     };
-    const auto all = summarize({row("a", 0.5, 0.3, 0.35), row("b", 0.4, 0.3, 0.25), row("c", 0.02, 0.01, 0.016)});
+    const auto all = summarize(
+        {row("a", 0.5, 0.3, 0.35), row("b", 0.4, 0.3, 0.25), row("c", 0.02, 0.01, 0.016)});
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0].with_room, 2);
     EXPECT_NEAR(all[0].worst_gap, 75.0, 1e-9);
@@ -87,8 +88,7 @@ TEST(PrefilterSome, GivesTheTexelsOfTheWholeChain)
     options.rule = "overlap";
     const Prefiltered whole = prefilter_raw(maps.normal, maps.roughness, options);
     const auto wanted = [](int level, int x, int y) { return (x + 2 * y + level) % 5 == 0; };
-    const Prefiltered some =
-        prefilter_some(maps.normal, maps.roughness, {options}, wanted).front();
+    const Prefiltered some = prefilter_some(maps.normal, maps.roughness, {options}, wanted).front();
     int texels = 0;
     for (std::size_t k = 1; k < whole.roughness.size(); ++k) {
         for (int y = 0; y < whole.roughness[k].height; ++y) {
@@ -111,7 +111,8 @@ TEST(ScoredMaps, RollAndRainKeepWhatTheyShould)
     Image height(64, 64, 1, ColorSpace::Data);
     for (std::size_t i = 0; i < height.pixels.size(); ++i) height.pixels[i] = static_cast<float>(i);
     const ScoredMaps wet = with_puddles(dry, height, 0.25f);
-    const Image n = to_image(wet.normal, ColorSpace::Data), r = to_image(wet.roughness, ColorSpace::Data);
+    const Image n = to_image(wet.normal, ColorSpace::Data),
+                r = to_image(wet.roughness, ColorSpace::Data);
     std::size_t flat = 0;
     for (std::size_t i = 0; i < r.pixels.size(); ++i) {
         EXPECT_LE(r.pixels[i], 0.5f + 1e-4f);
@@ -152,7 +153,8 @@ TEST(Codes, ChoiceBeatsRounding)
         const float t = 0.1f + 0.01f * static_cast<float>(i);
         const Direction n = normalized({t, 0.37f * t, 1.0f});
         cells.add(n.x, n.y, n.z, 2e-5f, 1.0f);
-        const LobeCost cost(cells.view(), masses(cells.view()), 640, static_cast<std::uint32_t>(i), samples);
+        const LobeCost cost(cells.view(), masses(cells.view()), 640, static_cast<std::uint32_t>(i),
+                            samples);
         const Codes plain = rounded(n, 2e-5f, as);
         const Codes chosen = cheapest_codes(cost, n, 2e-5f, plain, 0.0f, as);
         const float a = cost(read_normal(plain, as), read_alpha2(plain, as));
@@ -172,7 +174,8 @@ TEST(Protocol, ChosenCodesSurviveEightBits)
         return v.name != "plain as shipped" && v.name != "overlap joint";
     });
     ASSERT_EQ(variants.size(), 2u);
-    const auto rows = run_protocol({hard_maps(128)[0], hard_maps(128)[5]}, variants, small_protocol());
+    const auto rows =
+        run_protocol({hard_maps(128)[0], hard_maps(128)[5]}, variants, small_protocol());
     for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
         EXPECT_LT(rows[i + 1].score.fine().tested, rows[i].score.fine().tested + 0.005)
             << rows[i].material;

@@ -18,18 +18,20 @@ inline std::vector<RawImage> small_chain(int width, int height, int channels, Pi
     std::vector<RawImage> levels;
     std::uint32_t seed = 17;
     for (int k = 0;; ++k) {
-        RawImage level{level_extent(width, k), level_extent(height, k), channels, PixelType::U8, {}, {}};
+        RawImage level{
+            level_extent(width, k), level_extent(height, k), channels, PixelType::U8, {}, {}};
         for (std::size_t i = 0; i < level.values(); ++i) {
             seed = seed * 1664525u + 1013904223u;
             level.bytes.push_back(static_cast<std::byte>(seed >> 24));
         }
-        levels.push_back(type == PixelType::U8 ? level : to_raw(to_image(level, ColorSpace::Data), type));
+        levels.push_back(type == PixelType::U8 ? level
+                                               : to_raw(to_image(level, ColorSpace::Data), type));
         if (level.width == 1 && level.height == 1) return levels;
     }
 }
 
-/// Calls `parse` with the file cut after every byte, with every byte changed in several ways and with
-/// every header word set to extremes. It may throw std::runtime_error or return; nothing else.
+/// Calls `parse` with the file cut after every byte, with every byte changed in several ways and
+/// with every header word set to extremes. It may throw std::runtime_error or return; nothing else.
 /// Returns how many of the cut files were taken for good.
 inline int torture(const std::vector<std::byte>& file,
                    const std::function<void(std::span<const std::byte>)>& parse)
@@ -46,7 +48,8 @@ inline int torture(const std::vector<std::byte>& file,
     };
     for (std::size_t size = 0; size < file.size(); ++size) {
         // A copy of its own size, so that a sanitizer sees every read past its end.
-        const std::vector<std::byte> cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
+        const std::vector<std::byte> cut(file.begin(),
+                                         file.begin() + static_cast<std::ptrdiff_t>(size));
         if (attempt(cut)) ++good;
     }
     std::vector<std::byte> bytes = file;
@@ -59,7 +62,8 @@ inline int torture(const std::vector<std::byte>& file,
     }
     for (std::size_t i = 0; i + 4 <= std::min<std::size_t>(file.size(), 256); i += 4) {
         for (const std::uint32_t word : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu, 65536u}) {
-            for (std::size_t b = 0; b < 4; ++b) bytes[i + b] = static_cast<std::byte>(word >> (8 * b));
+            for (std::size_t b = 0; b < 4; ++b)
+                bytes[i + b] = static_cast<std::byte>(word >> (8 * b));
             attempt(bytes);
         }
         std::copy_n(file.begin() + static_cast<std::ptrdiff_t>(i), 4,

@@ -64,7 +64,10 @@ TEST(TimelineCsv, ListsEveryProblemWithItsLine)
     expect_problem(head + ",1,0\n", "line 2, time_s: empty");
     expect_problem(head + "0,,0\n", "temperature_c: no row has a value");
     expect_problem(std::string(100, '\0'), "not a text file");
-    expect_problem(std::string_view("\x7f" "ELF\x02\x01\x01\0\0", 9), "not a text file");
+    expect_problem(std::string_view("\x7f"
+                                    "ELF\x02\x01\x01\0\0",
+                                    9),
+                   "not a text file");
     const std::string both = problem_of(head + "0,x,0\n1,1,y\n");
     EXPECT_NE(both.find("2 problems"), std::string::npos);
     EXPECT_NE(both.find("line 2, temperature_c"), std::string::npos);
@@ -96,9 +99,14 @@ TEST(TimelineCsv, SurvivesDamagedText)
         for (int edits = 0; edits < 3; ++edits) {
             const std::size_t at = random() % text.size();
             switch (random() % 3) {
-                case 0: text[at] = static_cast<char>(random()); break;
-                case 1: text.erase(at, random() % 9); break;
-                default: text.insert(at, text.substr(random() % text.size(), random() % 20));
+                case 0:
+                    text[at] = static_cast<char>(random());
+                    break;
+                case 1:
+                    text.erase(at, random() % 9);
+                    break;
+                default:
+                    text.insert(at, text.substr(random() % text.size(), random() % 20));
             }
             if (text.empty()) text = ",";
         }
@@ -134,11 +142,15 @@ TEST(Csv, ProblemListsAreCut)
 
 TEST(TimelineCsv, HandSetStatesAreColumns)
 {
-    const auto reading = parse_timeline_csv("time_s,temperature_c,rainfall,script_controlled,wetness\n0,5,0,1,\n2,5,0,0,0.25\n4,5,0,0,0.75\n",
-                                            Interpolation::Linear);
+    const auto reading = parse_timeline_csv(
+        "time_s,temperature_c,rainfall,script_controlled,wetness\n0,5,0,1,\n2,5,0,0,0.25\n4,5,0,0,"
+        "0.75\n",
+        Interpolation::Linear);
     ASSERT_EQ(reading.timeline.states.size(), 1u);
     EXPECT_DOUBLE_EQ(ArtistTimeline(reading.timeline, {}, {}).state_at(to_time_us(3)).wetness, 0.5);
-    EXPECT_THROW(parse_timeline_csv("time_s,temperature_c,rainfall,wetness\n0,5,0,1.5\n", Interpolation::Hold), Error);
+    EXPECT_THROW(parse_timeline_csv("time_s,temperature_c,rainfall,wetness\n0,5,0,1.5\n",
+                                    Interpolation::Hold),
+                 Error);
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ Script random_script(unsigned seed, Interpolation interpolation, int keys)
     for (int i = 0; i < keys; ++i) {
         const TimeUs time = to_time_us(time_s);
         script.timeline.temperature_c.times.push_back(time);
-        script.timeline.temperature_c.values.push_back(unit(random) < 0.1 ? 0.0
-                                                                          : 100 * unit(random) - 50);
+        script.timeline.temperature_c.values.push_back(
+            unit(random) < 0.1 ? 0.0 : 100 * unit(random) - 50);
         script.timeline.rainfall.times.push_back(time);
         script.timeline.rainfall.values.push_back(unit(random) < 0.4 ? 0.0 : unit(random));
         time_s += std::round((0.1 + 2.5 * unit(random)) * 1e4) * 1e-4;
@@ -178,36 +178,47 @@ TEST(ArtistExact, ParametersMayChangeOverTime)
         {0, to_time_us(3), to_time_us(6)}, {0.1, 0.9, 0.3}, Interpolation::Hold};
     script.timeline.parameters["time_scale"] = {
         {0, to_time_us(2)}, {1.0, 0.5}, Interpolation::Hold};
-    expect_close(ArtistTimeline(script.timeline, script.params, script.initial)
-                     .state_at(to_time_us(7)),
-                 stepped(script.timeline, script.params, script.initial, 7.0, 20000), 1e-4);
+    expect_close(
+        ArtistTimeline(script.timeline, script.params, script.initial).state_at(to_time_us(7)),
+        stepped(script.timeline, script.params, script.initial, 7.0, 20000), 1e-4);
     script.timeline.parameters["time_scale"].interpolation = Interpolation::Linear;
     script.timeline.parameters["accumulation_rate_wetness"].interpolation = Interpolation::Smooth;
-    expect_close(ArtistTimeline(script.timeline, script.params, script.initial)
-                     .state_at(to_time_us(7)),
-                 stepped(script.timeline, script.params, script.initial, 7.0, 20000), 1e-4);
+    expect_close(
+        ArtistTimeline(script.timeline, script.params, script.initial).state_at(to_time_us(7)),
+        stepped(script.timeline, script.params, script.initial, 7.0, 20000), 1e-4);
 }
 
-// The stepped model lags by a step: its error at 20 kHz is of first order and up to dt S A dR, so scripts with fast
-// scales and rates differ by more than 1e-4. Extrapolated to steps of no length it meets the closed form.
+// The stepped model lags by a step: its error at 20 kHz is of first order and up to dt S A dR, so
+// scripts with fast scales and rates differ by more than 1e-4. Extrapolated to steps of no length
+// it meets the closed form.
 TEST(ArtistExact, IsTheLimitOfEverShorterStepsForSmoothParameters)
 {
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        Script script = random_script(seed, seed % 2 ? Interpolation::Smooth : Interpolation::Linear, 6);
+        Script script =
+            random_script(seed, seed % 2 ? Interpolation::Smooth : Interpolation::Linear, 6);
         const double end_s = std::min(script.length_s, 8.0);
         const double a = 0.1 * seed, b = 1.3 - 0.1 * seed;
-        script.timeline.parameters["time_scale"] = {{0, to_time_us(2), to_time_us(5)}, {a + 0.3, 2.0 * b + 0.2, a + 0.1}, Interpolation::Linear};
-        script.timeline.parameters["water_to_snow_time_scale"] = {{0, to_time_us(4)}, {0.2, 1.0}, Interpolation::Smooth};
-        script.timeline.parameters["accumulation_rate_wetness"] = {{0, to_time_us(3), to_time_us(6)}, {0.1, 0.9, 0.3}, Interpolation::Smooth};
-        script.timeline.parameters["evaporation_rate_cracks"] = {{0, to_time_us(6)}, {0.5, 0.02}, Interpolation::Linear};
-        const auto at = [&](int rate) { return stepped(script.timeline, script.params, script.initial, end_s, rate); };
+        script.timeline.parameters["time_scale"] = {{0, to_time_us(2), to_time_us(5)},
+                                                    {a + 0.3, 2.0 * b + 0.2, a + 0.1},
+                                                    Interpolation::Linear};
+        script.timeline.parameters["water_to_snow_time_scale"] = {
+            {0, to_time_us(4)}, {0.2, 1.0}, Interpolation::Smooth};
+        script.timeline.parameters["accumulation_rate_wetness"] = {
+            {0, to_time_us(3), to_time_us(6)}, {0.1, 0.9, 0.3}, Interpolation::Smooth};
+        script.timeline.parameters["evaporation_rate_cracks"] = {
+            {0, to_time_us(6)}, {0.5, 0.02}, Interpolation::Linear};
+        const auto at = [&](int rate) {
+            return stepped(script.timeline, script.params, script.initial, end_s, rate);
+        };
         const ArtistState coarse = at(10000), fine = at(20000);
         ArtistState limit = fine;
-        for (double ArtistState::* m : {&ArtistState::water_to_snow, &ArtistState::wetness, &ArtistState::cracks, &ArtistState::puddles,
-                                        &ArtistState::snow, &ArtistState::water}) {
+        for (double ArtistState::*m :
+             {&ArtistState::water_to_snow, &ArtistState::wetness, &ArtistState::cracks,
+              &ArtistState::puddles, &ArtistState::snow, &ArtistState::water}) {
             limit.*m = 2.0 * (fine.*m) - coarse.*m;
         }
-        const ArtistState exact = ArtistTimeline(script.timeline, script.params, script.initial).state_at(to_time_us(end_s));
+        const ArtistState exact = ArtistTimeline(script.timeline, script.params, script.initial)
+                                      .state_at(to_time_us(end_s));
         limit.rain = exact.rain;
         limit.snowfall = exact.snowfall;
         SCOPED_TRACE(seed);
@@ -218,7 +229,8 @@ TEST(ArtistExact, IsTheLimitOfEverShorterStepsForSmoothParameters)
 TEST(ArtistExact, StatesCanBeSetByHandOverTime)
 {
     Timeline script = parts({{10, .5, 2}, {10, .5, 2}, {10, .5, 2}});
-    script.parameters["script_controlled"] = {{0, to_time_us(2), to_time_us(4)}, {1, 0, 1}, Interpolation::Hold};
+    script.parameters["script_controlled"] = {
+        {0, to_time_us(2), to_time_us(4)}, {1, 0, 1}, Interpolation::Hold};
     script.states["wetness"] = {{to_time_us(3), to_time_us(4)}, {0.0, 1.0}, Interpolation::Linear};
     script.states["snow"] = {{to_time_us(1), to_time_us(2.5)}, {0.4, 0.8}, Interpolation::Hold};
     const ArtistTimeline weather(script, {}, {});
@@ -235,7 +247,9 @@ TEST(ArtistExact, StatesCanBeSetByHandOverTime)
     // The same bits when taken up later.
     for (double t : {2.2, 3.5, 5.0}) {
         const ArtistCheckpoint c = weather.checkpoint_at(to_time_us(t));
-        EXPECT_EQ(ArtistTimeline(script, {}, c.anchor_state, c.anchor).state_at(to_time_us(5.5)), at(5.5)) << t;
+        EXPECT_EQ(ArtistTimeline(script, {}, c.anchor_state, c.anchor).state_at(to_time_us(5.5)),
+                  at(5.5))
+            << t;
     }
     script.states["rain"] = constant_channel(1.0);
     EXPECT_THROW(ArtistTimeline(script, {}, {}), Error);

@@ -230,7 +230,8 @@ TEST(Curve, DefaultOfTheOriginal)
 
 TEST(Curve, DemoScenePassesItsKeys)
 {
-    const std::vector<CurveKey> demo{{0, 0, 2, 2}, {0.73561, 0.5201, 0.22411, 0.22411}, {1, 1, 0, 0}};
+    const std::vector<CurveKey> demo{
+        {0, 0, 2, 2}, {0.73561, 0.5201, 0.22411, 0.22411}, {1, 1, 0, 0}};
     for (const CurveKey& key : demo) EXPECT_NEAR(curve_value(demo, key.time), key.value, 1e-15);
     // By hand, u = 0.5 of the first segment: (0 + 0.5201)/2 + 0.73561 (2 - 0.22411)/8.
     EXPECT_NEAR(curve_value(demo, 0.367805), 0.26005 + 0.73561 * 1.77589 / 8.0, 1e-14);
@@ -251,7 +252,8 @@ TEST(Curve, AutomaticTangentsNeverOvershoot)
     for (int round = 0; round < 200; ++round) {
         std::vector<CurveKey> keys;
         double time = 0.0;
-        for (int i = 0; i < 8; ++i) keys.push_back({time += 0.01 + unit(random), unit(random), 0, 0});
+        for (int i = 0; i < 8; ++i)
+            keys.push_back({time += 0.01 + unit(random), unit(random), 0, 0});
         keys = automatic_tangents(keys);
         for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
             const double low = std::min(keys[i].value, keys[i + 1].value);

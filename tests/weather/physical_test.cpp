@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "tests/weather/winters.h"
-#include "weather/physics/detail/cell_steps.h"
 #include "weather/mapping.h"
 #include "weather/physical_grid.h"
+#include "weather/physics/detail/cell_steps.h"
 
 namespace petrichor::weather {
 namespace {
@@ -19,7 +19,8 @@ using namespace testing_winters;
 
 constexpr std::int64_t kHourUs = 3600000000LL;
 
-// A year of made-up weather that visits everything: frost, snow, rain on snow, freezing rain, melt, dry heat.
+// A year of made-up weather that visits everything: frost, snow, rain on snow, freezing rain, melt,
+// dry heat.
 ForcingTable rough_year(std::size_t hours = 8760)
 {
     ForcingTable t;
@@ -39,7 +40,8 @@ ForcingTable rough_year(std::size_t hours = 8760)
             spell = 12 * (random() - 0.5);
         }
         t.time_us.push_back(1420070400LL * 1000000 + static_cast<std::int64_t>(i) * kHourUs);
-        t[Field::AirTemp].push_back(280 - 12 * detail::sine_cosine(2 * kPi * h / 8766).cos - 4 * detail::sine_cosine(2 * kPi * h / 24).cos + spell);
+        t[Field::AirTemp].push_back(280 - 12 * detail::sine_cosine(2 * kPi * h / 8766).cos -
+                                    4 * detail::sine_cosine(2 * kPi * h / 24).cos + spell);
         t[Field::RelHumidity].push_back(wet > 0 ? 95 : 60 + 30 * random());
         t[Field::Wind].push_back(6 * random());
         t[Field::Precip].push_back(wet);
@@ -67,9 +69,11 @@ TEST(Physical, MassAndEnergyCloseOverAYear)
             deepest = std::max(deepest, diagnostics(c).snow_depth_m);
             iciest = std::max(iciest, c.film_ice);
             const auto* numbers = reinterpret_cast<const double*>(&c);
-            for (std::size_t i = 0; i < kCellNumbers; ++i) ASSERT_TRUE(std::isfinite(numbers[i])) << name << " " << i;
-            for (const double v : {c.film, c.crack, c.puddle, c.film_ice, c.crack_ice, c.puddle_ice, c.snow_ice[0], c.snow_ice[1],
-                                   c.snow_ice[2], c.snow_liquid[0], c.snow_liquid[1], c.snow_liquid[2]}) {
+            for (std::size_t i = 0; i < kCellNumbers; ++i)
+                ASSERT_TRUE(std::isfinite(numbers[i])) << name << " " << i;
+            for (const double v : {c.film, c.crack, c.puddle, c.film_ice, c.crack_ice, c.puddle_ice,
+                                   c.snow_ice[0], c.snow_ice[1], c.snow_ice[2], c.snow_liquid[0],
+                                   c.snow_liquid[1], c.snow_liquid[2]}) {
                 ASSERT_GE(v, 0.0) << name;
             }
         }
@@ -81,8 +85,10 @@ TEST(Physical, MassAndEnergyCloseOverAYear)
         EXPECT_GT(end.total_evaporation, 20) << name;
         EXPECT_GT(deepest, 0.1) << name;
         EXPECT_GT(iciest, 0.05) << name;
-        if (params.surface.infiltration.first_mm_h == 0) EXPECT_GT(wettest, 0.9 * params.surface.puddles.capacity_kg_m2()) << name;
-        else EXPECT_GT(end.total_infiltration, 50) << name;
+        if (params.surface.infiltration.first_mm_h == 0)
+            EXPECT_GT(wettest, 0.9 * params.surface.puddles.capacity_kg_m2()) << name;
+        else
+            EXPECT_GT(end.total_infiltration, 50) << name;
     }
 }
 
@@ -96,17 +102,23 @@ void expect_convergence(const ForcingTable& table, const char* name)
         params.substep_s = step_s / 6.0;
         const PhysicalTimeline run(table, params);
         double most = 0;
-        for (const auto& c : run.series(run.begin_us(), run.end_us(), kHourUs)) most = std::max(most, diagnostics(c).swe_kg_m2);
+        for (const auto& c : run.series(run.begin_us(), run.end_us(), kHourUs))
+            most = std::max(most, diagnostics(c).swe_kg_m2);
         const double change_pct = coarser > 0 ? 100.0 * (most - coarser) / coarser : 0.0;
-        std::printf("  %s, step %4.0f s: peak SWE %8.3f kg/m2, %+.3f %%\n", name, step_s, most, change_pct);
+        std::printf("  %s, step %4.0f s: peak SWE %8.3f kg/m2, %+.3f %%\n", name, step_s, most,
+                    change_pct);
         EXPECT_LT(std::abs(change_pct), 2.0) << name << " at " << step_s;
         coarser = most;
     }
 }
-TEST(Physical, HalvingTheStepKeepsThePeak) { expect_convergence(rough_year(), "made-up year"); }
+TEST(Physical, HalvingTheStepKeepsThePeak)
+{
+    expect_convergence(rough_year(), "made-up year");
+}
 TEST(Winters, HalvingTheStepKeepsThePeak)
 {
-    if (asset("met_CdP_0506.txt").empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
+    if (asset("met_CdP_0506.txt").empty())
+        GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
     expect_convergence(winter_2005().table, "Col de Porte 2005-06");
 }
 
@@ -114,11 +126,13 @@ TEST(Winters, HalvingTheStepKeepsThePeak)
 
 TEST(Winters, ColDePorte2005)
 {
-    if (asset("met_CdP_0506.txt").empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
+    if (asset("met_CdP_0506.txt").empty())
+        GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
     const Winter winter = winter_2005();
     const Scores s = score(winter, meadow());
     RecordProperty("depth_rmse_m", std::to_string(s.depth_m));
-    std::printf("  depth %.4f m, SWE %.2f kg/m2, surface %.3f K, albedo %.4f\n", s.depth_m, s.swe_kg_m2, s.surface_k, s.albedo);
+    std::printf("  depth %.4f m, SWE %.2f kg/m2, surface %.3f K, albedo %.4f\n", s.depth_m,
+                s.swe_kg_m2, s.surface_k, s.albedo);
     EXPECT_LE(s.depth_m, 0.12);
     EXPECT_LE(s.swe_kg_m2, 40);
     EXPECT_LE(s.surface_k, 1.8);
@@ -127,7 +141,8 @@ TEST(Winters, ColDePorte2005)
 
 TEST(Winters, ColDePorte2001)
 {
-    if (asset("col_de_porte_2001_02_met_hourly.csv").empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
+    if (asset("col_de_porte_2001_02_met_hourly.csv").empty())
+        GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
     const Scores s = score(winter_2001(), meadow());
     std::printf("  depth %.4f m, SWE %.2f kg/m2\n", s.depth_m, s.swe_kg_m2);
     EXPECT_LE(s.depth_m, 0.12);
@@ -136,7 +151,8 @@ TEST(Winters, ColDePorte2001)
 
 // ---- water and ice on ground, one thing at a time
 
-ForcingTable steady(double air_k, double rh, double wind, double sw, double precip, std::size_t hours)
+ForcingTable steady(double air_k, double rh, double wind, double sw, double precip,
+                    std::size_t hours)
 {
     ForcingTable t;
     for (std::size_t i = 0; i <= hours; ++i) {
@@ -206,7 +222,8 @@ TEST(Ice, FrostDewAndFreezing)
     p.deep_temp_k = 262;
     p.phase.law = PhaseLaw::Threshold;
     p.phase.threshold_k = 260;
-    const auto glaze = PhysicalTimeline(steady(270.5, 95, 4, 0, 1.0 / 3600, 6), p).state_at(3 * kHourUs);
+    const auto glaze =
+        PhysicalTimeline(steady(270.5, 95, 4, 0, 1.0 / 3600, 6), p).state_at(3 * kHourUs);
     EXPECT_GT(glaze.film_ice + glaze.crack_ice, 0.3);
     EXPECT_LE(glaze.surface_temp_c, 1e-9);
     EXPECT_GT(glaze.frozen_fraction, 0.1);
@@ -215,7 +232,8 @@ TEST(Ice, FrostDewAndFreezing)
 TEST(Snow, FallsAndMeltsIntoTheStores)
 {
     PhysicalParams p;
-    const auto fallen = PhysicalTimeline(steady(268, 95, 2, 0, 5.0 / 3600, 6), p).state_at(6 * kHourUs);
+    const auto fallen =
+        PhysicalTimeline(steady(268, 95, 2, 0, 5.0 / 3600, 6), p).state_at(6 * kHourUs);
     EXPECT_NEAR(diagnostics(fallen).swe_kg_m2, 15, 3.0);
     EXPECT_GT(diagnostics(fallen).snow_depth_m, 0.08);
     const auto masks = weather_masks({}, p.surface, fallen, 3600);
@@ -239,7 +257,10 @@ TEST(Physical, AnyTimeInAnyOrderGivesTheSameBits)
     const auto all = run.series(run.begin_us(), run.end_us(), kHourUs / 2);
     for (std::size_t i = all.size(); i-- > 0;) {
         if (i % 97 != 0) continue;
-        EXPECT_EQ(state_hash(run.state_at(run.begin_us() + static_cast<std::int64_t>(i) * kHourUs / 2)), state_hash(all[i])) << i;
+        EXPECT_EQ(
+            state_hash(run.state_at(run.begin_us() + static_cast<std::int64_t>(i) * kHourUs / 2)),
+            state_hash(all[i]))
+            << i;
     }
     EXPECT_EQ(state_hash(run.state_at(run.begin_us() - 5)), state_hash(all.front()));
     EXPECT_EQ(state_hash(run.state_at(run.end_us() + 5)), state_hash(all.back()));
@@ -253,7 +274,8 @@ TEST(Physical, SavedStatesContinueWithIdenticalBits)
     const CellState restored = load_state(save_state(run.state_at(at)));
     const PhysicalTimeline rest(table, meadow(), restored, at);
     EXPECT_EQ(state_hash(rest.state_at(run.end_us())), state_hash(run.state_at(run.end_us())));
-    EXPECT_EQ(state_hash(rest.state_at(at + 100 * kHourUs + 17)), state_hash(run.state_at(at + 100 * kHourUs + 17)));
+    EXPECT_EQ(state_hash(rest.state_at(at + 100 * kHourUs + 17)),
+              state_hash(run.state_at(at + 100 * kHourUs + 17)));
     EXPECT_THROW(PhysicalTimeline(table, meadow(), restored, at + 1), Error);
     std::string text = save_state(restored);
     text[40] = text[40] == '0' ? '1' : '0';
@@ -268,8 +290,11 @@ TEST(Physical, SeekingTakesLessThanAMillisecond)
     for (int k = 0; k < 5; ++k) {
         const auto begin = std::chrono::steady_clock::now();
         double sum = 0;
-        for (int i = 0; i < 20; ++i) sum += run.state_at(run.begin_us() + (i * 411 + k) * kHourUs + 1234).film;
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 20);
+        for (int i = 0; i < 20; ++i)
+            sum += run.state_at(run.begin_us() + (i * 411 + k) * kHourUs + 1234).film;
+        best = std::min(
+            best,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 20);
         ASSERT_TRUE(std::isfinite(sum));
     }
 #ifdef NDEBUG
@@ -281,7 +306,8 @@ TEST(Physical, SeekingTakesLessThanAMillisecond)
 TEST(Physical, OneHashEverywhere)
 {
     const PhysicalTimeline run(rough_year(3000), meadow());
-    EXPECT_EQ(hash_text(state_hash(run.series(run.begin_us(), run.end_us(), 24 * kHourUs))), "3e8cc34b46b82e58");
+    EXPECT_EQ(hash_text(state_hash(run.series(run.begin_us(), run.end_us(), 24 * kHourUs))),
+              "3e8cc34b46b82e58");
 }
 
 TEST(Physical, ParametersOutOfRangeAreNamed)
@@ -369,7 +395,8 @@ TEST(Grid, NarrowAndWideRegistersAgree)
     detail::advance_block_16(narrow, places, steps.data(), steps.size(), k, s);
     detail::advance_block_32(wide, places, steps.data(), steps.size(), k, s);
     for (std::size_t i = 0; i < kCellNumbers; ++i) {
-        for (std::size_t lane = 0; lane < 8; ++lane) ASSERT_EQ(narrow.numbers[i][lane], wide.numbers[i][lane]) << i << " " << lane;
+        for (std::size_t lane = 0; lane < 8; ++lane)
+            ASSERT_EQ(narrow.numbers[i][lane], wide.numbers[i][lane]) << i << " " << lane;
     }
 }
 
@@ -380,8 +407,8 @@ TEST(Grid, HigherIsWhiterAndSouthIsWarmer)
     for (auto& c : cells) c.elevation_m = 600;
     cells[1].elevation_m = 1600;
     cells[2].slope_rad = cells[3].slope_rad = 0.5;
-    cells[2].aspect_rad = 0.0;          // north
-    cells[3].aspect_rad = 3.14159265;   // south
+    cells[2].aspect_rad = 0.0;         // north
+    cells[3].aspect_rad = 3.14159265;  // south
     GridParams params;
     params.surfaces = {surface_preset("grass")};
     PhysicalGrid grid(table, params, cells);
@@ -416,9 +443,11 @@ TEST(Grid, CellsFromAHeightField)
 TEST(Mapping, ValuesOfTheTable)
 {
     const MappingParams m;
-    const double rain[][2] = {{0.5, 0.10312}, {2.5, 0.31862}, {7.6, 0.54727}, {10, 0.60987}, {50, 1}};
+    const double rain[][2] = {
+        {0.5, 0.10312}, {2.5, 0.31862}, {7.6, 0.54727}, {10, 0.60987}, {50, 1}};
     for (const auto& [p, r] : rain) EXPECT_NEAR(rainfall_of_rate(m, p), r, 5e-6);
-    const double film[][2] = {{0.05, 0.18127}, {0.1, 0.32968}, {0.25, 0.63212}, {0.5, 0.86466}, {1, 0.98168}};
+    const double film[][2] = {
+        {0.05, 0.18127}, {0.1, 0.32968}, {0.25, 0.63212}, {0.5, 0.86466}, {1, 0.98168}};
     for (const auto& [w, v] : film) EXPECT_NEAR(wetness_of_film(m, w), v, 5e-6);
     const double snow[][2] = {{0.01, 0.18127}, {0.05, 0.63212}, {0.1, 0.86466}, {0.2, 0.98168}};
     for (const auto& [d, s] : snow) EXPECT_NEAR(snow_of_depth(m, d), s, 5e-6);
@@ -429,7 +458,8 @@ TEST(Mapping, MonotoneWithInverses)
     const MappingParams m;
     const Hypsometry uniform = uniform_hypsometry(8);
     std::vector<float> bumps(1000);
-    for (std::size_t i = 0; i < bumps.size(); ++i) bumps[i] = static_cast<float>(std::pow(static_cast<double>(i) / 999, 3));
+    for (std::size_t i = 0; i < bumps.size(); ++i)
+        bumps[i] = static_cast<float>(std::pow(static_cast<double>(i) / 999, 3));
     const Hypsometry table = make_hypsometry(bumps, 12, 24);
     double last[5] = {-1, -1, -1, -1, -1};
     for (double v = 0; v <= 0.99; v += 0.01) {
@@ -438,8 +468,9 @@ TEST(Mapping, MonotoneWithInverses)
         EXPECT_NEAR(snow_of_depth(m, depth_of_snow_m(m, v)), v, 1e-12);
         EXPECT_NEAR(level_of_store(uniform, store_of_level_kg_m2(uniform, v)), v, 1e-12);
         EXPECT_NEAR(level_of_store(table, store_of_level_kg_m2(table, v)), v, 1e-7);
-        const double now[5] = {rate_of_rainfall_mm_h(m, v), film_of_wetness_kg_m2(m, v), depth_of_snow_m(m, v),
-                               store_of_level_kg_m2(uniform, v), store_of_level_kg_m2(table, v)};
+        const double now[5] = {rate_of_rainfall_mm_h(m, v), film_of_wetness_kg_m2(m, v),
+                               depth_of_snow_m(m, v), store_of_level_kg_m2(uniform, v),
+                               store_of_level_kg_m2(table, v)};
         for (int i = 0; i < 5; ++i) {
             EXPECT_GT(now[i], last[i]);
             last[i] = now[i];
@@ -466,11 +497,13 @@ TEST(Mapping, MasksMakeStatesThatShowThem)
     EXPECT_NEAR(back.water_to_snow, 0.8, 1e-12);
 }
 
-// Hypsometry of a table: the volume is the integral of the area, so a loss lowers the level by itself.
+// Hypsometry of a table: the volume is the integral of the area, so a loss lowers the level by
+// itself.
 TEST(Stores, AreaIsTheSlopeOfVolume)
 {
     std::vector<float> heights(500);
-    for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(0.5 - 0.5 * std::cos(0.0063 * static_cast<double>(i)));
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        heights[i] = static_cast<float>(0.5 - 0.5 * std::cos(0.0063 * static_cast<double>(i)));
     const Hypsometry h = make_hypsometry(heights, 20, 32);
     for (double z = 0.1; z < 19.9; z += 0.1) {
         const double slope = (stored_kg_m2(h, z + 1e-5) - stored_kg_m2(h, z - 1e-5)) / 2e-5;

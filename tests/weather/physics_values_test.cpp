@@ -22,7 +22,10 @@
 namespace petrichor::weather {
 namespace {
 
-double kelvin(double celsius) { return celsius + kZeroCelsiusK; }
+double kelvin(double celsius)
+{
+    return celsius + kZeroCelsiusK;
+}
 
 // Half a unit of the last digit printed.
 constexpr double kDigits3 = 5e-4 + 1e-12, kDigits4 = 5e-5 + 1e-12, kDigits5 = 5e-6 + 1e-12,
@@ -30,10 +33,13 @@ constexpr double kDigits3 = 5e-4 + 1e-12, kDigits4 = 5e-5 + 1e-12, kDigits5 = 5e
 
 TEST(Humidity, SaturationPressures)
 {
-    const double water[][2] = {{-20, 125.6491}, {0, 611.213}, {10, 1226.5927}, {20, 2333.7488}, {30, 4234.617}};
-    for (const auto& [t, pa] : water) EXPECT_NEAR(saturation_pressure_water_pa(kelvin(t)), pa, 5.1e-4) << t;
+    const double water[][2] = {
+        {-20, 125.6491}, {0, 611.213}, {10, 1226.5927}, {20, 2333.7488}, {30, 4234.617}};
+    for (const auto& [t, pa] : water)
+        EXPECT_NEAR(saturation_pressure_water_pa(kelvin(t)), pa, 5.1e-4) << t;
     const double ice[][2] = {{-20, 103.0824}, {-10, 259.6612}, {0, 611.15}};
-    for (const auto& [t, pa] : ice) EXPECT_NEAR(saturation_pressure_ice_pa(kelvin(t)), pa, kDigits4) << t;
+    for (const auto& [t, pa] : ice)
+        EXPECT_NEAR(saturation_pressure_ice_pa(kelvin(t)), pa, kDigits4) << t;
 }
 
 TEST(Humidity, SpecificHumidityAndDensity)
@@ -57,10 +63,13 @@ TEST(Humidity, DewPointIsTheInverseOfSaturation)
 
 TEST(Humidity, WetBulb)
 {
-    const double cases[][4] = {
-        {20, 50, 101325, 13.8535}, {2, 60, 101325, -0.4770}, {2, 60, 85000, -0.7482}, {1, 90, 87000, 0.3694}};
+    const double cases[][4] = {{20, 50, 101325, 13.8535},
+                               {2, 60, 101325, -0.4770},
+                               {2, 60, 85000, -0.7482},
+                               {1, 90, 87000, 0.3694}};
     for (const auto& [t, rh, p, tw] : cases) {
-        EXPECT_NEAR(wet_bulb_k(kelvin(t), vapour_pressure_pa(kelvin(t), rh), p) - kZeroCelsiusK, tw, kDigits4);
+        EXPECT_NEAR(wet_bulb_k(kelvin(t), vapour_pressure_pa(kelvin(t), rh), p) - kZeroCelsiusK, tw,
+                    kDigits4);
     }
 }
 
@@ -77,7 +86,8 @@ TEST(Phase, FourLaws)
 {
     const double humidity[][3] = {{-2, 90, 0.99151}, {0, 100, 0.73885}, {1, 90, 0.62948},
                                   {2, 60, 0.86057},  {2, 95, 0.20916},  {4, 50, 0.47502}};
-    for (const auto& [t, rh, fs] : humidity) EXPECT_NEAR(snow_fraction_humidity(kelvin(t), rh), fs, kDigits5);
+    for (const auto& [t, rh, fs] : humidity)
+        EXPECT_NEAR(snow_fraction_humidity(kelvin(t), rh), fs, kDigits5);
     const double wet[][3] = {{-2, 90, 0.99878}, {0, 100, 0.83596}, {1, 90, 0.70387},
                              {2, 60, 0.95008},  {2, 95, 0.15082},  {4, 50, 0.72401}};
     const PhaseParams by_wet_bulb{.law = PhaseLaw::WetBulb};
@@ -95,7 +105,8 @@ TEST(Phase, FourLaws)
 
 TEST(Phase, EveryLawFallsWithTemperature)
 {
-    for (const PhaseLaw law : {PhaseLaw::Linear, PhaseLaw::Humidity, PhaseLaw::WetBulb, PhaseLaw::Threshold}) {
+    for (const PhaseLaw law :
+         {PhaseLaw::Linear, PhaseLaw::Humidity, PhaseLaw::WetBulb, PhaseLaw::Threshold}) {
         double last = 1.0;
         for (double t = -20; t < 20; t += 0.25) {
             const double fs = snow_fraction({.law = law}, kelvin(t), 85, 95000);
@@ -111,7 +122,8 @@ TEST(Exchange, Coefficients)
     EXPECT_NEAR(neutral_exchange(10, 2, 0.01), 3.047319e-3, 5e-10);
     EXPECT_NEAR(neutral_exchange(10, 2, 0.001), 1.754107e-3, 5e-10);
     const double ch = neutral_exchange(10, 2, 0.01);
-    const double rows[][2] = {{-0.5, 2.227394}, {-0.1, 1.456553}, {0.05, 0.543914}, {0.2, 0.190744}};
+    const double rows[][2] = {
+        {-0.5, 2.227394}, {-0.1, 1.456553}, {0.05, 0.543914}, {0.2, 0.190744}};
     for (const auto& [ri, fh] : rows) EXPECT_NEAR(stability_factor(ri, ch, 10, 0.01), fh, 1e-6);
     EXPECT_NEAR(bulk_richardson(10, 275.15, 273.15, 3), 0.0792295, 5e-8);
     EXPECT_DOUBLE_EQ(stability_factor(0.0, ch, 10, 0.01), 1.0);
@@ -150,8 +162,12 @@ TEST(Snow, SimpleModels)
 
 TEST(SurfaceEnergy, MeltFluxAtZero)
 {
-    const SurfaceForcing f{.shortwave_w_m2 = 500, .longwave_w_m2 = 280, .air_temp_k = kelvin(5),
-                           .rel_humidity_pct = 70, .wind_m_s = 3, .pressure_pa = 87000};
+    const SurfaceForcing f{.shortwave_w_m2 = 500,
+                           .longwave_w_m2 = 280,
+                           .air_temp_k = kelvin(5),
+                           .rel_humidity_pct = 70,
+                           .wind_m_s = 3,
+                           .pressure_pa = 87000};
     const SurfaceSkin skin{.albedo = 0.6, .emissivity = 0.98, .roughness_m = 0.01, .icy = true};
     const auto at = surface_balance(f, skin, {.stability = Stability::Neutral}, kZeroCelsiusK);
     EXPECT_NEAR(at.net_radiation_w_m2, 165.055, kDigits3);
@@ -163,10 +179,17 @@ TEST(SurfaceEnergy, MeltFluxAtZero)
 
 TEST(SurfaceEnergy, NightSkinTemperature)
 {
-    const SurfaceForcing f{.shortwave_w_m2 = 0, .longwave_w_m2 = 230, .air_temp_k = kelvin(-5),
-                           .rel_humidity_pct = 80, .wind_m_s = 3, .pressure_pa = 87000};
-    const SurfaceSkin skin{.emissivity = 0.98, .roughness_m = 0.01, .icy = true,
-                           .conductance_w_m2_k = 2.0, .below_temp_k = 270.0};
+    const SurfaceForcing f{.shortwave_w_m2 = 0,
+                           .longwave_w_m2 = 230,
+                           .air_temp_k = kelvin(-5),
+                           .rel_humidity_pct = 80,
+                           .wind_m_s = 3,
+                           .pressure_pa = 87000};
+    const SurfaceSkin skin{.emissivity = 0.98,
+                           .roughness_m = 0.01,
+                           .icy = true,
+                           .conductance_w_m2_k = 2.0,
+                           .below_temp_k = 270.0};
     const auto at = solve_surface(f, skin, {.stability = Stability::Neutral}, kelvin(-5));
     EXPECT_NEAR(at.surface_temp_k, 265.0322, kDigits4);
     EXPECT_NEAR(at.balance_w_m2, 0.0, 1e-6);
@@ -212,7 +235,8 @@ TEST(Drainage, ReservoirStepsCompose)
             EXPECT_NEAR(whole.water_kg_m2, w, 1e-12) << start << " " << net;
             EXPECT_NEAR(whole.drained_kg_m2, drained, 1e-11);
             EXPECT_NEAR(whole.shortfall_kg_m2, shortfall, 1e-12);
-            EXPECT_NEAR(whole.water_kg_m2 + whole.drained_kg_m2 - whole.shortfall_kg_m2, start + 900 * net, 1e-14);
+            EXPECT_NEAR(whole.water_kg_m2 + whole.drained_kg_m2 - whole.shortfall_kg_m2,
+                        start + 900 * net, 1e-14);
         }
     }
 }
@@ -259,7 +283,8 @@ TEST(Solar, Elevation)
 // Solstices and equinox against the almanac: the declination shows in the noon elevation.
 TEST(Solar, AlmanacDirections)
 {
-    // 2005-12-21 12:00 UTC at Greenwich; noon is 1.8 minutes earlier, which changes nothing in elevation.
+    // 2005-12-21 12:00 UTC at Greenwich; noon is 1.8 minutes earlier, which changes nothing in
+    // elevation.
     const auto winter = sun_direction(1135166400LL * 1000000, 51.48, 0.0);
     EXPECT_NEAR(std::asin(winter.up) * 180 / kPi, 90 - 51.48 - 23.44, 0.1);
     const auto summer = sun_direction(1119355200LL * 1000000, 51.48, 0.0);  // 2005-06-21 12:00
@@ -267,9 +292,12 @@ TEST(Solar, AlmanacDirections)
     EXPECT_LT(summer.north, 0.0);
     const auto morning = sun_direction((1119355200LL - 6 * 3600) * 1000000, 51.48, 0.0);
     EXPECT_GT(morning.east, 0.8);
-    EXPECT_NEAR(morning.east * morning.east + morning.north * morning.north + morning.up * morning.up, 1, 1e-12);
+    EXPECT_NEAR(
+        morning.east * morning.east + morning.north * morning.north + morning.up * morning.up, 1,
+        1e-12);
     // November: the sun is 16.4 minutes early, so at 11:43:36 UTC it stands in the south.
-    const auto early = sun_direction((1130932800LL + 11 * 3600 + 43 * 60 + 36) * 1000000LL, 51.48, 0.0);
+    const auto early =
+        sun_direction((1130932800LL + 11 * 3600 + 43 * 60 + 36) * 1000000LL, 51.48, 0.0);
     EXPECT_NEAR(early.east, 0.0, 2e-3);
 }
 
@@ -277,7 +305,9 @@ TEST(Air, VisibilityAndDrops)
 {
     EXPECT_DOUBLE_EQ(extinction_1_m(1000, VisibilityKind::Contrast2Percent), 3.912e-3);
     EXPECT_DOUBLE_EQ(extinction_1_m(1000, VisibilityKind::Optical5Percent), 2.996e-3);
-    EXPECT_DOUBLE_EQ(visibility_m(extinction_1_m(730, VisibilityKind::Optical5Percent), VisibilityKind::Optical5Percent), 730);
+    EXPECT_DOUBLE_EQ(visibility_m(extinction_1_m(730, VisibilityKind::Optical5Percent),
+                                  VisibilityKind::Optical5Percent),
+                     730);
     const auto drops = rain_drops(10);
     EXPECT_NEAR(drops.slope_1_mm, 2.528, kDigits3);
     EXPECT_NEAR(drops.per_m3, 3165, 0.5);
@@ -305,7 +335,8 @@ TEST(Ground, EnergyCloses)
     for (const double dt : {60.0, 600.0, 3600.0, 86400.0}) {
         const GroundStack stack = make_ground_stack(1.0, 2.0e6, dt);
         std::array<double, kGroundLayers> before{};
-        for (std::size_t i = 0; i < kGroundLayers; ++i) before[i] = 275.0 + static_cast<double>(i * i % 7);
+        for (std::size_t i = 0; i < kGroundLayers; ++i)
+            before[i] = 275.0 + static_cast<double>(i * i % 7);
         const auto step = step_ground(stack, before, 290, 281);
         double gained = 0;
         for (std::size_t i = 0; i < kGroundLayers; ++i) {
@@ -324,7 +355,8 @@ TEST(PortableMath, AgreesWithTheLibrary)
         ASSERT_NEAR(detail::exponential(x) / std::exp(x), 1.0, 8e-16) << x;
     }
     for (double x = 1e-300; x < 1e300; x *= 1.37) {
-        ASSERT_NEAR(detail::logarithm(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x)))) << x;
+        ASSERT_NEAR(detail::logarithm(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x))))
+            << x;
     }
     for (double x = -400; x < 400; x += 0.0173) {
         const auto sc = detail::sine_cosine(x);

@@ -1,4 +1,5 @@
-// What the readers say about a file: missing codes, moved times, precipitation without amounts; and files joined.
+// What the readers say about a file: missing codes, moved times, precipitation without amounts; and
+// files joined.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,43 +32,59 @@ TEST(Report, CodesOfMissingValuesAreNamedAndCounted)
 {
     const auto r = read_weather(
         "time,air_temp_c,rel_humidity_pct,precip_mm\n"
-        "2020-01-01T00:00Z,-5,80,0\n2020-01-01T01:00Z,-99,NA,-9999\n2020-01-01T02:00Z,,-999,0.5\n2020-01-01T03:00Z,-8,n/a,0\n");
+        "2020-01-01T00:00Z,-5,80,0\n2020-01-01T01:00Z,-99,NA,-9999\n2020-01-01T02:00Z,,-999,0."
+        "5\n2020-01-01T03:00Z,-8,n/a,0\n");
     EXPECT_EQ(report_of(r.report, "air_temp").missing, 2u);
     EXPECT_EQ(report_of(r.report, "air_temp").first_missing_line, 3u);
     EXPECT_EQ(report_of(r.report, "air_temp").out_of_range, 0u);
     EXPECT_EQ(report_of(r.report, "rel_humidity").missing, 3u);
     EXPECT_NEAR(r.table[Field::AirTemp][1], 273.15 - 6.0, 1e-9) << "bridged, not -99";
     const std::string text = to_text(r.report);
-    for (const char* code : {"'-99'", "'NA'", "'n/a'", "'-999'", "'-9999'", "an empty cell"}) EXPECT_NE(text.find(code), std::string::npos) << code;
+    for (const char* code : {"'-99'", "'NA'", "'n/a'", "'-999'", "'-9999'", "an empty cell"})
+        EXPECT_NE(text.find(code), std::string::npos) << code;
 }
 
 TEST(Report, PrecipitationWithoutAnAmountIsWarnedOf)
 {
-    const std::string head = "time,air_temp_c,rel_humidity_pct,cloud_fraction,visibility_m,precip_mm\n";
+    const std::string head =
+        "time,air_temp_c,rel_humidity_pct,cloud_fraction,visibility_m,precip_mm\n";
     std::string text = head;
     // 12 hours of drizzle with amounts, then the same sky without.
-    for (int h = 0; h < 24; ++h) text += "2020-01-01T" + std::string(h < 10 ? "0" : "") + std::to_string(h) + ":00Z,5,95,1,4000," + (h < 12 ? "0.6" : "NA") + "\n";
-    for (int h = 0; h < 24; ++h) text += "2020-01-02T" + std::string(h < 10 ? "0" : "") + std::to_string(h) + ":00Z,5,40,0.1,20000,NA\n";
+    for (int h = 0; h < 24; ++h)
+        text += "2020-01-01T" + std::string(h < 10 ? "0" : "") + std::to_string(h) +
+                ":00Z,5,95,1,4000," + (h < 12 ? "0.6" : "NA") + "\n";
+    for (int h = 0; h < 24; ++h)
+        text += "2020-01-02T" + std::string(h < 10 ? "0" : "") + std::to_string(h) +
+                ":00Z,5,40,0.1,20000,NA\n";
     const auto dry = read_weather(text);
     EXPECT_EQ(warnings(dry.report), 1u);
     EXPECT_EQ(report_of(dry.report, "precip").filled, 36u);
-    EXPECT_NE(report_of(dry.report, "precip").filled_by.find("the file gives no amount"), std::string::npos);
+    EXPECT_NE(report_of(dry.report, "precip").filled_by.find("the file gives no amount"),
+              std::string::npos);
     EXPECT_EQ(dry.table[Field::Precip][20], 0.0);
     ReadOptions options;
     options.filling.missing_precip = MissingPrecip::Estimate;
     const auto guessed = read_weather(text, options);
-    EXPECT_NEAR(guessed.table[Field::Precip][20] * 3600.0, 0.6, 1e-9) << "the rate of the file's own rows under this sky";
+    EXPECT_NEAR(guessed.table[Field::Precip][20] * 3600.0, 0.6, 1e-9)
+        << "the rate of the file's own rows under this sky";
     EXPECT_EQ(guessed.table[Field::Precip][40], 0.0) << "a clear dry sky";
     EXPECT_EQ(guessed.table[Field::Precip][3], dry.table[Field::Precip][3]);
     EXPECT_EQ(warnings(guessed.report), 1u);
-    EXPECT_EQ(warnings(read_weather(head + "2020-01-01T00:00Z,5,95,1,4000,0\n2020-01-01T01:00Z,5,95,1,4000,0\n").report), 0u);
+    EXPECT_EQ(
+        warnings(read_weather(head +
+                              "2020-01-01T00:00Z,5,95,1,4000,0\n2020-01-01T01:00Z,5,95,1,4000,0\n")
+                     .report),
+        0u);
 }
 
 TEST(Report, PvgisIrradianceIsMovedToItsRow)
 {
-    const std::string head = "Latitude (decimal degrees): 45.000\nLongitude (decimal degrees): 8.000\nElevation (m): 250.0\n";
+    const std::string head =
+        "Latitude (decimal degrees): 45.000\nLongitude (decimal degrees): 8.000\nElevation (m): "
+        "250.0\n";
     const std::string rows =
-        "time(UTC),T2m,RH,G(h),Gb(n),Gd(h),IR(h),WS10m,WD10m,SP\n20180101:0900,2,90,100,0,0,280,1,257,99870\n"
+        "time(UTC),T2m,RH,G(h),Gb(n),Gd(h),IR(h),WS10m,WD10m,SP\n20180101:0900,2,90,100,0,0,280,1,"
+        "257,99870\n"
         "20180101:1000,2,90,200,0,0,290,1,257,99870\n20180101:1100,2,90,260,0,0,300,1,257,99870\n";
     const auto plain = read_weather(head + rows);
     const auto later = read_weather(head + "Irradiance Time Offset (h): 0.25\n" + rows);
@@ -80,18 +97,22 @@ TEST(Report, PvgisIrradianceIsMovedToItsRow)
     EXPECT_NE(to_text(later.report).find("15 min after"), std::string::npos);
     // A series carries the minutes in its times.
     std::string series = head + rows;
-    for (std::size_t at = series.find("00,2,90"); at != series.npos; at = series.find("00,2,90")) series.replace(at, 2, "11");
+    for (std::size_t at = series.find("00,2,90"); at != series.npos; at = series.find("00,2,90"))
+        series.replace(at, 2, "11");
     EXPECT_EQ(iso_from_us(read_weather(series).table.time_us[1]), "2018-01-01T10:11:00Z");
 }
 
 TEST(Report, MetarStationsReportOnlyWhatFell)
 {
     const auto r = read_weather(
-        "KDEN 010053Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0009\nKDEN 010153Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2\n"
-        "KDEN 010253Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0002\nKDEN 010353Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2\n");
+        "KDEN 010053Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0009\nKDEN 010153Z 36005KT 10SM "
+        "OVC020 02/01 A2992 RMK AO2\n"
+        "KDEN 010253Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0002\nKDEN 010353Z 36005KT 10SM "
+        "OVC020 02/01 A2992 RMK AO2\n");
     double sum = 0;
     for (std::size_t i = 0; i + 1 < r.table.rows(); ++i) {
-        sum += r.table[Field::Precip][i] * static_cast<double>(r.table.time_us[i + 1] - r.table.time_us[i]) * 1e-6;
+        sum += r.table[Field::Precip][i] *
+               static_cast<double>(r.table.time_us[i + 1] - r.table.time_us[i]) * 1e-6;
     }
     EXPECT_NEAR(sum, 11 * 0.254, 1e-6);
     EXPECT_EQ(warnings(r.report), 0u) << "after the last report nothing falls";
@@ -99,7 +120,9 @@ TEST(Report, MetarStationsReportOnlyWhatFell)
 
 TEST(Report, DecimalCommasAndBareNames)
 {
-    const auto r = read_weather("time;air_temp_c;precip_mm;precip\n2020-01-01 00:00;1,5;0,2;9\n2020-01-01 01:00;-2,25;0,4;9\n2020-01-01 02:00;0;0;9\n");
+    const auto r = read_weather(
+        "time;air_temp_c;precip_mm;precip\n2020-01-01 00:00;1,5;0,2;9\n2020-01-01 "
+        "01:00;-2,25;0,4;9\n2020-01-01 02:00;0;0;9\n");
     EXPECT_NEAR(r.table[Field::AirTemp][0], 274.65, 1e-9);
     EXPECT_NEAR(r.table[Field::AirTemp][1], 270.90, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][1] * 3600, 0.4, 1e-12);
@@ -113,7 +136,8 @@ TEST(Join, FilesFollowEachOtherInTime)
         for (int d = 1; d <= days; ++d) {
             for (int h = 0; h < 24; ++h) {
                 char line[80];
-                std::snprintf(line, sizeof line, "2020-%02d-%02dT%02d:00Z,%d,%d\n", m, d, h, m + h % 5, h % 2);
+                std::snprintf(line, sizeof line, "2020-%02d-%02dT%02d:00Z,%d,%d\n", m, d, h,
+                              m + h % 5, h % 2);
                 text += line;
             }
         }
@@ -126,7 +150,8 @@ TEST(Join, FilesFollowEachOtherInTime)
     EXPECT_EQ(both.report.rows, 60u * 24u);
     EXPECT_EQ(report_of(both.report, "air_temp").present, 60u * 24u);
     const auto alone = read_weather_files({{"jan.csv", january}});
-    for (std::size_t i = 0; i < 30 * 24; ++i) EXPECT_EQ(both.table[Field::Precip][i], alone.table[Field::Precip][i]);
+    for (std::size_t i = 0; i < 30 * 24; ++i)
+        EXPECT_EQ(both.table[Field::Precip][i], alone.table[Field::Precip][i]);
     EXPECT_THROW(read_weather_files({{"a.csv", january}, {"b.csv", january}}), Error);
     EXPECT_THROW(read_weather_files({}), Error);
     try {

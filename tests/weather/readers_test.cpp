@@ -27,9 +27,10 @@ std::string asset(const std::string& name)
     out << in.rdbuf();
     return out.str();
 }
-#define READ_ASSET(variable, name)                                                    \
-    const std::string variable = asset(name);                                        \
-    if (variable.empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/" << name
+#define READ_ASSET(variable, name)            \
+    const std::string variable = asset(name); \
+    if (variable.empty())                     \
+    GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/" << name
 
 std::string why(std::string_view text, const ReadOptions& options = {})
 {
@@ -44,14 +45,15 @@ std::string why(std::string_view text, const ReadOptions& options = {})
 double sum_mm(const ForcingTable& t, Field f)
 {
     double sum = 0;
-    for (std::size_t i = 0; i + 1 < t.rows(); ++i) sum += t[f][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
+    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
+        sum += t[f][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
     return sum;
 }
 
 void expect_complete(const ForcingTable& t)
 {
-    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave, Field::Longwave,
-                          Field::Cloud, Field::Precip}) {
+    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure,
+                          Field::Shortwave, Field::Longwave, Field::Cloud, Field::Precip}) {
         ASSERT_EQ(t[f].size(), t.rows()) << field_info(f).name;
         for (const double v : t[f]) ASSERT_TRUE(std::isfinite(v)) << field_info(f).name;
     }
@@ -96,7 +98,8 @@ TEST(ForcingCsv, ColDePorte)
 TEST(ForcingCsv, SnobalInputs)
 {
     READ_ASSET(text, "central_sierra_2022_23_snobal_inputs.csv");
-    const auto r = read_weather(text, {.site = {.latitude_deg = 39.3, .longitude_deg = -120.4, .elevation_m = 2103}});
+    const auto r = read_weather(
+        text, {.site = {.latitude_deg = 39.3, .longitude_deg = -120.4, .elevation_m = 2103}});
     EXPECT_NEAR(r.table[Field::AirTemp][0], 13.3683 + 273.15, 1e-9);
     // Vapour pressure becomes humidity; percent_snow splits the 6-hour amounts.
     EXPECT_NEAR(r.table[Field::RelHumidity][0], 100 * 681.57038 / 1534.2, 0.3);
@@ -126,7 +129,8 @@ TEST(Epw, Denver)
         if (mm < 999) listed += mm;
     }
     EXPECT_GT(listed, 100);
-    EXPECT_NEAR(sum_mm(r.table, Field::Precip), listed, 4.5);  // 6-hour totals contain some of the hours
+    EXPECT_NEAR(sum_mm(r.table, Field::Precip), listed,
+                4.5);  // 6-hour totals contain some of the hours
     expect_complete(r.table);
     EXPECT_NE(to_text(r.report).find("typical year"), std::string::npos);
 }
@@ -138,7 +142,8 @@ TEST(Tmy3, Greensboro)
     EXPECT_EQ(r.report.format, "TMY3 CSV");
     EXPECT_EQ(r.report.bad_rows, 0u);
     EXPECT_EQ(r.table.rows(), 8761u);
-    EXPECT_EQ(iso_from_us(r.table.time_us[1]), "1989-01-01T06:00:00Z");  // 1988 is a leap year; UTC-5
+    EXPECT_EQ(iso_from_us(r.table.time_us[1]),
+              "1989-01-01T06:00:00Z");  // 1988 is a leap year; UTC-5
     EXPECT_NEAR(r.table[Field::AirTemp][1], 283.15, 1e-9);
     EXPECT_NEAR(r.table[Field::Pressure][1], 99300, 1e-9);
     expect_complete(r.table);
@@ -178,7 +183,9 @@ TEST(OpenMeteo, Json)
 TEST(Metar, Bulletin)
 {
     READ_ASSET(text, "metar_2020-01-06_0000z_sample.txt");
-    const auto r = read_weather(text, {.site = {.latitude_deg = 32, .longitude_deg = 36, .elevation_m = 0}, .station = "ubbl"});
+    const auto r = read_weather(
+        text,
+        {.site = {.latitude_deg = 32, .longitude_deg = 36, .elevation_m = 0}, .station = "ubbl"});
     EXPECT_EQ(r.table.rows(), 1u);
     EXPECT_NEAR(r.table[Field::AirTemp][0], 274.15, 1e-9);
     EXPECT_NE(to_text(r.report).find("runway 33: cleared"), std::string::npos);
@@ -209,8 +216,10 @@ TEST(Metar, Series)
 
 TEST(Metar, Groups)
 {
-    const auto r = parse_metar("LSZH 101250Z 24015G25KT 210V270 1 1/2SM R14/P2000N +SHSN BKN008 OVC020 M01/M02 Q0998 88290050 "
-                               "TEMPO 0800 RMK P0009 60012 T10061017 4/012=");
+    const auto r = parse_metar(
+        "LSZH 101250Z 24015G25KT 210V270 1 1/2SM R14/P2000N +SHSN BKN008 OVC020 M01/M02 Q0998 "
+        "88290050 "
+        "TEMPO 0800 RMK P0009 60012 T10061017 4/012=");
     ASSERT_TRUE(r);
     EXPECT_NEAR(r->wind_m_s, 15 * 1852.0 / 3600, 1e-9);
     EXPECT_NEAR(r->gust_m_s, 25 * 1852.0 / 3600, 1e-9);
@@ -227,7 +236,8 @@ TEST(Metar, Groups)
     EXPECT_EQ(r->runways[0].extent, 9);
     EXPECT_NEAR(r->runways[0].friction, 0.5, 1e-9);
     EXPECT_TRUE(r->not_understood.empty());
-    EXPECT_TRUE(parse_metar("KABC 101250Z /////KT //// // ////// 12/ A////")->not_understood.empty());
+    EXPECT_TRUE(
+        parse_metar("KABC 101250Z /////KT //// // ////// 12/ A////")->not_understood.empty());
     EXPECT_TRUE(parse_metar("HLLT NIL=")->nil);
     EXPECT_FALSE(parse_metar("KABC 991250Z"));
     EXPECT_NEAR(parse_metar("KABC 101250Z R88/292050")->runways[0].depth_mm, 20, 1e-9);
@@ -257,10 +267,13 @@ TEST(Metar, MonthsTurnAndForecastsFollow)
 TEST(Smet, HeaderUnitsAndZone)
 {
     const std::string text =
-        "SMET 1.1 ASCII\n[HEADER]\nstation_id = TEST\nlatitude = 46.8\nlongitude = 9.8\naltitude = 2540\nnodata = -999\n"
-        "tz = 1\nfields = timestamp TA RH VW ISWR ILWR PSUM HS XX\nunits_offset = 0 273.15 0 0 0 0 0 0 0\n"
+        "SMET 1.1 ASCII\n[HEADER]\nstation_id = TEST\nlatitude = 46.8\nlongitude = 9.8\naltitude = "
+        "2540\nnodata = -999\n"
+        "tz = 1\nfields = timestamp TA RH VW ISWR ILWR PSUM HS XX\nunits_offset = 0 273.15 0 0 0 0 "
+        "0 0 0\n"
         "units_multiplier = 1 1 0.01 1 1 1 1 0.01 1\n[DATA]\n"
-        "2020-01-01T01:00 -5.0 80 2.0 0 240 0.0 100 1\n2020-01-01T02:00 -5.5 82 2.0 0 -999 1.2 101 1\n"
+        "2020-01-01T01:00 -5.0 80 2.0 0 240 0.0 100 1\n2020-01-01T02:00 -5.5 82 2.0 0 -999 1.2 101 "
+        "1\n"
         "2020-01-01T03:00 -6.0 84 2.0 0 250 0.6 102 1\n";
     const auto r = read_weather(text);
     EXPECT_EQ(r.report.format, "SMET");
@@ -280,7 +293,8 @@ TEST(IsdLite, MissingTraceAndSixHours)
         "2020 01 01 01   -52   -72 10201   180    31     4    -1 -9999\n"
         "2020 01 01 02 -9999   -72 10201   180    31     4    12 -9999\n"
         "2020 01 01 06   -40   -60 10190   190    40     0 -9999    50\n";
-    const auto r = read_weather(text, {.site = {.latitude_deg = 50, .longitude_deg = 8, .elevation_m = 100}});
+    const auto r =
+        read_weather(text, {.site = {.latitude_deg = 50, .longitude_deg = 8, .elevation_m = 100}});
     EXPECT_EQ(r.report.format, "ISD-Lite");
     EXPECT_NEAR(sum_mm(r.table, Field::Precip), 5.0, 1e-6);
     EXPECT_NE(to_text(r.report).find("gap from"), std::string::npos);
@@ -308,13 +322,16 @@ TEST(Ghcn, FixedColumnsAndTables)
     line("TMAX", {50, 60, 20});
     line("TMIN", {-50, -10, -30});
     line("PRCP", {0, 123, 5});
-    const auto r = read_weather(dly, {.site = {.latitude_deg = 40, .longitude_deg = -105, .elevation_m = 1600}});
+    const auto r = read_weather(
+        dly, {.site = {.latitude_deg = 40, .longitude_deg = -105, .elevation_m = 1600}});
     EXPECT_EQ(r.report.format, "GHCN-daily");
     EXPECT_EQ(r.table.rows(), 24u);
-    EXPECT_NEAR(r.table[Field::AirTemp][2], 268.15, 1e-9);   // 06 local
-    EXPECT_NEAR(r.table[Field::AirTemp][5], 278.15, 1e-9);   // 15 local
+    EXPECT_NEAR(r.table[Field::AirTemp][2], 268.15, 1e-9);  // 06 local
+    EXPECT_NEAR(r.table[Field::AirTemp][5], 278.15, 1e-9);  // 15 local
     EXPECT_NEAR(r.table[Field::Precip][9] * 86400, 12.3, 1e-9);
-    const auto t = read_weather("USC00012345,20200101,TMAX,50,,,7,\nUSC00012345,20200101,TMIN,-50,,,7,\nUSC00012345,20200101,PRCP,20,,,7,\n");
+    const auto t = read_weather(
+        "USC00012345,20200101,TMAX,50,,,7,\nUSC00012345,20200101,TMIN,-50,,,7,\nUSC00012345,"
+        "20200101,PRCP,20,,,7,\n");
     EXPECT_EQ(t.report.format, "GHCN-daily");
     EXPECT_EQ(t.table.rows(), 8u);
     expect_complete(t.table);
@@ -325,7 +342,8 @@ TEST(Surfrad, Rows)
     std::string text = " Bondville\n   40.05  88.37  230 m version 1\n";
     for (int minute = 0; minute < 5; ++minute) {
         text += "2020 1 1 1 18 " + std::to_string(minute) + " 18.0 65.0";
-        const double values[] = {400.5, 80, 500, 100, 250.5, 270, 270, 300, 272, 272, 0, 150, 320, -50, 270, -2.5, 80, 4.2, 270, 990.1};
+        const double values[] = {400.5, 80,  500, 100, 250.5, 270,  270, 300, 272, 272,
+                                 0,     150, 320, -50, 270,   -2.5, 80,  4.2, 270, 990.1};
         for (double v : values) text += " " + std::to_string(v) + " 0";
         text += "\n";
     }
@@ -342,9 +360,12 @@ TEST(Surfrad, Rows)
 TEST(OpenMeteo, Csv)
 {
     const std::string text =
-        "latitude,longitude,elevation,utc_offset_seconds,timezone,timezone_abbreviation\n52.5,13.4,38.0,0,GMT,GMT\n\n"
-        "time,temperature_2m (°F),relative_humidity_2m (%),precipitation (inch),snowfall (inch),wind_speed_10m (mp/h),shortwave_radiation (W/m²)\n"
-        "2024-01-01T00:00,32.0,90,0.0,0.0,10.0,0\n2024-01-01T01:00,33.8,90,0.1,0.0,NaN,0\n2024-01-01T02:00,32.0,90,0.0,0.0,10.0,0\n";
+        "latitude,longitude,elevation,utc_offset_seconds,timezone,timezone_abbreviation\n52.5,13.4,"
+        "38.0,0,GMT,GMT\n\n"
+        "time,temperature_2m (°F),relative_humidity_2m (%),precipitation (inch),snowfall "
+        "(inch),wind_speed_10m (mp/h),shortwave_radiation (W/m²)\n"
+        "2024-01-01T00:00,32.0,90,0.0,0.0,10.0,0\n2024-01-01T01:00,33.8,90,0.1,0.0,NaN,0\n2024-01-"
+        "01T02:00,32.0,90,0.0,0.0,10.0,0\n";
     const auto r = read_weather(text);
     EXPECT_NEAR(r.table[Field::AirTemp][1], 273.15, 1e-9);
     EXPECT_NEAR(r.table[Field::Wind][1], 4.4704, 1e-9);
@@ -355,15 +376,18 @@ TEST(ForcingCsv, UnitsZonesAndMissingValues)
 {
     const auto r = read_weather(
         "# a comment\nTime;AIR_TEMP_C;Wind (km/h);rel_humidity_pct;precip_mm;Pressure_hPa\n"
-        "2024-01-01T00:00+01:00;1.5;36;80;0.6;950\n2024-01-01T00:30+01:00;;36;;0.0;950\n2024-01-01T01:00+01:00;2.5;18;90;1.2;951\n");
+        "2024-01-01T00:00+01:00;1.5;36;80;0.6;950\n2024-01-01T00:30+01:00;;36;;0.0;950\n2024-01-"
+        "01T01:00+01:00;2.5;18;90;1.2;951\n");
     EXPECT_EQ(iso_from_us(r.table.time_us[0]), "2023-12-31T23:00:00Z");
     EXPECT_NEAR(r.table[Field::AirTemp][1], 275.15, 1e-9);
     EXPECT_NEAR(r.table[Field::RelHumidity][1], 85, 1e-9);
     EXPECT_NEAR(r.table[Field::Wind][0], 10, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][0], 0.6 / 1800, 1e-12);  // the interval is half an hour
     EXPECT_NEAR(r.table[Field::Pressure][0], 95000, 1e-9);
-    EXPECT_NE(why("time,air_temp_c,temperature_2m_f\n2024-01-01T00:00,1,2\n").find("same quantity"), std::string::npos);
-    EXPECT_NE(why("time,air_temp_parsec\n2024-01-01T00:00,1\n").find("no known weather column"), std::string::npos);
+    EXPECT_NE(why("time,air_temp_c,temperature_2m_f\n2024-01-01T00:00,1,2\n").find("same quantity"),
+              std::string::npos);
+    EXPECT_NE(why("time,air_temp_parsec\n2024-01-01T00:00,1\n").find("no known weather column"),
+              std::string::npos);
     EXPECT_NE(why("time,wind (furlong)\n2024-01-01T00:00,1\n").find("furlong"), std::string::npos);
 }
 
@@ -404,8 +428,9 @@ TEST(BadInput, DuplicateAndUnorderedTimes)
 
 TEST(BadInput, AbsurdValuesAreRefusedOneByOne)
 {
-    const auto r = read_weather("time,air_temp_c,wind_m_s,precip_mm,rel_humidity_pct\n2024-01-01T00:00,5,2,0,80\n"
-                                "2024-01-01T01:00,500,-3,1e9,nan\n2024-01-01T02:00,7,2,0,80\n");
+    const auto r = read_weather(
+        "time,air_temp_c,wind_m_s,precip_mm,rel_humidity_pct\n2024-01-01T00:00,5,2,0,80\n"
+        "2024-01-01T01:00,500,-3,1e9,nan\n2024-01-01T02:00,7,2,0,80\n");
     EXPECT_NEAR(r.table[Field::AirTemp][1], 279.15, 1e-9);
     EXPECT_EQ(report_of(r.report, "air_temp")->out_of_range, 1u);
     EXPECT_EQ(report_of(r.report, "wind")->out_of_range, 1u);
@@ -421,10 +446,13 @@ TEST(BadInput, HopelessFilesListTheirLines)
     EXPECT_NE(why("").find("empty"), std::string::npos);
     EXPECT_NE(why("   \n\n ").find("empty"), std::string::npos);
     EXPECT_NE(why("hello world\nthis is prose\n").find("EPW"), std::string::npos);
-    EXPECT_NE(why(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)).find("binary"), std::string::npos);
-    EXPECT_NE(why("{\"hourly\":{\"time\":[\"2024-01-01T00:00\"").find("JSON line 1"), std::string::npos);
+    EXPECT_NE(why(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)).find("binary"),
+              std::string::npos);
+    EXPECT_NE(why("{\"hourly\":{\"time\":[\"2024-01-01T00:00\"").find("JSON line 1"),
+              std::string::npos);
     EXPECT_NE(why(std::string(100, '[')).find("nested"), std::string::npos);
-    EXPECT_NE(why("time,air_temp_c\n2024-01-01T00:00,nan\n").find("no air temperature"), std::string::npos);
+    EXPECT_NE(why("time,air_temp_c\n2024-01-01T00:00,nan\n").find("no air temperature"),
+              std::string::npos);
     EXPECT_NE(why("LOCATION,x\n").find("0 good rows"), std::string::npos);
 }
 
@@ -444,9 +472,11 @@ TEST(BadInput, AGigabyteOfZerosIsRefusedAtOnce)
 // Truncated anywhere, every real file is read or refused with a message; nothing else is thrown.
 TEST(BadInput, TruncatedRealFiles)
 {
-    for (const char* name : {"met_CdP_0506.txt", "col_de_porte_2001_02_met_hourly.csv", "open_meteo_2023-07-29_51.2N_3.2E.json",
-                             "metar_2020-01-06_0000z_sample.txt", "metar_series_short.txt", "pvgis_tmy_45.000_8.000.csv",
-                             "723170TYA.CSV", "USA_CO_Denver.Intl.AP.725650_TMY3.epw"}) {
+    for (const char* name :
+         {"met_CdP_0506.txt", "col_de_porte_2001_02_met_hourly.csv",
+          "open_meteo_2023-07-29_51.2N_3.2E.json", "metar_2020-01-06_0000z_sample.txt",
+          "metar_series_short.txt", "pvgis_tmy_45.000_8.000.csv", "723170TYA.CSV",
+          "USA_CO_Denver.Intl.AP.725650_TMY3.epw"}) {
         READ_ASSET(text, name);
         for (std::size_t n = 0; n < 25; ++n) {
             const std::size_t length = std::min(text.size() * n / 25, std::size_t{4000} * n);
@@ -463,16 +493,27 @@ TEST(BadInput, TruncatedRealFiles)
 TEST(BadInput, Mutations)
 {
     std::vector<std::string> seeds = {
-        "2005 10 1 0 0.0 283.1 .0E+00 .0E+00 277.8 78.2 0.6 87480.\n2005 10 1 1 0.0 284.7 .1E-03 .0E+00 278.0 73.1 0.0 87430.\n",
+        "2005 10 1 0 0.0 283.1 .0E+00 .0E+00 277.8 78.2 0.6 87480.\n2005 10 1 1 0.0 284.7 .1E-03 "
+        ".0E+00 278.0 73.1 0.0 87430.\n",
         "time,air_temp_c,wind (km/h),precip_mm\n2024-01-01T00:00,1,2,3\n2024-01-01T01:00,1,2,3\n",
-        "LOCATION,D,CO,USA,TMY3,725650,39.83,-104.65,-7.0,1650.0\na\nb\nc\nd\ne\nf\ng\n1995,1,1,1,0,x,-18.0,-19.7,85,83700,0,0,181,0,0,0,0,0,0,0,0,0.0,2,2,777.7,20306,9,999999999,30,0.0440,0,88,0.220,2.0,6.0\n"
-        "1995,1,1,2,0,x,-18.0,-19.7,85,83700,0,0,181,0,0,0,0,0,0,0,0,0.0,2,2,777.7,20306,9,999999999,30,0.0440,0,88,0.220,2.0,1.0\n",
-        "METAR LSZH 101250Z 24015G25KT 1 1/2SM R14/P2000N +SHSN BKN008 M01/M02 Q0998 88290050 RMK P0009 T10061017=\nTAF LSZH 101100Z 1012/1118 24010KT 9999 BKN020 TX03/1103Z FM110300 20005KT RA OVC010=\n",
-        "SMET 1.1 ASCII\n[HEADER]\nnodata = -999\ntz = 1\nfields = timestamp TA RH PSUM\n[DATA]\n2020-01-01T01:00 270 0.8 0.5\n2020-01-01T02:00 270 0.8 0.5\n",
-        "2020 01 01 00   -50   -70 10200   180    30     8     0 -9999\n2020 01 01 01   -52   -72 10201   180    31     4    -1    20\n",
-        "{\"latitude\":51.2,\"utc_offset_seconds\":7200,\"hourly_units\":{\"temperature_2m\":\"C\"},\"hourly\":{\"time\":[\"2023-07-29T00:00\",\"2023-07-29T01:00\"],\"temperature_2m\":[17.3,null],\"rain\":[0.1,0.2]}}",
+        "LOCATION,D,CO,USA,TMY3,725650,39.83,-104.65,-7.0,1650.0\na\nb\nc\nd\ne\nf\ng\n1995,1,1,1,"
+        "0,x,-18.0,-19.7,85,83700,0,0,181,0,0,0,0,0,0,0,0,0.0,2,2,777.7,20306,9,999999999,30,0."
+        "0440,0,88,0.220,2.0,6.0\n"
+        "1995,1,1,2,0,x,-18.0,-19.7,85,83700,0,0,181,0,0,0,0,0,0,0,0,0.0,2,2,777.7,20306,9,"
+        "999999999,30,0.0440,0,88,0.220,2.0,1.0\n",
+        "METAR LSZH 101250Z 24015G25KT 1 1/2SM R14/P2000N +SHSN BKN008 M01/M02 Q0998 88290050 RMK "
+        "P0009 T10061017=\nTAF LSZH 101100Z 1012/1118 24010KT 9999 BKN020 TX03/1103Z FM110300 "
+        "20005KT RA OVC010=\n",
+        "SMET 1.1 ASCII\n[HEADER]\nnodata = -999\ntz = 1\nfields = timestamp TA RH "
+        "PSUM\n[DATA]\n2020-01-01T01:00 270 0.8 0.5\n2020-01-01T02:00 270 0.8 0.5\n",
+        "2020 01 01 00   -50   -70 10200   180    30     8     0 -9999\n2020 01 01 01   -52   -72 "
+        "10201   180    31     4    -1    20\n",
+        "{\"latitude\":51.2,\"utc_offset_seconds\":7200,\"hourly_units\":{\"temperature_2m\":\"C\"}"
+        ",\"hourly\":{\"time\":[\"2023-07-29T00:00\",\"2023-07-29T01:00\"],\"temperature_2m\":[17."
+        "3,null],\"rain\":[0.1,0.2]}}",
         "USC00012345202001TMAX   50     60  \nUSC00012345202001TMIN  -50    -10  \n",
-        "Latitude (decimal degrees): 45.000\ntime(UTC),T2m,RH\n20180101:0000,2.04,94.38\n20180101:0100,2.04,94.38\n\nfooter\n",
+        "Latitude (decimal degrees): "
+        "45.000\ntime(UTC),T2m,RH\n20180101:0000,2.04,94.38\n20180101:0100,2.04,94.38\n\nfooter\n",
     };
     std::uint64_t state = 12345;
     const auto random = [&] {
@@ -487,11 +528,21 @@ TEST(BadInput, Mutations)
         for (std::size_t n = random() % 6 + 1; n > 0 && !text.empty(); --n) {
             const std::size_t at = random() % text.size();
             switch (random() % 6) {
-                case 0: text[at] = static_cast<char>(random() % 256); break;
-                case 1: text.erase(at, random() % 20); break;
-                case 2: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
-                case 3: text[at] = "0123456789-.,;/ \n\"EMPTZ"[random() % 23]; break;
-                case 4: text.insert(at, std::to_string(state)); break;
+                case 0:
+                    text[at] = static_cast<char>(random() % 256);
+                    break;
+                case 1:
+                    text.erase(at, random() % 20);
+                    break;
+                case 2:
+                    text.insert(at, text.substr(random() % text.size(), random() % 40));
+                    break;
+                case 3:
+                    text[at] = "0123456789-.,;/ \n\"EMPTZ"[random() % 23];
+                    break;
+                case 4:
+                    text.insert(at, std::to_string(state));
+                    break;
                 default: {
                     const std::string& other = seeds[random() % seeds.size()];
                     text += other.substr(random() % other.size());
@@ -517,7 +568,8 @@ TEST(Text, CalendarRoundTrips)
     for (std::int64_t day = -100000; day < 200000; day += 37) {
         const auto c = civil_from_us(day * 86400000000LL + 12345678901LL);
         EXPECT_EQ(us_from_civil(c), day * 86400000000LL + 12345678901LL);
-        EXPECT_EQ(us_from_iso(iso_from_us(day * 86400000000LL + 12345678901LL)), day * 86400000000LL + 12345678901LL);
+        EXPECT_EQ(us_from_iso(iso_from_us(day * 86400000000LL + 12345678901LL)),
+                  day * 86400000000LL + 12345678901LL);
     }
     EXPECT_FALSE(us_from_iso("2023-02-29"));
     EXPECT_TRUE(us_from_iso("2024-02-29"));

@@ -56,7 +56,8 @@ TEST(Timeline, CubicsAgreeWithValues)
         for (double start_us : {0.0, 123456.5, 1e6, 3.25e6}) {
             const ChannelCubic cubic = cubic_at(channel, start_us);
             for (double x : {0.0, 0.1, 0.2, 0.5}) {
-                const double sum = cubic.c[0] + x * (cubic.c[1] + x * (cubic.c[2] + x * cubic.c[3]));
+                const double sum =
+                    cubic.c[0] + x * (cubic.c[1] + x * (cubic.c[2] + x * cubic.c[3]));
                 EXPECT_NEAR(sum, value_at(channel, start_us + x * 1e6), 1e-12);
             }
         }

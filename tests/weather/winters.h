@@ -69,8 +69,11 @@ inline Winter winter_2005()
             const double v = *to_number(f[i]);
             return v <= -99 ? kMissing : v;
         };
-        w.observations.push_back({days_from_civil(*to_integer(f[0]), static_cast<int>(*to_integer(f[1])), static_cast<int>(*to_integer(f[2]))) * 86400000000LL,
-                                  value(3), value(5), value(6), value(7)});
+        w.observations.push_back(
+            {days_from_civil(*to_integer(f[0]), static_cast<int>(*to_integer(f[1])),
+                             static_cast<int>(*to_integer(f[2]))) *
+                 86400000000LL,
+             value(3), value(5), value(6), value(7)});
     }
     return w;
 }
@@ -84,12 +87,14 @@ inline Winter winter_2001()
         const auto f = split(*line, ',');
         const auto day = us_from_iso(f[0]);
         if (!day || f.size() != 3) continue;
-        w.observations.push_back({*day, kMissing, to_number(f[1]).value_or(kMissing), to_number(f[2]).value_or(kMissing), kMissing});
+        w.observations.push_back({*day, kMissing, to_number(f[1]).value_or(kMissing),
+                                  to_number(f[2]).value_or(kMissing), kMissing});
     }
     return w;
 }
 
-// Depth and SWE at 12 h; surface temperature and albedo as daily means where snow lies deeper than 0.1 m.
+// Depth and SWE at 12 h; surface temperature and albedo as daily means where snow lies deeper than
+// 0.1 m.
 inline Scores score(const Winter& winter, const PhysicalParams& params)
 {
     const PhysicalTimeline timeline(winter.table, params);
@@ -115,7 +120,8 @@ inline Scores score(const Winter& winter, const PhysicalParams& params)
         double warm = 0, reflected = 0, sun = 0;
         for (std::int64_t i = first; i < first + 24; ++i) {
             const auto& c = states[static_cast<std::size_t>(i)];
-            const double sw = value_at(winter.table, Field::Shortwave, timeline.begin_us() + i * kHour);
+            const double sw =
+                value_at(winter.table, Field::Shortwave, timeline.begin_us() + i * kHour);
             warm += c.surface_temp_c / 24;
             reflected += sw * c.snow_albedo;
             sun += sw;

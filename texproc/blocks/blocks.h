@@ -46,8 +46,8 @@ struct BlockOptions {
     int threads = 0;             ///< 0: all cores; the bytes do not depend on it
 };
 
-/// Encodes an image of 8-bit codes, row by row of blocks, as the hardware wants them. Codes are taken
-/// as they are: an sRGB image is encoded in its codes. Texels past an edge repeat the edge.
+/// Encodes an image of 8-bit codes, row by row of blocks, as the hardware wants them. Codes are
+/// taken as they are: an sRGB image is encoded in its codes. Texels past an edge repeat the edge.
 ///
 ///   image   U8; channels that the format does not have are ignored; missing ones: a single channel
 ///           stands for red, green and blue, missing blue is 0, missing alpha is 255
@@ -79,8 +79,8 @@ struct Bc4Choice {
     double cost = 0.0;                    ///< the sum over the texels
 };
 
-/// The BC4 block of least total cost among all endpoint pairs within `reach` codes of the smallest and
-/// of the largest best code, in both modes. Deterministic; ties go to the first pair.
+/// The BC4 block of least total cost among all endpoint pairs within `reach` codes of the smallest
+/// and of the largest best code, in both modes. Deterministic; ties go to the first pair.
 Bc4Choice encode_bc4_block(const TexelCosts& costs, int reach = 4);
 
 /// The BC4 block of least squared error that the quality looks for.

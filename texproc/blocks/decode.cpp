@@ -106,7 +106,8 @@ RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width,
         for (int bx = 0; bx < across; ++bx, from += block_bytes(block)) {
             BlockBytes texels;
             decode_one(from, block, is_signed, texels);
-            const std::size_t length = pixel * static_cast<std::size_t>(std::min(4, width - 4 * bx));
+            const std::size_t length =
+                pixel * static_cast<std::size_t>(std::min(4, width - 4 * bx));
             for (int y = 0; y < rows; ++y) {
                 std::memcpy(image.bytes.data() + static_cast<std::size_t>(y0 + y) * row +
                                 4 * pixel * static_cast<std::size_t>(bx),

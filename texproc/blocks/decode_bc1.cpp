@@ -14,7 +14,8 @@ std::uint64_t load64(const std::byte* from)
 
 }  // namespace
 
-std::array<std::array<std::uint8_t, 4>, 4> bc1_palette(std::uint16_t c0, std::uint16_t c1, bool three)
+std::array<std::array<std::uint8_t, 4>, 4> bc1_palette(std::uint16_t c0, std::uint16_t c1,
+                                                       bool three)
 {
     const int a[3] = {widen5(c0 >> 11), widen6((c0 >> 5) & 63), widen5(c0 & 31)};
     const int b[3] = {widen5(c1 >> 11), widen6((c1 >> 5) & 63), widen5(c1 & 31)};
@@ -22,8 +23,8 @@ std::array<std::array<std::uint8_t, 4>, 4> bc1_palette(std::uint16_t c0, std::ui
     for (std::size_t c = 0; c < 3; ++c) {
         palette[0][c] = static_cast<std::uint8_t>(a[c]);
         palette[1][c] = static_cast<std::uint8_t>(b[c]);
-        palette[2][c] = static_cast<std::uint8_t>(three ? (a[c] + b[c] + 1) >> 1
-                                                        : (2 * a[c] + b[c] + 1) / 3);
+        palette[2][c] =
+            static_cast<std::uint8_t>(three ? (a[c] + b[c] + 1) >> 1 : (2 * a[c] + b[c] + 1) / 3);
         palette[3][c] = static_cast<std::uint8_t>(three ? 0 : (a[c] + 2 * b[c] + 1) / 3);
     }
     for (std::size_t k = 0; k < 4; ++k) palette[k][3] = three && k == 3 ? 0 : 255;
@@ -46,7 +47,8 @@ std::array<std::uint8_t, 8> bc4_palette(int r0, int r1)
 void decode_bc1(const std::byte* block, bool always_four, Rgba8Block& to)
 {
     const std::uint64_t v = load64(block);
-    const std::uint16_t c0 = static_cast<std::uint16_t>(v), c1 = static_cast<std::uint16_t>(v >> 16);
+    const std::uint16_t c0 = static_cast<std::uint16_t>(v),
+                        c1 = static_cast<std::uint16_t>(v >> 16);
     const auto palette = bc1_palette(c0, c1, !always_four && c0 <= c1);
     for (std::size_t t = 0; t < 16; ++t) to[t] = palette[(v >> (32 + 2 * t)) & 3];
 }
@@ -68,9 +70,8 @@ std::array<float, 16> decode_bc4_signed(const std::byte* block)
         return static_cast<float>(value < -127 ? -127 : value) / 127.0f;  // -128 is a second -1
     };
     const float r0 = endpoint(v), r1 = endpoint(v >> 8);
-    const int steps = static_cast<std::int8_t>(v & 255) > static_cast<std::int8_t>((v >> 8) & 255)
-                          ? 7
-                          : 5;
+    const int steps =
+        static_cast<std::int8_t>(v & 255) > static_cast<std::int8_t>((v >> 8) & 255) ? 7 : 5;
     float palette[8] = {r0, r1, 0, 0, 0, 0, -1.0f, 1.0f};
     for (int k = 1; k < steps; ++k) {
         palette[k + 1] = (static_cast<float>(steps - k) * r0 + static_cast<float>(k) * r1) /

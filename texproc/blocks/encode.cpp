@@ -30,10 +30,13 @@ detail::BlockTexels gather(const RawImage& image, int bx, int by)
     for (int t = 0; t < 16; ++t) {
         const int x = std::min(4 * bx + t % 4, image.width - 1);
         const int y = std::min(4 * by + t / 4, image.height - 1);
-        const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                static_cast<std::size_t>(x)) *
-                               channels;
-        const auto code = [&](std::size_t c) { return static_cast<std::uint8_t>(image.bytes[at + c]); };
+        const std::size_t at =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+             static_cast<std::size_t>(x)) *
+            channels;
+        const auto code = [&](std::size_t c) {
+            return static_cast<std::uint8_t>(image.bytes[at + c]);
+        };
         texels.plane[0][t] = code(0);
         texels.plane[1][t] = channels > 1 ? code(1) : code(0);
         texels.plane[2][t] = channels > 2 ? code(2) : channels == 1 ? code(0) : std::uint8_t{0};
@@ -55,20 +58,26 @@ void encode_one(const detail::BlockTexels& texels, Block block, const BlockOptio
             k.bc4(texels.plane[3], options.quality, to);
             k.bc1(texels, options, detail::Bc1Use::Four, to + 8);
             break;
-        case Block::Bc4: k.bc4(texels.plane[0], options.quality, to); break;
+        case Block::Bc4:
+            k.bc4(texels.plane[0], options.quality, to);
+            break;
         case Block::Bc5:
             k.bc4(texels.plane[0], options.quality, to);
             k.bc4(texels.plane[1], options.quality, to + 8);
             break;
-        case Block::Bc7: k.bc7(texels, options, to); break;
+        case Block::Bc7:
+            k.bc7(texels, options, to);
+            break;
         case Block::Bc2:
-        case Block::Bc6h: break;
+        case Block::Bc6h:
+            break;
     }
 }
 
 }  // namespace
 
-std::vector<std::byte> encode_blocks(const RawImage& image, Block block, const BlockOptions& options)
+std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
+                                     const BlockOptions& options)
 {
     if (block == Block::Bc2 || block == Block::Bc6h) {
         throw Error("block texture: BC2 and BC6H can be read, not written",
@@ -137,8 +146,8 @@ Bc4Choice encode_bc4_block(const TexelCosts& costs, int reach)
         }
     }
     const auto palette = detail::bc4_palette(chosen[0], chosen[1]);
-    std::uint64_t bits = static_cast<std::uint64_t>(chosen[0]) |
-                         static_cast<std::uint64_t>(chosen[1]) << 8;
+    std::uint64_t bits =
+        static_cast<std::uint64_t>(chosen[0]) | static_cast<std::uint64_t>(chosen[1]) << 8;
     for (std::size_t t = 0; t < 16; ++t) {
         std::size_t index = 0;
         for (std::size_t k = 1; k < 8; ++k) {
@@ -147,7 +156,8 @@ Bc4Choice encode_bc4_block(const TexelCosts& costs, int reach)
         choice.values[t] = palette[index];
         bits |= static_cast<std::uint64_t>(index) << (16 + 3 * t);
     }
-    for (std::size_t i = 0; i < 8; ++i) choice.block[i] = static_cast<std::uint8_t>(bits >> (8 * i));
+    for (std::size_t i = 0; i < 8; ++i)
+        choice.block[i] = static_cast<std::uint8_t>(bits >> (8 * i));
     return choice;
 }
 

@@ -15,11 +15,12 @@ const ImageLibrary& image_library(void (*loaded)())
         const std::string module = (here / "petrichor-images.so").string();
         void* opened = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (!opened) {
-            throw std::runtime_error(std::string("the image library cannot be loaded (") + dlerror() +
-                                     "); install petrichor again");
+            throw std::runtime_error(std::string("the image library cannot be loaded (") +
+                                     dlerror() + "); install petrichor again");
         }
         const auto* found = static_cast<const ImageLibrary*>(dlsym(opened, "petrichor_images"));
-        if (!found) throw std::runtime_error(module + " is of another version; install petrichor again");
+        if (!found)
+            throw std::runtime_error(module + " is of another version; install petrichor again");
         loaded();
         return *found;
     }();

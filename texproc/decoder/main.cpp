@@ -1,7 +1,7 @@
-// petrichor-decode: the process that touches untrusted image files. The image library (loaded when a
-// file needs it) aborts or loops on some damaged ones, so it runs here, with limits on memory and time, and the program only
-// ever sees pixels or a reason. It serves requests on socket 3 until the other end closes, one at a
-// time; the program starts several for several files.
+// petrichor-decode: the process that touches untrusted image files. The image library (loaded when
+// a file needs it) aborts or loops on some damaged ones, so it runs here, with limits on memory and
+// time, and the program only ever sees pixels or a reason. It serves requests on socket 3 until the
+// other end closes, one at a time; the program starts several for several files.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -34,17 +34,18 @@ namespace {
 using detail::Reply;
 using detail::Request;
 
-constexpr std::uint64_t kMemory = 1536ull << 20;    // on top of what the libraries map at the start
+constexpr std::uint64_t kMemory = 1536ull << 20;  // on top of what the libraries map at the start
 constexpr std::uint64_t kRecycleBytes = 256ull << 20;  // a process that held more is not kept
-constexpr unsigned kBaseSeconds = 4;                // CPU seconds for any file, plus
-constexpr unsigned kMegapixelsASecond = 2;          // time in proportion to its size
+constexpr unsigned kBaseSeconds = 4;                   // CPU seconds for any file, plus
+constexpr unsigned kMegapixelsASecond = 2;             // time in proportion to its size
 
 void limit_memory()
 {
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t base = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    rlimit limit{base + kMemory, RLIM_INFINITY};  // set again when the image library has been loaded
+    rlimit limit{base + kMemory,
+                 RLIM_INFINITY};  // set again when the image library has been loaded
     setrlimit(RLIMIT_AS, &limit);
     rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -107,15 +108,15 @@ void check_size(const Header& h, const Request& request)
     }
     if (pixels * static_cast<std::uint64_t>(h.channels) * 4 > request.max_bytes) {
         throw std::runtime_error("it is " + std::to_string(h.width) + " x " +
-                                 std::to_string(h.height) + " with " +
-                                 std::to_string(h.channels) + " channels, more than the limit of " +
+                                 std::to_string(h.height) + " with " + std::to_string(h.channels) +
+                                 " channels, more than the limit of " +
                                  std::to_string(request.max_bytes >> 20) + " MiB decoded");
     }
     limit_time(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
 }
 
-// Other readers where the image library has none, loses channels, takes damaged files for good or is
-// slow to start.
+// Other readers where the image library has none, loses channels, takes damaged files for good or
+// is slow to start.
 void read_pixels(const std::string& path, int fd, const std::string& format, const Request& request,
                  const Accept& accept)
 {
@@ -143,8 +144,7 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
 {
     limit_time(kBaseSeconds);
     const std::string name = request.text;
-    const std::string path =
-        input_fd >= 0 ? "/proc/self/fd/" + std::to_string(input_fd) : name;
+    const std::string path = input_fd >= 0 ? "/proc/self/fd/" + std::to_string(input_fd) : name;
     std::byte head[32];
     Fd file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.fd < 0) throw std::runtime_error(std::strerror(errno));
@@ -154,7 +154,8 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
     const std::string format = sniff({head, static_cast<std::size_t>(got)}, name);
     if (format.empty()) {
         throw std::runtime_error(
-            "its content is none of PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2, GIF, "
+            "its content is none of PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2, "
+            "GIF, "
             "PNM, SGI");
     }
     Fd pixels(memfd_create("petrichor-pixels", MFD_CLOEXEC));
@@ -182,11 +183,12 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
 void encode(const Request& request, int input_fd)
 {
     limit_time(600);
-    const Header header{request.width, request.height, request.channels,
-                        static_cast<PixelType>(request.type), {}};
+    const Header header{
+        request.width, request.height, request.channels, static_cast<PixelType>(request.type), {}};
     const Mapping pixels(input_fd, header.bytes(), PROT_READ);
-    image_library(limit_memory).write(request.text, header, static_cast<const std::byte*>(pixels.at),
-                    static_cast<int>(request.quality));
+    image_library(limit_memory)
+        .write(request.text, header, static_cast<const std::byte*>(pixels.at),
+               static_cast<int>(request.quality));
 }
 
 bool receive(Request& request, Fd& attached)

@@ -13,10 +13,14 @@ namespace {
 OIIO::TypeDesc type_desc(PixelType type)
 {
     switch (type) {
-        case PixelType::U8: return OIIO::TypeDesc::UINT8;
-        case PixelType::U16: return OIIO::TypeDesc::UINT16;
-        case PixelType::F16: return OIIO::TypeDesc::HALF;
-        case PixelType::F32: break;
+        case PixelType::U8:
+            return OIIO::TypeDesc::UINT8;
+        case PixelType::U16:
+            return OIIO::TypeDesc::UINT16;
+        case PixelType::F16:
+            return OIIO::TypeDesc::HALF;
+        case PixelType::F32:
+            break;
     }
     return OIIO::TypeDesc::FLOAT;
 }
@@ -24,17 +28,20 @@ OIIO::TypeDesc type_desc(PixelType type)
 PixelType stored_type(const OIIO::ImageSpec& spec)
 {
     switch (spec.format.basetype) {
-        case OIIO::TypeDesc::UINT8: return PixelType::U8;
-        case OIIO::TypeDesc::UINT16: return PixelType::U16;
-        case OIIO::TypeDesc::HALF: return PixelType::F16;
-        default: return PixelType::F32;
+        case OIIO::TypeDesc::UINT8:
+            return PixelType::U8;
+        case OIIO::TypeDesc::UINT16:
+            return PixelType::U16;
+        case OIIO::TypeDesc::HALF:
+            return PixelType::F16;
+        default:
+            return PixelType::F32;
     }
 }
 
 }  // namespace
 
-void read_with_oiio(const std::string& path, const std::string& format,
-                    const Accept& accept)
+void read_with_oiio(const std::string& path, const std::string& format, const Accept& accept)
 {
     OIIO::attribute("threads", 1);  // several files at a time, each in a process of its own
     OIIO::attribute("exr_threads", -1);

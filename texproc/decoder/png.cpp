@@ -17,8 +17,8 @@ struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// libpng reports errors by a jump, which must not pass over C++ objects: the calls below are made in
-// functions that own none, and the message is kept here.
+// libpng reports errors by a jump, which must not pass over C++ objects: the calls below are made
+// in functions that own none, and the message is kept here.
 struct Reader {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -31,7 +31,9 @@ struct Reader {
     static_cast<Reader*>(png_get_error_ptr(png))->problem = message;
     png_longjmp(png, 1);
 }
-void on_warning(png_structp, png_const_charp) {}
+void on_warning(png_structp, png_const_charp)
+{
+}
 
 bool read_header(Reader& reader, std::FILE* file)
 {

@@ -59,8 +59,8 @@ void unpack_row(Bytes from, std::span<std::byte> to)
     }
 }
 
-// A negative number of layers says that the first channel after the colours is the transparency of the
-// merged picture, whose colours are then stored as they look on white.
+// A negative number of layers says that the first channel after the colours is the transparency of
+// the merged picture, whose colours are then stored as they look on white.
 bool merged_on_white(Bytes layers, int wide)
 {
     Cursor in(layers);
@@ -95,8 +95,7 @@ void scatter(std::span<const std::byte> row, std::size_t size, std::size_t chann
 {
     for (std::size_t x = 0; x * size < row.size(); ++x) {
         for (std::size_t b = 0; b < size; ++b) {
-            const std::size_t from =
-                std::endian::native == std::endian::little ? size - 1 - b : b;
+            const std::size_t from = std::endian::native == std::endian::little ? size - 1 - b : b;
             to[(x * channels + channel) * size + b] = row[x * size + from];
         }
     }
@@ -123,14 +122,19 @@ bool read_psd(std::span<const std::byte> file, const Accept& accept)
                                  std::to_string(height) + " x " + std::to_string(channels));
     }
     const int wide = version == 2 ? 8 : 4;
-    in.take(in.number(4));     // palette
-    in.take(in.number(4));     // resources
+    in.take(in.number(4));  // palette
+    in.take(in.number(4));  // resources
     const bool on_white = merged_on_white(in.take(in.number(wide)), wide) && channels > own;
     const std::uint64_t coding = in.number(2);
     if (coding > 1) return false;
 
-    Header header{static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels),
-                  depth == 8 ? PixelType::U8 : depth == 16 ? PixelType::U16 : PixelType::F32, {}};
+    Header header{static_cast<int>(width),
+                  static_cast<int>(height),
+                  static_cast<int>(channels),
+                  depth == 8    ? PixelType::U8
+                  : depth == 16 ? PixelType::U16
+                                : PixelType::F32,
+                  {}};
     static const char* const kRgbNames[] = {"R", "G", "B", "A"};
     for (std::uint64_t c = 0; c < channels; ++c) {
         const bool alpha = c == own;
@@ -140,13 +144,15 @@ bool read_psd(std::span<const std::byte> file, const Accept& accept)
     }
     const std::size_t size = size_of(header.type);
     const std::size_t row_bytes = static_cast<std::size_t>(width) * size;
-    // What is stored is looked at before the pixels are asked for: every row has two bytes at least.
+    // What is stored is looked at before the pixels are asked for: every row has two bytes at
+    // least.
     const std::uint64_t rows = height * channels;
     std::vector<std::uint64_t> lengths;
     if (coding == 1) {
         Cursor table(in.take(rows * (version == 2 ? 4 : 2)));
         lengths.reserve(static_cast<std::size_t>(rows));
-        for (std::uint64_t r = 0; r < rows; ++r) lengths.push_back(table.number(version == 2 ? 4 : 2));
+        for (std::uint64_t r = 0; r < rows; ++r)
+            lengths.push_back(table.number(version == 2 ? 4 : 2));
     } else if (rows * row_bytes > in.rest().size()) {
         throw std::runtime_error("it is truncated");
     }

@@ -23,8 +23,8 @@ void fft_power_of_two(std::vector<Complex>& a, double sign)
     }
     for (std::size_t length = 2; length <= n; length *= 2) {
         for (std::size_t k = 0; k < length / 2; ++k) {
-            const Complex w = std::polar(1.0, sign * 2.0 * kPi * static_cast<double>(k) /
-                                                  static_cast<double>(length));
+            const Complex w = std::polar(
+                1.0, sign * 2.0 * kPi * static_cast<double>(k) / static_cast<double>(length));
             for (std::size_t i = k; i < n; i += length) {
                 const Complex t = w * a[i + length / 2];
                 a[i + length / 2] = a[i] - t;
@@ -43,7 +43,8 @@ void fft_any(std::vector<Complex>& a, double sign)
     std::vector<Complex> chirp(n), x(m), y(m);
     for (std::size_t k = 0; k < n; ++k) {
         const std::uint64_t square = static_cast<std::uint64_t>(k) * k % (2 * n);
-        chirp[k] = std::polar(1.0, sign * kPi * static_cast<double>(square) / static_cast<double>(n));
+        chirp[k] =
+            std::polar(1.0, sign * kPi * static_cast<double>(square) / static_cast<double>(n));
         x[k] = a[k] * chirp[k];
         y[k] = std::conj(chirp[k]);
         if (k) y[m - k] = y[k];

@@ -24,7 +24,8 @@ std::string size_text(const ImageRef& image)
 
 }  // namespace
 
-MapSurface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options)
+MapSurface make_surface(const ImageRef& normal, const ImageRef& rough,
+                        const PrefilterOptions& options)
 {
     if (normal.width < 1 || normal.height < 1 || rough.width < 1 || rough.height < 1) {
         throw Error("prefilter: an input is empty", "Pass a normal map and a roughness map.");
@@ -34,7 +35,8 @@ MapSurface make_surface(const ImageRef& normal, const ImageRef& rough, const Pre
                         size_text(rough),
                     "Resample one of them: both must have the same size.");
     }
-    const int needed = std::max({options.normal_x, options.normal_y, options.rebuild_z ? 0 : 2}) + 1;
+    const int needed =
+        std::max({options.normal_x, options.normal_y, options.rebuild_z ? 0 : 2}) + 1;
     if (normal.channels < needed) {
         throw Error("prefilter: the normal map has " + std::to_string(normal.channels) +
                         " channels, " + std::to_string(needed) + " are needed",

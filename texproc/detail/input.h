@@ -15,9 +15,10 @@ struct ImageRef {
 ImageRef ref(const Image& image);
 ImageRef ref(const RawImage& image);
 
-/// Checks a pair of maps and sets up how they are decoded. Throws Error for sizes that differ, missing
-/// channels and values that are not numbers. The images must outlive the result.
-MapSurface make_surface(const ImageRef& normal, const ImageRef& rough, const PrefilterOptions& options);
+/// Checks a pair of maps and sets up how they are decoded. Throws Error for sizes that differ,
+/// missing channels and values that are not numbers. The images must outlive the result.
+MapSurface make_surface(const ImageRef& normal, const ImageRef& rough,
+                        const PrefilterOptions& options);
 
 }  // namespace petrichor::texproc::detail
 

@@ -45,9 +45,8 @@ void write_exr(const std::filesystem::path& path, int width, int height,
         const void* data = half ? static_cast<const void*>(channel.half_bits.data())
                                 : static_cast<const void*>(channel.floats.data());
         header.channels().insert(channel.name, Imf::Channel(type));
-        frame.insert(channel.name,
-                     Imf::Slice(type, static_cast<char*>(const_cast<void*>(data)), size,
-                                size * static_cast<std::size_t>(width)));
+        frame.insert(channel.name, Imf::Slice(type, static_cast<char*>(const_cast<void*>(data)),
+                                              size, size * static_cast<std::size_t>(width)));
     }
     OutputFile file(path);
     errno = 0;

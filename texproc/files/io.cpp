@@ -198,7 +198,8 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
     if (!png && !tga && !tiff && !jpeg) {
         throw Error("output " + path.string() + ": cannot write " +
                         (integers ? "integers" : "floats") + " as '" + extension + "'",
-                    "Use one of png, tga, tif, jpg, dds, ktx2 for integers, exr, dds, ktx2 for halves and floats.");
+                    "Use one of png, tga, tif, jpg, dds, ktx2 for integers, exr, dds, ktx2 for "
+                    "halves and floats.");
     }
     const int most = jpeg ? 3 : tiff ? 1024 : 4;
     if (image.channels > most) {
@@ -234,7 +235,7 @@ void write_image(const fs::path& path, const Image& image, const WriteOptions& o
                     "Use 8 or 16 for png and tif, 16 or 32 for exr.");
     }
     const PixelType type = exr ? (options.bits == 32 ? PixelType::F32 : PixelType::F16)
-                           : options.bits == 8 ? PixelType::U8
+                           : options.bits == 8  ? PixelType::U8
                            : options.bits == 16 ? PixelType::U16
                                                 : PixelType::F32;
     const RawImage raw = texproc::to_raw(image, type, options.rounding);
@@ -252,8 +253,8 @@ std::vector<std::byte> encode_png8(int width, int height, int channels,
                                    std::span<const std::uint8_t> pixels,
                                    const std::vector<std::pair<std::string, std::string>>& metadata)
 {
-    const std::string shape = std::to_string(width) + " x " + std::to_string(height) + " x " +
-                              std::to_string(channels);
+    const std::string shape =
+        std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(channels);
     if (width < 1 || height < 1 || channels < 1 || channels > 4) {
         throw Error("png: a picture of " + shape + " is not possible",
                     "Give sides of at least 1 and 1 to 4 channels.");

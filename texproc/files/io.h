@@ -14,20 +14,20 @@
 
 namespace petrichor::texproc {
 
-// Files of others are decoded in a process of their own (petrichor-decode) with limits on memory and
-// CPU time; the processes are kept and reused, and several threads may read at once. Alpha is never
-// multiplied into colour, in either direction.
+// Files of others are decoded in a process of their own (petrichor-decode) with limits on memory
+// and CPU time; the processes are kept and reused, and several threads may read at once. Alpha is
+// never multiplied into colour, in either direction.
 
 /// What to make of the numbers in a file.
 struct ReadOptions {
-    ColorSpace space = ColorSpace::Data;  ///< Linear: 8- and 16-bit colour is decoded from sRGB
-    std::int64_t max_pixels = 1 << 28;    ///< larger images are refused before they are decoded
-    std::uint64_t max_bytes = 2ull << 30; ///< the same for width x height x channels x 4 bytes
+    ColorSpace space = ColorSpace::Data;   ///< Linear: 8- and 16-bit colour is decoded from sRGB
+    std::int64_t max_pixels = 1 << 28;     ///< larger images are refused before they are decoded
+    std::uint64_t max_bytes = 2ull << 30;  ///< the same for width x height x channels x 4 bytes
 };
 
 /// Reads the first image of a file: PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2 and
-/// more; the content decides, not the extension. Throws Error for a missing, damaged, unsupported or
-/// too large file; never crashes on one.
+/// more; the content decides, not the extension. Throws Error for a missing, damaged, unsupported
+/// or too large file; never crashes on one.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same for bytes in memory. `name` is for messages.

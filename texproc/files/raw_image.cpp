@@ -104,8 +104,7 @@ float srgb_to_linear(float encoded)
 
 float linear_to_srgb(float linear)
 {
-    return linear <= 0.0031308f ? linear * 12.92f
-                                : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
 void to_float(const std::byte* from, PixelType type, std::size_t values, int channels,

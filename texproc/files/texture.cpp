@@ -44,7 +44,10 @@ Image with_channels(const Image& image, int channels)
         const float* from = &image.pixels[p * from_step];
         for (std::size_t c = 0; c < to_step; ++c) {
             const bool grey = from_step == 1 && c < 3 && to_step >= 3;
-            to.pixels[p * to_step + c] = c < from_step ? from[c] : grey ? from[0] : c == 3 ? 1.0f : 0.0f;
+            to.pixels[p * to_step + c] = c < from_step ? from[c]
+                                         : grey        ? from[0]
+                                         : c == 3      ? 1.0f
+                                                       : 0.0f;
         }
     }
     return to;
@@ -89,8 +92,8 @@ void check_level(const RawImage& level, const RawImage& first, int k)
         level.bytes.size() == level.values() * size_of(level.type)) {
         return;
     }
-    throw Error("texture: level " + std::to_string(k) + " is " + std::to_string(level.width) + " x " +
-                    std::to_string(level.height) + " x " + std::to_string(level.channels) +
+    throw Error("texture: level " + std::to_string(k) + " is " + std::to_string(level.width) +
+                    " x " + std::to_string(level.height) + " x " + std::to_string(level.channels) +
                     ", it must be " + std::to_string(w) + " x " + std::to_string(h) + " x " +
                     std::to_string(first.channels) + " in the numbers of level 0",
                 "Give each level half the size of the one before, rounded down, at least 1.");
@@ -121,11 +124,13 @@ TextureFormat texture_format(const std::string& name)
     }
     for (int c = 0; c < 4; ++c) {
         for (int d = 0; d < 4; ++d) {
-            if (name == std::string(kChannels[c]) + kDepths[d]) return {{}, kTypes[d], c + 1, false};
+            if (name == std::string(kChannels[c]) + kDepths[d])
+                return {{}, kTypes[d], c + 1, false};
         }
     }
     std::string all;
-    for (const std::string& known : texture_format_names()) all += (all.empty() ? "" : ", ") + known;
+    for (const std::string& known : texture_format_names())
+        all += (all.empty() ? "" : ", ") + known;
     throw Error("texture: there is no format '" + name + "'", "Use one of " + all + ".");
 }
 
@@ -156,7 +161,8 @@ std::size_t level_bytes(const TextureFormat& format, int width, int height)
            static_cast<std::size_t>(format.channels) * size_of(format.type);
 }
 
-MipTexture detail::texture_shape(std::span<const RawImage> levels, const TextureWriteOptions& options)
+MipTexture detail::texture_shape(std::span<const RawImage> levels,
+                                 const TextureWriteOptions& options)
 {
     if (levels.empty() || levels[0].width < 1 || levels[0].height < 1) {
         throw Error("texture: it has no levels", "Give at least level 0, with at least one pixel.");
@@ -170,10 +176,12 @@ MipTexture detail::texture_shape(std::span<const RawImage> levels, const Texture
                         ", which has " + std::to_string(most),
                     "Stop at 1 x 1.");
     }
-    for (std::size_t k = 0; k < levels.size(); ++k) check_level(levels[k], first, static_cast<int>(k));
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        check_level(levels[k], first, static_cast<int>(k));
     if (options.format.empty() && first.channels > 4) {
-        throw Error("texture: " + std::to_string(first.channels) + " channels, a texture has up to 4",
-                    "Choose channels (FILE:r), or name a format to keep the first ones.");
+        throw Error(
+            "texture: " + std::to_string(first.channels) + " channels, a texture has up to 4",
+            "Choose channels (FILE:r), or name a format to keep the first ones.");
     }
     const TextureFormat format =
         options.format.empty() ? own_format(first) : texture_format(options.format);

@@ -28,9 +28,9 @@ std::string lower_extension(const fs::path& path)
 void check_holds_levels(const fs::path& path)
 {
     if (holds_mip_chain(path)) return;
-    throw Error("output " + path.string() + ": '" + lower_extension(path) +
-                    "' does not hold mip levels",
-                "Write .dds, .ktx2 or .exr, or one file a level with %d in the name: 'out_%d.png'.");
+    throw Error(
+        "output " + path.string() + ": '" + lower_extension(path) + "' does not hold mip levels",
+        "Write .dds, .ktx2 or .exr, or one file a level with %d in the name: 'out_%d.png'.");
 }
 
 void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
@@ -44,8 +44,9 @@ void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
     }
     const TextureFormat format = texture_format(plain.format);
     if (format.block || (format.type != PixelType::F16 && format.type != PixelType::F32)) {
-        throw Error("output " + path.string() + ": EXR holds halves and floats, not " + plain.format,
-                    "Use --format rgba16f or rgba32f (r, rg, rgb), or write .dds or .ktx2.");
+        throw Error(
+            "output " + path.string() + ": EXR holds halves and floats, not " + plain.format,
+            "Use --format rgba16f or rgba32f (r, rg, rgb), or write .dds or .ktx2.");
     }
     detail::write_exr_mips(path, make_texture(levels, plain));
 }
@@ -131,7 +132,8 @@ void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
         raw.push_back(to_raw(level, type, options.dither ? Rounding::Ordered : Rounding::Nearest));
     }
     if (exr && options.format.empty() && !levels.empty()) {
-        labelled.format = name_of({{}, PixelType::F16, std::clamp(levels[0].channels, 1, 4), false});
+        labelled.format =
+            name_of({{}, PixelType::F16, std::clamp(levels[0].channels, 1, 4), false});
     }
     write_mip_chain(path, raw, labelled);
 }
@@ -142,17 +144,18 @@ MipTexture read_texture(const fs::path& path, const ReadOptions& options)
     const bool ktx2 = bytes.size() > 12 && bytes[0] == std::byte{0xab};
     const bool dds = bytes.size() > 4 && std::memcmp(bytes.data(), "DDS ", 4) == 0;
     if (!ktx2 && !dds) {
-        throw Error("image " + path.string() + ": its content is neither DDS nor KTX2",
-                    "Convert it: petrichor texture convert " + path.filename().string() +
-                        " -o out.dds");
+        throw Error(
+            "image " + path.string() + ": its content is neither DDS nor KTX2",
+            "Convert it: petrichor texture convert " + path.filename().string() + " -o out.dds");
     }
     try {
         return ktx2 ? detail::parse_ktx2(bytes, options) : detail::parse_dds(bytes, options);
     } catch (const Error&) {
         throw;
     } catch (const std::runtime_error& why) {
-        throw Error("image " + path.string() + ": " + why.what(),
-                    "Check that the file opens in another program; export it again if it is damaged.");
+        throw Error(
+            "image " + path.string() + ": " + why.what(),
+            "Check that the file opens in another program; export it again if it is damaged.");
     }
 }
 

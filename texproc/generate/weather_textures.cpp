@@ -47,7 +47,8 @@ void store_normals(const std::vector<float>& height, int size, float strength, I
                    int cy)
 {
     const auto at = [&](int x, int y) {
-        return height[static_cast<std::size_t>(wrap_index(y, size)) * static_cast<std::size_t>(size) +
+        return height[static_cast<std::size_t>(wrap_index(y, size)) *
+                          static_cast<std::size_t>(size) +
                       static_cast<std::size_t>(wrap_index(x, size))];
     };
     for (int y = 0; y < size; ++y) {
@@ -61,8 +62,8 @@ void store_normals(const std::vector<float>& height, int size, float strength, I
     }
 }
 
-// Gives values the distribution whose quantiles are these (rank, value) knots: ranks decide, so that
-// mean and quantiles are met whatever the noise was.
+// Gives values the distribution whose quantiles are these (rank, value) knots: ranks decide, so
+// that mean and quantiles are met whatever the noise was.
 void match_quantiles(std::vector<float>& values, const std::array<std::array<float, 2>, 5>& knots)
 {
     std::vector<std::size_t> order(values.size());
@@ -120,7 +121,8 @@ Image snow_mask(int size, std::uint32_t seed)
     Image out(size, size, 4, ColorSpace::Data);
     std::vector<float> mask = octaves(size, 4, 6, 0.6f, seed);
     // The middle knot makes the mean 0.715.
-    match_quantiles(mask, {{{0.0f, 0.35f}, {0.05f, 0.51f}, {0.5f, 0.7611f}, {0.95f, 0.85f}, {1.0f, 0.95f}}});
+    match_quantiles(
+        mask, {{{0.0f, 0.35f}, {0.05f, 0.51f}, {0.5f, 0.7611f}, {0.95f, 0.85f}, {1.0f, 0.95f}}});
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             out.at(x, y, 2) = mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
@@ -136,9 +138,11 @@ Image snow_water_bump(int size, std::uint32_t seed)
 {
     check_size(size);
     Image out(size, size, 4, ColorSpace::Data);
-    store_normals(octaves(size, 6, 4, 0.5f, seed), size, 0.004f * static_cast<float>(size), out, 3, 1);
+    store_normals(octaves(size, 6, 4, 0.5f, seed), size, 0.004f * static_cast<float>(size), out, 3,
+                  1);
     std::vector<float> gloss = octaves(size, 8, 5, 0.7f, seed + 200);
-    match_quantiles(gloss, {{{0.0f, 0.1f}, {0.25f, 0.25f}, {0.5f, 0.35f}, {0.9f, 0.5f}, {1.0f, 0.9f}}});
+    match_quantiles(gloss,
+                    {{{0.0f, 0.1f}, {0.25f, 0.25f}, {0.5f, 0.35f}, {0.9f, 0.5f}, {1.0f, 0.9f}}});
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             out.at(x, y, 2) = gloss[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +

@@ -62,8 +62,8 @@ std::vector<std::vector<std::uint8_t>> lux_smoothness_mips(
                 const float count = static_cast<float>(footprint) * static_cast<float>(footprint);
                 const float nx = sx / count, ny = sy / count, nz = sz / count;
                 const float l = std::sqrt(nx * nx + ny * ny + nz * nz);
-                const std::size_t at = j * static_cast<std::size_t>(side) +
-                                       static_cast<std::size_t>(i);
+                const std::size_t at =
+                    j * static_cast<std::size_t>(side) + static_cast<std::size_t>(i);
                 const float g = static_cast<float>(mips[m - 1][at]) / 255.0f;
                 out[m - 1][at] = static_cast<std::uint8_t>(255.0f * lux_smoothness(g, l));
             }

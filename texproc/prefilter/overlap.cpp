@@ -16,14 +16,14 @@ using namespace detail;
 
 struct Effort {
     int samples;
-    int guard;      // samples of the guard; 0: the candidates compete on the first set
-    int ladder;     // alphas tried about the mean normal
-    int rungs;      // and about each other start
-    int line;       // evaluations of the search along alpha
-    int joint;      // evaluations of the search over normal and alpha
-    bool second;    // also from the best clearly different start
+    int guard;    // samples of the guard; 0: the candidates compete on the first set
+    int ladder;   // alphas tried about the mean normal
+    int rungs;    // and about each other start
+    int line;     // evaluations of the search along alpha
+    int joint;    // evaluations of the search over normal and alpha
+    bool second;  // also from the best clearly different start
     int fit_rounds;
-    int cells;      // the footprint is merged to so many
+    int cells;  // the footprint is merged to so many
 };
 
 Effort effort_at(int level, bool quick)
@@ -43,14 +43,18 @@ Effort effort_at(int level, bool quick)
     return {samples, samples, 10, 5, 10, 36, level >= 5, 5, level <= 4 ? 128 : 1024};
 }
 
-float clamped2(float alpha2) { return std::clamp(alpha2, kMinAlpha2, 1.0f); }
+float clamped2(float alpha2)
+{
+    return std::clamp(alpha2, kMinAlpha2, 1.0f);
+}
 
 // Ten or so alphas, geometric between the bounds, about one normal.
 Candidate climb(const LobeCost& cost, const Direction& normal, float low2, float high2, int count)
 {
     if (count < 1) return {};
     float alpha2s[LobeCost::kMost], costs[LobeCost::kMost];
-    const float ratio = count > 1 ? std::pow(high2 / low2, 1.0f / static_cast<float>(count - 1)) : 1.0f;
+    const float ratio =
+        count > 1 ? std::pow(high2 / low2, 1.0f / static_cast<float>(count - 1)) : 1.0f;
     float a2 = low2;
     for (int k = 0; k < count; ++k, a2 *= ratio) alpha2s[k] = clamped2(a2);
     cost(normal, alpha2s, count, costs);
@@ -87,13 +91,13 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
     return {leaned(frame, alpha * x[0], alpha * x[1]), clamped2(std::exp(x[2])), value};
 }
 
-// Footprints of nearly one lobe, most texels of the finest levels, have a closed form: the geometric
-// mean of alpha^2 and a share of the slope variance. The share, 0.88 and less where rough lobes lose
-// light to shadowing, and the bounds were measured against the search with 2560 samples: within 0.001
-// of the best isotropic lobe, where the search with 80 is 0.001 to 0.01 above it and re-aiming the
-// normal gains less than 0.003. A few steep texels among flat ones make a variance that says nothing
-// of the rest: where the radius of the median rule is another one, there is more than one lobe.
-// Returns alpha^2 without the light, or 0 for other footprints.
+// Footprints of nearly one lobe, most texels of the finest levels, have a closed form: the
+// geometric mean of alpha^2 and a share of the slope variance. The share, 0.88 and less where rough
+// lobes lose light to shadowing, and the bounds were measured against the search with 2560 samples:
+// within 0.001 of the best isotropic lobe, where the search with 80 is 0.001 to 0.01 above it and
+// re-aiming the normal gains less than 0.003. A few steep texels among flat ones make a variance
+// that says nothing of the rest: where the radius of the median rule is another one, there is more
+// than one lobe. Returns alpha^2 without the light, or 0 for other footprints.
 float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2, float most_spread)
 {
     const float variance = slope_variance(cells.view(), normal);
@@ -116,7 +120,8 @@ float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2,
     const float share = share_inside(cells.view(), normal, light2, centre + 0.92f * variance);
     if (!(std::abs(share - 0.5f) < 0.012f)) return 0.0f;
     const float rough = std::max(0.0f, std::sqrt(centre) - 0.4f);
-    return std::clamp(centre + (0.88f - 2.9f * rough * rough) * variance - light2, kMinAlpha2, 1.0f);
+    return std::clamp(centre + (0.88f - 2.9f * rough * rough) * variance - light2, kMinAlpha2,
+                      1.0f);
 }
 
 // What a footprint is searched with.
@@ -177,9 +182,10 @@ Candidate best_joint(const Search& s, const Candidate& rough)
     return joint;
 }
 
-// The cheapest on samples that the search has not seen, simplest first: what makes "never worse than
-// plain" hold up to the noise of sampling.
-Candidate guarded(const LobeCost& judge, const Search& s, const Candidate& rough, const Candidate& joint)
+// The cheapest on samples that the search has not seen, simplest first: what makes "never worse
+// than plain" hold up to the noise of sampling.
+Candidate guarded(const LobeCost& judge, const Search& s, const Candidate& rough,
+                  const Candidate& joint)
 {
     Candidate chosen{s.plain.normal, s.plain.alpha2, judge(s.plain.normal, s.plain.alpha2)};
     for (const Candidate& c : {rough, joint}) {
@@ -232,12 +238,15 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     const Direction mean_normal = normalized({means.nx, means.ny, means.nz});
     const float light2 = options.light * options.light;
     const float plain_alpha2 = std::max((means.p * means.p) * (means.p * means.p), kMinAlpha2);
-    const auto lobe = [](const Direction& n, float a2) { return FittedLobe{n, a2, false, {}, a2, a2, {}}; };
+    const auto lobe = [](const Direction& n, float a2) {
+        return FittedLobe{n, a2, false, {}, a2, a2, {}};
+    };
 
     float one = 0.0f;
     if (!options.anisotropic) {
         one = nearly_one_lobe(cells, mean_normal, light2, options.quick ? 0.5f : 0.25f);
-        if (one > 0.0f && !coarse_codes(one + light2, options.stored)) return lobe(mean_normal, one);
+        if (one > 0.0f && !coarse_codes(one + light2, options.stored))
+            return lobe(mean_normal, one);
     }
 
     const Effort effort = effort_at(level, options.quick);
@@ -254,7 +263,10 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     const CellsView view = lit.view();
     const Masses mass = masses(view);
     const LobeKernel& kernel = lobe_kernel();
-    Search s{options, effort, kernel, view,
+    Search s{options,
+             effort,
+             kernel,
+             view,
              LobeCost(view, mass, effort.samples, 2 * seed, first_samples),
              {mean_normal, clamped2(plain_alpha2 + light2)}};
     FittedLobe out = lobe(mean_normal, one);
@@ -270,8 +282,13 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
         // On fresh samples against the chosen lobe, as the guard does.
         const LobeCost judge(view, mass, 2 * effort.samples, 2 * seed + 1, second_samples);
         if (judge(found) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
-            out = {{found.nx, found.ny, found.nz}, chosen.alpha2, true,
-                   {found.tx, found.ty, found.tz}, unlit(found.alpha2_x), unlit(found.alpha2_y), {}};
+            out = {{found.nx, found.ny, found.nz},
+                   chosen.alpha2,
+                   true,
+                   {found.tx, found.ty, found.tz},
+                   unlit(found.alpha2_x),
+                   unlit(found.alpha2_y),
+                   {}};
         }
     } else if (coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.

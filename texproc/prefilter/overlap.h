@@ -11,10 +11,10 @@
 namespace petrichor::texproc {
 
 struct OverlapOptions {
-    float light = 0.0f;        ///< alpha of the design light: 0 the sun, 0.1 a window
-    bool joint = true;         ///< may re-aim the normal; else roughness only
-    bool anisotropic = false;  ///< also fits an elliptic lobe
-    bool quick = false;        ///< fewer samples and no search on the finest levels
+    float light = 0.0f;         ///< alpha of the design light: 0 the sun, 0.1 a window
+    bool joint = true;          ///< may re-aim the normal; else roughness only
+    bool anisotropic = false;   ///< also fits an elliptic lobe
+    bool quick = false;         ///< fewer samples and no search on the finest levels
     detail::StoredAs stored{};  ///< 8 bits: also chooses the codes of the file
 };
 

@@ -65,7 +65,8 @@ using Wanted = std::function<bool(int, int, int)>;
 
 // All variants in one walk; `wanted` empty: every texel.
 std::vector<Prefiltered> filtered(const MapSurface& surface,
-                                  const std::vector<PrefilterOptions>& variants, const Wanted& wanted)
+                                  const std::vector<PrefilterOptions>& variants,
+                                  const Wanted& wanted)
 {
     const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
     std::vector<Filter> filters;

@@ -17,17 +17,17 @@ struct PrefilterOptions {
     bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
     int threads = 0;          ///< 0: all cores; the bytes do not depend on it
 
-    bool alpha = false;          ///< the second map holds alpha = p^2 (or 1 - alpha)
-    bool green_down = false;     ///< the normal map has +y down, in and out
-    bool rebuild_z = false;      ///< z from x and y, whatever the third channel holds
+    bool alpha = false;              ///< the second map holds alpha = p^2 (or 1 - alpha)
+    bool green_down = false;         ///< the normal map has +y down, in and out
+    bool rebuild_z = false;          ///< z from x and y, whatever the third channel holds
     int normal_x = 0, normal_y = 1;  ///< channels of x and y
-    int channel = 0;             ///< of the second map
+    int channel = 0;                 ///< of the second map
 
-    float design_light = 0.0f;   ///< overlap, student-t, median: alpha of the light to fit for
-    bool joint = true;           ///< overlap: may re-aim the normals; else only roughness changes
-    bool anisotropic = false;    ///< overlap: elliptic lobes where they help
-    bool quick = false;          ///< overlap: less search
-    int bits = 0;                ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
+    float design_light = 0.0f;  ///< overlap, student-t, median: alpha of the light to fit for
+    bool joint = true;          ///< overlap: may re-aim the normals; else only roughness changes
+    bool anisotropic = false;   ///< overlap: elliptic lobes where they help
+    bool quick = false;         ///< overlap: less search
+    int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
 };
@@ -42,8 +42,8 @@ struct Prefiltered {
     std::vector<Image> anisotropy;
 };
 
-/// Builds both chains down to 1 x 1 so that what minification takes from the normals is added to the
-/// roughness. normal: 3 channels encoded 0.5 + 0.5 n; roughness: 1 channel of the same size.
+/// Builds both chains down to 1 x 1 so that what minification takes from the normals is added to
+/// the roughness. normal: 3 channels encoded 0.5 + 0.5 n; roughness: 1 channel of the same size.
 /// Throws Error when the sizes differ or a channel is missing. Same bytes at any thread count.
 Prefiltered prefilter(const Image& normal, const Image& roughness,
                       const PrefilterOptions& options = {});

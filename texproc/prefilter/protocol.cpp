@@ -121,7 +121,8 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
     for (const ScoredMaps& material : materials) {
         std::vector<Variant> fitting;
         for (const Variant& v : variants) {
-            if (v.options.rule != "lux" || square_power_of_two(material.normal)) fitting.push_back(v);
+            if (v.options.rule != "lux" || square_power_of_two(material.normal))
+                fitting.push_back(v);
         }
         for (const float light : options.lights) {
             const std::size_t first = rows.size();
@@ -130,20 +131,21 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
             }
             for (int seed = 1; seed <= options.seeds; ++seed) {
                 if (options.progress) {
-                    options.progress(material.name + ", light " + std::to_string(light).substr(0, 3) +
-                                     ", seed " + std::to_string(seed));
+                    options.progress(material.name + ", light " +
+                                     std::to_string(light).substr(0, 3) + ", seed " +
+                                     std::to_string(seed));
                 }
                 // An odd roll: other texels meet in every footprint.
                 const int dx = (seed - 1) * 341 + 1, dy = (seed - 1) * 173 + 3;
                 const ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
-                                        rolled(material.roughness, dx, dy)};
+                                      rolled(material.roughness, dx, dy)};
                 const ScoreOptions scoring{.light = light,
                                            .texels = options.texels,
                                            .points = options.points,
                                            .seed = static_cast<std::uint32_t>(seed),
                                            .threads = options.threads};
-                const std::vector<Score> scores =
-                    score_all(maps.normal, maps.roughness, chains_at(maps, fitting, scoring), {}, scoring);
+                const std::vector<Score> scores = score_all(
+                    maps.normal, maps.roughness, chains_at(maps, fitting, scoring), {}, scoring);
                 for (std::size_t i = 0; i < scores.size(); ++i) {
                     add_share(rows[first + i].score, scores[i], 1.0 / options.seeds);
                 }
@@ -213,7 +215,8 @@ std::string to_markdown(const std::vector<ProtocolSummary>& summaries)
             variants.push_back(s.variant);
         }
         const std::pair column{s.light, s.fine};
-        if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+        if (std::find(columns.begin(), columns.end(), column) == columns.end())
+            columns.push_back(column);
     }
     std::string text = "| rule |", rule = "|---|";
     char cell[160];
@@ -227,10 +230,11 @@ std::string to_markdown(const std::vector<ProtocolSummary>& summaries)
     for (const std::string& variant : variants) {
         text += "| " + variant + " |";
         for (const auto& [light, fine] : columns) {
-            const auto s = std::find_if(
-                summaries.begin(), summaries.end(), [&, l = light, f = fine](const ProtocolSummary& c) {
-                    return c.variant == variant && c.light == l && c.fine == f;
-                });
+            const auto s =
+                std::find_if(summaries.begin(), summaries.end(),
+                             [&, l = light, f = fine](const ProtocolSummary& c) {
+                                 return c.variant == variant && c.light == l && c.fine == f;
+                             });
             if (s == summaries.end()) {
                 text += " - |";
                 continue;
@@ -247,7 +251,8 @@ std::string to_markdown(const std::vector<ProtocolSummary>& summaries)
         text += "\n";
     }
     return text +
-           "\nGap closed in %: worst / mean / pooled over materials with room; worst excess where there "
+           "\nGap closed in %: worst / mean / pooled over materials with room; worst excess where "
+           "there "
            "is none;\nworst level over plain; levels more than 0.005 above plain.\n";
 }
 
@@ -299,7 +304,8 @@ std::string to_csv(const std::vector<ProtocolRow>& rows)
     for (const ProtocolRow& row : rows) {
         for (const LevelScore& l : row.score.levels) {
             std::snprintf(line, sizeof line, ",%.2f,%d,%.5f,%.5f,%.5f,%.5f\n",
-                          static_cast<double>(row.light), l.level, l.plain, l.best, l.tested, l.energy);
+                          static_cast<double>(row.light), l.level, l.plain, l.best, l.tested,
+                          l.energy);
             text += row.material + "," + row.variant + line;
         }
     }

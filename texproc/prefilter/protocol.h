@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "texproc/prefilter/scored_maps.h"
 #include "texproc/prefilter/score.h"
+#include "texproc/prefilter/scored_maps.h"
 
 namespace petrichor::texproc {
 
@@ -16,8 +16,8 @@ namespace petrichor::texproc {
 /// A rule as it ships.
 struct Variant {
     std::string name;
-    PrefilterOptions options;    ///< without the design light, which is that of the score
-    int bits = 16;               ///< of the files: 8 or 16
+    PrefilterOptions options;  ///< without the design light, which is that of the score
+    int bits = 16;             ///< of the files: 8 or 16
 };
 
 /// Every rule, and "overlap" in all its outputs. bits: of the files.

@@ -48,7 +48,9 @@ float rule_roughness(const std::string& rule, float p, float alpha2, float lengt
 {
     const float v = inverse_kappa(length);
     const auto stored = [](float value) { return std::clamp(value, 0.0f, 1.0f); };
-    const auto from_alpha2 = [&](float a2) { return stored(std::sqrt(std::sqrt(std::max(0.0f, a2)))); };
+    const auto from_alpha2 = [&](float a2) {
+        return stored(std::sqrt(std::sqrt(std::max(0.0f, a2))));
+    };
     if (rule == "moments") return from_alpha2(alpha2 + 2.0f * v);
     if (rule == "lux-formula") return stored(std::sqrt(p * p + v));
     if (rule == "filament") return stored(std::sqrt(p * p + 2.0f * v));

@@ -104,8 +104,8 @@ TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, co
     const std::array<double, kViews> mass = reference_mass(samples);
     TexelErrors errors;
     errors.plain = measure(samples, mass, round_lobe(mean, plain2)).error;
-    errors.best = best_error(samples, mass, mean, errors.plain,
-                             static_cast<double>(std::sqrt(narrow2)));
+    errors.best =
+        best_error(samples, mass, mean, errors.plain, static_cast<double>(std::sqrt(narrow2)));
     for (const EllipticLobe& lobe : lobes) errors.tested.push_back(measure(samples, mass, lobe));
     return errors;
 }
@@ -132,8 +132,14 @@ RangeScore over(const std::vector<LevelScore>& levels, int first, int last)
 
 }  // namespace
 
-RangeScore Score::fine() const { return over(levels, 1, 5); }
-RangeScore Score::coarse() const { return over(levels, 6, 99); }
+RangeScore Score::fine() const
+{
+    return over(levels, 1, 5);
+}
+RangeScore Score::coarse() const
+{
+    return over(levels, 6, 99);
+}
 
 std::vector<std::int64_t> score_texels(LevelSize size, int level, const ScoreOptions& options)
 {
@@ -143,7 +149,8 @@ std::vector<std::int64_t> score_texels(LevelSize size, int level, const ScoreOpt
     std::vector<std::int64_t> chosen;
     for (std::int64_t i = 0; i < count; ++i) {
         const double at = (static_cast<double>(i) + random()) / static_cast<double>(count);
-        chosen.push_back(std::min(all - 1, static_cast<std::int64_t>(at * static_cast<double>(all))));
+        chosen.push_back(
+            std::min(all - 1, static_cast<std::int64_t>(at * static_cast<double>(all))));
     }
     return chosen;
 }
@@ -163,11 +170,11 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
             const Image& r = chain.roughness[k];
             if (r.empty()) continue;
             if (k >= sizes.size() || r.width != sizes[k].width || r.height != sizes[k].height) {
-                throw Error("score: level " + std::to_string(k) + " is " + std::to_string(r.width) +
-                                " x " + std::to_string(r.height) + ", which is not a mip level of " +
-                                std::to_string(surface.width) + " x " +
-                                std::to_string(surface.height),
-                            "Name the levels by number, 0 the largest: each is half of the one before.");
+                throw Error(
+                    "score: level " + std::to_string(k) + " is " + std::to_string(r.width) + " x " +
+                        std::to_string(r.height) + ", which is not a mip level of " +
+                        std::to_string(surface.width) + " x " + std::to_string(surface.height),
+                    "Name the levels by number, 0 the largest: each is half of the one before.");
             }
         }
     }
@@ -185,10 +192,11 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
             score_texels(sizes[k], static_cast<int>(k), options);
         std::vector<TexelErrors> errors(chosen.size());
         parallel_for(chosen.size(), options.threads, [&](std::size_t i) {
-            const int x = static_cast<int>(chosen[i] % width), y = static_cast<int>(chosen[i] / width);
-            errors[i] = texel_errors(surface, columns[static_cast<std::size_t>(x)],
-                                     rows[static_cast<std::size_t>(y)], k, x, y, chains, input,
-                                     options);
+            const int x = static_cast<int>(chosen[i] % width),
+                      y = static_cast<int>(chosen[i] / width);
+            errors[i] =
+                texel_errors(surface, columns[static_cast<std::size_t>(x)],
+                             rows[static_cast<std::size_t>(y)], k, x, y, chains, input, options);
         });
         for (std::size_t c = 0; c < chains.size(); ++c) {
             LevelScore level{static_cast<int>(k), 0, 0, 0, 0, 0};

@@ -13,8 +13,9 @@
 
 namespace petrichor::texproc {
 
-// The yardstick (texture-prefilter.md, 4): how far the light of one mip texel is from the mean light of
-// the texels of level 0 under it, over five views, as the share of light that is misplaced (0..2).
+// The yardstick (texture-prefilter.md, 4): how far the light of one mip texel is from the mean
+// light of the texels of level 0 under it, over five views, as the share of light that is misplaced
+// (0..2).
 
 /// Below this room a gap is a ratio of two noises.
 inline constexpr double kSmallestRoom = 0.02;
@@ -68,8 +69,8 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
                              const std::vector<Prefiltered>& chains, const PrefilterOptions& input,
                              const ScoreOptions& options = {});
 
-/// The texels of a level that a score looks at, as y * width + x: strata of equal texel counts in row
-/// order, one at random in each.
+/// The texels of a level that a score looks at, as y * width + x: strata of equal texel counts in
+/// row order, one at random in each.
 std::vector<std::int64_t> score_texels(LevelSize size, int level, const ScoreOptions& options);
 
 /// Rounds a chain as a file of 8 or 16 bits does.

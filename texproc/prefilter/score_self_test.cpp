@@ -19,8 +19,8 @@ void gaussian_map(int size, double sigma, float p, RawImage& normal, RawImage& r
     for (std::size_t i = 0; i < n.pixels.size(); i += 3) {
         const double r = sigma * std::sqrt(-2.0 * std::log(1.0 - random()));
         const double phi = 6.283185307179586 * random();
-        const Direction d = normalized({static_cast<float>(r * std::cos(phi)),
-                                        static_cast<float>(r * std::sin(phi)), 1.0f});
+        const Direction d = normalized(
+            {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), 1.0f});
         n.pixels[i] = 0.5f + 0.5f * d.x;
         n.pixels[i + 1] = 0.5f + 0.5f * d.y;
         n.pixels[i + 2] = 0.5f + 0.5f * d.z;

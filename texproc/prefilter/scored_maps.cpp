@@ -57,7 +57,10 @@ ScoredMaps material(const char* name, int size, const Surface& surface)
     return {name, to_raw(n, PixelType::U16), to_raw(r, PixelType::U16)};
 }
 
-Place place(int x, int y) { return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}; }
+Place place(int x, int y)
+{
+    return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+}
 
 // Flakes of 3 x 3 texels at random angles, half of the area, in a smooth lacquer.
 Texel glitter(int x, int y)
@@ -71,7 +74,8 @@ Texel glitter(int x, int y)
 Texel brushed(int x, int y)
 {
     const Place stroke = place(x, 0), grain = place(x, y);
-    return {0.3f * stroke.gaussian(0) + 0.03f * grain.gaussian(1), 0.01f * grain.gaussian(2), 0.22f};
+    return {0.3f * stroke.gaussian(0) + 0.03f * grain.gaussian(1), 0.01f * grain.gaussian(2),
+            0.22f};
 }
 
 // Polished tiles with joints and some matt tiles among them.
@@ -82,7 +86,10 @@ Texel two_gloss(int x, int y, int size)
     const bool matt = place(x / tile, y / tile).uniform(5) < 0.3f;
     const Place grain = place(x, y);
     const float rough = joint ? 0.3f : matt ? 0.08f : 0.01f;
-    return {rough * grain.gaussian(0), rough * grain.gaussian(1), joint ? 0.9f : matt ? 0.6f : 0.1f};
+    return {rough * grain.gaussian(0), rough * grain.gaussian(1),
+            joint  ? 0.9f
+            : matt ? 0.6f
+                   : 0.1f};
 }
 
 Texel rough_noise(int x, int y)
@@ -95,7 +102,8 @@ Texel checker(int x, int y)
 {
     const float sign = ((x / 2) + (y / 2)) % 2 ? 1.0f : -1.0f;
     const Place grain = place(x, y);
-    return {0.45f * sign + 0.01f * grain.gaussian(0), 0.2f * sign + 0.01f * grain.gaussian(1), 0.2f};
+    return {0.45f * sign + 0.01f * grain.gaussian(0), 0.2f * sign + 0.01f * grain.gaussian(1),
+            0.2f};
 }
 
 // A mirror (alpha 0.0036) crossed by fine scratches in many directions.
@@ -128,7 +136,7 @@ std::vector<ScoredMaps> hard_maps(int size)
 }
 
 ScoredMaps scored_maps(std::string name, const RawImage& normal, const RawImage& map,
-                           const PrefilterOptions& options)
+                       const PrefilterOptions& options)
 {
     const detail::MapSurface surface =
         detail::make_surface(detail::ref(normal), detail::ref(map), options);
@@ -154,13 +162,16 @@ ScoredMaps with_puddles(const ScoredMaps& dry, const Image& height, float share)
         height.channels != 1) {
         throw Error("puddles: the height map is " + std::to_string(height.width) + " x " +
                         std::to_string(height.height) + ", the material " +
-                        std::to_string(dry.normal.width) + " x " + std::to_string(dry.normal.height),
+                        std::to_string(dry.normal.width) + " x " +
+                        std::to_string(dry.normal.height),
                     "Give the height map of the same material, one channel.");
     }
     constexpr float kWater = 0.08f;  // perceptual roughness of still water with some ripples
     std::vector<float> sorted = height.pixels;
-    const std::size_t rank = static_cast<std::size_t>(share * static_cast<float>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
+    const std::size_t rank =
+        static_cast<std::size_t>(share * static_cast<float>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
+                     sorted.end());
     const float surface = sorted[rank];
     Image n = to_image(dry.normal, ColorSpace::Data), r = to_image(dry.roughness, ColorSpace::Data);
     for (std::size_t i = 0; i < height.pixels.size(); ++i) {

@@ -19,7 +19,7 @@ struct ScoredMaps {
 /// The maps of a file pair as ScoredMaps, 16 bits, whatever layout the options name. Throws Error
 /// when the maps do not fit.
 ScoredMaps scored_maps(std::string name, const RawImage& normal, const RawImage& map,
-                           const PrefilterOptions& options);
+                       const PrefilterOptions& options);
 
 /// Materials on which rules of prefiltering fail, made from code, 16 bits, tileable, the same for
 /// ever: glitter flakes in lacquer, brushed metal, a tile in two glosses, rough noise, a checker of

@@ -33,7 +33,8 @@ std::vector<Column> columns_of(const CsvTable& table, std::vector<Problem>& prob
         known.push_back({std::string(parameter.name), 0, height ? -20000.0 : 0.0,
                          std::max(1000.0, parameter.high)});
     }
-    for (const HandSetState& state : hand_set_states()) known.push_back({std::string(state.name), 0, 0.0, 1.0});
+    for (const HandSetState& state : hand_set_states())
+        known.push_back({std::string(state.name), 0, 0.0, 1.0});
     std::vector<Column> found;
     for (Column& column : known) {
         const auto index = table.column(column.name);
@@ -47,7 +48,8 @@ std::vector<Column> columns_of(const CsvTable& table, std::vector<Problem>& prob
     for (const std::string& name : table.header) {
         if (std::none_of(known.begin(), known.end(),
                          [&](const Column& c) { return c.name == lower_case(name); })) {
-            problems.push_back({0, name, "no input, parameter or state of the model has this name"});
+            problems.push_back(
+                {0, name, "no input, parameter or state of the model has this name"});
         }
     }
     return found;
@@ -102,9 +104,10 @@ TimelineReading parse_timeline_csv(std::string_view text, Interpolation interpol
         if (problems.size() > before) continue;
         const TimeUs time = to_time_us(values[0]);
         if (time <= last) {
-            order.push_back({table.lines[r], "time_s",
-                             table.rows[r][columns[0].index] +
-                                 (time == last ? " appears twice" : " is earlier than the row before")});
+            order.push_back(
+                {table.lines[r], "time_s",
+                 table.rows[r][columns[0].index] +
+                     (time == last ? " appears twice" : " is earlier than the row before")});
             continue;
         }
         last = time;
@@ -114,8 +117,8 @@ TimelineReading parse_timeline_csv(std::string_view text, Interpolation interpol
             Channel& channel = channel_of(reading.timeline, columns[c].name);
             channel.times.push_back(time);
             channel.values.push_back(values[c]);
-            channel.interpolation = columns[c].name == "script_controlled" ? Interpolation::Hold
-                                                                           : interpolation;
+            channel.interpolation =
+                columns[c].name == "script_controlled" ? Interpolation::Hold : interpolation;
         }
     }
     if (!order.empty() || problems.size() * 20 > good) {
@@ -126,7 +129,8 @@ TimelineReading parse_timeline_csv(std::string_view text, Interpolation interpol
     }
     if (good == 0) refuse({{0, "", "no rows after the header"}});
     for (const char* needed : {"temperature_c", "rainfall"}) {
-        if (channel_of(reading.timeline, needed).empty()) refuse({{0, needed, "no row has a value"}});
+        if (channel_of(reading.timeline, needed).empty())
+            refuse({{0, needed, "no row has a value"}});
     }
     reading.bridged = std::move(problems);
     return reading;

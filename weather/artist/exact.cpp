@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "weather/artist/math.h"
 #include "weather/artist/detail/polynomial.h"
+#include "weather/artist/math.h"
 
 // How a timeline is cut, from coarse to fine:
 //
@@ -17,13 +17,14 @@
 //   phase     W reaches 0 or 1 and stays
 //   film      the film of a drying surface turns (snow melts into it): monotone pieces clamp once
 //
-// A Piece is what is left: no event inside, its state known at its start. A state at any time is one
-// search and one evaluation. x is scaled time since the start of the piece, S times seconds.
+// A Piece is what is left: no event inside, its state known at its start. A state at any time is
+// one search and one evaluation. x is scaled time since the start of the piece, S times seconds.
 namespace petrichor::weather {
 namespace {
 
-constexpr double kSampleLength_s = 1.0 / 256.0;  // of scaled time, where a rate changes by 1 between keys
-constexpr double kMostSamples = 200000.0;    // more would cost memory; they become longer instead
+constexpr double kSampleLength_s =
+    1.0 / 256.0;                           // of scaled time, where a rate changes by 1 between keys
+constexpr double kMostSamples = 200000.0;  // more would cost memory; they become longer instead
 constexpr double kAfterLastKey_us = 4.0e15;  // 126 years: events are looked for that far
 
 double saturate(double x)
@@ -102,9 +103,9 @@ struct ArtistTimeline::Solution {
         return d;
     }
 
-    // The closed form. Warm, with J the integral of 1 - W:  S = S0 exp(-4 P J); what melts goes to the
-    // film. Cold, with u = P times the integral of W, at most M0 = max(C0, U0): all water freezes at
-    // the same speed and S gains the integral of (M0 - u) du.
+    // The closed form. Warm, with J the integral of 1 - W:  S = S0 exp(-4 P J); what melts goes to
+    // the film. Cold, with u = P times the integral of W, at most M0 = max(C0, U0): all water
+    // freezes at the same speed and S gains the integral of (M0 - u) du.
     ArtistState advance(const Piece& piece, double seconds) const
     {
         const Rates& r = rates[piece.rates];
@@ -117,7 +118,8 @@ struct ArtistTimeline::Solution {
             const Polynomial liquid = constant(1.0) - d.frozen;
             const double fallen = piece.dry ? 0.0 : integral(d.rain * liquid)(x);
             const double dried = piece.dry ? integral(d.drive)(x) : 0.0;
-            s.snow = saturate(piece.state.snow * portable_exp(-4.0 * r.phase * integral(liquid)(x)));
+            s.snow =
+                saturate(piece.state.snow * portable_exp(-4.0 * r.phase * integral(liquid)(x)));
             const double melted = piece.state.snow - s.snow;
             s.cracks = saturate(s.cracks + r.gain_cracks * fallen - r.loss_cracks * dried);
             s.puddles = saturate(s.puddles + r.gain_puddles * fallen - r.loss_puddles * dried);
@@ -137,8 +139,8 @@ struct ArtistTimeline::Solution {
     }
 
     // Where the film of a warm, dry piece turns within `seconds`: zeros of the rate
-    // g = 4 P (1 - W) S - Em q. The sign of g is that of ln(4 P (1 - W) S) - ln(Em q), whose derivative
-    // times q (1 - W) is a polynomial; between its zeros g changes sign at most once.
+    // g = 4 P (1 - W) S - Em q. The sign of g is that of ln(4 P (1 - W) S) - ln(Em q), whose
+    // derivative times q (1 - W) is a polynomial; between its zeros g changes sign at most once.
     std::vector<double> film_turns(const Piece& piece, double seconds) const
     {
         const Rates& r = rates[piece.rates];
@@ -164,8 +166,7 @@ struct ArtistTimeline::Solution {
         std::vector<double> turns;
         for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
             // Just inside: where the air passes 0 C with W = 1 both terms start from 0.
-            const double inside =
-                bounds[i] + 1e-6 * std::min(1.0, bounds[i + 1] - bounds[i]);
+            const double inside = bounds[i] + 1e-6 * std::min(1.0, bounds[i + 1] - bounds[i]);
             const double left = rate(inside);
             const double right = rate(bounds[i + 1]);
             if ((left < 0.0 && right > 0.0) || (left > 0.0 && right < 0.0)) {
@@ -182,9 +183,7 @@ struct ArtistTimeline::Solution {
         if (!piece.moving) return -1.0;
         const Polynomial frozen = drivers_of(piece).frozen;
         const double length = r.time_scale * seconds;
-        const auto left_over = [&](double x) {
-            return piece.warm ? frozen(x) : 1.0 - frozen(x);
-        };
+        const auto left_over = [&](double x) { return piece.warm ? frozen(x) : 1.0 - frozen(x); };
         if (left_over(length) >= 0.0) return -1.0;
         return bisect(left_over, 0.0, length) / r.time_scale;
     }
@@ -276,15 +275,16 @@ std::vector<TimeUs> knots_of(const Timeline& timeline, TimeUs start)
     return knots;
 }
 
-// The largest change of a rate or scale between two knots; 0 when none moves. Channels are monotone between
-// their keys.
+// The largest change of a rate or scale between two knots; 0 when none moves. Channels are monotone
+// between their keys.
 double largest_change(const Timeline& timeline, double begin_us, double end_us)
 {
     double largest = 0.0;
     for (const auto& [name, channel] : timeline.parameters) {
         const bool counts = name.find("rate") != name.npos || name.find("time_scale") != name.npos;
         if (!counts || channel.interpolation == Interpolation::Hold) continue;
-        largest = std::max(largest, std::abs(value_before(channel, end_us) - value_at(channel, begin_us)));
+        largest = std::max(largest,
+                           std::abs(value_before(channel, end_us) - value_at(channel, begin_us)));
     }
     return largest;
 }
@@ -326,9 +326,9 @@ ArtistTimeline::ArtistTimeline(Timeline timeline, ArtistParams params, const Art
     auto solution = std::make_shared<Solution>();
 
     ArtistState state = initial;
-    for (double ArtistState::* value : {&ArtistState::water_to_snow, &ArtistState::wetness,
-                                        &ArtistState::cracks, &ArtistState::puddles,
-                                        &ArtistState::snow}) {
+    for (double ArtistState::*value :
+         {&ArtistState::water_to_snow, &ArtistState::wetness, &ArtistState::cracks,
+          &ArtistState::puddles, &ArtistState::snow}) {
         state.*value = saturate(state.*value);
     }
     state.water = std::max(state.cracks, state.puddles);
@@ -337,10 +337,11 @@ ArtistTimeline::ArtistTimeline(Timeline timeline, ArtistParams params, const Art
     const double shortest_s = to_seconds(knots.back() - start) * params_.time_scale / kMostSamples;
     for (std::size_t i = 0; i < knots.size(); ++i) {
         const double begin_us = static_cast<double>(knots[i]);
-        const double end_us = i + 1 < knots.size() ? static_cast<double>(knots[i + 1])
-                                                   : begin_us + kAfterLastKey_us;
+        const double end_us =
+            i + 1 < knots.size() ? static_cast<double>(knots[i + 1]) : begin_us + kAfterLastKey_us;
         int samples = 1;
-        const double change = i + 1 < knots.size() ? largest_change(timeline_, begin_us, end_us) : 0.0;
+        const double change =
+            i + 1 < knots.size() ? largest_change(timeline_, begin_us, end_us) : 0.0;
         if (change > 0.0) {
             const double scale =
                 std::max(weather::params_at(timeline_, params_, begin_us).time_scale,
@@ -353,10 +354,10 @@ ArtistTimeline::ArtistTimeline(Timeline timeline, ArtistParams params, const Art
         const bool by_hand = !weather::params_at(timeline_, params_, begin_us).script_controlled;
         if (by_hand) state = hand_set(timeline_, state, begin_us);
         for (int k = 0; k < samples; ++k) {
-            const double from_us = begin_us + (end_us - begin_us) * (static_cast<double>(k) / samples);
+            const double from_us =
+                begin_us + (end_us - begin_us) * (static_cast<double>(k) / samples);
             const double to_us =
-                k + 1 == samples ? end_us
-                                 : begin_us + (end_us - begin_us) * ((k + 1.0) / samples);
+                k + 1 == samples ? end_us : begin_us + (end_us - begin_us) * ((k + 1.0) / samples);
             Piece piece;
             Solution::move_start(piece, from_us, timeline_);
             piece.key = k == 0;
@@ -413,8 +414,8 @@ double ArtistTimeline::temperature_c_at(TimeUs time) const
 double ArtistTimeline::rainfall_at(TimeUs time) const
 {
     const auto t = static_cast<double>(std::max(time, start_));
-    return std::max(0.0, time > start_ ? value_before(timeline_.rainfall, t)
-                                       : value_at(timeline_.rainfall, t));
+    return std::max(
+        0.0, time > start_ ? value_before(timeline_.rainfall, t) : value_at(timeline_.rainfall, t));
 }
 
 ArtistParams ArtistTimeline::params_at(TimeUs time) const
@@ -437,12 +438,12 @@ std::vector<ArtistEvent> ArtistTimeline::events() const
         }
         const Piece& before = pieces[i - 1];
         if (now.warm != before.warm) {
-            found.push_back({time, now.warm ? ArtistEventKind::TurnsWarm
-                                            : ArtistEventKind::TurnsCold});
+            found.push_back(
+                {time, now.warm ? ArtistEventKind::TurnsWarm : ArtistEventKind::TurnsCold});
         }
         if (now.dry != before.dry) {
-            found.push_back({time, now.dry ? ArtistEventKind::RainStops
-                                           : ArtistEventKind::RainStarts});
+            found.push_back(
+                {time, now.dry ? ArtistEventKind::RainStops : ArtistEventKind::RainStarts});
         }
         if (before.moving && now.state.water_to_snow == 0.0) {
             found.push_back({time, ArtistEventKind::AllLiquid});
@@ -464,12 +465,18 @@ ArtistCheckpoint ArtistTimeline::checkpoint_at(TimeUs time) const
 std::string_view name_of(ArtistEventKind kind)
 {
     switch (kind) {
-        case ArtistEventKind::TurnsWarm: return "temperature rises above 0 \u00b0C";
-        case ArtistEventKind::TurnsCold: return "temperature falls to 0 \u00b0C or below";
-        case ArtistEventKind::AllLiquid: return "everything liquid";
-        case ArtistEventKind::AllFrozen: return "everything frozen";
-        case ArtistEventKind::RainStarts: return "precipitation starts";
-        case ArtistEventKind::RainStops: break;
+        case ArtistEventKind::TurnsWarm:
+            return "temperature rises above 0 \u00b0C";
+        case ArtistEventKind::TurnsCold:
+            return "temperature falls to 0 \u00b0C or below";
+        case ArtistEventKind::AllLiquid:
+            return "everything liquid";
+        case ArtistEventKind::AllFrozen:
+            return "everything frozen";
+        case ArtistEventKind::RainStarts:
+            return "precipitation starts";
+        case ArtistEventKind::RainStops:
+            break;
     }
     return "precipitation stops";
 }

@@ -18,11 +18,11 @@ namespace petrichor::weather {
 //   const ArtistState state = weather.state_at(to_time_us(12.5));     // any time, in any order
 //   const ArtistOutputs shown = weather.outputs_at(to_time_us(12.5));
 //
-// Between two keys temperature and rainfall are polynomials of time, so W is one too; water and snow
-// follow from integrals of polynomials and one exponential. Events split the time axis exactly:
-// temperature through 0, W reaching 0 or 1, and the turns of the film while it dries and is fed by
-// melting snow. Parameters that change smoothly are sampled at the middle of pieces of 1/256 s of scaled
-// time and longer, the slower they change: within 4e-5 of the limit.
+// Between two keys temperature and rainfall are polynomials of time, so W is one too; water and
+// snow follow from integrals of polynomials and one exponential. Events split the time axis
+// exactly: temperature through 0, W reaching 0 or 1, and the turns of the film while it dries and
+// is fed by melting snow. Parameters that change smoothly are sampled at the middle of pieces of
+// 1/256 s of scaled time and longer, the slower they change: within 4e-5 of the limit.
 
 /// Where an exact run can be taken up again: see ArtistTimeline::checkpoint_at.
 struct ArtistCheckpoint {
@@ -45,8 +45,8 @@ struct ArtistEvent {
 /// "temperature rises above 0 C", ...
 std::string_view name_of(ArtistEventKind kind);
 
-/// The state of the artist model at every time from its start on. Immutable once built: safe to read
-/// from any number of threads, the same bits for every order of access and on every machine.
+/// The state of the artist model at every time from its start on. Immutable once built: safe to
+/// read from any number of threads, the same bits for every order of access and on every machine.
 class ArtistTimeline {
 public:
     /// Solves the whole timeline, a few microseconds a key. Rainfall below 0 counts as 0 and the

@@ -34,7 +34,8 @@ struct LeastSquares {
 
 }  // namespace
 
-ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params, const MappingParams& mapping)
+ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params,
+                     const MappingParams& mapping)
 {
     const PhysicalTimeline run(table, params);
     const auto step_us = static_cast<std::int64_t>(std::llround(params.step_s * 1e6));
@@ -42,9 +43,13 @@ ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params, co
     const double hours = params.step_s / 3600.0;
     LeastSquares wet[3], dry[3], snow;
     for (std::size_t i = 1; i < states.size(); ++i) {
-        const WeatherMasks before = weather_masks(mapping, params.surface, states[i - 1], params.step_s);
+        const WeatherMasks before =
+            weather_masks(mapping, params.surface, states[i - 1], params.step_s);
         const WeatherMasks after = weather_masks(mapping, params.surface, states[i], params.step_s);
-        const double t_c = value_at(table, Field::AirTemp, run.begin_us() + static_cast<std::int64_t>(i) * step_us - step_us / 2) - kZeroCelsiusK;
+        const double t_c =
+            value_at(table, Field::AirTemp,
+                     run.begin_us() + static_cast<std::int64_t>(i) * step_us - step_us / 2) -
+            kZeroCelsiusK;
         const double a = std::min(std::abs(t_c) / 40.0, 1.0);
         const double masks_before[3] = {before.wetness, before.cracks, before.puddles};
         const double masks_after[3] = {after.wetness, after.cracks, after.puddles};
@@ -55,7 +60,8 @@ ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params, co
             if (after.rain > 0.0 && masks_before[m] < 0.95) wet[m].add(after.rain * hours, change);
             if (after.rainfall == 0.0 && masks_before[m] > 0.02) dry[m].add(a * hours, -change);
         }
-        if (after.snowfall > 0.0 && before.snow < 0.95) snow.add(after.snowfall * hours, after.snow - before.snow);
+        if (after.snowfall > 0.0 && before.snow < 0.95)
+            snow.add(after.snowfall * hours, after.snow - before.snow);
     }
     ArtistFit fit;
     fit.wetness = wet[0].rate();

@@ -27,11 +27,14 @@ Channel channel_of_field(const ForcingTable& table, Field field, double scale, d
 {
     const auto& values = table[field];
     if (table.rows() == 0 || values.size() != table.rows()) {
-        throw Error(std::string("weather: the table has no complete column ") + field_info(field).name, "Call fill_forcing on the table first.");
+        throw Error(
+            std::string("weather: the table has no complete column ") + field_info(field).name,
+            "Call fill_forcing on the table first.");
     }
     Channel channel;
     channel.interpolation = Interpolation::Linear;
-    for (std::size_t i = 0; i < values.size(); ++i) add_key(channel, table.time_us[i] - table.time_us.front(), values[i] * scale + offset);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        add_key(channel, table.time_us[i] - table.time_us.front(), values[i] * scale + offset);
     return channel;
 }
 
@@ -40,9 +43,12 @@ Timeline artist_keys(const ForcingTable& table, const MappingParams& mapping)
     Timeline timeline;
     timeline.temperature_c = channel_of_field(table, Field::AirTemp, 1.0, -kZeroCelsiusK);
     const auto& precip = table[Field::Precip];
-    if (precip.size() != table.rows()) throw Error("weather: the table has no complete column precip", "Call fill_forcing on the table first.");
+    if (precip.size() != table.rows())
+        throw Error("weather: the table has no complete column precip",
+                    "Call fill_forcing on the table first.");
     for (std::size_t i = 0; i < precip.size(); ++i) {
-        add_key(timeline.rainfall, table.time_us[i] - table.time_us.front(), rainfall_of_rate(mapping, precip[i] * 3600.0));
+        add_key(timeline.rainfall, table.time_us[i] - table.time_us.front(),
+                rainfall_of_rate(mapping, precip[i] * 3600.0));
     }
     return timeline;
 }

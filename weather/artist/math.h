@@ -7,8 +7,9 @@
 
 namespace petrichor::weather {
 
-// The system's exp chooses between code with and without fused multiply-add at run time, so its last
-// bit depends on the processor. These use only IEEE add, multiply and divide: one answer everywhere.
+// The system's exp chooses between code with and without fused multiply-add at run time, so its
+// last bit depends on the processor. These use only IEEE add, multiply and divide: one answer
+// everywhere.
 
 /// 2^n for n in -1022..1023.
 inline double power_of_two(int n)
@@ -34,7 +35,10 @@ inline double portable_exp(double x)
 }
 
 /// 2^x by the same rules.
-inline double portable_exp2(double x) { return portable_exp(x * 0.69314718055994530942); }
+inline double portable_exp2(double x)
+{
+    return portable_exp(x * 0.69314718055994530942);
+}
 
 }  // namespace petrichor::weather
 

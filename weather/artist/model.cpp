@@ -86,8 +86,8 @@ ArtistState step(const ArtistState& before, const ArtistParams& params, double t
     } else {
         next.water_to_snow = saturate(before.water_to_snow + drive * g);
         const double frozen = next.water_to_snow * g;
-        next.snow += before.snowfall * params.accumulation_rate_snow * h +
-                     frozen * saturate(before.water);
+        next.snow +=
+            before.snowfall * params.accumulation_rate_snow * h + frozen * saturate(before.water);
         next.wetness -= frozen;
         next.cracks -= frozen;
         next.puddles -= frozen;

@@ -24,16 +24,16 @@ struct CurveKey {
 /// Parameters of the artist model (Lux 2.02). Ranges are those of the original's sliders; the model
 /// itself accepts any finite value and clamps the state.
 struct ArtistParams {
-    bool script_controlled = true;            ///< false: the state stays as set by hand
-    double time_scale = 1.0;                  ///< S, 0.1..4
-    double water_to_snow_time_scale = 1.0;    ///< P, 0.01..1; slows freezing, melting and W
-    double accumulation_rate_wetness = 0.35;  ///< 1/s at full rain, 0..1
-    double accumulation_rate_cracks = 0.25;   ///< 1/s at full rain, 0..1
-    double accumulation_rate_puddles = 0.20;  ///< 1/s at full rain, 0..1
-    double accumulation_rate_snow = 0.10;     ///< 1/s at full snowfall, 0..0.5
-    double evaporation_rate_wetness = 0.075;  ///< 1/s at 40 C, 0..0.5
-    double evaporation_rate_cracks = 0.20;    ///< 1/s at 40 C, 0..0.5
-    double evaporation_rate_puddles = 0.10;   ///< 1/s at 40 C, 0..0.5
+    bool script_controlled = true;                 ///< false: the state stays as set by hand
+    double time_scale = 1.0;                       ///< S, 0.1..4
+    double water_to_snow_time_scale = 1.0;         ///< P, 0.01..1; slows freezing, melting and W
+    double accumulation_rate_wetness = 0.35;       ///< 1/s at full rain, 0..1
+    double accumulation_rate_cracks = 0.25;        ///< 1/s at full rain, 0..1
+    double accumulation_rate_puddles = 0.20;       ///< 1/s at full rain, 0..1
+    double accumulation_rate_snow = 0.10;          ///< 1/s at full snowfall, 0..0.5
+    double evaporation_rate_wetness = 0.075;       ///< 1/s at 40 C, 0..0.5
+    double evaporation_rate_cracks = 0.20;         ///< 1/s at 40 C, 0..0.5
+    double evaporation_rate_puddles = 0.10;        ///< 1/s at 40 C, 0..0.5
     double wetness_influence_on_albedo = 0.85;     ///< 0..1
     double wetness_influence_on_smoothness = 0.5;  ///< 0..1
     std::vector<CurveKey> water_to_snow_curve{{0.0, 0.25, 0.0, 0.0}, {1.0, 1.0, 0.0, 0.0}};
@@ -46,11 +46,12 @@ struct ArtistParams {
 /// One number of ArtistParams: its name in files and columns, its place, the slider's range.
 struct ArtistParameter {
     std::string_view name;
-    double ArtistParams::* member;
+    double ArtistParams::*member;
     double low;
     double high;
 };
-/// All numbers of ArtistParams, in the order of the struct (the switch and the curve are not numbers).
+/// All numbers of ArtistParams, in the order of the struct (the switch and the curve are not
+/// numbers).
 std::span<const ArtistParameter> artist_parameters();
 
 /// State of the artist model, each 0..1.
@@ -71,10 +72,10 @@ struct ArtistState {
 struct ArtistOutputs {
     double temperature_c = 0.0;
     double rainfall = 0.0;
-    double freeze_exp = 0.0;       ///< 1 - 2^(-10 W)
-    double melt = 0.0;             ///< 1 - C(W)
-    double melt_exp = 0.0;         ///< 1 - 2^(-10 melt)
-    double snow_melt = 0.0;        ///< 1 - W
+    double freeze_exp = 0.0;  ///< 1 - 2^(-10 W)
+    double melt = 0.0;        ///< 1 - C(W)
+    double melt_exp = 0.0;    ///< 1 - 2^(-10 melt)
+    double snow_melt = 0.0;   ///< 1 - W
     double flood_cracks = 0.0;
     double flood_puddles = 0.0;
     double film_albedo = 0.0;      ///< m ka (1 - W)
@@ -86,10 +87,10 @@ struct ArtistOutputs {
 
 /// One explicit step of `dt_s` seconds (any length >= 0) with temperature and rainfall held.
 ///
-/// Uses `before.rain`, `before.snowfall` and, below zero, `before.water`: the intensities of the step
-/// before, as the original does. Depends on the step length; sub-step, or use artist_exact.h, where
-/// that matters. T <= 0 is cold. Drying needs rainfall == 0 exactly. With script_controlled off,
-/// rain = snowfall = rainfall and nothing else changes. Accepts any finite input.
+/// Uses `before.rain`, `before.snowfall` and, below zero, `before.water`: the intensities of the
+/// step before, as the original does. Depends on the step length; sub-step, or use artist_exact.h,
+/// where that matters. T <= 0 is cold. Drying needs rainfall == 0 exactly. With script_controlled
+/// off, rain = snowfall = rainfall and nothing else changes. Accepts any finite input.
 ArtistState step(const ArtistState& before, const ArtistParams& params, double temperature_c,
                  double rainfall, double dt_s);
 

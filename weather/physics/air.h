@@ -16,8 +16,8 @@ double visibility_m(double extinction_1_m, VisibilityKind kind);
 
 /// Drops of rain by size, Marshall & Palmer 1948: N(D) = 8000 exp(-slope D).
 struct RainDrops {
-    double slope_1_mm = 0.0;      ///< 4.1 R^-0.21
-    double per_m3 = 0.0;          ///< 8000 / slope
+    double slope_1_mm = 0.0;        ///< 4.1 R^-0.21
+    double per_m3 = 0.0;            ///< 8000 / slope
     double mean_diameter_mm = 0.0;  ///< 1 / slope
 };
 /// rate_mm_h > 0.

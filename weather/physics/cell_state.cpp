@@ -59,7 +59,8 @@ double stored_mass_kg_m2(const CellState& c)
 double mass_balance_kg_m2(const CellState& c, const CellState& initial)
 {
     const auto net = [](const CellState& s) {
-        return s.total_precip - s.total_evaporation - s.total_sublimation - s.total_drainage - s.total_infiltration;
+        return s.total_precip - s.total_evaporation - s.total_sublimation - s.total_drainage -
+               s.total_infiltration;
     };
     return (stored_mass_kg_m2(c) - stored_mass_kg_m2(initial)) - (net(c) - net(initial));
 }
@@ -103,10 +104,12 @@ std::string save_state(const CellState& state)
 CellState load_state(std::string_view text)
 {
     const auto refuse = [](const char* why) -> Error {
-        return {std::string("state: ") + why, "Use a file that --save-state of this version wrote."};
+        return {std::string("state: ") + why,
+                "Use a file that --save-state of this version wrote."};
     };
     std::size_t at = std::strlen(kHeader);
-    if (text.substr(0, at) != kHeader) throw refuse("the text does not begin with petrichor-cell-1");
+    if (text.substr(0, at) != kHeader)
+        throw refuse("the text does not begin with petrichor-cell-1");
     double numbers[kCellNumbers + 1];
     for (double& number : numbers) {
         if (at + 17 > text.size() || text[at] != ' ') throw refuse("the text is cut short");
@@ -127,7 +130,8 @@ CellState load_state(std::string_view text)
     for (std::size_t i = 0; i < kCellNumbers; ++i) {
         if (!std::isfinite(numbers[i])) throw refuse("a number is not finite");
     }
-    if (state_hash(state) != std::bit_cast<std::uint64_t>(numbers[kCellNumbers])) throw refuse("the hash does not match");
+    if (state_hash(state) != std::bit_cast<std::uint64_t>(numbers[kCellNumbers]))
+        throw refuse("the hash does not match");
     return state;
 }
 

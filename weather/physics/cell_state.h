@@ -14,10 +14,11 @@ namespace petrichor::weather {
 inline constexpr std::size_t kSnowLayers = 3;
 
 /// Everything a cell remembers, as a template so that eight cells can share registers. Temperatures
-/// here are in degrees Celsius: the melting point is then exactly 0. All masses are kg per m2 of cell.
+/// here are in degrees Celsius: the melting point is then exactly 0. All masses are kg per m2 of
+/// cell.
 template <class Real>
 struct CellVars {
-    Real snow_ice[kSnowLayers];        ///< top layer first
+    Real snow_ice[kSnowLayers];  ///< top layer first
     Real snow_liquid[kSnowLayers];
     Real snow_thickness[kSnowLayers];  ///< m
     Real snow_temp_c[kSnowLayers];
@@ -29,12 +30,14 @@ struct CellVars {
     Real infiltration_mm_h;                ///< what wet ground would take up now
     Real frozen_fraction;                  ///< last known, for the renderer's water-to-snow
 
-    // Running totals since the start, kg/m2; evaporation and sublimation count dew and frost as negative.
+    // Running totals since the start, kg/m2; evaporation and sublimation count dew and frost as
+    // negative.
     Real total_precip, total_evaporation, total_sublimation, total_drainage, total_infiltration;
     Real total_melt;
 
     // Means of the last step: W/m2, and kg/m2 of the step.
-    Real flux_shortwave, flux_longwave, flux_sensible, flux_latent, flux_ground, flux_melt, flux_residual;
+    Real flux_shortwave, flux_longwave, flux_sensible, flux_latent, flux_ground, flux_melt,
+        flux_residual;
     Real step_rain, step_snow, step_runoff;
 
     // How well the books close: of the last step, and over the run.
@@ -55,7 +58,8 @@ CellDiagnostics diagnostics(const CellState& state);
 
 /// All stores of the cell, kg/m2.
 double stored_mass_kg_m2(const CellState& state);
-/// stores - initial - (precipitation - outputs): 0 to rounding, for a run that began with `initial`.
+/// stores - initial - (precipitation - outputs): 0 to rounding, for a run that began with
+/// `initial`.
 double mass_balance_kg_m2(const CellState& state, const CellState& initial);
 /// Root mean square of the residual of the surface balance since the start, W/m2.
 double energy_residual_rms_w_m2(const CellState& state);

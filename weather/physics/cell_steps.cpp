@@ -1,12 +1,12 @@
 #include "weather/physics/detail/cell_steps.h"
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 
+#include "weather/physical.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/block_kernel.h"
 #include "weather/physics/exchange.h"
-#include "weather/physical.h"
 
 namespace petrichor::weather::detail {
 
@@ -22,14 +22,14 @@ double year_angle(std::int64_t time_us, bool south)
 
 }  // namespace
 
-void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place, const CellConstants& k,
-                  const StepConstants& s)
+void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place,
+                  const CellConstants& k, const StepConstants& s)
 {
     advance_step(cell, step, place, k, s);
 }
 
-void advance_block_16(CellBlock& block, const PlaceBlock& place, const StepForcing* steps, std::size_t count,
-                      const CellConstants& k, const StepConstants& s)
+void advance_block_16(CellBlock& block, const PlaceBlock& place, const StepForcing* steps,
+                      std::size_t count, const CellConstants& k, const StepConstants& s)
 {
     advance_block<16>(block, place, steps, count, k, s);
 }
@@ -62,8 +62,8 @@ CellPlace<double> station_place(double sky_view, double precip_factor)
 
 YearlyWave yearly_wave(const ForcingTable& table)
 {
-    // Least squares for mean and amplitude of T = mean + amplitude cos(year - phase); the warmest day is
-    // 24 July in the north and 22 January in the south.
+    // Least squares for mean and amplitude of T = mean + amplitude cos(year - phase); the warmest
+    // day is 24 July in the north and 22 January in the south.
     const bool south = table.site.latitude_deg < 0.0;
     double n = 0.0, c1 = 0.0, cc = 0.0, t1 = 0.0, tc = 0.0;
     // All rows of a day share its cosine: the season does not move within a day.
@@ -104,22 +104,24 @@ CellState initial_cell(const ForcingTable& table, const CellConstants& k)
     CellState c{};
     c.snow_albedo = k.snow.albedo_max;
     c.surface_temp_c = table[Field::AirTemp][0] - kZeroCelsiusK;
-    // The wave of the year goes down into the ground, fading and late by one radian in `damping`; near
-    // the surface the last days of air count.
+    // The wave of the year goes down into the ground, fading and late by one radian in `damping`;
+    // near the surface the last days of air count.
     const double diffusivity = k.surface.conductivity_w_m_k / k.surface.heat_capacity_j_m3_k;
     const double damping = std::sqrt(diffusivity * 365.2425 * 86400.0 / kPi);
     const double now = year_angle(table.time_us[0], wave.south);
     double depth = 0.0;
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
         const double z = (depth + 0.5 * kGroundThickness_m[i]) / damping;
-        c.ground_temp_c[i] = k.deep_temp_c + wave.amplitude_k * exponential(-z) * sine_cosine(now - z).cos;
+        c.ground_temp_c[i] =
+            k.deep_temp_c + wave.amplitude_k * exponential(-z) * sine_cosine(now - z).cos;
         depth += kGroundThickness_m[i];
     }
     c.infiltration_mm_h = k.surface.infiltration.first_mm_h;
     return c;
 }
 
-CellConstants make_cell_constants(const PhysicalParams& params, const Site& site, double deep_temp_k)
+CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
+                                  double deep_temp_k)
 {
     CellConstants k;
     const Surface& s = params.surface;
@@ -137,8 +139,9 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.log_snow_roughness = logarithm(params.snow.roughness_m);
     k.log_wind_height = logarithm(site.wind_height_m);
     k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
-    k.neutral_bare = kVonKarman * kVonKarman /
-                     ((k.log_wind_height - k.log_roughness) * (k.log_temp_height_10 - k.log_roughness));
+    k.neutral_bare =
+        kVonKarman * kVonKarman /
+        ((k.log_wind_height - k.log_roughness) * (k.log_temp_height_10 - k.log_roughness));
     k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
     k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;

@@ -17,8 +17,8 @@ inline constexpr double kIceHeatCapacity = 2100.0;      ///< J kg-1 K-1
 inline constexpr double kWaterHeatCapacity = 4180.0;    ///< J kg-1 K-1
 inline constexpr double kIceDensity = 917.0;            ///< kg/m3
 inline constexpr double kWaterDensity = 1000.0;         ///< kg/m3
-inline constexpr double kWaterToAirMass = 0.622;        ///< molar mass of water over that of dry air
-inline constexpr double kLapseRate_k_m = 0.0065;        ///< temperature falls with height
+inline constexpr double kWaterToAirMass = 0.622;  ///< molar mass of water over that of dry air
+inline constexpr double kLapseRate_k_m = 0.0065;  ///< temperature falls with height
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr long long kMicrosPerSecond = 1000000;
 

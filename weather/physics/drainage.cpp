@@ -8,7 +8,8 @@ namespace petrichor::weather {
 
 FilmStep drain_film(double water, double net, double rate, double threshold, double dt)
 {
-    const auto step = detail::drain_reservoir(water, net, detail::reservoir_constants(rate, threshold, dt));
+    const auto step =
+        detail::drain_reservoir(water, net, detail::reservoir_constants(rate, threshold, dt));
     return {step.water, step.drained, step.shortfall};
 }
 
@@ -26,8 +27,8 @@ double manning_film_mm(double length_m, double rate_mm_h, double manning_n, doub
 
 double horton_depth_mm(const HortonParams& p, double hours)
 {
-    return p.last_mm_h * hours +
-           (p.first_mm_h - p.last_mm_h) / p.decay_1_h * (1.0 - detail::exponential(-p.decay_1_h * hours));
+    return p.last_mm_h * hours + (p.first_mm_h - p.last_mm_h) / p.decay_1_h *
+                                     (1.0 - detail::exponential(-p.decay_1_h * hours));
 }
 
 }  // namespace petrichor::weather

@@ -12,7 +12,8 @@ double neutral_exchange(double wind_height_m, double temp_height_m, double rough
             detail::logarithm(temp_height_m / (0.1 * roughness_m)));
 }
 
-double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k, double wind_m_s)
+double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k,
+                       double wind_m_s)
 {
     return kGravity_m_s2 * wind_height_m * (air_temp_k - surface_temp_k) /
            (air_temp_k * wind_m_s * wind_m_s);

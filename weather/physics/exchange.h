@@ -20,10 +20,12 @@ struct ExchangeParams {
 double neutral_exchange(double wind_height_m, double temp_height_m, double roughness_m);
 
 /// Bulk Richardson number; positive in stable air.
-double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k, double wind_m_s);
+double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k,
+                       double wind_m_s);
 
 /// Louis 1979 factor on the neutral coefficient: 1 at Ri = 0, below 1 in stable air, continuous.
-double stability_factor(double richardson, double neutral, double wind_height_m, double roughness_m);
+double stability_factor(double richardson, double neutral, double wind_height_m,
+                        double roughness_m);
 
 }  // namespace petrichor::weather
 

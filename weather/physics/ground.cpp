@@ -10,7 +10,8 @@ namespace petrichor::weather {
 GroundStack make_ground_stack(double conductivity, double heat_capacity, double dt_s)
 {
     GroundStack stack;
-    // From the bottom up. `y`: conductance seen below a point, towards the equivalent temperature there.
+    // From the bottom up. `y`: conductance seen below a point, towards the equivalent temperature
+    // there.
     double y = 0.0;
     for (std::size_t i = kGroundLayers; i-- > 0;) {
         const double half = 0.5 * kGroundThickness_m[i] / conductivity;

@@ -12,20 +12,23 @@ inline constexpr std::size_t kGroundLayers = 9;
 inline constexpr std::array<double, kGroundLayers> kGroundThickness_m{0.01, 0.02, 0.04, 0.08, 0.16,
                                                                       0.32, 0.64, 1.28, 2.56};
 
-/// Heat conduction in the ground over one fixed step, factored once (backward Euler, unconditionally
-/// stable; Crank-Nicolson would ring). Bottom: a fixed temperature.
+/// Heat conduction in the ground over one fixed step, factored once (backward Euler,
+/// unconditionally stable; Crank-Nicolson would ring). Bottom: a fixed temperature.
 ///
 /// Seen from its surface the column is a conductance towards an equivalent temperature:
 ///   flux_down = conductance (surface - equivalent),
 /// which couples it implicitly to whatever lies on top.
 struct GroundStack {
-    double conductance_w_m2_k = 0.0;                 ///< of the whole column at its surface
-    double half_resistance_top = 0.0;                ///< m2 K / W, from the surface to the first node
+    double conductance_w_m2_k = 0.0;   ///< of the whole column at its surface
+    double half_resistance_top = 0.0;  ///< m2 K / W, from the surface to the first node
     std::array<double, kGroundLayers> weight_below{};  ///< of the equivalent temperature from below
     std::array<double, kGroundLayers> weight_own{};    ///< of the layer's own old temperature
-    std::array<double, kGroundLayers> share_top{};     ///< how much of the upper interface a node feels
-    std::array<double, kGroundLayers> share_down{};    ///< how much of the node its lower interface feels
-    /// A lower interface as the mean of the upper one, the layer's equivalent temperature and the next layer's.
+    std::array<double, kGroundLayers>
+        share_top{};  ///< how much of the upper interface a node feels
+    std::array<double, kGroundLayers>
+        share_down{};  ///< how much of the node its lower interface feels
+    /// A lower interface as the mean of the upper one, the layer's equivalent temperature and the
+    /// next layer's.
     std::array<double, kGroundLayers> through_top{}, through_own{}, through_below{};
 };
 
@@ -40,10 +43,12 @@ struct GroundStep {
 GroundStep step_ground(const GroundStack& stack, const std::array<double, kGroundLayers>& temp_k,
                        double surface_temp_k, double deep_temp_k);
 
-/// Warming at a depth of a half-space whose surface is raised by `step_k` at time 0 (Carslaw & Jaeger).
+/// Warming at a depth of a half-space whose surface is raised by `step_k` at time 0 (Carslaw &
+/// Jaeger).
 double half_space_warming_k(double step_k, double depth_m, double diffusivity_m2_s, double time_s);
 /// Flux into that half-space at the surface.
-double half_space_flux_w_m2(double step_k, double conductivity, double diffusivity_m2_s, double time_s);
+double half_space_flux_w_m2(double step_k, double conductivity, double diffusivity_m2_s,
+                            double time_s);
 /// Depth at which a wave of a period has fallen to 1/e.
 double damping_depth_m(double diffusivity_m2_s, double period_s);
 

@@ -63,7 +63,8 @@ double lapse_temperature_k(double temp_k, double from_m, double to_m)
 
 double lapse_wind_m_s(double wind_m_s, double from_m, double to_m, double roughness_m)
 {
-    return wind_m_s * detail::logarithm(to_m / roughness_m) / detail::logarithm(from_m / roughness_m);
+    return wind_m_s * detail::logarithm(to_m / roughness_m) /
+           detail::logarithm(from_m / roughness_m);
 }
 
 double snow_line_m(double temp_k, double elevation_m, double t50_k)

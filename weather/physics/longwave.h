@@ -6,7 +6,8 @@ namespace petrichor::weather {
 /// Emissivity of a clear sky, Prata 1996: x = 46.5 e[hPa]/T; 1 - (1+x) exp(-sqrt(1.2 + 3x)).
 double clear_sky_emissivity(double temp_k, double vapour_pa);
 
-/// Longwave radiation from the sky, W/m2: Prata 1996 with clouds as ea (1 + 0.22 N^2.75), at most 1.
+/// Longwave radiation from the sky, W/m2: Prata 1996 with clouds as ea (1 + 0.22 N^2.75), at
+/// most 1.
 ///   cloud_fraction  0..1
 double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction);
 

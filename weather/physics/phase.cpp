@@ -29,12 +29,15 @@ double snow_fraction(const PhaseParams& params, double temp_k, double rel_humidi
                      double pressure_pa)
 {
     switch (params.law) {
-        case PhaseLaw::Humidity: return snow_fraction_humidity(temp_k, rel_humidity_pct);
+        case PhaseLaw::Humidity:
+            return snow_fraction_humidity(temp_k, rel_humidity_pct);
         case PhaseLaw::WetBulb:
             return snow_fraction_wet_bulb(
                 wet_bulb_k(temp_k, vapour_pressure_pa(temp_k, rel_humidity_pct), pressure_pa));
-        case PhaseLaw::Threshold: return temp_k < params.threshold_k ? 1.0 : 0.0;
-        case PhaseLaw::Linear: break;
+        case PhaseLaw::Threshold:
+            return temp_k < params.threshold_k ? 1.0 : 0.0;
+        case PhaseLaw::Linear:
+            break;
     }
     return snow_fraction_linear(temp_k, params.all_snow_k, params.all_rain_k);
 }

@@ -5,10 +5,10 @@ namespace petrichor::weather {
 
 /// How much of precipitation falls as snow, when the file does not say.
 enum class PhaseLaw {
-    Linear,    ///< (rain - T) / (rain - snow), clamped; common practice
-    Humidity,  ///< logistic in T and relative humidity; Jennings et al. 2018
-    WetBulb,   ///< logistic in the wet-bulb temperature; Wang et al. 2019
-    Threshold, ///< all or nothing at `threshold_k`; hemispheric mean of Jennings et al. 2018
+    Linear,     ///< (rain - T) / (rain - snow), clamped; common practice
+    Humidity,   ///< logistic in T and relative humidity; Jennings et al. 2018
+    WetBulb,    ///< logistic in the wet-bulb temperature; Wang et al. 2019
+    Threshold,  ///< all or nothing at `threshold_k`; hemispheric mean of Jennings et al. 2018
 };
 
 struct PhaseParams {

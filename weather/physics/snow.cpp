@@ -19,9 +19,12 @@ double new_snow_density_hedstrom_pomeroy(double air_temp_k)
 double new_snow_density(const SnowParams& params, double air_temp_k, double wind_m_s)
 {
     switch (params.new_density) {
-        case NewSnowDensity::HedstromPomeroy: return new_snow_density_hedstrom_pomeroy(air_temp_k);
-        case NewSnowDensity::Constant: return params.constant_density_kg_m3;
-        case NewSnowDensity::Pahaut: break;
+        case NewSnowDensity::HedstromPomeroy:
+            return new_snow_density_hedstrom_pomeroy(air_temp_k);
+        case NewSnowDensity::Constant:
+            return params.constant_density_kg_m3;
+        case NewSnowDensity::Pahaut:
+            break;
     }
     return new_snow_density_pahaut(air_temp_k, wind_m_s);
 }
@@ -65,8 +68,8 @@ double cold_content_j_m2(double ice_kg_m2, double temp_k)
 
 double liquid_capacity_kg_m2(const SnowParams& params, double depth_m, double ice_kg_m2)
 {
-    return detail::larger(
-        1000.0 * params.irreducible_water * (depth_m - ice_kg_m2 / kIceDensity), 0.0);
+    return detail::larger(1000.0 * params.irreducible_water * (depth_m - ice_kg_m2 / kIceDensity),
+                          0.0);
 }
 
 double melt_kg_m2(double flux_w_m2, double dt_s)

@@ -15,18 +15,19 @@ enum class Settling {
 
 /// A snow pack of 1 to 3 layers. Defaults are those of the literature named, for any site.
 struct SnowParams {
-    int max_layers = 3;  ///< 1..3; layers of 0.1 and 0.2 m from the top where the pack is deep enough
+    int max_layers =
+        3;  ///< 1..3; layers of 0.1 and 0.2 m from the top where the pack is deep enough
     NewSnowDensity new_density = NewSnowDensity::Pahaut;
     double constant_density_kg_m3 = 100.0;
     Settling settling = Settling::Overburden;
-    double albedo_max = 0.85;          ///< fresh snow
-    double albedo_min = 0.5;           ///< old snow
-    double albedo_cold_h = 1000.0;     ///< decay of cold snow (Verseghy 1991)
-    double albedo_melting_h = 100.0;   ///< decay of melting snow
+    double albedo_max = 0.85;            ///< fresh snow
+    double albedo_min = 0.5;             ///< old snow
+    double albedo_cold_h = 1000.0;       ///< decay of cold snow (Verseghy 1991)
+    double albedo_melting_h = 100.0;     ///< decay of melting snow
     double albedo_refresh_kg_m2 = 10.0;  ///< snowfall that renews 1 - 1/e of the albedo
-    double irreducible_water = 0.03;   ///< of the pores, held against gravity
-    double cover_depth_m = 0.1;        ///< cover fraction tanh(D / this) for albedo and roughness
-    double roughness_m = 0.003;        ///< middle (geometric) of the 0.001..0.01 m measured over snow
+    double irreducible_water = 0.03;     ///< of the pores, held against gravity
+    double cover_depth_m = 0.1;          ///< cover fraction tanh(D / this) for albedo and roughness
+    double roughness_m = 0.003;  ///< middle (geometric) of the 0.001..0.01 m measured over snow
     double emissivity = 0.98;
 };
 

@@ -34,7 +34,8 @@ double drift_threshold_m_s(double temp_k, bool wet_snow)
     return wet_snow ? 9.9 : 9.43 + 0.18 * t_c + 0.0033 * t_c * t_c;
 }
 
-double canopy_interception_kg_m2(double held_kg_m2, double snowfall_kg_m2, double vegetation_area_index)
+double canopy_interception_kg_m2(double held_kg_m2, double snowfall_kg_m2,
+                                 double vegetation_area_index)
 {
     const double most = 4.4 * vegetation_area_index;
     if (!(most > held_kg_m2)) return 0.0;
@@ -43,7 +44,8 @@ double canopy_interception_kg_m2(double held_kg_m2, double snowfall_kg_m2, doubl
 
 double canopy_unloading_kg_m2(double held_kg_m2, double dt_s, bool melting)
 {
-    return held_kg_m2 * (1.0 - detail::exponential(-dt_s / (melting ? 2.4 * 3600.0 : 240.0 * 3600.0)));
+    return held_kg_m2 *
+           (1.0 - detail::exponential(-dt_s / (melting ? 2.4 * 3600.0 : 240.0 * 3600.0)));
 }
 
 }  // namespace petrichor::weather

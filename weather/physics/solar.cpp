@@ -12,11 +12,12 @@ double radians(double degrees)
     return degrees * (kPi / 180.0);
 }
 
-// Sun on a plane that faces it through very clear mountain air: 0.78^(m^0.678) in the manner of Meinel 1976, air mass m
-// by Rozenberg 1966.
+// Sun on a plane that faces it through very clear mountain air: 0.78^(m^0.678) in the manner of
+// Meinel 1976, air mass m by Rozenberg 1966.
 double clearest_beam_w_m2(double sine_elevation, double extraterrestrial_w_m2)
 {
-    const double air_mass = 1.0 / (sine_elevation + 0.025 * detail::exponential(-11.0 * sine_elevation));
+    const double air_mass =
+        1.0 / (sine_elevation + 0.025 * detail::exponential(-11.0 * sine_elevation));
     const double path = detail::exponential(0.678 * detail::logarithm(air_mass));
     return extraterrestrial_w_m2 * detail::exponential(path * detail::logarithm(0.78));
 }
@@ -30,8 +31,8 @@ SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double lon
     const double mean_longitude = 280.460 + 0.9856474 * days;
     const auto anomaly = detail::sine_cosine(radians(357.528 + 0.9856003 * days));
     const double sin_2g = 2.0 * anomaly.sin * anomaly.cos;
-    const auto ecliptic = detail::sine_cosine(
-        radians(mean_longitude + 1.915 * anomaly.sin + 0.020 * sin_2g));
+    const auto ecliptic =
+        detail::sine_cosine(radians(mean_longitude + 1.915 * anomaly.sin + 0.020 * sin_2g));
     const auto tilt = detail::sine_cosine(radians(23.439 - 4.0e-7 * days));
     const double sin_declination = tilt.sin * ecliptic.sin;
 
@@ -61,7 +62,8 @@ double sine_of_elevation(double latitude_rad, double declination_rad, double sol
     const auto latitude = detail::sine_cosine(latitude_rad);
     const auto declination = detail::sine_cosine(declination_rad);
     return latitude.sin * declination.sin +
-           latitude.cos * declination.cos * detail::sine_cosine(radians(15.0 * (solar_hour - 12.0))).cos;
+           latitude.cos * declination.cos *
+               detail::sine_cosine(radians(15.0 * (solar_hour - 12.0))).cos;
 }
 
 double clear_sky_w_m2(double sine_elevation)
@@ -88,7 +90,8 @@ double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double ext
 {
     // Near the horizon the index is meaningless: everything is diffuse.
     if (!(sine_elevation > 0.05) || !(shortwave_w_m2 > 0.0)) return 1.0;
-    const double kt = detail::smaller(shortwave_w_m2 / (extraterrestrial_w_m2 * sine_elevation), 1.0);
+    const double kt =
+        detail::smaller(shortwave_w_m2 / (extraterrestrial_w_m2 * sine_elevation), 1.0);
     double diffuse = 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
     if (kt <= 0.22) diffuse = 1.0 - 0.09 * kt;
     if (kt > 0.80) diffuse = 0.165;

@@ -26,8 +26,9 @@ double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
 
-/// Share of shortwave that is diffuse, 0..1, from the clearness index (Erbs et al. 1982), and so much that the direct
-/// beam stays below that of very clear air: sensors catch light from a low sun that the index takes for a fierce beam.
+/// Share of shortwave that is diffuse, 0..1, from the clearness index (Erbs et al. 1982), and so
+/// much that the direct beam stays below that of very clear air: sensors catch light from a low sun
+/// that the index takes for a fierce beam.
 double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double extraterrestrial_w_m2);
 
 }  // namespace petrichor::weather

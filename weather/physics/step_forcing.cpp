@@ -11,7 +11,8 @@ namespace petrichor::weather::detail {
 namespace {
 
 // Mean of a column over [begin, end], rows `first` .. the row after the end.
-double mean_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin, std::int64_t end)
+double mean_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin,
+                 std::int64_t end)
 {
     const auto& v = table[field];
     const auto& t = table.time_us;
@@ -29,7 +30,8 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
         if (rate) {
             const bool inside = at >= t[0] && i + 1 < t.size();
             // The last row's rate lasts as long as the row before it did.
-            const bool tail = i + 1 == t.size() && t.size() > 1 && at >= t[i] && at < t[i] + (t[i] - t[i - 1]);
+            const bool tail =
+                i + 1 == t.size() && t.size() > 1 && at >= t[i] && at < t[i] + (t[i] - t[i - 1]);
             if (inside || tail || t.size() == 1) sum += v[i] * width;
         } else {
             sum += 0.5 * (value_at(table, field, at) + value_at(table, field, to)) * width;
@@ -39,8 +41,8 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
     return sum / static_cast<double>(end - begin);
 }
 
-Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin, std::int64_t end,
-               double offset)
+Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin,
+               std::int64_t end, double offset)
 {
     // The usual case: the step is the interval between two rows.
     const auto& t = table.time_us;
@@ -55,7 +57,8 @@ Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::i
 }
 
 // `first`: the last row at or before the beginning.
-StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin, std::int64_t length, SunUse use)
+StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin,
+                      std::int64_t length, SunUse use)
 {
     const std::int64_t end = begin + length;
     StepForcing step;
@@ -68,8 +71,10 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     step.shortwave = ramp_over(table, Field::Shortwave, first, begin, end, 0.0);
     step.longwave = ramp_over(table, Field::Longwave, first, begin, end, 0.0);
     if (table.has(Field::Rain) || table.has(Field::Snow)) {
-        const double rain = table.has(Field::Rain) ? mean_over(table, Field::Rain, first, begin, end) : 0.0;
-        const double snow = table.has(Field::Snow) ? mean_over(table, Field::Snow, first, begin, end) : 0.0;
+        const double rain =
+            table.has(Field::Rain) ? mean_over(table, Field::Rain, first, begin, end) : 0.0;
+        const double snow =
+            table.has(Field::Snow) ? mean_over(table, Field::Snow, first, begin, end) : 0.0;
         step.precip = rain + snow;
         step.snow_share = step.precip > 0.0 ? snow / step.precip : 0.0;
         step.phase_known = true;
@@ -78,7 +83,8 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     }
     // Where no sun shines its direction changes nothing.
     const bool lit = step.shortwave.start > 0.0 || step.shortwave.start + step.shortwave.rise > 0.0;
-    const bool place = !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
+    const bool place =
+        !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
     if (use == SunUse::Direction && lit && place) {
         const SunDirection sun =
             sun_direction(begin + length / 2, table.site.latitude_deg, table.site.longitude_deg);
@@ -100,12 +106,16 @@ std::size_t row_before(const ForcingTable& table, std::int64_t time_us)
 
 }  // namespace
 
-StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length, SunUse sun)
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length,
+                              SunUse sun)
 {
     return step_from(table, row_before(table, begin), begin, length, sun);
 }
 
-std::int64_t StepPlan::length_of(std::size_t step) const { return std::min(length_us, end_us - begin_of(step)); }
+std::int64_t StepPlan::length_of(std::size_t step) const
+{
+    return std::min(length_us, end_us - begin_of(step));
+}
 
 StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us)
 {
@@ -113,14 +123,20 @@ StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us)
     plan.begin_us = table.time_us.front();
     plan.length_us = step_us;
     // The last row's interval counts too: its precipitation falls after its time.
-    const std::int64_t tail = table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
+    const std::int64_t tail =
+        table.rows() > 1 ? table.time_us.back() - table.time_us[table.rows() - 2] : step_us;
     plan.end_us = table.time_us.back() + tail;
     plan.count = static_cast<std::size_t>((plan.end_us - plan.begin_us + step_us - 1) / step_us);
     return plan;
 }
 
-StepWalk::StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun)
-    : table_(&table), plan_(&plan), step_(first_step), row_(row_before(table, plan.begin_of(first_step))), sun_(sun)
+StepWalk::StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step,
+                   SunUse sun)
+    : table_(&table),
+      plan_(&plan),
+      step_(first_step),
+      row_(row_before(table, plan.begin_of(first_step))),
+      sun_(sun)
 {
 }
 

@@ -25,8 +25,9 @@ double Hypsometry::capacity_kg_m2() const
 Hypsometry uniform_hypsometry(double depth_mm)
 {
     if (!(depth_mm > 0.0) || !std::isfinite(depth_mm)) {
-        throw Error("stores: the depth of a relief must be above 0 mm, got " + std::to_string(depth_mm),
-                    "Give the height difference between low and high points in mm.");
+        throw Error(
+            "stores: the depth of a relief must be above 0 mm, got " + std::to_string(depth_mm),
+            "Give the height difference between low and high points in mm.");
     }
     Hypsometry relief;
     relief.depth_mm = depth_mm;
@@ -37,7 +38,8 @@ Hypsometry make_hypsometry(std::span<const float> heights, double depth_mm, int 
 {
     Hypsometry relief = uniform_hypsometry(depth_mm);
     if (heights.empty()) {
-        throw Error("stores: the height map has no texels", "Give a height map with at least one texel.");
+        throw Error("stores: the height map has no texels",
+                    "Give a height map with at least one texel.");
     }
     if (steps < 2 || steps > 256) {
         throw Error("stores: steps must be 2..256, got " + std::to_string(steps),
@@ -68,9 +70,11 @@ Hypsometry make_hypsometry(std::span<const float> heights, double depth_mm, int 
     std::size_t below = 0;
     for (std::size_t i = 0; i < n; ++i) {
         below += bins[i];
-        relief.area_fraction[i + 1] = static_cast<double>(below) / static_cast<double>(heights.size());
+        relief.area_fraction[i + 1] =
+            static_cast<double>(below) / static_cast<double>(heights.size());
         relief.volume_mm[i + 1] =
-            relief.volume_mm[i] + 0.5 * piece * (relief.area_fraction[i] + relief.area_fraction[i + 1]);
+            relief.volume_mm[i] +
+            0.5 * piece * (relief.area_fraction[i] + relief.area_fraction[i + 1]);
     }
     return relief;
 }
@@ -93,7 +97,8 @@ double water_level_mm(const Hypsometry& relief, double stored)
     if (relief.area_fraction.empty()) return std::sqrt(2.0 * relief.depth_mm * stored);
     const auto& volume = relief.volume_mm;
     const auto upper = std::upper_bound(volume.begin(), volume.end(), stored);
-    const auto i = std::min(static_cast<std::size_t>(upper - volume.begin()) - 1, volume.size() - 2);
+    const auto i =
+        std::min(static_cast<std::size_t>(upper - volume.begin()) - 1, volume.size() - 2);
     // Within a piece V is a + b x + c x^2; the root in the form that stays exact for c -> 0.
     const double piece = piece_mm(relief);
     const double b = relief.area_fraction[i];

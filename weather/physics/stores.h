@@ -10,15 +10,16 @@ namespace petrichor::weather {
 /// How much water a relief holds at each level: the hypsometric curve.
 ///
 /// F(z) is the share of the cell lower than z, 0 <= z <= depth. Water standing at level h holds
-/// V(h) = integral of F from 0 to h, so V'(h) = F(h): a loss of e kg/m2 from the wet area lowers the
-/// level by exactly e (as 1 kg/m2 is 1 mm), whatever the relief.
+/// V(h) = integral of F from 0 to h, so V'(h) = F(h): a loss of e kg/m2 from the wet area lowers
+/// the level by exactly e (as 1 kg/m2 is 1 mm), whatever the relief.
 ///
 /// The table has F at equal steps of z and is linear between; an empty table means uniform heights,
 /// F = z / depth, V = h^2 / (2 depth).
 struct Hypsometry {
-    double depth_mm = 1.0;             ///< > 0
-    std::vector<double> area_fraction;  ///< F at 0, depth/n, .., depth; non-decreasing in 0..1; or empty
-    std::vector<double> volume_mm;      ///< V at the same places, made by make_hypsometry
+    double depth_mm = 1.0;  ///< > 0
+    std::vector<double>
+        area_fraction;  ///< F at 0, depth/n, .., depth; non-decreasing in 0..1; or empty
+    std::vector<double> volume_mm;  ///< V at the same places, made by make_hypsometry
 
     double capacity_kg_m2() const;
 };

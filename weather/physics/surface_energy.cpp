@@ -18,7 +18,8 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.absorbed = (1.0 - skin.albedo) * f.shortwave_w_m2 + skin.emissivity * f.longwave_w_m2;
     p.emitting = skin.emissivity * kStefanBoltzmann;
     p.air_c = f.air_temp_k - kZeroCelsiusK;
-    p.q_air = specific_humidity(vapour_pressure_pa(f.air_temp_k, f.rel_humidity_pct), f.pressure_pa);
+    p.q_air =
+        specific_humidity(vapour_pressure_pa(f.air_temp_k, f.rel_humidity_pct), f.pressure_pa);
     p.pressure = f.pressure_pa;
     p.neutral = neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m);
     p.exchange = air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) * p.neutral * wind;
@@ -36,8 +37,14 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
 
 SurfaceFluxes named(const detail::PointFluxes<double>& f, double surface_c)
 {
-    return {surface_c + kZeroCelsiusK, f.net_radiation, f.sensible, f.latent,
-            f.vapour,                  f.ground,        f.rain_heat, f.balance};
+    return {surface_c + kZeroCelsiusK,
+            f.net_radiation,
+            f.sensible,
+            f.latent,
+            f.vapour,
+            f.ground,
+            f.rain_heat,
+            f.balance};
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ struct SurfaceSkin {
     double albedo = 0.2;
     double emissivity = 0.98;
     double roughness_m = 0.01;
-    double wet_fraction = 1.0;  ///< beta: share that evaporates, 0..1
-    bool icy = false;           ///< vapour over ice and heat of sublimation, else over water
+    double wet_fraction = 1.0;        ///< beta: share that evaporates, 0..1
+    bool icy = false;                 ///< vapour over ice and heat of sublimation, else over water
     double conductance_w_m2_k = 0.0;  ///< G0, to the first layer below
     double below_temp_k = 273.15;     ///< T1
     double wind_height_m = 10.0;
@@ -33,7 +33,7 @@ struct SurfaceFluxes {
     double sensible_w_m2 = 0.0;
     double latent_w_m2 = 0.0;
     double vapour_kg_m2_s = 0.0;
-    double ground_w_m2 = 0.0;   ///< into the ground
+    double ground_w_m2 = 0.0;  ///< into the ground
     double rain_heat_w_m2 = 0.0;
     double balance_w_m2 = 0.0;  ///< F: what is left to melt ice or to heat the surface
 };
@@ -43,8 +43,8 @@ struct SurfaceFluxes {
 SurfaceFluxes surface_balance(const SurfaceForcing& forcing, const SurfaceSkin& skin,
                               const ExchangeParams& exchange, double surface_temp_k);
 
-/// Temperature at which the balance is zero, by exactly three Newton steps from `first_guess_k`; the
-/// fluxes there. balance_w_m2 is the residual.
+/// Temperature at which the balance is zero, by exactly three Newton steps from `first_guess_k`;
+/// the fluxes there. balance_w_m2 is the residual.
 SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& skin,
                             const ExchangeParams& exchange, double first_guess_k);
 

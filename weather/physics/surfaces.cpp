@@ -57,9 +57,12 @@ std::string plain(std::string_view name)
 {
     std::string out;
     for (const char c : name) {
-        if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
-        else if (c == ' ' || c == '-') out += '_';
-        else out += c;
+        if (c >= 'A' && c <= 'Z')
+            out += static_cast<char>(c - 'A' + 'a');
+        else if (c == ' ' || c == '-')
+            out += '_';
+        else
+            out += c;
     }
     return out;
 }
@@ -88,7 +91,8 @@ Surface surface_preset(std::string_view name)
         if (surface.name == wanted) return surface;
         names += (names.empty() ? "" : ", ") + surface.name;
     }
-    throw Error("surface: there is no preset named '" + std::string(name) + "'", "Use one of: " + names + ".");
+    throw Error("surface: there is no preset named '" + std::string(name) + "'",
+                "Use one of: " + names + ".");
 }
 
 void check_surface(const Surface& s)
@@ -97,9 +101,10 @@ void check_surface(const Surface& s)
     require(unit(s.albedo_dry), s, "albedo_dry", s.albedo_dry, "in 0..1");
     require(unit(s.albedo_wet), s, "albedo_wet", s.albedo_wet, "in 0..1");
     require(s.emissivity > 0.0 && s.emissivity <= 1.0, s, "emissivity", s.emissivity, "in (0, 1]");
-    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, s, "roughness_m", s.roughness_m, "in 1e-6..0.5");
-    require(s.film_capacity_kg_m2 >= 0.01 && s.film_capacity_kg_m2 <= 100.0, s, "film_capacity_kg_m2",
-            s.film_capacity_kg_m2, "in 0.01..100");
+    require(s.roughness_m >= 1e-6 && s.roughness_m <= 0.5, s, "roughness_m", s.roughness_m,
+            "in 1e-6..0.5");
+    require(s.film_capacity_kg_m2 >= 0.01 && s.film_capacity_kg_m2 <= 100.0, s,
+            "film_capacity_kg_m2", s.film_capacity_kg_m2, "in 0.01..100");
     require(s.film_rate_1_s > 0.0 && s.film_rate_1_s <= 10.0, s, "film_rate_1_s", s.film_rate_1_s,
             "in (0, 10]");
     require(s.cracks.depth_mm > 0.0 && std::isfinite(s.cracks.depth_mm), s, "cracks.depth_mm",
@@ -108,17 +113,18 @@ void check_surface(const Surface& s)
             s.puddles.depth_mm, "above 0");
     const HortonParams& h = s.infiltration;
     require(h.last_mm_h >= 0.0, s, "infiltration.last_mm_h", h.last_mm_h, "0 or more");
-    require(h.first_mm_h >= h.last_mm_h && h.first_mm_h <= 1e5, s, "infiltration.first_mm_h", h.first_mm_h,
-            "last_mm_h or more");
-    require(h.decay_1_h > 0.0 && h.decay_1_h <= 1e4, s, "infiltration.decay_1_h", h.decay_1_h, "above 0");
-    require(h.recovery_1_h >= 0.0 && h.recovery_1_h <= 1e4, s, "infiltration.recovery_1_h", h.recovery_1_h,
-            "0 or more");
+    require(h.first_mm_h >= h.last_mm_h && h.first_mm_h <= 1e5, s, "infiltration.first_mm_h",
+            h.first_mm_h, "last_mm_h or more");
+    require(h.decay_1_h > 0.0 && h.decay_1_h <= 1e4, s, "infiltration.decay_1_h", h.decay_1_h,
+            "above 0");
+    require(h.recovery_1_h >= 0.0 && h.recovery_1_h <= 1e4, s, "infiltration.recovery_1_h",
+            h.recovery_1_h, "0 or more");
     require(s.conductivity_w_m_k > 0.0 && s.conductivity_w_m_k < 1e3, s, "conductivity_w_m_k",
             s.conductivity_w_m_k, "above 0");
-    require(s.heat_capacity_j_m3_k >= 1e4 && s.heat_capacity_j_m3_k < 1e8, s, "heat_capacity_j_m3_k",
-            s.heat_capacity_j_m3_k, "in 1e4..1e8");
-    require(s.traffic_loss_1_h >= 0.0 && s.traffic_loss_1_h < 1e3, s, "traffic_loss_1_h", s.traffic_loss_1_h,
-            "0 or more");
+    require(s.heat_capacity_j_m3_k >= 1e4 && s.heat_capacity_j_m3_k < 1e8, s,
+            "heat_capacity_j_m3_k", s.heat_capacity_j_m3_k, "in 1e4..1e8");
+    require(s.traffic_loss_1_h >= 0.0 && s.traffic_loss_1_h < 1e3, s, "traffic_loss_1_h",
+            s.traffic_loss_1_h, "0 or more");
     require(s.traffic_wind_m_s >= 0.0 && s.traffic_wind_m_s < 50.0, s, "traffic_wind_m_s",
             s.traffic_wind_m_s, "0 or more");
 }

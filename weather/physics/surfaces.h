@@ -24,8 +24,8 @@ struct Surface {
     HortonParams infiltration;
     double conductivity_w_m_k = 0.75;      ///< of the ground
     double heat_capacity_j_m3_k = 1.94e6;  ///< of the ground
-    double traffic_loss_1_h = 0.0;         ///< film sprayed away by vehicles, 0.1..1.5 on roads in use
-    double traffic_wind_m_s = 0.0;         ///< wind is raised to this; 0.4 by night, 1.5 by day on roads
+    double traffic_loss_1_h = 0.0;  ///< film sprayed away by vehicles, 0.1..1.5 on roads in use
+    double traffic_wind_m_s = 0.0;  ///< wind is raised to this; 0.4 by night, 1.5 by day on roads
 };
 
 /// Presets: asphalt, concrete, paving_stones, cobblestone, brick, soil, sand, gravel, grass,

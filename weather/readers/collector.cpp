@@ -21,7 +21,8 @@ std::string number_text(double value)
 }
 
 // Values known `after_s` after each time become values at the times, along lines between them.
-void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>& column, double after_s)
+void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>& column,
+                  double after_s)
 {
     const std::vector<double> was = column;
     const double after_us = after_s * 1e6;
@@ -30,7 +31,8 @@ void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>&
         if (other >= column.size()) continue;  // the first or last row keeps its value
         const double apart = static_cast<double>(time_us[i] - time_us[other]);
         const double share = after_us / apart;
-        if (std::isnan(was[i]) || std::isnan(was[other]) || !(share > 0.0 && share <= 1.0)) continue;
+        if (std::isnan(was[i]) || std::isnan(was[other]) || !(share > 0.0 && share <= 1.0))
+            continue;
         column[i] = was[i] + (was[other] - was[i]) * share;
     }
 }
@@ -65,7 +67,8 @@ bool RowCollector::begin_row(std::int64_t time_us, std::size_t line)
     line_ = line;
     if (!times_.empty() && time_us <= times_.back()) {
         bad_row(line, "time",
-                std::string(time_us == times_.back() ? "duplicate of " : "earlier than the row before, ")
+                std::string(time_us == times_.back() ? "duplicate of "
+                                                     : "earlier than the row before, ")
                     .append(iso_from_us(time_us)));
         return false;
     }
@@ -96,8 +99,14 @@ void RowCollector::set(Field field, double value)
     if (!(value >= info.low && value <= info.high)) {
         ++f.out_of_range;
         note(ReadNote::Kind::OutOfRange, line_, info.name,
-             number_text(value).append(" ").append(info.unit).append(" is outside ").append(number_text(info.low))
-                 .append("..").append(number_text(info.high)).append(", taken as missing"));
+             number_text(value)
+                 .append(" ")
+                 .append(info.unit)
+                 .append(" is outside ")
+                 .append(number_text(info.low))
+                 .append("..")
+                 .append(number_text(info.high))
+                 .append(", taken as missing"));
         return;
     }
     auto& column = values_[static_cast<std::size_t>(field)];
@@ -126,21 +135,26 @@ void RowCollector::fell_before(Field field, double amount, double hours)
 {
     if (!in_row_) return;
     FieldReport& f = report_.fields[report_index(field)];
-    if (!(amount >= 0.0 && amount <= 500.0 * std::max(hours, 1.0) && hours > 0.0 && hours <= 744.0)) {
+    if (!(amount >= 0.0 && amount <= 500.0 * std::max(hours, 1.0) && hours > 0.0 &&
+          hours <= 744.0)) {
         ++f.out_of_range;
         note(ReadNote::Kind::OutOfRange, line_, field_info(field).name,
-             number_text(amount).append(" kg/m2 in ").append(number_text(hours)).append(" h is not possible, taken as missing"));
+             number_text(amount)
+                 .append(" kg/m2 in ")
+                 .append(number_text(hours))
+                 .append(" h is not possible, taken as missing"));
         return;
     }
     fallen_.push_back({times_.size() - 1, field, amount, hours});
     ++f.present;
 }
 
-// Each amount goes to the rows whose interval lies in its hours; shorter accumulations first, longer ones then
-// fill what the shorter left open.
+// Each amount goes to the rows whose interval lies in its hours; shorter accumulations first,
+// longer ones then fill what the shorter left open.
 void RowCollector::spread_amounts(ForcingTable& table)
 {
-    std::stable_sort(fallen_.begin(), fallen_.end(), [](const Fallen& a, const Fallen& b) { return a.hours < b.hours; });
+    std::stable_sort(fallen_.begin(), fallen_.end(),
+                     [](const Fallen& a, const Fallen& b) { return a.hours < b.hours; });
     std::size_t dropped = 0;
     for (const Fallen& f : fallen_) {
         auto& column = table[f.field];
@@ -155,8 +169,10 @@ void RowCollector::spread_amounts(ForcingTable& table)
         std::int64_t open = 0;
         for (std::size_t i = first; i < f.row; ++i) {
             const std::int64_t width = table.time_us[i + 1] - table.time_us[i];
-            if (std::isnan(column[i])) open += width;
-            else known += column[i] * static_cast<double>(width) * 1e-6;
+            if (std::isnan(column[i]))
+                open += width;
+            else
+                known += column[i] * static_cast<double>(width) * 1e-6;
         }
         if (open == 0) {
             if (f.amount > known + 1e-9) ++dropped;
@@ -169,7 +185,8 @@ void RowCollector::spread_amounts(ForcingTable& table)
     }
     if (dropped) {
         note(ReadNote::Kind::Info, 0, "precip",
-             std::to_string(dropped).append(" longer totals exceed the shorter ones inside them; the shorter are kept"));
+             std::to_string(dropped).append(
+                 " longer totals exceed the shorter ones inside them; the shorter are kept"));
     }
 }
 
@@ -181,7 +198,9 @@ ForcingTable RowCollector::finish()
         std::string list;
         for (const std::string& p : problems_) list.append("\n  ").append(p);
         if (report_.bad_rows > problems_.size()) {
-            list.append("\n  and ").append(std::to_string(report_.bad_rows - problems_.size())).append(" more");
+            list.append("\n  and ")
+                .append(std::to_string(report_.bad_rows - problems_.size()))
+                .append(" more");
         }
         throw Error("weather: " + report_.format + ": " + std::to_string(good) + " good rows, " +
                         std::to_string(report_.bad_rows) + " bad" + list,
@@ -193,11 +212,14 @@ ForcingTable RowCollector::finish()
     for (std::size_t i = 1; i < good; ++i) steps.push_back(times_[i] - times_[i - 1]);
     std::int64_t usual = 3600000000LL;
     if (!steps.empty()) {
-        std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+        std::nth_element(steps.begin(),
+                         steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                         steps.end());
         usual = steps[steps.size() / 2];
     }
 
-    // A row before the first one holds what fell before it; a row after the last one before a gap ends its rates.
+    // A row before the first one holds what fell before it; a row after the last one before a gap
+    // ends its rates.
     ForcingTable table;
     table.site = site_;
     std::vector<std::size_t> from;  // row of the file, or npos for an inserted one
@@ -208,7 +230,8 @@ ForcingTable RowCollector::finish()
         if (f.row == 0) before_h = std::max(before_h, f.hours);
     }
     if (before_h > 0.0) {
-        table.time_us.push_back(times_[0] - static_cast<std::int64_t>(std::llround(before_h * 3600e6)));
+        table.time_us.push_back(times_[0] -
+                                static_cast<std::int64_t>(std::llround(before_h * 3600e6)));
         from.push_back(kNone);
     }
     std::size_t gaps = 0;
@@ -218,14 +241,18 @@ ForcingTable RowCollector::finish()
             from.push_back(kNone);
             if (++gaps <= 20) {
                 note(ReadNote::Kind::Time, 0, "time",
-                     std::string("gap from ").append(iso_from_us(times_[i - 1])).append(" to ").append(iso_from_us(times_[i])));
+                     std::string("gap from ")
+                         .append(iso_from_us(times_[i - 1]))
+                         .append(" to ")
+                         .append(iso_from_us(times_[i])));
             }
         }
         moved[i] = table.time_us.size();
         table.time_us.push_back(times_[i]);
         from.push_back(i);
     }
-    if (gaps > 20) note(ReadNote::Kind::Time, 0, "time", std::to_string(gaps - 20).append(" more gaps"));
+    if (gaps > 20)
+        note(ReadNote::Kind::Time, 0, "time", std::to_string(gaps - 20).append(" more gaps"));
     for (Fallen& f : fallen_) f.row = moved[f.row];
 
     for (std::size_t f = 0; f < kFieldCount; ++f) {
@@ -238,7 +265,8 @@ ForcingTable RowCollector::finish()
         if (past_mean_[f]) {
             // Mean of the past interval -> value at the row: half of this mean, half of the next.
             for (std::size_t i = 0; i + 1 < column.size(); ++i) {
-                if (!std::isnan(column[i]) && !std::isnan(column[i + 1])) column[i] = 0.5 * (column[i] + column[i + 1]);
+                if (!std::isnan(column[i]) && !std::isnan(column[i + 1]))
+                    column[i] = 0.5 * (column[i] + column[i + 1]);
             }
         }
         if (held_after_s_[f] != 0.0) move_in_time(table.time_us, column, held_after_s_[f]);

@@ -11,8 +11,8 @@
 
 namespace petrichor::weather {
 
-/// Gathers the rows of a file while it is read: checks every value and time, remembers what was wrong, and makes
-/// a table out of what was right. Used by every reader.
+/// Gathers the rows of a file while it is read: checks every value and time, remembers what was
+/// wrong, and makes a table out of what was right. Used by every reader.
 class RowCollector {
 public:
     explicit RowCollector(std::string format);
@@ -20,8 +20,8 @@ public:
     Site& site() { return site_; }
     ReadReport& report() { return report_; }
 
-    /// Begins a row at a time. Rows must come in order; one that does not is dropped and noted. Returns
-    /// whether the row was accepted; values of a refused row are ignored.
+    /// Begins a row at a time. Rows must come in order; one that does not is dropped and noted.
+    /// Returns whether the row was accepted; values of a refused row are ignored.
     bool begin_row(std::int64_t time_us, std::size_t line);
     /// A row that could not be read at all.
     void bad_row(std::size_t line, const std::string& field, const std::string& why);
@@ -36,7 +36,10 @@ public:
     /// Values of this field are means of the interval that ends at the row's time.
     void means_of_past(Field field) { past_mean_[static_cast<std::size_t>(field)] = true; }
     /// Values of this field hold `seconds` after (or, negative, before) the row's time.
-    void holds_after(Field field, double seconds) { held_after_s_[static_cast<std::size_t>(field)] = seconds; }
+    void holds_after(Field field, double seconds)
+    {
+        held_after_s_[static_cast<std::size_t>(field)] = seconds;
+    }
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
 
     std::size_t rows() const { return times_.size(); }
@@ -44,7 +47,8 @@ public:
     std::size_t line() const { return line_; }
 
     /// The table and the report.
-    ///   throws  Error listing the problems with their lines, when nothing useful was read or more than a
+    ///   throws  Error listing the problems with their lines, when nothing useful was read or more
+    ///   than a
     ///           tenth of the rows (and more than two) were bad
     ForcingTable finish();
 

@@ -1,5 +1,6 @@
-// EnergyPlus weather: 8 header lines, then 35 columns. Hour 1 is 00:00 to 01:00 local standard time: its values hold
-// at 01:00, its sums for the hour before. Each column has its own code for "missing".
+// EnergyPlus weather: 8 header lines, then 35 columns. Hour 1 is 00:00 to 01:00 local standard
+// time: its values hold at 01:00, its sums for the hour before. Each column has its own code for
+// "missing".
 #include <algorithm>
 #include <cmath>
 
@@ -19,12 +20,18 @@ struct Column {
     double scale, offset;
 };
 constexpr Column kColumns[] = {
-    {Field::AirTemp, 6, 99.9, 1.0, kZeroCelsiusK},  {Field::DewPoint, 7, 99.9, 1.0, kZeroCelsiusK},
-    {Field::RelHumidity, 8, 999.0, 1.0, 0.0},       {Field::Pressure, 9, 999999.0, 1.0, 0.0},
-    {Field::Longwave, 12, 9999.0, 1.0, 0.0},        {Field::Shortwave, 13, 9999.0, 1.0, 0.0},
-    {Field::Direct, 14, 9999.0, 1.0, 0.0},          {Field::Diffuse, 15, 9999.0, 1.0, 0.0},
-    {Field::WindFrom, 20, 999.0, 1.0, 0.0},         {Field::Wind, 21, 999.0, 1.0, 0.0},
-    {Field::Cloud, 22, 99.0, 0.1, 0.0},             {Field::Visibility, 24, 9999.0, 1000.0, 0.0},
+    {Field::AirTemp, 6, 99.9, 1.0, kZeroCelsiusK},
+    {Field::DewPoint, 7, 99.9, 1.0, kZeroCelsiusK},
+    {Field::RelHumidity, 8, 999.0, 1.0, 0.0},
+    {Field::Pressure, 9, 999999.0, 1.0, 0.0},
+    {Field::Longwave, 12, 9999.0, 1.0, 0.0},
+    {Field::Shortwave, 13, 9999.0, 1.0, 0.0},
+    {Field::Direct, 14, 9999.0, 1.0, 0.0},
+    {Field::Diffuse, 15, 9999.0, 1.0, 0.0},
+    {Field::WindFrom, 20, 999.0, 1.0, 0.0},
+    {Field::Wind, 21, 999.0, 1.0, 0.0},
+    {Field::Cloud, 22, 99.0, 0.1, 0.0},
+    {Field::Visibility, 24, 9999.0, 1000.0, 0.0},
     {Field::SnowDepth, 30, 999.0, 0.01, 0.0},
 };
 
@@ -33,7 +40,10 @@ bool is_missing_code(const Column& column, std::string_view text, double value)
 {
     if (value <= -999.0 || std::abs(value - column.missing) < 1e-9) return true;
     const auto digits = trimmed(text);
-    return value > column.missing && std::all_of(digits.begin(), digits.end(), [](char c) { return c == '9' || c == '.' || c == '0'; }) && digits.front() == '9';
+    return value > column.missing &&
+           std::all_of(digits.begin(), digits.end(),
+                       [](char c) { return c == '9' || c == '.' || c == '0'; }) &&
+           digits.front() == '9';
 }
 
 }  // namespace
@@ -51,8 +61,11 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
         rows.site().elevation_m = to_number(place[9]).value_or(kMissing);
     }
     const double zone = place.size() >= 10 ? to_number(place[8]).value_or(kMissing) : kMissing;
-    if (zone >= -12.0 && zone <= 14.0) zone_h = zone;
-    else rows.note(ReadNote::Kind::Time, 1, "time", "no time zone in the LOCATION line, taken as UTC");
+    if (zone >= -12.0 && zone <= 14.0)
+        zone_h = zone;
+    else
+        rows.note(ReadNote::Kind::Time, 1, "time",
+                  "no time zone in the LOCATION line, taken as UTC");
     for (int i = 1; i < 8; ++i) lines.next();
 
     Lines again = lines;
@@ -61,7 +74,8 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
         const auto f = split(*line, ',', 3);
         if (f.size() < 2) continue;
         const auto year = to_integer(f[0]), month = to_integer(f[1]);
-        if (year && month && *month >= 1 && *month <= 12) typical.watch(*year, static_cast<int>(*month));
+        if (year && month && *month >= 1 && *month <= 12)
+            typical.watch(*year, static_cast<int>(*month));
     }
     typical.decide(rows);
     rows.means_of_past(Field::Shortwave);
@@ -73,44 +87,56 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
         if (trimmed(*line).empty()) continue;
         const auto f = split(*line, ',', 64);
         if (f.size() < 22) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, 35 are usual and 22 needed");
+            rows.bad_row(
+                lines.number(), "",
+                "has " + std::to_string(f.size()) + " columns, 35 are usual and 22 needed");
             continue;
         }
-        const auto year = to_integer(f[0]), month = to_integer(f[1]), day = to_integer(f[2]), hour = to_integer(f[3]);
+        const auto year = to_integer(f[0]), month = to_integer(f[1]), day = to_integer(f[2]),
+                   hour = to_integer(f[3]);
         const auto minute = to_integer(f[4]);
         if (!year || !month || !day || !hour || *hour < 1 || *hour > 24) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' does not begin with year,month,day,hour 1..24");
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(*line) + "' does not begin with year,month,day,hour 1..24");
             continue;
         }
         if (typical.typical && *month == 2 && *day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time", "29 February of a typical year left out");
+            rows.note(ReadNote::Kind::Time, lines.number(), "time",
+                      "29 February of a typical year left out");
             continue;
         }
         // Minutes are 0 or 60 for whole hours; other values end sub-hourly intervals.
         const bool part = minute && *minute > 0 && *minute < 60;
-        const auto us = us_from_civil({typical.of(*year), static_cast<int>(*month), static_cast<int>(*day),
-                                       static_cast<int>(*hour) - (part ? 1 : 0), part ? static_cast<int>(*minute) : 0, 0.0});
+        const auto us = us_from_civil(
+            {typical.of(*year), static_cast<int>(*month), static_cast<int>(*day),
+             static_cast<int>(*hour) - (part ? 1 : 0), part ? static_cast<int>(*minute) : 0, 0.0});
         if (!us) {
             rows.bad_row(lines.number(), "time", "'" + shown(*line) + "': there is no such day");
             continue;
         }
-        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number())) continue;
+        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
+            continue;
         for (const Column& c : kColumns) {
             if (c.index >= f.size()) continue;
             const auto value = to_number(f[c.index]);
             if (!value) rows.unreadable(c.field, f[c.index]);
             // 77777 is an unlimited ceiling elsewhere; visibility 777.7 km means unlimited.
-            else if (is_missing_code(c, f[c.index], *value)) rows.missing(c.field);
-            else rows.set(c.field, *value * c.scale + c.offset);
+            else if (is_missing_code(c, f[c.index], *value))
+                rows.missing(c.field);
+            else
+                rows.set(c.field, *value * c.scale + c.offset);
         }
         // Liquid depth (mm) of the last `hours`; 99 hours is "unknown", then it is the hour's.
         if (f.size() >= 34) {
             const auto depth = to_number(f[33]);
             double hours = f.size() >= 35 ? to_number(f[34]).value_or(1.0) : 1.0;
             if (!(hours >= 1.0 && hours < 99.0)) hours = 1.0;
-            if (!depth) rows.unreadable(Field::Precip, f[33]);
-            else if (*depth >= 999.0 || *depth < 0.0) rows.missing(Field::Precip);
-            else rows.fell_before(Field::Precip, *depth, hours);
+            if (!depth)
+                rows.unreadable(Field::Precip, f[33]);
+            else if (*depth >= 999.0 || *depth < 0.0)
+                rows.missing(Field::Precip);
+            else
+                rows.fell_before(Field::Precip, *depth, hours);
         }
     }
 }

@@ -1,5 +1,6 @@
-// Plain CSV: a header with a time column and names with units, then rows. The separator (comma, semicolon, tab) is
-// the most frequent one of the header; # begins a comment. Column names: units.cpp.
+// Plain CSV: a header with a time column and names with units, then rows. The separator (comma,
+// semicolon, tab) is the most frequent one of the header; # begins a comment. Column names:
+// units.cpp.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,21 +19,24 @@ namespace {
 bool is_time_name(std::string_view name)
 {
     const std::string low = lower(name);
-    return low == "time" || low == "time_utc" || low == "datetime" || low == "date" || low == "timestamp" ||
-           low == "date_time" || low == "time(utc)";
+    return low == "time" || low == "time_utc" || low == "datetime" || low == "date" ||
+           low == "timestamp" || low == "date_time" || low == "time(utc)";
 }
 
-// Codes that data loggers and archives write for "no value"; none of them is a possible value of a column here.
+// Codes that data loggers and archives write for "no value"; none of them is a possible value of a
+// column here.
 bool is_missing_word(std::string_view text)
 {
     const std::string low = lower(trimmed(text));
-    for (const char* word : {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "m", "missing"}) {
+    for (const char* word :
+         {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "m", "missing"}) {
         if (low == word) return true;
     }
     if (low.front() != '-') return false;
     const auto value = to_number(low);
     if (!value) return false;
-    for (const double code : {-99.0, -99.9, -99.99, -999.0, -999.9, -999.99, -6999.0, -7999.0, -9999.0, -9999.9, -9999.99, -99999.0}) {
+    for (const double code : {-99.0, -99.9, -99.99, -999.0, -999.9, -999.99, -6999.0, -7999.0,
+                              -9999.0, -9999.9, -9999.99, -99999.0}) {
         if (*value == code) return true;
     }
     return false;
@@ -93,7 +97,8 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
         }
         meaning[i] = column_meaning(names[i]);
         if (!meaning[i]) {
-            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "this column is not known and not used");
+            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]),
+                      "this column is not known and not used");
             continue;
         }
         ++known;
@@ -101,19 +106,22 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             if (!meaning[j] || !same_field(*meaning[i], *meaning[j])) continue;
             // "rain_kg_m2_s" beside a bare "rain": the one that says its unit counts.
             if (has_unit(names[i]) == has_unit(names[j])) {
-                throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) + "' mean the same quantity",
+                throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) +
+                                "' mean the same quantity",
                             "Keep one of the two columns.");
             }
             const std::size_t bare = has_unit(names[i]) ? j : i;
-            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[bare]), "has no unit and is not used: another column has the same quantity with one");
+            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[bare]),
+                      "has no unit and is not used: another column has the same quantity with one");
             meaning[bare].reset();
             if (bare == i) break;
         }
     }
     if (time_at == names.size() || known == 0) {
-        throw Error("weather: line " + std::to_string(lines.number()) + ": the header '" + shown(header) +
-                        "' has no time column or no known weather column",
-                    "Name the columns as in: time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2.");
+        throw Error("weather: line " + std::to_string(lines.number()) + ": the header '" +
+                        shown(header) + "' has no time column or no known weather column",
+                    "Name the columns as in: "
+                    "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2.");
     }
 
     // Amounts per interval belong to the time from this row to the next.
@@ -131,10 +139,12 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             if (f.size() <= time_at) continue;
             if (const auto us = us_from_iso(f[time_at])) first_times.push_back(*us);
         }
-        if (first_times.size() == 2 && first_times[1] > first_times[0]) usual_us = first_times[1] - first_times[0];
+        if (first_times.size() == 2 && first_times[1] > first_times[0])
+            usual_us = first_times[1] - first_times[0];
         rows.note(ReadNote::Kind::Info, 0, "precip",
                   std::string("amounts are for the interval that begins at their row, ")
-                      .append(std::to_string(usual_us / 1000000)).append(" s"));
+                      .append(std::to_string(usual_us / 1000000))
+                      .append(" s"));
     }
     const double seconds = static_cast<double>(usual_us) * 1e-6;
 
@@ -144,12 +154,15 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
         if (t.empty() || t.front() == '#') continue;
         const auto f = split(*line, separator, 256);
         if (f.size() != names.size()) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(names.size()));
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(f.size()) + " columns, the header has " +
+                             std::to_string(names.size()));
             continue;
         }
         const auto us = us_from_iso(f[time_at]);
         if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(f[time_at]) + "' is not a date and time as 2005-10-01T06:00");
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(f[time_at]) + "' is not a date and time as 2005-10-01T06:00");
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
@@ -184,7 +197,8 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             rows.set(m.field, si);
         }
         if (!std::isnan(vapour) && air_k > 173.15 && air_k < 333.15) {
-            rows.set(Field::RelHumidity, std::min(100.0 * vapour / saturation_pressure_water_pa(air_k), 100.0));
+            rows.set(Field::RelHumidity,
+                     std::min(100.0 * vapour / saturation_pressure_water_pa(air_k), 100.0));
         }
         if (snow_share >= 0.0 && snow_share <= 1.0 && !std::isnan(precip)) {
             rows.set(Field::Snow, precip * snow_share);
@@ -192,7 +206,11 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
         }
     }
     for (const auto& [code, count] : missing_codes) {
-        rows.note(ReadNote::Kind::Info, 0, "missing", std::string(code).append(" means no value, ").append(std::to_string(count)).append(" times"));
+        rows.note(ReadNote::Kind::Info, 0, "missing",
+                  std::string(code)
+                      .append(" means no value, ")
+                      .append(std::to_string(count))
+                      .append(" times"));
     }
 }
 

@@ -6,8 +6,8 @@
 #include "weather/readers/collector.h"
 #include "weather/readers/read_weather.h"
 
-// One reader a format, each in its own file. A reader puts rows into the collector and throws Error only
-// for a header that cannot be understood.
+// One reader a format, each in its own file. A reader puts rows into the collector and throws Error
+// only for a header that cannot be understood.
 namespace petrichor::weather {
 
 void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions& options);
@@ -23,7 +23,8 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
 void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options);
 void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions& options);
 
-/// Months of a typical year come from different years; they are placed in one year without a leap day.
+/// Months of a typical year come from different years; they are placed in one year without a leap
+/// day.
 struct TypicalYear {
     bool typical = false;
     long long year = 0;

@@ -1,8 +1,9 @@
-// NOAA GHCN-daily: .dly (fixed columns, a line a month and element), CSV by year or station (ID,YYYYMMDD,ELEMENT,VALUE)
-// and the access CSV with a column an element. Tenths of C, of mm and of m/s; snow depth in mm.
+// NOAA GHCN-daily: .dly (fixed columns, a line a month and element), CSV by year or station
+// (ID,YYYYMMDD,ELEMENT,VALUE) and the access CSV with a column an element. Tenths of C, of mm and
+// of m/s; snow depth in mm.
 //
-// A day becomes eight rows: temperature swings between its minimum at 6 and its maximum at 15 o'clock, the rest is
-// spread evenly. Times are taken as UTC unless the site's longitude is given.
+// A day becomes eight rows: temperature swings between its minimum at 6 and its maximum at 15
+// o'clock, the rest is spread evenly. Times are taken as UTC unless the site's longitude is given.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,32 +19,41 @@ namespace petrichor::weather {
 namespace {
 
 struct Day {
-    double low_c = kMissing, high_c = kMissing, mean_c = kMissing, precip_mm = kMissing, wind_m_s = kMissing, depth_m = kMissing;
+    double low_c = kMissing, high_c = kMissing, mean_c = kMissing, precip_mm = kMissing,
+           wind_m_s = kMissing, depth_m = kMissing;
     std::size_t line = 0;
 };
 using Days = std::map<std::int64_t, Day>;
 
 // One value of a day; what is not possible or given twice is noted.
-void put(RowCollector& rows, Day& day, std::size_t line, std::string_view element, std::string_view text)
+void put(RowCollector& rows, Day& day, std::size_t line, std::string_view element,
+         std::string_view text)
 {
     struct Element {
         const char* name;
-        double Day::* member;
+        double Day::*member;
         double scale, low, high;
     };
-    constexpr Element kElements[] = {{"TMIN", &Day::low_c, 0.1, -100, 65},    {"TMAX", &Day::high_c, 0.1, -100, 65},
-                                     {"TAVG", &Day::mean_c, 0.1, -100, 65},   {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
-                                     {"AWND", &Day::wind_m_s, 0.1, 0, 110},   {"SNWD", &Day::depth_m, 0.001, 0, 30}};
-    const auto known = std::find_if(std::begin(kElements), std::end(kElements), [&](const Element& e) { return element == e.name; });
+    constexpr Element kElements[] = {
+        {"TMIN", &Day::low_c, 0.1, -100, 65},  {"TMAX", &Day::high_c, 0.1, -100, 65},
+        {"TAVG", &Day::mean_c, 0.1, -100, 65}, {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
+        {"AWND", &Day::wind_m_s, 0.1, 0, 110}, {"SNWD", &Day::depth_m, 0.001, 0, 30}};
+    const auto known = std::find_if(std::begin(kElements), std::end(kElements),
+                                    [&](const Element& e) { return element == e.name; });
     if (known == std::end(kElements) || trimmed(text).empty()) return;
     const auto number = to_number(text);
     if (number && *number == -9999.0) return;
     const double value = number ? *number * known->scale : kMissing;
     if (!(value >= known->low && value <= known->high)) {
-        rows.note(ReadNote::Kind::OutOfRange, line, known->name, std::string("'").append(shown(trimmed(text))).append("' is not possible, taken as missing"));
+        rows.note(ReadNote::Kind::OutOfRange, line, known->name,
+                  std::string("'")
+                      .append(shown(trimmed(text)))
+                      .append("' is not possible, taken as missing"));
         return;
     }
-    if (!std::isnan(day.*known->member)) rows.note(ReadNote::Kind::Time, line, known->name, "second value for the same day, the last one holds");
+    if (!std::isnan(day.*known->member))
+        rows.note(ReadNote::Kind::Time, line, known->name,
+                  "second value for the same day, the last one holds");
     day.*known->member = value;
     day.line = line;
 }
@@ -58,7 +68,8 @@ void read_fixed(std::string_view text, RowCollector& rows, Days& days)
         const auto year = line->size() >= 21 ? to_integer(line->substr(11, 4)) : std::nullopt;
         const auto month = line->size() >= 21 ? to_integer(line->substr(15, 2)) : std::nullopt;
         if (!year || !month || *month < 1 || *month > 12 || *year < 1500 || *year > 2600) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no year and month in columns 12 to 17");
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(*line) + "' has no year and month in columns 12 to 17");
             continue;
         }
         const auto element = line->substr(17, 4);
@@ -92,21 +103,26 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
             std::optional<std::int64_t> us;
             for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
                 if (names[i] == "DATE") us = us_from_iso(f[i]);
-                if (names[i] == "LATITUDE" && std::isnan(rows.site().latitude_deg)) rows.site().latitude_deg = to_number(f[i]).value_or(kMissing);
-                if (names[i] == "LONGITUDE" && std::isnan(rows.site().longitude_deg)) rows.site().longitude_deg = to_number(f[i]).value_or(kMissing);
-                if (names[i] == "ELEVATION" && std::isnan(rows.site().elevation_m)) rows.site().elevation_m = to_number(f[i]).value_or(kMissing);
+                if (names[i] == "LATITUDE" && std::isnan(rows.site().latitude_deg))
+                    rows.site().latitude_deg = to_number(f[i]).value_or(kMissing);
+                if (names[i] == "LONGITUDE" && std::isnan(rows.site().longitude_deg))
+                    rows.site().longitude_deg = to_number(f[i]).value_or(kMissing);
+                if (names[i] == "ELEVATION" && std::isnan(rows.site().elevation_m))
+                    rows.site().elevation_m = to_number(f[i]).value_or(kMissing);
             }
             if (!us) {
                 rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' has no DATE");
                 continue;
             }
             if (days.size() > kMostDays) continue;
-            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) put(rows, days[*us], lines.number(), names[i], f[i]);
+            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i)
+                put(rows, days[*us], lines.number(), names[i], f[i]);
             continue;
         }
         const auto date = f.size() >= 4 && f[1].size() == 8 ? us_from_iso(f[1]) : std::nullopt;
         if (!date) {
-            rows.bad_row(lines.number(), "", "'" + shown(*line) + "' is not ID,YYYYMMDD,ELEMENT,VALUE");
+            rows.bad_row(lines.number(), "",
+                         "'" + shown(*line) + "' is not ID,YYYYMMDD,ELEMENT,VALUE");
             continue;
         }
         if (station.empty()) station = std::string(f[0]);
@@ -118,7 +134,9 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
         if (failed_check || days.size() > kMostDays) continue;
         put(rows, days[*date], lines.number(), f[2], f[3]);
     }
-    if (others) rows.note(ReadNote::Kind::Info, 0, "station", "several stations in the file, only " + shown(station) + " is used");
+    if (others)
+        rows.note(ReadNote::Kind::Info, 0, "station",
+                  "several stations in the file, only " + shown(station) + " is used");
 }
 
 }  // namespace
@@ -127,11 +145,16 @@ void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOption
 {
     Days days;
     const auto first = Lines(text).next().value_or("");
-    if (first.find(',') == std::string_view::npos) read_fixed(text, rows, days);
-    else read_table(text, rows, days);
-    const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg : options.site.longitude_deg;
+    if (first.find(',') == std::string_view::npos)
+        read_fixed(text, rows, days);
+    else
+        read_table(text, rows, days);
+    const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg
+                                                                    : options.site.longitude_deg;
     const double zone_h = std::isnan(longitude) ? 0.0 : std::round(longitude / 15.0);
-    rows.note(ReadNote::Kind::Info, 0, "", "daily values: temperature swings from its minimum at 6 to its maximum at 15 o'clock, precipitation is spread over the day");
+    rows.note(ReadNote::Kind::Info, 0, "",
+              "daily values: temperature swings from its minimum at 6 to its maximum at 15 "
+              "o'clock, precipitation is spread over the day");
     for (const auto& [us, day] : days) {
         const auto next = days.find(us + 86400000000LL);
         double low = day.low_c, high = day.high_c;
@@ -139,21 +162,30 @@ void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOption
         if (std::isnan(high) && !std::isnan(day.mean_c)) high = day.mean_c;
         if (std::isnan(low)) low = high;
         if (std::isnan(high)) high = low;
-        const double low_after = next == days.end() || std::isnan(next->second.low_c) ? low : next->second.low_c;
+        const double low_after =
+            next == days.end() || std::isnan(next->second.low_c) ? low : next->second.low_c;
         for (int i = 0; i < 8; ++i) {
             const double hour = 3.0 * i;
-            if (!rows.begin_row(us + static_cast<std::int64_t>((hour - zone_h) * 3600e6), day.line)) continue;
-            if (std::isnan(low)) rows.missing(Field::AirTemp);
+            if (!rows.begin_row(us + static_cast<std::int64_t>((hour - zone_h) * 3600e6), day.line))
+                continue;
+            if (std::isnan(low))
+                rows.missing(Field::AirTemp);
             else {
                 // Half a cosine up from 6 to 15, half a cosine down from 15 to 6 of the next day.
                 double t = 0.0;
-                if (hour < 6.0) t = low + 0.5 * (high - low) * (1.0 + std::cos(kPi * (hour + 9.0) / 15.0));
-                else if (hour <= 15.0) t = low + 0.5 * (high - low) * (1.0 - std::cos(kPi * (hour - 6.0) / 9.0));
-                else t = low_after + 0.5 * (high - low_after) * (1.0 + std::cos(kPi * (hour - 15.0) / 15.0));
+                if (hour < 6.0)
+                    t = low + 0.5 * (high - low) * (1.0 + std::cos(kPi * (hour + 9.0) / 15.0));
+                else if (hour <= 15.0)
+                    t = low + 0.5 * (high - low) * (1.0 - std::cos(kPi * (hour - 6.0) / 9.0));
+                else
+                    t = low_after +
+                        0.5 * (high - low_after) * (1.0 + std::cos(kPi * (hour - 15.0) / 15.0));
                 rows.set(Field::AirTemp, t + kZeroCelsiusK);
             }
-            if (std::isnan(day.precip_mm)) rows.missing(Field::Precip);
-            else rows.set(Field::Precip, day.precip_mm / 86400.0);
+            if (std::isnan(day.precip_mm))
+                rows.missing(Field::Precip);
+            else
+                rows.set(Field::Precip, day.precip_mm / 86400.0);
             if (!std::isnan(day.wind_m_s)) rows.set(Field::Wind, day.wind_m_s);
             if (!std::isnan(day.depth_m)) rows.set(Field::SnowDepth, day.depth_m);
         }

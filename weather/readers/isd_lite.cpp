@@ -1,5 +1,6 @@
-// NOAA ISD-Lite: year month day hour, T and dew point (0.1 C), pressure at sea level (0.1 hPa), wind direction, wind
-// (0.1 m/s), sky code, precipitation of 1 h and 6 h (0.1 mm). -9999 is missing, -1 is a trace. UTC.
+// NOAA ISD-Lite: year month day hour, T and dew point (0.1 C), pressure at sea level (0.1 hPa),
+// wind direction, wind (0.1 m/s), sky code, precipitation of 1 h and 6 h (0.1 mm). -9999 is
+// missing, -1 is a trace. UTC.
 #include <cmath>
 
 #include "weather/physics/constants.h"
@@ -15,13 +16,24 @@ double cloud_of_code(long long code)
 {
     if (code >= 0 && code <= 8) return static_cast<double>(code) / 8.0;
     switch (code) {
-        case 9: return 1.0;
-        case 11: case 12: return 0.4;
-        case 13: case 14: return 0.19;
-        case 15: case 16: return 0.75;
-        case 17: case 18: return 0.9;
-        case 19: return 1.0;
-        default: return kMissing;
+        case 9:
+            return 1.0;
+        case 11:
+        case 12:
+            return 0.4;
+        case 13:
+        case 14:
+            return 0.19;
+        case 15:
+        case 16:
+            return 0.75;
+        case 17:
+        case 18:
+            return 0.9;
+        case 19:
+            return 1.0;
+        default:
+            return kMissing;
     }
 }
 
@@ -31,13 +43,15 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
 {
     const double z = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
     rows.note(ReadNote::Kind::Info, 0, "pressure",
-              "given for sea level, brought to " + std::to_string(static_cast<int>(z)) + " m; the file has no place, give latitude, longitude and elevation");
+              "given for sea level, brought to " + std::to_string(static_cast<int>(z)) +
+                  " m; the file has no place, give latitude, longitude and elevation");
     Lines lines(text);
     while (const auto line = lines.next()) {
         const auto w = words(*line, 32);
         if (w.empty()) continue;
         if (w.size() != 12) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(w.size()) + " columns, 12 are needed");
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(w.size()) + " columns, 12 are needed");
             continue;
         }
         long long v[12] = {};
@@ -47,33 +61,50 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
             good = good && n;
             v[i] = n.value_or(0);
         }
-        good = good && v[1] >= 1 && v[1] <= 12 && v[2] >= 1 && v[2] <= 31 && v[3] >= 0 && v[3] <= 23;
-        const auto us = good ? us_from_civil({v[0], static_cast<int>(v[1]), static_cast<int>(v[2]), static_cast<int>(v[3]), 0, 0.0}) : std::nullopt;
+        good =
+            good && v[1] >= 1 && v[1] <= 12 && v[2] >= 1 && v[2] <= 31 && v[3] >= 0 && v[3] <= 23;
+        const auto us = good ? us_from_civil({v[0], static_cast<int>(v[1]), static_cast<int>(v[2]),
+                                              static_cast<int>(v[3]), 0, 0.0})
+                             : std::nullopt;
         if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' is not twelve whole numbers that begin with a date");
+            rows.bad_row(
+                lines.number(), "time",
+                "'" + shown(*line) + "' is not twelve whole numbers that begin with a date");
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
         const auto put = [&](Field field, long long value, double scale, double offset) {
-            if (value == -9999) rows.missing(field);
-            else rows.set(field, static_cast<double>(value) * scale + offset);
+            if (value == -9999)
+                rows.missing(field);
+            else
+                rows.set(field, static_cast<double>(value) * scale + offset);
         };
         put(Field::AirTemp, v[4], 0.1, kZeroCelsiusK);
         put(Field::DewPoint, v[5], 0.1, kZeroCelsiusK);
         put(Field::WindFrom, v[7], 1.0, 0.0);
         put(Field::Wind, v[8], 0.1, 0.0);
-        if (v[6] == -9999) rows.missing(Field::Pressure);
+        if (v[6] == -9999)
+            rows.missing(Field::Pressure);
         else {
-            const double t = v[4] == -9999 ? 288.15 : static_cast<double>(v[4]) * 0.1 + kZeroCelsiusK;
-            rows.set(Field::Pressure, static_cast<double>(v[6]) * 10.0 *
-                                          std::exp(-kGravity_m_s2 * z / (kAirGasConstant * (t + 0.5 * kLapseRate_k_m * z))));
+            const double t =
+                v[4] == -9999 ? 288.15 : static_cast<double>(v[4]) * 0.1 + kZeroCelsiusK;
+            rows.set(Field::Pressure,
+                     static_cast<double>(v[6]) * 10.0 *
+                         std::exp(-kGravity_m_s2 * z /
+                                  (kAirGasConstant * (t + 0.5 * kLapseRate_k_m * z))));
         }
         const double cloud = cloud_of_code(v[9]);
-        if (std::isnan(cloud)) rows.missing(Field::Cloud);
-        else rows.set(Field::Cloud, cloud);
+        if (std::isnan(cloud))
+            rows.missing(Field::Cloud);
+        else
+            rows.set(Field::Cloud, cloud);
         if (v[10] == -9999 && v[11] == -9999) rows.missing(Field::Precip);
-        if (v[10] != -9999) rows.fell_before(Field::Precip, v[10] == -1 ? 0.0 : static_cast<double>(v[10]) * 0.1, 1.0);
-        if (v[11] != -9999) rows.fell_before(Field::Precip, v[11] == -1 ? 0.0 : static_cast<double>(v[11]) * 0.1, 6.0);
+        if (v[10] != -9999)
+            rows.fell_before(Field::Precip, v[10] == -1 ? 0.0 : static_cast<double>(v[10]) * 0.1,
+                             1.0);
+        if (v[11] != -9999)
+            rows.fell_before(Field::Precip, v[11] == -1 ? 0.0 : static_cast<double>(v[11]) * 0.1,
+                             6.0);
     }
 }
 

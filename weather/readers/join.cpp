@@ -31,12 +31,14 @@ void append(ForcingTable& whole, const ForcingTable& part)
 void append(ReadReport& whole, const Part& part)
 {
     const ReadReport& more = part.read.report;
-    if (whole.format.find(more.format) == std::string::npos) whole.format += (whole.format.empty() ? "" : ", ") + more.format;
+    if (whole.format.find(more.format) == std::string::npos)
+        whole.format += (whole.format.empty() ? "" : ", ") + more.format;
     whole.rows += more.rows;
     whole.bad_rows += more.bad_rows;
     whole.notes_dropped += more.notes_dropped;
     for (const FieldReport& f : more.fields) {
-        const auto same = std::find_if(whole.fields.begin(), whole.fields.end(), [&](const FieldReport& w) { return w.name == f.name; });
+        const auto same = std::find_if(whole.fields.begin(), whole.fields.end(),
+                                       [&](const FieldReport& w) { return w.name == f.name; });
         if (same == whole.fields.end()) {
             whole.fields.push_back(f);
             continue;
@@ -76,7 +78,8 @@ ReadResult read_weather_files(const std::vector<NamedText>& files, const ReadOpt
     for (const Part& part : parts) {
         const auto& times = result.table.time_us;
         if (!times.empty() && part.read.table.time_us.front() <= times.back()) {
-            throw Error("weather: " + part.file->name + " begins at " + iso_from_us(part.read.table.time_us.front()) +
+            throw Error("weather: " + part.file->name + " begins at " +
+                            iso_from_us(part.read.table.time_us.front()) +
                             ", before the file ahead of it ends at " + iso_from_us(times.back()),
                         "Give files whose times do not overlap.");
         }

@@ -14,10 +14,11 @@ struct NamedText {
     std::string_view text;
 };
 
-/// Reads several weather files of one place as one series, in order of time: months of a year, days of reports.
+/// Reads several weather files of one place as one series, in order of time: months of a year, days
+/// of reports.
 ///
-/// Kinds may differ. The site is that of the first file. A column that one file lacks is filled there like any other
-/// missing value. With one file the same as read_weather.
+/// Kinds may differ. The site is that of the first file. A column that one file lacks is filled
+/// there like any other missing value. With one file the same as read_weather.
 ///   throws  Error as read_weather (with the file's name), and when the times of two files overlap
 ReadResult read_weather_files(const std::vector<NamedText>& files, const ReadOptions& options = {});
 

@@ -22,15 +22,18 @@ public:
 private:
     [[noreturn]] void fail(const std::string& why) const
     {
-        throw Error("weather: JSON line " + std::to_string(line_) + ": " + why + " near '" + shown(text_.substr(at_, 24)) + "'",
+        throw Error("weather: JSON line " + std::to_string(line_) + ": " + why + " near '" +
+                        shown(text_.substr(at_, 24)) + "'",
                     "Download the file again; it is cut short or damaged.");
     }
     void skip()
     {
         while (at_ < text_.size()) {
             const char c = text_[at_];
-            if (c == '\n') ++line_;
-            else if (c != ' ' && c != '\t' && c != '\r') break;
+            if (c == '\n')
+                ++line_;
+            else if (c != ' ' && c != '\t' && c != '\r')
+                break;
             ++at_;
         }
     }
@@ -55,10 +58,18 @@ private:
             if (at_ >= text_.size()) break;
             c = text_[at_++];
             switch (c) {
-                case 'n': out += '\n'; break;
-                case 't': out += '\t'; break;
-                case 'u': at_ = at_ + 4 <= text_.size() ? at_ + 4 : text_.size(); out += '?'; break;
-                default: out += c;
+                case 'n':
+                    out += '\n';
+                    break;
+                case 't':
+                    out += '\t';
+                    break;
+                case 'u':
+                    at_ = at_ + 4 <= text_.size() ? at_ + 4 : text_.size();
+                    out += '?';
+                    break;
+                default:
+                    out += c;
             }
         }
         if (at_ >= text_.size()) fail("a text is not closed");
@@ -97,7 +108,9 @@ private:
             value.text = string();
         } else {
             std::size_t end = at_;
-            while (end < text_.size() && text_.substr(end, 1).find_first_of(",]} \t\r\n") == std::string_view::npos) ++end;
+            while (end < text_.size() &&
+                   text_.substr(end, 1).find_first_of(",]} \t\r\n") == std::string_view::npos)
+                ++end;
             const auto word = text_.substr(at_, end - at_);
             if (word == "true" || word == "false") {
                 value.kind = Json::Kind::Bool;

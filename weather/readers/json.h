@@ -8,7 +8,8 @@
 
 namespace petrichor::weather {
 
-/// A JSON value, as far as weather files need it. Depth is limited to 32, so damaged input cannot exhaust the stack.
+/// A JSON value, as far as weather files need it. Depth is limited to 32, so damaged input cannot
+/// exhaust the stack.
 struct Json {
     enum class Kind { Null, Bool, Number, String, Array, Object };
     Kind kind = Kind::Null;

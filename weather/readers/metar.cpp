@@ -1,5 +1,5 @@
-// METAR and TAF bulletins: finds the reports in the lines (wrapped, with or without METAR and =), takes one station,
-// turns its reports into rows.
+// METAR and TAF bulletins: finds the reports in the lines (wrapped, with or without METAR and =),
+// takes one station, turns its reports into rows.
 #include "weather/readers/metar.h"
 
 #include <algorithm>
@@ -23,11 +23,13 @@ struct Bulletin {
 bool is_code(std::string_view w)
 {
     if (w.size() != 4 || w[0] < 'A' || w[0] > 'Z') return false;
-    return std::all_of(w.begin(), w.end(), [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+    return std::all_of(w.begin(), w.end(),
+                       [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
 }
 bool is_digits(std::string_view w)
 {
-    return !w.empty() && std::all_of(w.begin(), w.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return !w.empty() &&
+           std::all_of(w.begin(), w.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 bool is_day_time(std::string_view w)
 {
@@ -54,7 +56,8 @@ public:
                 stamp_ = std::string(t);
                 continue;
             }
-            const bool starts = is_code(t) && i + 1 < w.size() && (is_day_time(w[i + 1]) || w[i + 1].substr(0, 3) == "NIL");
+            const bool starts = is_code(t) && i + 1 < w.size() &&
+                                (is_day_time(w[i + 1]) || w[i + 1].substr(0, 3) == "NIL");
             if (starts && !text_.empty() && !(taf_ && only_marks())) flush();
             if (starts && !open_) open(false, number);
             if (!open_) {
@@ -77,7 +80,10 @@ public:
 
 private:
     bool only_marks() const { return text_ == "AMD" || text_ == "COR"; }
-    static bool is_heading(const std::vector<std::string_view>& w) { return w.size() == 3 && w[0].size() == 6; }
+    static bool is_heading(const std::vector<std::string_view>& w)
+    {
+        return w.size() == 3 && w[0].size() == 6;
+    }
     void open(bool taf, std::size_t number)
     {
         open_ = true;
@@ -99,7 +105,8 @@ private:
             report->line = line_;
             if (stamp_.size() == 12) {
                 report->year = *to_integer(std::string_view(stamp_).substr(0, 4));
-                report->month = static_cast<int>(*to_integer(std::string_view(stamp_).substr(4, 2)));
+                report->month =
+                    static_cast<int>(*to_integer(std::string_view(stamp_).substr(4, 2)));
                 stamp_.clear();
             }
             bulletin_.reports.push_back(std::move(*report));
@@ -146,8 +153,10 @@ private:
 void put_report(RowCollector& rows, const MetarReport& r, double elevation_m)
 {
     const auto put = [&](Field field, double value) {
-        if (std::isnan(value)) rows.missing(field);
-        else rows.set(field, value);
+        if (std::isnan(value))
+            rows.missing(field);
+        else
+            rows.set(field, value);
     };
     put(Field::AirTemp, r.temp_c + kZeroCelsiusK);
     put(Field::DewPoint, r.dew_c + kZeroCelsiusK);
@@ -159,7 +168,8 @@ void put_report(RowCollector& rows, const MetarReport& r, double elevation_m)
     if (std::isnan(r.qnh_pa)) {
         rows.missing(Field::Pressure);
     } else {
-        // The altimeter setting is reduced with the standard atmosphere, so that is how it comes back.
+        // The altimeter setting is reduced with the standard atmosphere, so that is how it comes
+        // back.
         rows.set(Field::Pressure, r.qnh_pa * std::pow(1.0 - 2.25577e-5 * elevation_m, 5.25588));
     }
 }
@@ -200,18 +210,26 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
                 station = r.station;
             }
         }
-        if (station.empty() && !bulletin.forecasts.empty()) station = bulletin.forecasts.front().station;
-        if (counts.size() > 1) rows.note(ReadNote::Kind::Info, 0, "station", "several stations, " + station + " is used; the file has " + names);
+        if (station.empty() && !bulletin.forecasts.empty())
+            station = bulletin.forecasts.front().station;
+        if (counts.size() > 1)
+            rows.note(ReadNote::Kind::Info, 0, "station",
+                      "several stations, " + station + " is used; the file has " + names);
     } else if (!counts.count(station)) {
-        throw Error("weather: METAR: no report of station '" + shown(station) + "'", "Choose one of: " + names + ".");
+        throw Error("weather: METAR: no report of station '" + shown(station) + "'",
+                    "Choose one of: " + names + ".");
     }
     rows.site().name = station;
     int year = options.year, month = options.month;
-    const bool dated = std::any_of(bulletin.reports.begin(), bulletin.reports.end(), [](const MetarReport& r) { return r.year != 0; });
+    const bool dated = std::any_of(bulletin.reports.begin(), bulletin.reports.end(),
+                                   [](const MetarReport& r) { return r.year != 0; });
     if (year == 0 || month < 1 || month > 12) {
         year = 2020;
         month = 1;
-        if (!dated) rows.note(ReadNote::Kind::Time, 0, "time", "reports name only the day; placed in January 2020, give year and month to change that");
+        if (!dated)
+            rows.note(ReadNote::Kind::Time, 0, "time",
+                      "reports name only the day; placed in January 2020, give year and month to "
+                      "change that");
     }
     const double elevation = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
 
@@ -229,47 +247,62 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
         }
         const auto us = dates.of(r);
         if (!us) {
-            rows.bad_row(r.line, "time", "day " + std::to_string(r.day) + " does not exist in that month");
+            rows.bad_row(r.line, "time",
+                         "day " + std::to_string(r.day) + " does not exist in that month");
             continue;
         }
         timed.push_back({*us, &r});
-        for (const std::string& odd : r.not_understood) rows.note(ReadNote::Kind::Info, r.line, "group", "'" + odd + "' is not understood");
+        for (const std::string& odd : r.not_understood)
+            rows.note(ReadNote::Kind::Info, r.line, "group", "'" + odd + "' is not understood");
         for (const RunwayState& runway : r.runways) {
-            std::string said = runway.runway == 88 ? "all runways: " : "runway " + std::to_string(runway.runway) + ": ";
+            std::string said = runway.runway == 88
+                                   ? "all runways: "
+                                   : "runway " + std::to_string(runway.runway) + ": ";
             said += runway.cleared ? "cleared" : deposit_name(runway.deposit);
-            if (!std::isnan(runway.depth_mm)) said += ", " + std::to_string(static_cast<int>(runway.depth_mm)) + " mm";
+            if (!std::isnan(runway.depth_mm))
+                said += ", " + std::to_string(static_cast<int>(runway.depth_mm)) + " mm";
             rows.note(ReadNote::Kind::Info, r.line, "runway", said);
         }
     }
-    std::stable_sort(timed.begin(), timed.end(), [](const Timed& a, const Timed& b) { return a.us < b.us; });
+    std::stable_sort(timed.begin(), timed.end(),
+                     [](const Timed& a, const Timed& b) { return a.us < b.us; });
     // Corrections repeat a time: the last one holds.
     std::vector<Timed> kept;
     for (const Timed& t : timed) {
         if (!kept.empty() && kept.back().us == t.us) {
-            rows.note(ReadNote::Kind::Time, t.report->line, "time", "second report for the same time, the last one holds");
+            rows.note(ReadNote::Kind::Time, t.report->line, "time",
+                      "second report for the same time, the last one holds");
             kept.back() = t;
         } else {
             kept.push_back(t);
         }
     }
-    const bool amounts = std::any_of(kept.begin(), kept.end(), [](const Timed& t) { return !std::isnan(t.report->hour_precip_mm); });
+    const bool amounts = std::any_of(kept.begin(), kept.end(), [](const Timed& t) {
+        return !std::isnan(t.report->hour_precip_mm);
+    });
     bool from_weather = false;
     for (const Timed& t : kept) {
         if (!rows.begin_row(t.us, t.report->line)) continue;
         const MetarReport& r = *t.report;
         put_report(rows, r, elevation);
-        if (!std::isnan(r.hour_precip_mm)) rows.fell_before(Field::Precip, r.hour_precip_mm, 1.0);
-        else if (amounts && rows.rows() > 1) rows.fell_before(Field::Precip, 0.0, 1.0);  // such stations report only what fell
-        if (!std::isnan(r.six_hour_precip_mm)) rows.fell_before(Field::Precip, r.six_hour_precip_mm, 6.0);
+        if (!std::isnan(r.hour_precip_mm))
+            rows.fell_before(Field::Precip, r.hour_precip_mm, 1.0);
+        else if (amounts && rows.rows() > 1)
+            rows.fell_before(Field::Precip, 0.0, 1.0);  // such stations report only what fell
+        if (!std::isnan(r.six_hour_precip_mm))
+            rows.fell_before(Field::Precip, r.six_hour_precip_mm, 6.0);
         if (!amounts) {
-            // No measured amounts at this station: rates from present weather, until the next report.
+            // No measured amounts at this station: rates from present weather, until the next
+            // report.
             rows.set(Field::Rain, r.rain_mm_h / 3600.0);
             rows.set(Field::Snow, r.snow_mm_h / 3600.0);
             from_weather = from_weather || r.weather_seen;
         }
     }
     if (from_weather) {
-        rows.note(ReadNote::Kind::Info, 0, "precip", "rates from present weather: drizzle 0.1/0.3/0.8, rain 1/4.5/12, snow 0.5/1.5/3 mm/h for light/moderate/heavy");
+        rows.note(ReadNote::Kind::Info, 0, "precip",
+                  "rates from present weather: drizzle 0.1/0.3/0.8, rain 1/4.5/12, snow 0.5/1.5/3 "
+                  "mm/h for light/moderate/heavy");
     }
 
     // A forecast goes on after the last report, hour by hour.
@@ -286,7 +319,10 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
         return;
     }
     rows.note(ReadNote::Kind::Info, taf->line, "forecast",
-              std::to_string(taf->periods.size()).append(" prevailing periods used, ").append(std::to_string(taf->passing)).append(" passing ones (TEMPO, PROB) not"));
+              std::to_string(taf->periods.size())
+                  .append(" prevailing periods used, ")
+                  .append(std::to_string(taf->passing))
+                  .append(" passing ones (TEMPO, PROB) not"));
     const std::int64_t month_begin = taf_dates.month_begin();
     const auto at = [&](std::int64_t hours) { return month_begin + (hours - 24) * 3600000000LL; };
     for (std::int64_t h = taf->begin_hours; h < taf->end_hours; ++h) {

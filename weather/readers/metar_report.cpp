@@ -38,10 +38,14 @@ bool take_wind(std::string_view t, MetarReport& r)
 {
     double factor = 0.0;
     std::size_t unit = 0;
-    if (ends_with(t, "KT")) factor = 1852.0 / 3600.0, unit = 2;
-    else if (ends_with(t, "MPS")) factor = 1.0, unit = 3;
-    else if (ends_with(t, "KMH")) factor = 1.0 / 3.6, unit = 3;
-    else return false;
+    if (ends_with(t, "KT"))
+        factor = 1852.0 / 3600.0, unit = 2;
+    else if (ends_with(t, "MPS"))
+        factor = 1.0, unit = 3;
+    else if (ends_with(t, "KMH"))
+        factor = 1.0 / 3.6, unit = 3;
+    else
+        return false;
     auto body = t.substr(0, t.size() - unit);
     if (body.size() < 5) return false;
     const auto from = body.substr(0, 3);
@@ -52,7 +56,8 @@ bool take_wind(std::string_view t, MetarReport& r)
     const auto speed = body.substr(0, gust_at);
     if (digits(from) && number(from) <= 360) r.wind_from_deg = number(from);
     if (digits(speed) && speed.size() <= 3) r.wind_m_s = number(speed) * factor;
-    if (gust_at != std::string_view::npos && digits(body.substr(gust_at + 1))) r.gust_m_s = number(body.substr(gust_at + 1)) * factor;
+    if (gust_at != std::string_view::npos && digits(body.substr(gust_at + 1)))
+        r.gust_m_s = number(body.substr(gust_at + 1)) * factor;
     return true;
 }
 
@@ -92,19 +97,27 @@ bool take_visibility(std::string_view t, MetarReport& r, double whole_miles)
 
 bool take_cloud(std::string_view t, MetarReport& r)
 {
-    const auto grow = [&](double fraction) { r.cloud = std::isnan(r.cloud) ? fraction : std::max(r.cloud, fraction); };
+    const auto grow = [&](double fraction) {
+        r.cloud = std::isnan(r.cloud) ? fraction : std::max(r.cloud, fraction);
+    };
     if (t == "CLR" || t == "SKC" || t == "NSC" || t == "NCD") {
         grow(0.0);
         return true;
     }
     const auto kind = t.substr(0, 3);
     const bool height = t.size() >= 6 && (digits(t.substr(3, 3)) || t.substr(3, 3) == "///");
-    if (kind == "FEW" && height) grow(0.19);
-    else if (kind == "SCT" && height) grow(0.44);
-    else if (kind == "BKN" && height) grow(0.75);
-    else if (kind == "OVC" && height) grow(1.0);
-    else if (t.substr(0, 2) == "VV" && t.size() == 5) grow(1.0);
-    else return t.size() >= 6 && (t.substr(0, 3) == "///");
+    if (kind == "FEW" && height)
+        grow(0.19);
+    else if (kind == "SCT" && height)
+        grow(0.44);
+    else if (kind == "BKN" && height)
+        grow(0.75);
+    else if (kind == "OVC" && height)
+        grow(1.0);
+    else if (t.substr(0, 2) == "VV" && t.size() == 5)
+        grow(1.0);
+    else
+        return t.size() >= 6 && (t.substr(0, 3) == "///");
     return true;
 }
 
@@ -121,7 +134,8 @@ bool take_temperature(std::string_view t, MetarReport& r)
     };
     const auto left = t.substr(0, slash), right = t.substr(slash + 1);
     const bool good_left = left == "//" || !std::isnan(value(left));
-    const bool good_right = right.empty() || right == "//" || right == "XX" || !std::isnan(value(right));
+    const bool good_right =
+        right.empty() || right == "//" || right == "XX" || !std::isnan(value(right));
     if (!good_left || !good_right) return false;
     r.temp_c = value(left);
     r.dew_c = value(right);
@@ -153,8 +167,9 @@ bool take_weather(std::string_view t, MetarReport& r)
         body.remove_prefix(2);
     }
     if (body.size() < 2 || body.size() > 8 || body.size() % 2 != 0) return false;
-    constexpr const char* kCodes[] = {"MI", "PR", "BC", "DR", "BL", "SH", "TS", "FZ", "DZ", "RA", "SN", "SG", "IC", "PL", "GR", "GS",
-                                      "UP", "BR", "FG", "FU", "VA", "DU", "SA", "HZ", "PY", "PO", "SQ", "FC", "SS", "DS"};
+    constexpr const char* kCodes[] = {"MI", "PR", "BC", "DR", "BL", "SH", "TS", "FZ", "DZ", "RA",
+                                      "SN", "SG", "IC", "PL", "GR", "GS", "UP", "BR", "FG", "FU",
+                                      "VA", "DU", "SA", "HZ", "PY", "PO", "SQ", "FC", "SS", "DS"};
     int rains = 0, drizzles = 0, snows = 0;
     bool blowing = false;
     for (std::size_t i = 0; i < body.size(); i += 2) {
@@ -165,14 +180,18 @@ bool take_weather(std::string_view t, MetarReport& r)
         if (code == "BL" || code == "DR") blowing = true;
         if (code == "RA" || code == "UP") ++rains;
         if (code == "DZ") ++drizzles;
-        if (code == "SN" || code == "SG" || code == "PL" || code == "GR" || code == "GS" || code == "IC") ++snows;
+        if (code == "SN" || code == "SG" || code == "PL" || code == "GR" || code == "GS" ||
+            code == "IC")
+            ++snows;
     }
     if (near || blowing) return true;
-    constexpr double kRain[] = {1.0, 4.5, 12.0}, kDrizzle[] = {0.1, 0.3, 0.8}, kSnow[] = {0.5, 1.5, 3.0};
+    constexpr double kRain[] = {1.0, 4.5, 12.0}, kDrizzle[] = {0.1, 0.3, 0.8},
+                     kSnow[] = {0.5, 1.5, 3.0};
     const int kinds = (rains > 0) + (drizzles > 0) + (snows > 0);
     if (kinds == 0) return true;
     // A mixture shares its strength.
-    r.rain_mm_h += ((rains > 0 ? kRain[strength] : 0.0) + (drizzles > 0 ? kDrizzle[strength] : 0.0)) / kinds;
+    r.rain_mm_h +=
+        ((rains > 0 ? kRain[strength] : 0.0) + (drizzles > 0 ? kDrizzle[strength] : 0.0)) / kinds;
     r.snow_mm_h += (snows > 0 ? kSnow[strength] : 0.0) / kinds;
     r.weather_seen = true;
     return true;
@@ -214,8 +233,10 @@ bool take_runway(std::string_view t, MetarReport& r)
     const auto depth = state.substr(2, 2), brake = state.substr(4, 2);
     if (digits(depth)) {
         const int d = number(depth);
-        if (d <= 90) runway.depth_mm = d;
-        else if (d >= 92 && d <= 98) runway.depth_mm = (d - 90) * 50.0;  // 92 is 10 cm .. 98 is 40 cm
+        if (d <= 90)
+            runway.depth_mm = d;
+        else if (d >= 92 && d <= 98)
+            runway.depth_mm = (d - 90) * 50.0;  // 92 is 10 cm .. 98 is 40 cm
     }
     if (digits(brake) && number(brake) <= 90) runway.friction = number(brake) / 100.0;
     r.runways.push_back(runway);
@@ -225,7 +246,9 @@ bool take_runway(std::string_view t, MetarReport& r)
 void take_remark(std::string_view t, MetarReport& r)
 {
     if (t.size() == 9 && t[0] == 'T' && digits(t.substr(1))) {
-        const auto value = [](std::string_view v) { return (v[0] == '1' ? -0.1 : 0.1) * number(v.substr(1)); };
+        const auto value = [](std::string_view v) {
+            return (v[0] == '1' ? -0.1 : 0.1) * number(v.substr(1));
+        };
         r.temp_c = value(t.substr(1, 4));
         r.dew_c = value(t.substr(5, 4));
     } else if (t.size() == 5 && t[0] == 'T' && digits(t.substr(1))) {
@@ -249,7 +272,9 @@ std::string_view without_end(std::string_view t)
 
 const char* deposit_name(int deposit)
 {
-    constexpr const char* kNames[] = {"clear and dry", "damp", "wet", "rime or frost", "dry snow", "wet snow", "slush", "ice", "compacted snow", "frozen ruts"};
+    constexpr const char* kNames[] = {"clear and dry",  "damp",       "wet",   "rime or frost",
+                                      "dry snow",       "wet snow",   "slush", "ice",
+                                      "compacted snow", "frozen ruts"};
     return deposit >= 0 && deposit <= 9 ? kNames[deposit] : "not reported";
 }
 
@@ -282,7 +307,8 @@ std::optional<MetarReport> parse_metar(std::string_view text)
             r.nil = true;
             return r;
         }
-        if (t == "RMK") part = Remarks;
+        if (t == "RMK")
+            part = Remarks;
         else if (part != Remarks && (t == "NOSIG" || t == "BECMG" || t == "TEMPO")) {
             part = Trend;
         } else if (part == Remarks) {
@@ -290,14 +316,19 @@ std::optional<MetarReport> parse_metar(std::string_view text)
         } else if (part == Trend) {
             take_runway(t, r);
         } else {
-            if (t == "AUTO" || t == "COR" || t.substr(0, 2) == "RE" || t == "TSNO" || t == "NDV" || t == "WS" || t == "ALL" || t == "RWY") continue;
-            if (digits(t) && t.size() <= 2 && i + 1 < tokens.size() && ends_with(without_end(tokens[i + 1]), "SM")) {
+            if (t == "AUTO" || t == "COR" || t.substr(0, 2) == "RE" || t == "TSNO" || t == "NDV" ||
+                t == "WS" || t == "ALL" || t == "RWY")
+                continue;
+            if (digits(t) && t.size() <= 2 && i + 1 < tokens.size() &&
+                ends_with(without_end(tokens[i + 1]), "SM")) {
                 whole_miles = number(t);
                 continue;
             }
-            if (t.size() == 7 && t[3] == 'V' && digits(t.substr(0, 3)) && digits(t.substr(4))) continue;  // 350V050
-            if (take_wind(t, r) || take_temperature(t, r) || take_pressure(t, r) || take_visibility(t, r, whole_miles) ||
-                take_cloud(t, r) || take_runway(t, r) || take_weather(t, r)) {
+            if (t.size() == 7 && t[3] == 'V' && digits(t.substr(0, 3)) && digits(t.substr(4)))
+                continue;  // 350V050
+            if (take_wind(t, r) || take_temperature(t, r) || take_pressure(t, r) ||
+                take_visibility(t, r, whole_miles) || take_cloud(t, r) || take_runway(t, r) ||
+                take_weather(t, r)) {
                 if (ends_with(t, "SM")) whole_miles = 0.0;
                 continue;
             }
@@ -312,19 +343,23 @@ std::optional<TafForecast> parse_taf(std::string_view text)
 {
     auto tokens = words(text, 400);
     std::size_t i = 0;
-    while (i < tokens.size() && (tokens[i] == "AMD" || tokens[i] == "COR" || tokens[i] == "TAF")) ++i;
+    while (i < tokens.size() && (tokens[i] == "AMD" || tokens[i] == "COR" || tokens[i] == "TAF"))
+        ++i;
     if (i >= tokens.size() || tokens[i].size() != 4) return std::nullopt;
     TafForecast taf;
     taf.station = std::string(tokens[i++]);
     if (i < tokens.size() && tokens[i].size() == 7 && tokens[i][6] == 'Z') ++i;
     const auto span = [](std::string_view t, std::int64_t& begin, std::int64_t& end) {
-        if (t.size() != 9 || t[4] != '/' || !digits(t.substr(0, 4)) || !digits(t.substr(5))) return false;
+        if (t.size() != 9 || t[4] != '/' || !digits(t.substr(0, 4)) || !digits(t.substr(5)))
+            return false;
         begin = number(t.substr(0, 2)) * 24 + number(t.substr(2, 2));
         end = number(t.substr(5, 2)) * 24 + number(t.substr(7, 2));
-        if (end < begin) end += 31 * 24;  // over the end of the month: corrected by the reader of days
+        if (end < begin)
+            end += 31 * 24;  // over the end of the month: corrected by the reader of days
         return true;
     };
-    if (i >= tokens.size() || !span(without_end(tokens[i]), taf.begin_hours, taf.end_hours)) return std::nullopt;
+    if (i >= tokens.size() || !span(without_end(tokens[i]), taf.begin_hours, taf.end_hours))
+        return std::nullopt;
     ++i;
     TafPeriod now;
     now.from_hours = taf.begin_hours;
@@ -359,18 +394,23 @@ std::optional<TafForecast> parse_taf(std::string_view text)
             ++taf.passing;
         } else if (span(t, begin, end)) {
             continue;
-        } else if ((t.substr(0, 2) == "TX" || t.substr(0, 2) == "TN") && t.find('/') != std::string_view::npos) {
+        } else if ((t.substr(0, 2) == "TX" || t.substr(0, 2) == "TN") &&
+                   t.find('/') != std::string_view::npos) {
             const auto slash = t.find('/');
             auto v = t.substr(2, slash - 2);
             const bool minus = !v.empty() && v[0] == 'M';
             if (minus) v.remove_prefix(1);
             const auto at = t.substr(slash + 1);
             if (digits(v) && v.size() <= 2 && at.size() >= 4 && digits(at.substr(0, 4))) {
-                taf.temperatures_c.emplace_back(number(at.substr(0, 2)) * 24 + number(at.substr(2, 2)), minus ? -number(v) : number(v));
+                taf.temperatures_c.emplace_back(
+                    number(at.substr(0, 2)) * 24 + number(at.substr(2, 2)),
+                    minus ? -number(v) : number(v));
             }
         } else {
             MetarReport& r = passing ? dummy.weather : now.weather;
-            if (!(take_wind(t, r) || take_pressure(t, r) || take_visibility(t, r, 0.0) || take_cloud(t, r) || take_weather(t, r))) continue;
+            if (!(take_wind(t, r) || take_pressure(t, r) || take_visibility(t, r, 0.0) ||
+                  take_cloud(t, r) || take_weather(t, r)))
+                continue;
         }
     }
     close();

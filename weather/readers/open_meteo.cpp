@@ -1,5 +1,6 @@
-// Open-Meteo, JSON and CSV. Units are beside the names; hourly sums and radiation belong to the hour before their
-// time; times are local with an offset for the whole file. Names with and without underscores.
+// Open-Meteo, JSON and CSV. Units are beside the names; hourly sums and radiation belong to the
+// hour before their time; times are local with an offset for the whole file. Names with and without
+// underscores.
 #include <cmath>
 
 #include "base/error.h"
@@ -29,12 +30,14 @@ OpenMeteoColumn meaning_of(const std::string& name, const std::string& unit)
     } else if (low == "showers") {
         c.showers = true;
         c.meaning = column_meaning("rain", unit);
-    } else if (low == "snowfall" || low == "rain" || low == "precipitation" || low == "snow_depth" || low == "visibility" ||
-               low == "surface_pressure" || low == "temperature_2m" || low == "shortwave_radiation" ||
-               low == "diffuse_radiation" || low == "direct_normal_irradiance" || low == "cloud_cover" || low == "cloudcover" ||
-               low == "wind_speed_10m" || low == "windspeed_10m" || low == "wind_direction_10m" ||
-               low == "winddirection_10m" || low == "relative_humidity_2m" || low == "relativehumidity_2m" ||
-               low == "dew_point_2m" || low == "dewpoint_2m") {
+    } else if (low == "snowfall" || low == "rain" || low == "precipitation" ||
+               low == "snow_depth" || low == "visibility" || low == "surface_pressure" ||
+               low == "temperature_2m" || low == "shortwave_radiation" ||
+               low == "diffuse_radiation" || low == "direct_normal_irradiance" ||
+               low == "cloud_cover" || low == "cloudcover" || low == "wind_speed_10m" ||
+               low == "windspeed_10m" || low == "wind_direction_10m" ||
+               low == "winddirection_10m" || low == "relative_humidity_2m" ||
+               low == "relativehumidity_2m" || low == "dew_point_2m" || low == "dewpoint_2m") {
         c.meaning = column_meaning(low, unit);
     }
     return c;
@@ -45,14 +48,19 @@ struct RowSums {
     double total = kMissing, rain = kMissing, showers = kMissing, snow = kMissing;
     void add(const OpenMeteoColumn& c, double amount)
     {
-        if (c.showers) showers = amount;
-        else if (c.meaning->field == Field::Precip) total = amount;
-        else if (c.meaning->field == Field::Rain) rain = amount;
-        else snow = amount;
+        if (c.showers)
+            showers = amount;
+        else if (c.meaning->field == Field::Precip)
+            total = amount;
+        else if (c.meaning->field == Field::Rain)
+            rain = amount;
+        else
+            snow = amount;
     }
     void put(RowCollector& rows) const
     {
-        const double liquid = (std::isnan(rain) ? 0.0 : rain) + (std::isnan(showers) ? 0.0 : showers);
+        const double liquid =
+            (std::isnan(rain) ? 0.0 : rain) + (std::isnan(showers) ? 0.0 : showers);
         if (!std::isnan(snow) && !std::isnan(total)) {
             const double ice = std::min(snow, total);
             rows.fell_before(Field::Snow, ice, 1.0);
@@ -68,7 +76,8 @@ struct RowSums {
     }
 };
 
-void put_value(RowCollector& rows, RowSums& sums, const OpenMeteoColumn& c, double value, double air_k)
+void put_value(RowCollector& rows, RowSums& sums, const OpenMeteoColumn& c, double value,
+               double air_k)
 {
     const ColumnMeaning& m = *c.meaning;
     double si = value * m.scale + m.offset;
@@ -98,11 +107,13 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
     const Json* root = &whole;
     if (whole.kind == Json::Kind::Array && !whole.items.empty()) {
         root = &whole.items.front();
-        if (whole.items.size() > 1) rows.note(ReadNote::Kind::Info, 0, "", "several places in the file, the first is used");
+        if (whole.items.size() > 1)
+            rows.note(ReadNote::Kind::Info, 0, "", "several places in the file, the first is used");
     }
     const Json* hourly = root->find("hourly");
     if (!hourly || hourly->kind != Json::Kind::Object) {
-        throw Error("weather: JSON has no object 'hourly'", "Give an Open-Meteo response with hourly values.");
+        throw Error("weather: JSON has no object 'hourly'",
+                    "Give an Open-Meteo response with hourly values.");
     }
     const auto number = [&](const char* key, double otherwise) {
         const Json* v = root->find(key);
@@ -115,7 +126,8 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
     if (!(std::abs(offset) <= 50400.0)) offset = 0.0;
     const Json* time = hourly->find("time");
     if (!time || time->kind != Json::Kind::Array) {
-        throw Error("weather: JSON 'hourly' has no array 'time'", "Give an Open-Meteo response with hourly values.");
+        throw Error("weather: JSON 'hourly' has no array 'time'",
+                    "Give an Open-Meteo response with hourly values.");
     }
     const Json* units = root->find("hourly_units");
     struct Column {
@@ -137,7 +149,8 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
         if (m.sea_level && hourly->find("surface_pressure")) continue;
         if (values.items.size() != time->items.size()) {
             rows.note(ReadNote::Kind::BadRow, values.line, shown(name),
-                      "has " + std::to_string(values.items.size()) + " values for " + std::to_string(time->items.size()) + " times");
+                      "has " + std::to_string(values.items.size()) + " values for " +
+                          std::to_string(time->items.size()) + " times");
         }
         if (name == "temperature_2m") {
             air_scale = m.meaning->scale;
@@ -149,10 +162,13 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
     for (std::size_t i = 0; i < time->items.size(); ++i) {
         const Json& t = time->items[i];
         std::optional<std::int64_t> us;
-        if (t.kind == Json::Kind::String) us = us_from_iso(t.text, offset);
-        else if (t.kind == Json::Kind::Number && std::abs(t.number) < 1e11) us = static_cast<std::int64_t>(t.number) * 1000000;
+        if (t.kind == Json::Kind::String)
+            us = us_from_iso(t.text, offset);
+        else if (t.kind == Json::Kind::Number && std::abs(t.number) < 1e11)
+            us = static_cast<std::int64_t>(t.number) * 1000000;
         if (!us) {
-            rows.bad_row(t.line, "time", "entry " + std::to_string(i + 1) + " of hourly.time is not a time");
+            rows.bad_row(t.line, "time",
+                         "entry " + std::to_string(i + 1) + " of hourly.time is not a time");
             continue;
         }
         if (!rows.begin_row(*us, t.line)) continue;
@@ -162,8 +178,10 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
         }
         RowSums sums;
         for (const Column& c : columns) {
-            if (i >= c.values->items.size() || c.values->items[i].kind != Json::Kind::Number) rows.missing(c.meaning.meaning->field);
-            else put_value(rows, sums, c.meaning, c.values->items[i].number, air_k);
+            if (i >= c.values->items.size() || c.values->items[i].kind != Json::Kind::Number)
+                rows.missing(c.meaning.meaning->field);
+            else
+                put_value(rows, sums, c.meaning, c.values->items[i].number, air_k);
         }
         sums.put(rows);
     }
@@ -180,7 +198,8 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
         if (place_names[i] == "latitude") rows.site().latitude_deg = value.value_or(kMissing);
         if (place_names[i] == "longitude") rows.site().longitude_deg = value.value_or(kMissing);
         if (place_names[i] == "elevation") rows.site().elevation_m = value.value_or(kMissing);
-        if (place_names[i] == "utc_offset_seconds" && value && std::abs(*value) <= 50400.0) offset = *value;
+        if (place_names[i] == "utc_offset_seconds" && value && std::abs(*value) <= 50400.0)
+            offset = *value;
     }
     std::vector<OpenMeteoColumn> columns;
     std::size_t width = 0, air_at = 0;
@@ -193,8 +212,8 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
         const auto f = split(*line, ',', 256);
         if (!width) {
             if (lower(f[0]) != "time") {
-                throw Error("weather: Open-Meteo CSV line " + std::to_string(lines.number()) + ": '" + shown(*line) +
-                                "' should begin with time",
+                throw Error("weather: Open-Meteo CSV line " + std::to_string(lines.number()) +
+                                ": '" + shown(*line) + "' should begin with time",
                             "Download the file again as CSV with hourly values.");
             }
             width = f.size();
@@ -203,12 +222,14 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
                 const auto open = f[i].find('(');
                 const auto close = f[i].rfind(')');
                 std::string unit;
-                if (open != std::string_view::npos && close != std::string_view::npos && close > open) {
+                if (open != std::string_view::npos && close != std::string_view::npos &&
+                    close > open) {
                     unit = std::string(f[i].substr(open + 1, close - open - 1));
                 }
                 const std::string name(trimmed(f[i].substr(0, open)));
                 columns[i] = meaning_of(name, unit);
-                if (!columns[i].meaning) rows.note(ReadNote::Kind::Info, lines.number(), shown(name), "not used");
+                if (!columns[i].meaning)
+                    rows.note(ReadNote::Kind::Info, lines.number(), shown(name), "not used");
                 if (lower(name) == "surface_pressure") surface = true;
                 if (lower(name) == "temperature_2m") air_at = i;
             }
@@ -216,7 +237,9 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
             continue;
         }
         if (f.size() != width) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(width));
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(f.size()) + " columns, the header has " +
+                             std::to_string(width));
             continue;
         }
         const auto us = us_from_iso(f[0], offset);
@@ -227,19 +250,25 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
         if (!rows.begin_row(*us, lines.number())) continue;
         double air_k = kMissing;
         if (air_at && columns[air_at].meaning) {
-            if (const auto v = to_number(f[air_at])) air_k = *v * columns[air_at].meaning->scale + columns[air_at].meaning->offset;
+            if (const auto v = to_number(f[air_at]))
+                air_k = *v * columns[air_at].meaning->scale + columns[air_at].meaning->offset;
         }
         RowSums sums;
         for (std::size_t i = 1; i < width; ++i) {
             if (!columns[i].meaning || (columns[i].sea_level && surface)) continue;
             const auto value = to_number(f[i]);
-            if (f[i].empty() || lower(f[i]) == "nan") rows.missing(columns[i].meaning->field);
-            else if (!value) rows.unreadable(columns[i].meaning->field, f[i]);
-            else put_value(rows, sums, columns[i], *value, air_k);
+            if (f[i].empty() || lower(f[i]) == "nan")
+                rows.missing(columns[i].meaning->field);
+            else if (!value)
+                rows.unreadable(columns[i].meaning->field, f[i]);
+            else
+                put_value(rows, sums, columns[i], *value, air_k);
         }
         sums.put(rows);
     }
-    if (!width) throw Error("weather: Open-Meteo CSV has no table", "Download the file again as CSV with hourly values.");
+    if (!width)
+        throw Error("weather: Open-Meteo CSV has no table",
+                    "Download the file again as CSV with hourly values.");
 }
 
 }  // namespace petrichor::weather

@@ -1,5 +1,5 @@
-// PVGIS CSV (typical year or series): a header block, a table that begins with time(UTC), a footer. No
-// precipitation. Times like 20180101:0000; the year of a typical year jumps.
+// PVGIS CSV (typical year or series): a header block, a table that begins with time(UTC), a footer.
+// No precipitation. Times like 20180101:0000; the year of a typical year jumps.
 #include <cmath>
 
 #include "base/error.h"
@@ -17,19 +17,32 @@ struct Column {
     double offset;
 };
 constexpr Column kColumns[] = {
-    {"t2m", Field::AirTemp, kZeroCelsiusK}, {"rh", Field::RelHumidity, 0}, {"g(h)", Field::Shortwave, 0},
-    {"gb(n)", Field::Direct, 0},            {"gd(h)", Field::Diffuse, 0},  {"ir(h)", Field::Longwave, 0},
-    {"ws10m", Field::Wind, 0},              {"wd10m", Field::WindFrom, 0}, {"sp", Field::Pressure, 0},
+    {"t2m", Field::AirTemp, kZeroCelsiusK},
+    {"rh", Field::RelHumidity, 0},
+    {"g(h)", Field::Shortwave, 0},
+    {"gb(n)", Field::Direct, 0},
+    {"gd(h)", Field::Diffuse, 0},
+    {"ir(h)", Field::Longwave, 0},
+    {"ws10m", Field::Wind, 0},
+    {"wd10m", Field::WindFrom, 0},
+    {"sp", Field::Pressure, 0},
 };
 
 bool parse_when(std::string_view text, CivilTime& when)
 {
     if (text.size() < 13 || text[8] != ':') return false;
-    const auto year = to_integer(text.substr(0, 4)), month = to_integer(text.substr(4, 2)), day = to_integer(text.substr(6, 2));
+    const auto year = to_integer(text.substr(0, 4)), month = to_integer(text.substr(4, 2)),
+               day = to_integer(text.substr(6, 2));
     const auto hour = to_integer(text.substr(9, 2)), minute = to_integer(text.substr(11, 2));
     if (!year || !month || !day || !hour || !minute) return false;
-    if (*month < 1 || *month > 12 || *hour < 0 || *hour > 24 || *minute < 0 || *minute > 59) return false;
-    when = {*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour), static_cast<int>(*minute), 0.0};
+    if (*month < 1 || *month > 12 || *hour < 0 || *hour > 24 || *minute < 0 || *minute > 59)
+        return false;
+    when = {*year,
+            static_cast<int>(*month),
+            static_cast<int>(*day),
+            static_cast<int>(*hour),
+            static_cast<int>(*minute),
+            0.0};
     return true;
 }
 
@@ -43,17 +56,25 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
     while (const auto line = lines.next()) {
         const std::string low = lower(*line);
         const auto colon = line->rfind(':');
-        const double value = colon == std::string_view::npos ? kMissing : to_number(line->substr(colon + 1)).value_or(kMissing);
-        if (low.rfind("latitude", 0) == 0) rows.site().latitude_deg = value;
-        else if (low.rfind("longitude", 0) == 0) rows.site().longitude_deg = value;
-        else if (low.rfind("elevation", 0) == 0) rows.site().elevation_m = value;
-        else if (low.rfind("irradiance time offset", 0) == 0 && std::abs(value) <= 1.0) sun_offset_h = value;
+        const double value = colon == std::string_view::npos
+                                 ? kMissing
+                                 : to_number(line->substr(colon + 1)).value_or(kMissing);
+        if (low.rfind("latitude", 0) == 0)
+            rows.site().latitude_deg = value;
+        else if (low.rfind("longitude", 0) == 0)
+            rows.site().longitude_deg = value;
+        else if (low.rfind("elevation", 0) == 0)
+            rows.site().elevation_m = value;
+        else if (low.rfind("irradiance time offset", 0) == 0 && std::abs(value) <= 1.0)
+            sun_offset_h = value;
         else if (low.rfind("time", 0) == 0) {
             names = split(*line, ',', 64);
             break;
         }
     }
-    if (names.empty()) throw Error("weather: PVGIS: there is no line that begins with time(UTC)", "Download the file again as CSV.");
+    if (names.empty())
+        throw Error("weather: PVGIS: there is no line that begins with time(UTC)",
+                    "Download the file again as CSV.");
     std::vector<const Column*> meaning(names.size(), nullptr);
     for (std::size_t i = 0; i < names.size(); ++i) {
         for (const Column& c : kColumns) {
@@ -70,9 +91,11 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
     rows.note(ReadNote::Kind::Info, 0, "precip", "PVGIS has no precipitation");
     if (sun_offset_h != 0.0) {
         rows.note(ReadNote::Kind::Time, 0, "sw_down",
-                  std::string("irradiance is instantaneous ").append(std::to_string(std::lround(sun_offset_h * 60.0)))
+                  std::string("irradiance is instantaneous ")
+                      .append(std::to_string(std::lround(sun_offset_h * 60.0)))
                       .append(" min after the time of its row; moved to the row along a line"));
-        for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse}) rows.holds_after(f, sun_offset_h * 3600.0);
+        for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse})
+            rows.holds_after(f, sun_offset_h * 3600.0);
     }
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
@@ -85,11 +108,14 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
             continue;
         }
         if (f.size() != names.size()) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(names.size()));
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(f.size()) + " columns, the header has " +
+                             std::to_string(names.size()));
             continue;
         }
         if (typical.typical && when.month == 2 && when.day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time", "29 February of a typical year left out");
+            rows.note(ReadNote::Kind::Time, lines.number(), "time",
+                      "29 February of a typical year left out");
             continue;
         }
         when.year = typical.of(when.year);
@@ -102,8 +128,10 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
         for (std::size_t i = 1; i < f.size(); ++i) {
             if (!meaning[i]) continue;
             const auto value = to_number(f[i]);
-            if (!value) rows.unreadable(meaning[i]->field, f[i]);
-            else rows.set(meaning[i]->field, *value + meaning[i]->offset);
+            if (!value)
+                rows.unreadable(meaning[i]->field, f[i]);
+            else
+                rows.set(meaning[i]->field, *value + meaning[i]->offset);
         }
     }
 }

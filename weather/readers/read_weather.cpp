@@ -12,7 +12,8 @@ namespace petrichor::weather {
 namespace {
 
 constexpr const char* kKinds =
-    "EPW, TMY3 CSV, PVGIS CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, GHCN-daily, SURFRAD, 12-column "
+    "EPW, TMY3 CSV, PVGIS CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, GHCN-daily, "
+    "SURFRAD, 12-column "
     "FSM text, or CSV with a `time` column and units in its header";
 
 // Looks at a few samples only, so that a gigabyte of zeros is refused at once.
@@ -22,7 +23,8 @@ void refuse_binary(std::string_view text)
         std::size_t odd = 0;
         for (const char c : part) {
             const auto u = static_cast<unsigned char>(c);
-            if (u < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != 3 && c != 1) ++odd;
+            if (u < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != 3 && c != 1)
+                ++odd;
         }
         return odd;
     };
@@ -31,8 +33,9 @@ void refuse_binary(std::string_view text)
         const std::size_t at = text.size() / 16 * i;
         const auto part = text.substr(at, kSample);
         if (part.find('\0') != std::string_view::npos || count_odd(part) * 50 > part.size()) {
-            throw Error("weather: this is a binary file, not text (near byte " + std::to_string(at) + ")",
-                        std::string("Give a text file: ") + kKinds + ".");
+            throw Error(
+                "weather: this is a binary file, not text (near byte " + std::to_string(at) + ")",
+                std::string("Give a text file: ") + kKinds + ".");
         }
         if (text.size() <= kSample) break;
     }
@@ -40,7 +43,8 @@ void refuse_binary(std::string_view text)
 
 bool all_numbers(const std::vector<std::string_view>& fields)
 {
-    return std::all_of(fields.begin(), fields.end(), [](std::string_view f) { return to_number(f).has_value(); });
+    return std::all_of(fields.begin(), fields.end(),
+                       [](std::string_view f) { return to_number(f).has_value(); });
 }
 
 bool starts_with(std::string_view text, std::string_view prefix)
@@ -51,7 +55,8 @@ bool starts_with(std::string_view text, std::string_view prefix)
 bool is_station_code(std::string_view w)
 {
     if (w.size() != 4 || w[0] < 'A' || w[0] > 'Z') return false;
-    return std::all_of(w.begin(), w.end(), [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+    return std::all_of(w.begin(), w.end(),
+                       [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
 }
 bool is_day_time(std::string_view w)
 {
@@ -62,7 +67,9 @@ bool looks_like_metar(std::string_view line)
 {
     const auto w = words(line, 8);
     for (std::size_t i = 0; i + 1 < w.size(); ++i) {
-        if (is_station_code(w[i]) && (is_day_time(w[i + 1]) || w[i + 1] == "NIL=" || w[i + 1] == "NIL")) return true;
+        if (is_station_code(w[i]) &&
+            (is_day_time(w[i + 1]) || w[i + 1] == "NIL=" || w[i + 1] == "NIL"))
+            return true;
     }
     return false;
 }
@@ -71,8 +78,10 @@ bool looks_like_metar(std::string_view line)
 
 void TypicalYear::watch(long long row_year, int row_month)
 {
-    if (first_ == 0) first_ = row_year;
-    else if (row_year != last_ && !(row_year == last_ + 1 && row_month == 1 && last_month_ == 12)) typical = true;
+    if (first_ == 0)
+        first_ = row_year;
+    else if (row_year != last_ && !(row_year == last_ + 1 && row_month == 1 && last_month_ == 12))
+        typical = true;
     last_ = row_year;
     last_month_ = row_month;
 }
@@ -82,25 +91,38 @@ void TypicalYear::decide(RowCollector& rows)
     year = is_leap_year(first_) ? first_ + 1 : first_;
     if (typical) {
         rows.note(ReadNote::Kind::Time, 0, "time",
-                  std::string("typical year: months of different years, placed in ").append(std::to_string(year)));
+                  std::string("typical year: months of different years, placed in ")
+                      .append(std::to_string(year)));
     }
 }
 
 const char* format_name(WeatherFormat format)
 {
     switch (format) {
-        case WeatherFormat::Fsm: return "FSM 12 columns";
-        case WeatherFormat::ForcingCsv: return "forcing CSV";
-        case WeatherFormat::Epw: return "EPW";
-        case WeatherFormat::Tmy3: return "TMY3 CSV";
-        case WeatherFormat::Pvgis: return "PVGIS CSV";
-        case WeatherFormat::OpenMeteoJson: return "Open-Meteo JSON";
-        case WeatherFormat::OpenMeteoCsv: return "Open-Meteo CSV";
-        case WeatherFormat::Metar: return "METAR";
-        case WeatherFormat::Smet: return "SMET";
-        case WeatherFormat::IsdLite: return "ISD-Lite";
-        case WeatherFormat::GhcnDaily: return "GHCN-daily";
-        case WeatherFormat::Surfrad: return "SURFRAD";
+        case WeatherFormat::Fsm:
+            return "FSM 12 columns";
+        case WeatherFormat::ForcingCsv:
+            return "forcing CSV";
+        case WeatherFormat::Epw:
+            return "EPW";
+        case WeatherFormat::Tmy3:
+            return "TMY3 CSV";
+        case WeatherFormat::Pvgis:
+            return "PVGIS CSV";
+        case WeatherFormat::OpenMeteoJson:
+            return "Open-Meteo JSON";
+        case WeatherFormat::OpenMeteoCsv:
+            return "Open-Meteo CSV";
+        case WeatherFormat::Metar:
+            return "METAR";
+        case WeatherFormat::Smet:
+            return "SMET";
+        case WeatherFormat::IsdLite:
+            return "ISD-Lite";
+        case WeatherFormat::GhcnDaily:
+            return "GHCN-daily";
+        case WeatherFormat::Surfrad:
+            return "SURFRAD";
     }
     return "unknown";
 }
@@ -127,7 +149,8 @@ WeatherFormat recognise_weather(std::string_view text)
     }
     if (head.size() >= 2 && starts_with(head[1], "Date (MM/DD/YYYY)")) return WeatherFormat::Tmy3;
     const std::string top = lower(head.front());
-    if (starts_with(top, "latitude,longitude,elevation") || starts_with(top, "\"latitude\",")) return WeatherFormat::OpenMeteoCsv;
+    if (starts_with(top, "latitude,longitude,elevation") || starts_with(top, "\"latitude\","))
+        return WeatherFormat::OpenMeteoCsv;
     if (std::any_of(head.begin(), head.end(), looks_like_metar)) return WeatherFormat::Metar;
     if (head.front().size() >= 21 && head.front().find(',') == std::string_view::npos &&
         to_integer(head.front().substr(11, 4)) && to_integer(head.front().substr(15, 2)) &&
@@ -136,15 +159,18 @@ WeatherFormat recognise_weather(std::string_view text)
     }
     {
         const auto f = split(head.front(), ',', 8);
-        if (f.size() >= 4 && f[0].size() == 11 && f[1].size() == 8 && to_integer(f[1]) && f[2].size() == 4) {
+        if (f.size() >= 4 && f[0].size() == 11 && f[1].size() == 8 && to_integer(f[1]) &&
+            f[2].size() == 4) {
             return WeatherFormat::GhcnDaily;
         }
-        if (top.find("station") != std::string::npos && top.find("tmax") != std::string::npos) return WeatherFormat::GhcnDaily;
+        if (top.find("station") != std::string::npos && top.find("tmax") != std::string::npos)
+            return WeatherFormat::GhcnDaily;
     }
     if (head.size() >= 3) {
         const auto data = words(head[2], 64);
         const auto place = words(head[1], 8);
-        if (data.size() >= 40 && all_numbers(data) && place.size() >= 3 && to_number(place[0]) && !all_numbers(words(head[0], 8))) {
+        if (data.size() >= 40 && all_numbers(data) && place.size() >= 3 && to_number(place[0]) &&
+            !all_numbers(words(head[0], 8))) {
             return WeatherFormat::Surfrad;
         }
     }
@@ -152,7 +178,9 @@ WeatherFormat recognise_weather(std::string_view text)
         const auto columns = words(line, 64);
         if (!all_numbers(columns) || columns.size() != 12) continue;
         // Both have twelve numbers a row; ISD-Lite has whole numbers and -9999.
-        const bool whole = std::all_of(columns.begin(), columns.end(), [](std::string_view c) { return to_integer(c).has_value(); });
+        const bool whole = std::all_of(columns.begin(), columns.end(), [](std::string_view c) {
+            return to_integer(c).has_value();
+        });
         return whole ? WeatherFormat::IsdLite : WeatherFormat::Fsm;
     }
     for (const auto line : head) {
@@ -164,34 +192,59 @@ WeatherFormat recognise_weather(std::string_view text)
         }
         break;
     }
-    throw Error("weather: the kind of this file is not known; it begins with '" + shown(head.front()) + "'",
-                std::string("Give one of: ") + kKinds + ".");
+    throw Error(
+        "weather: the kind of this file is not known; it begins with '" + shown(head.front()) + "'",
+        std::string("Give one of: ") + kKinds + ".");
 }
 
 ReadResult read_weather(std::string_view text, const ReadOptions& options)
 {
     if (text.size() > options.most_bytes) {
         refuse_binary(text);
-        throw Error("weather: the file has " + std::to_string(text.size()) + " bytes, more than the " +
-                        std::to_string(options.most_bytes) + " accepted",
+        throw Error("weather: the file has " + std::to_string(text.size()) +
+                        " bytes, more than the " + std::to_string(options.most_bytes) + " accepted",
                     "Cut the file into shorter periods.");
     }
     const WeatherFormat format = recognise_weather(text);
     if (starts_with(text, "\xEF\xBB\xBF")) text.remove_prefix(3);
     RowCollector rows(format_name(format));
     switch (format) {
-        case WeatherFormat::Fsm: read_fsm(text, rows, options); break;
-        case WeatherFormat::ForcingCsv: read_forcing_csv(text, rows, options); break;
-        case WeatherFormat::Epw: read_epw(text, rows, options); break;
-        case WeatherFormat::Tmy3: read_tmy3(text, rows, options); break;
-        case WeatherFormat::Pvgis: read_pvgis(text, rows, options); break;
-        case WeatherFormat::OpenMeteoJson: read_open_meteo_json(text, rows, options); break;
-        case WeatherFormat::OpenMeteoCsv: read_open_meteo_csv(text, rows, options); break;
-        case WeatherFormat::Metar: read_metar(text, rows, options); break;
-        case WeatherFormat::Smet: read_smet(text, rows, options); break;
-        case WeatherFormat::IsdLite: read_isd_lite(text, rows, options); break;
-        case WeatherFormat::GhcnDaily: read_ghcn_daily(text, rows, options); break;
-        case WeatherFormat::Surfrad: read_surfrad(text, rows, options); break;
+        case WeatherFormat::Fsm:
+            read_fsm(text, rows, options);
+            break;
+        case WeatherFormat::ForcingCsv:
+            read_forcing_csv(text, rows, options);
+            break;
+        case WeatherFormat::Epw:
+            read_epw(text, rows, options);
+            break;
+        case WeatherFormat::Tmy3:
+            read_tmy3(text, rows, options);
+            break;
+        case WeatherFormat::Pvgis:
+            read_pvgis(text, rows, options);
+            break;
+        case WeatherFormat::OpenMeteoJson:
+            read_open_meteo_json(text, rows, options);
+            break;
+        case WeatherFormat::OpenMeteoCsv:
+            read_open_meteo_csv(text, rows, options);
+            break;
+        case WeatherFormat::Metar:
+            read_metar(text, rows, options);
+            break;
+        case WeatherFormat::Smet:
+            read_smet(text, rows, options);
+            break;
+        case WeatherFormat::IsdLite:
+            read_isd_lite(text, rows, options);
+            break;
+        case WeatherFormat::GhcnDaily:
+            read_ghcn_daily(text, rows, options);
+            break;
+        case WeatherFormat::Surfrad:
+            read_surfrad(text, rows, options);
+            break;
     }
     Site& site = rows.site();
     if (!std::isnan(options.site.latitude_deg)) site.latitude_deg = options.site.latitude_deg;
@@ -203,7 +256,8 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     }
     const auto drop_odd = [&](double& value, double low, double high, const char* name) {
         if (std::isnan(value) || (value >= low && value <= high)) return;
-        rows.note(ReadNote::Kind::OutOfRange, 0, name, std::to_string(value) + " is not possible, ignored");
+        rows.note(ReadNote::Kind::OutOfRange, 0, name,
+                  std::to_string(value) + " is not possible, ignored");
         value = kMissing;
     };
     drop_odd(site.latitude_deg, -90, 90, "latitude");

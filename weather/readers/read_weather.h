@@ -11,28 +11,28 @@ namespace petrichor::weather {
 
 /// Weather files that are recognised by their content.
 enum class WeatherFormat {
-    Fsm,            ///< 12 columns of numbers, no header
-    ForcingCsv,     ///< comma, semicolon or tab; a `time` column and units in the header
-    Epw,            ///< EnergyPlus
-    Tmy3,           ///< NREL typical year, CSV
-    Pvgis,          ///< European Commission typical year or series, CSV
+    Fsm,         ///< 12 columns of numbers, no header
+    ForcingCsv,  ///< comma, semicolon or tab; a `time` column and units in the header
+    Epw,         ///< EnergyPlus
+    Tmy3,        ///< NREL typical year, CSV
+    Pvgis,       ///< European Commission typical year or series, CSV
     OpenMeteoJson,
     OpenMeteoCsv,
-    Metar,          ///< reports, with remarks, runway state and TAF
-    Smet,           ///< WSL
-    IsdLite,        ///< NOAA
-    GhcnDaily,      ///< NOAA, .dly or by-station CSV
-    Surfrad,        ///< NOAA
+    Metar,      ///< reports, with remarks, runway state and TAF
+    Smet,       ///< WSL
+    IsdLite,    ///< NOAA
+    GhcnDaily,  ///< NOAA, .dly or by-station CSV
+    Surfrad,    ///< NOAA
 };
 const char* format_name(WeatherFormat format);
 
 struct ReadOptions {
-    Site site{};                ///< values that are given (not NaN) replace those of the file
+    Site site{};                 ///< values that are given (not NaN) replace those of the file
     bool heights_given = false;  ///< the site's sensor heights replace those of the file
-    std::string station{};      ///< METAR: which station; empty: the one with most reports
-    int year = 0, month = 0;    ///< METAR says only the day; 0: January 2020, with a note
+    std::string station{};       ///< METAR: which station; empty: the one with most reports
+    int year = 0, month = 0;     ///< METAR says only the day; 0: January 2020, with a note
     std::size_t most_bytes = std::size_t{512} << 20;
-    bool fill = true;           ///< run fill_forcing
+    bool fill = true;  ///< run fill_forcing
     FillOptions filling{};
 };
 
@@ -45,8 +45,10 @@ struct ReadResult {
 ///   throws  Error when it is empty, binary, or of no known kind (names the kinds)
 WeatherFormat recognise_weather(std::string_view text);
 
-/// Reads a weather file of any known kind. Never opens files; memory is a small multiple of the text.
-///   throws  Error for a text that is empty, binary, larger than most_bytes, of unknown kind, or too
+/// Reads a weather file of any known kind. Never opens files; memory is a small multiple of the
+/// text.
+///   throws  Error for a text that is empty, binary, larger than most_bytes, of unknown kind, or
+///   too
 ///           damaged (lists the problems with line numbers)
 ReadResult read_weather(std::string_view text, const ReadOptions& options = {});
 

@@ -1,4 +1,5 @@
-// SMET: key = value lines after [HEADER], a table after [DATA]. Sums are of the interval before their time.
+// SMET: key = value lines after [HEADER], a table after [DATA]. Sums are of the interval before
+// their time.
 #include <cmath>
 
 #include "base/error.h"
@@ -17,10 +18,12 @@ struct Column {
 };
 // The format is SI: kelvin, relative humidity 0..1, Pa, m/s, W/m2, metres; PSUM in kg/m2.
 constexpr Column kColumns[] = {
-    {"ta", Field::AirTemp, false},   {"rh", Field::RelHumidity, false}, {"vw", Field::Wind, false},
-    {"dw", Field::WindFrom, false},  {"iswr", Field::Shortwave, false}, {"ilwr", Field::Longwave, false},
-    {"p", Field::Pressure, false},   {"psum", Field::Precip, true},     {"hnw", Field::Precip, true},
-    {"hs", Field::SnowDepth, false}, {"td", Field::DewPoint, false},    {"psum_s", Field::Snow, true},
+    {"ta", Field::AirTemp, false},     {"rh", Field::RelHumidity, false},
+    {"vw", Field::Wind, false},        {"dw", Field::WindFrom, false},
+    {"iswr", Field::Shortwave, false}, {"ilwr", Field::Longwave, false},
+    {"p", Field::Pressure, false},     {"psum", Field::Precip, true},
+    {"hnw", Field::Precip, true},      {"hs", Field::SnowDepth, false},
+    {"td", Field::DewPoint, false},    {"psum_s", Field::Snow, true},
     {"psum_l", Field::Rain, true},
 };
 
@@ -49,14 +52,22 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
         if (equals == std::string_view::npos || t.front() == '#') continue;
         const std::string key = lower(trimmed(t.substr(0, equals)));
         const auto value = trimmed(t.substr(equals + 1));
-        if (key == "latitude") rows.site().latitude_deg = to_number(value).value_or(kMissing);
-        else if (key == "longitude") rows.site().longitude_deg = to_number(value).value_or(kMissing);
-        else if (key == "altitude") rows.site().elevation_m = to_number(value).value_or(kMissing);
-        else if (key == "station_name") rows.site().name = std::string(value);
-        else if (key == "nodata") nodata = to_number(value).value_or(-999.0);
-        else if (key == "tz") zone_h = to_number(value).value_or(0.0);
-        else if (key == "units_multiplier") scale = numbers(value);
-        else if (key == "units_offset") offset = numbers(value);
+        if (key == "latitude")
+            rows.site().latitude_deg = to_number(value).value_or(kMissing);
+        else if (key == "longitude")
+            rows.site().longitude_deg = to_number(value).value_or(kMissing);
+        else if (key == "altitude")
+            rows.site().elevation_m = to_number(value).value_or(kMissing);
+        else if (key == "station_name")
+            rows.site().name = std::string(value);
+        else if (key == "nodata")
+            nodata = to_number(value).value_or(-999.0);
+        else if (key == "tz")
+            zone_h = to_number(value).value_or(0.0);
+        else if (key == "units_multiplier")
+            scale = numbers(value);
+        else if (key == "units_offset")
+            offset = numbers(value);
         else if (key == "fields") {
             const auto names = words(value, 256);
             meaning.assign(names.size(), nullptr);
@@ -70,13 +81,17 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
                 for (const Column& c : kColumns) {
                     if (name == c.name) meaning[i] = &c;
                 }
-                if (!meaning[i] && name != "timestamp") rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "not used");
+                if (!meaning[i] && name != "timestamp")
+                    rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "not used");
             }
         }
     }
     if (!data || !has_time) {
-        throw Error(std::string("weather: SMET: ") + (!data ? "there is no [DATA]" : julian_at ? "times as julian days are not supported" : "fields has no timestamp"),
-                    "Give an ASCII SMET file with a timestamp column and a [DATA] part.");
+        throw Error(
+            std::string("weather: SMET: ") + (!data       ? "there is no [DATA]"
+                                              : julian_at ? "times as julian days are not supported"
+                                                          : "fields has no timestamp"),
+            "Give an ASCII SMET file with a timestamp column and a [DATA] part.");
     }
     if (!(std::abs(zone_h) <= 14.0)) zone_h = 0.0;
     std::int64_t last = 0;
@@ -86,7 +101,9 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
         if (t.empty() || t.front() == '#') continue;
         const auto f = words(*line, 256);
         if (f.size() != meaning.size()) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, fields names " + std::to_string(meaning.size()));
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(f.size()) + " columns, fields names " +
+                             std::to_string(meaning.size()));
             continue;
         }
         const auto us = us_from_iso(f[time_at], zone_h * 3600.0);
@@ -113,8 +130,10 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
             if (i < scale.size() && !std::isnan(scale[i])) si *= scale[i];
             if (i < offset.size() && !std::isnan(offset[i])) si += offset[i];
             if (meaning[i]->field == Field::RelHumidity) si *= 100.0;
-            if (meaning[i]->sum) rows.fell_before(meaning[i]->field, si, hours);
-            else rows.set(meaning[i]->field, si);
+            if (meaning[i]->sum)
+                rows.fell_before(meaning[i]->field, si, hours);
+            else
+                rows.set(meaning[i]->field, si);
         }
     }
 }

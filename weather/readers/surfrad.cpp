@@ -1,5 +1,6 @@
-// NOAA SURFRAD daily files: a name, a line with the place, then rows of 48 numbers: year, day of year, month, day,
-// hour, minute, decimal hour, zenith, then pairs of value and quality. -9999.9 is missing; quality 0 is good. UTC.
+// NOAA SURFRAD daily files: a name, a line with the place, then rows of 48 numbers: year, day of
+// year, month, day, hour, minute, decimal hour, zenith, then pairs of value and quality. -9999.9 is
+// missing; quality 0 is good. UTC.
 #include <cmath>
 
 #include "weather/physics/constants.h"
@@ -16,9 +17,15 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
         double scale, offset;
     };
     constexpr Column kColumns[] = {
-        {Field::Shortwave, 8, 1, 0},  {Field::Direct, 12, 1, 0},    {Field::Diffuse, 14, 1, 0},
-        {Field::Longwave, 16, 1, 0},  {Field::AirTemp, 38, 1, kZeroCelsiusK}, {Field::RelHumidity, 40, 1, 0},
-        {Field::Wind, 42, 1, 0},      {Field::WindFrom, 44, 1, 0},  {Field::Pressure, 46, 100, 0},
+        {Field::Shortwave, 8, 1, 0},
+        {Field::Direct, 12, 1, 0},
+        {Field::Diffuse, 14, 1, 0},
+        {Field::Longwave, 16, 1, 0},
+        {Field::AirTemp, 38, 1, kZeroCelsiusK},
+        {Field::RelHumidity, 40, 1, 0},
+        {Field::Wind, 42, 1, 0},
+        {Field::WindFrom, 44, 1, 0},
+        {Field::Pressure, 46, 100, 0},
     };
     Lines lines(text);
     rows.site().name = std::string(trimmed(lines.next().value_or("")));
@@ -35,26 +42,33 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
         const auto w = words(*line, 96);
         if (w.empty()) continue;
         if (w.size() < 48) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(w.size()) + " columns, 48 are needed");
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(w.size()) + " columns, 48 are needed");
             continue;
         }
-        const auto year = to_integer(w[0]), month = to_integer(w[2]), day = to_integer(w[3]), hour = to_integer(w[4]), minute = to_integer(w[5]);
+        const auto year = to_integer(w[0]), month = to_integer(w[2]), day = to_integer(w[3]),
+                   hour = to_integer(w[4]), minute = to_integer(w[5]);
         std::optional<std::int64_t> us;
-        if (year && month && day && hour && minute && *month >= 1 && *month <= 12 && *day >= 1 && *day <= 31 && *hour >= 0 &&
-            *hour <= 24 && *minute >= 0 && *minute < 60) {
-            us = us_from_civil({*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour), static_cast<int>(*minute), 0.0});
+        if (year && month && day && hour && minute && *month >= 1 && *month <= 12 && *day >= 1 &&
+            *day <= 31 && *hour >= 0 && *hour <= 24 && *minute >= 0 && *minute < 60) {
+            us = us_from_civil({*year, static_cast<int>(*month), static_cast<int>(*day),
+                                static_cast<int>(*hour), static_cast<int>(*minute), 0.0});
         }
         if (!us) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' does not begin with a time");
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(*line) + "' does not begin with a time");
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
         for (const Column& c : kColumns) {
             const auto value = to_number(w[c.index]);
             const auto quality = to_number(w[c.index + 1]);
-            if (!value) rows.unreadable(c.field, w[c.index]);
-            else if (*value <= -9999.0 || (quality && *quality != 0.0)) rows.missing(c.field);
-            else rows.set(c.field, *value * c.scale + c.offset);
+            if (!value)
+                rows.unreadable(c.field, w[c.index]);
+            else if (*value <= -9999.0 || (quality && *quality != 0.0))
+                rows.missing(c.field);
+            else
+                rows.set(c.field, *value * c.scale + c.offset);
         }
     }
     rows.note(ReadNote::Kind::Info, 0, "precip", "SURFRAD has no precipitation");

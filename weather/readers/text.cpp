@@ -29,7 +29,9 @@ std::optional<std::string_view> Lines::next()
 
 std::string_view trimmed(std::string_view text)
 {
-    const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v'; };
+    const auto blank = [](char c) {
+        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
+    };
     while (!text.empty() && blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && blank(text.back())) text.remove_suffix(1);
     return text;
@@ -76,9 +78,13 @@ std::vector<std::string_view> words(std::string_view line, std::size_t most)
     std::vector<std::string_view> fields;
     std::size_t i = 0;
     while (i < line.size() && fields.size() < most) {
-        while (i < line.size() && (line[i] == ' ' || line[i] == '\t' || line[i] == '\r' || line[i] == '\n')) ++i;
+        while (i < line.size() &&
+               (line[i] == ' ' || line[i] == '\t' || line[i] == '\r' || line[i] == '\n'))
+            ++i;
         std::size_t end = i;
-        while (end < line.size() && line[end] != ' ' && line[end] != '\t' && line[end] != '\r' && line[end] != '\n') ++end;
+        while (end < line.size() && line[end] != ' ' && line[end] != '\t' && line[end] != '\r' &&
+               line[end] != '\n')
+            ++end;
         if (end > i) fields.push_back(line.substr(i, end - i));
         i = end;
     }
@@ -92,7 +98,8 @@ std::optional<double> to_number(std::string_view text)
     if (text.empty()) return std::nullopt;
     double value = 0.0;
     const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failed != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (failed != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
     return value;
 }
 
@@ -102,7 +109,8 @@ std::optional<long long> to_integer(std::string_view text)
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
     long long value = 0;
     const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || failed != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if (text.empty() || failed != std::errc{} || end != text.data() + text.size())
+        return std::nullopt;
     return value;
 }
 
@@ -145,13 +153,15 @@ CivilTime civil_from_us(std::int64_t time_us)
 
 std::optional<std::int64_t> us_from_civil(const CivilTime& t)
 {
-    if (t.year < 1500 || t.year > 2600 || t.month < 1 || t.month > 12 || t.day < 1) return std::nullopt;
+    if (t.year < 1500 || t.year > 2600 || t.month < 1 || t.month > 12 || t.day < 1)
+        return std::nullopt;
     constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     const int days = kDays[t.month - 1] + (t.month == 2 && is_leap_year(t.year) ? 1 : 0);
-    if (t.day > days || t.hour < 0 || t.hour > 24 || t.minute < 0 || t.minute > 60) return std::nullopt;
+    if (t.day > days || t.hour < 0 || t.hour > 24 || t.minute < 0 || t.minute > 60)
+        return std::nullopt;
     if (!(t.second >= 0.0 && t.second < 61.0)) return std::nullopt;
-    return days_from_civil(t.year, t.month, t.day) * 86400000000LL + t.hour * 3600000000LL + t.minute * 60000000LL +
-           static_cast<std::int64_t>(std::llround(t.second * 1e6));
+    return days_from_civil(t.year, t.month, t.day) * 86400000000LL + t.hour * 3600000000LL +
+           t.minute * 60000000LL + static_cast<std::int64_t>(std::llround(t.second * 1e6));
 }
 
 std::optional<std::int64_t> us_from_iso(std::string_view text, double default_offset_s)
@@ -207,7 +217,8 @@ std::optional<std::int64_t> us_from_iso(std::string_view text, double default_of
                 }
             }
         }
-        while (skip(' ')) {}
+        while (skip(' ')) {
+        }
         if (skip('Z') || skip('z')) {
             offset = 0.0;
         } else if (at < text.size() && (text[at] == '+' || text[at] == '-')) {
@@ -234,9 +245,11 @@ std::string iso_from_us(std::int64_t time_us)
     char out[48];
     const auto whole = static_cast<int>(t.second);
     const std::int64_t fraction = ((time_us % 1000000) + 1000000) % 1000000;
-    int n = std::snprintf(out, sizeof out, "%04lld-%02d-%02dT%02d:%02d:%02d", t.year, t.month, t.day, t.hour, t.minute,
-                          whole);
-    if (fraction) n += std::snprintf(out + n, sizeof out - static_cast<std::size_t>(n), ".%06lld", static_cast<long long>(fraction));
+    int n = std::snprintf(out, sizeof out, "%04lld-%02d-%02dT%02d:%02d:%02d", t.year, t.month,
+                          t.day, t.hour, t.minute, whole);
+    if (fraction)
+        n += std::snprintf(out + n, sizeof out - static_cast<std::size_t>(n), ".%06lld",
+                           static_cast<long long>(fraction));
     return std::string(out, static_cast<std::size_t>(n)) + "Z";
 }
 

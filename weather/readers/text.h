@@ -10,8 +10,8 @@
 
 namespace petrichor::weather {
 
-// Words that all readers share: lines, fields, numbers, calendar. Nothing here allocates per character or trusts
-// its input.
+// Words that all readers share: lines, fields, numbers, calendar. Nothing here allocates per
+// character or trusts its input.
 
 /// Lines of a text with their 1-based numbers; accepts \n, \r\n and \r.
 class Lines {
@@ -48,8 +48,8 @@ struct CivilTime {
     double second = 0.0;
 };
 CivilTime civil_from_us(std::int64_t time_us);
-/// Microseconds since 1970 of a date and time; nothing when the date does not exist (31 April, ..) or the
-/// year is outside 1500..2600. Hour 24 means the end of the day.
+/// Microseconds since 1970 of a date and time; nothing when the date does not exist (31 April, ..)
+/// or the year is outside 1500..2600. Hour 24 means the end of the day.
 std::optional<std::int64_t> us_from_civil(const CivilTime& time);
 /// ISO 8601 ("2005-10-01T06:30:15.5Z", "+02:00", a blank for T, no seconds, date only), or nothing.
 /// A time without a zone is taken as UTC plus `default_offset_s`.

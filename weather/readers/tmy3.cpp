@@ -1,5 +1,5 @@
-// NREL TMY3 CSV: a station line, a line of column names with units, 8760 rows. Time 01:00..24:00 local standard, the
-// end of the hour; -9900 is missing; months come from different years.
+// NREL TMY3 CSV: a station line, a line of column names with units, 8760 rows. Time 01:00..24:00
+// local standard, the end of the hour; -9900 is missing; months come from different years.
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
@@ -15,11 +15,16 @@ struct Column {
     double scale, offset;
 };
 constexpr Column kColumns[] = {
-    {"ghi (w/m^2)", Field::Shortwave, 1, 0},     {"dni (w/m^2)", Field::Direct, 1, 0},
-    {"dhi (w/m^2)", Field::Diffuse, 1, 0},       {"totcld (tenths)", Field::Cloud, 0.1, 0},
-    {"dry-bulb (c)", Field::AirTemp, 1, kZeroCelsiusK}, {"dew-point (c)", Field::DewPoint, 1, kZeroCelsiusK},
-    {"rhum (%)", Field::RelHumidity, 1, 0},      {"pressure (mbar)", Field::Pressure, 100, 0},
-    {"wdir (degrees)", Field::WindFrom, 1, 0},   {"wspd (m/s)", Field::Wind, 1, 0},
+    {"ghi (w/m^2)", Field::Shortwave, 1, 0},
+    {"dni (w/m^2)", Field::Direct, 1, 0},
+    {"dhi (w/m^2)", Field::Diffuse, 1, 0},
+    {"totcld (tenths)", Field::Cloud, 0.1, 0},
+    {"dry-bulb (c)", Field::AirTemp, 1, kZeroCelsiusK},
+    {"dew-point (c)", Field::DewPoint, 1, kZeroCelsiusK},
+    {"rhum (%)", Field::RelHumidity, 1, 0},
+    {"pressure (mbar)", Field::Pressure, 100, 0},
+    {"wdir (degrees)", Field::WindFrom, 1, 0},
+    {"wspd (m/s)", Field::Wind, 1, 0},
     {"hvis (m)", Field::Visibility, 1, 0},
 };
 
@@ -36,7 +41,8 @@ bool parse_when(std::string_view date, std::string_view time, When& when)
     const auto hour = to_integer(t[0]), minute = to_integer(t[1]);
     if (!month || !day || !year || !hour || !minute) return false;
     if (*month < 1 || *month > 12 || *day < 1 || *day > 31 || *hour < 0 || *hour > 24) return false;
-    when = {*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour), static_cast<int>(*minute)};
+    when = {*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour),
+            static_cast<int>(*minute)};
     return true;
 }
 
@@ -81,37 +87,49 @@ void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
         const auto f = split(*line, ',', 256);
         When when;
         if (f.size() < 2 || !parse_when(f[0], f[1], when)) {
-            rows.bad_row(lines.number(), "time", "'" + shown(*line) + "' does not begin with MM/DD/YYYY,HH:MM");
+            rows.bad_row(lines.number(), "time",
+                         "'" + shown(*line) + "' does not begin with MM/DD/YYYY,HH:MM");
             continue;
         }
         if (f.size() < names.size() / 2) {
-            rows.bad_row(lines.number(), "", "has " + std::to_string(f.size()) + " columns, the header has " + std::to_string(names.size()));
+            rows.bad_row(lines.number(), "",
+                         "has " + std::to_string(f.size()) + " columns, the header has " +
+                             std::to_string(names.size()));
             continue;
         }
         if (typical.typical && when.month == 2 && when.day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time", "29 February of a typical year left out");
+            rows.note(ReadNote::Kind::Time, lines.number(), "time",
+                      "29 February of a typical year left out");
             continue;
         }
-        const auto us = us_from_civil({typical.of(when.year), when.month, when.day, when.hour, when.minute, 0.0});
+        const auto us = us_from_civil(
+            {typical.of(when.year), when.month, when.day, when.hour, when.minute, 0.0});
         if (!us) {
             rows.bad_row(lines.number(), "time", "'" + shown(*line) + "': there is no such day");
             continue;
         }
-        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number())) continue;
+        if (!rows.begin_row(*us - static_cast<std::int64_t>(zone_h * 3600e6), lines.number()))
+            continue;
         for (std::size_t c = 0; c < std::size(kColumns); ++c) {
             if (index[c] >= f.size()) continue;
             const auto value = to_number(f[index[c]]);
-            if (!value) rows.unreadable(kColumns[c].field, f[index[c]]);
-            else if (*value <= -9900.0) rows.missing(kColumns[c].field);
-            else rows.set(kColumns[c].field, *value * kColumns[c].scale + kColumns[c].offset);
+            if (!value)
+                rows.unreadable(kColumns[c].field, f[index[c]]);
+            else if (*value <= -9900.0)
+                rows.missing(kColumns[c].field);
+            else
+                rows.set(kColumns[c].field, *value * kColumns[c].scale + kColumns[c].offset);
         }
         if (depth_at < f.size()) {
             const auto depth = to_number(f[depth_at]);
             double hours = hours_at < f.size() ? to_number(f[hours_at]).value_or(1.0) : 1.0;
             if (!(hours >= 1.0 && hours <= 24.0)) hours = 1.0;
-            if (!depth) rows.unreadable(Field::Precip, f[depth_at]);
-            else if (*depth < 0.0) rows.missing(Field::Precip);
-            else rows.fell_before(Field::Precip, *depth, hours);
+            if (!depth)
+                rows.unreadable(Field::Precip, f[depth_at]);
+            else if (*depth < 0.0)
+                rows.missing(Field::Precip);
+            else
+                rows.fell_before(Field::Precip, *depth, hours);
         }
     }
 }

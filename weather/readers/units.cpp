@@ -10,7 +10,17 @@ namespace petrichor::weather {
 
 namespace {
 
-enum class Quantity { Temperature, Percent, Speed, Pressure, Flux, Fraction, Precipitation, Degrees, Length };
+enum class Quantity {
+    Temperature,
+    Percent,
+    Speed,
+    Pressure,
+    Flux,
+    Fraction,
+    Precipitation,
+    Degrees,
+    Length
+};
 
 struct Name {
     const char* name;
@@ -76,10 +86,14 @@ std::string plain_unit(std::string_view unit)
     std::string out;
     for (std::size_t i = 0; i < unit.size(); ++i) {
         const char c = unit[i];
-        if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
-        else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) out += c;
-        else if (c == '%') out += "pct";
-        else if (static_cast<unsigned char>(c) == 0xB2) out += '2';  // the last byte of a superscript two
+        if (c >= 'A' && c <= 'Z')
+            out += static_cast<char>(c - 'A' + 'a');
+        else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+            out += c;
+        else if (c == '%')
+            out += "pct";
+        else if (static_cast<unsigned char>(c) == 0xB2)
+            out += '2';  // the last byte of a superscript two
     }
     return out;
 }
@@ -114,34 +128,53 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
             return false;
         case Quantity::Speed:
             if (is({"", "ms", "ms1", "mps"})) return true;
-            if (is({"kmh", "kmh1", "kph"})) m.scale = 1.0 / 3.6;
-            else if (is({"mph", "mpmph"})) m.scale = 0.44704;
-            else if (is({"kn", "kt", "knots"})) m.scale = 1852.0 / 3600.0;
-            else return false;
+            if (is({"kmh", "kmh1", "kph"}))
+                m.scale = 1.0 / 3.6;
+            else if (is({"mph", "mpmph"}))
+                m.scale = 0.44704;
+            else if (is({"kn", "kt", "knots"}))
+                m.scale = 1852.0 / 3600.0;
+            else
+                return false;
             return true;
         case Quantity::Pressure:
             if (is({"", "pa"})) return true;
-            if (is({"hpa", "mbar", "mb"})) m.scale = 100.0;
-            else if (is({"kpa"})) m.scale = 1000.0;
-            else if (is({"inhg"})) m.scale = 3386.389;
-            else return false;
+            if (is({"hpa", "mbar", "mb"}))
+                m.scale = 100.0;
+            else if (is({"kpa"}))
+                m.scale = 1000.0;
+            else if (is({"inhg"}))
+                m.scale = 3386.389;
+            else
+                return false;
             return true;
-        case Quantity::Flux: return is({"", "wm2", "wm-2"});
+        case Quantity::Flux:
+            return is({"", "wm2", "wm-2"});
         case Quantity::Fraction:
             if (is({"", "fraction", "1"})) return true;
-            if (is({"pct", "percent"})) m.scale = 0.01;
-            else if (is({"tenths"})) m.scale = 0.1;
-            else if (is({"oktas", "okta"})) m.scale = 0.125;
-            else return false;
+            if (is({"pct", "percent"}))
+                m.scale = 0.01;
+            else if (is({"tenths"}))
+                m.scale = 0.1;
+            else if (is({"oktas", "okta"}))
+                m.scale = 0.125;
+            else
+                return false;
             return true;
-        case Quantity::Degrees: return is({"", "deg", "degrees", "degree"});
+        case Quantity::Degrees:
+            return is({"", "deg", "degrees", "degree"});
         case Quantity::Length:
             if (is({"", "m", "metre", "meter"})) return true;
-            if (is({"km"})) m.scale = 1000.0;
-            else if (is({"cm"})) m.scale = 0.01;
-            else if (is({"mm"})) m.scale = 0.001;
-            else if (is({"ft"})) m.scale = 0.3048;
-            else return false;
+            if (is({"km"}))
+                m.scale = 1000.0;
+            else if (is({"cm"}))
+                m.scale = 0.01;
+            else if (is({"mm"}))
+                m.scale = 0.001;
+            else if (is({"ft"}))
+                m.scale = 0.3048;
+            else
+                return false;
             return true;
         case Quantity::Precipitation:
             if (is({"kgm2s", "kgm2s1", "mms"})) return true;
@@ -151,12 +184,18 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
             }
             m.amount = true;
             if (is({"", "mm", "kgm2"})) return true;
-            if (is({"inch", "in"})) m.scale = 25.4;
-            else if (is({"m"})) m.scale = 1000.0;
-            // Fresh snow depth: 7 cm of it hold 10 mm of water (the convention of weather services).
-            else if (is({"cm"}) && m.field == Field::Snow) m.scale = 10.0 / 7.0;
-            else if (is({"cm"})) m.scale = 10.0;
-            else return false;
+            if (is({"inch", "in"}))
+                m.scale = 25.4;
+            else if (is({"m"}))
+                m.scale = 1000.0;
+            // Fresh snow depth: 7 cm of it hold 10 mm of water (the convention of weather
+            // services).
+            else if (is({"cm"}) && m.field == Field::Snow)
+                m.scale = 10.0 / 7.0;
+            else if (is({"cm"}))
+                m.scale = 10.0;
+            else
+                return false;
             return true;
     }
     return false;
@@ -172,7 +211,8 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
     const auto open = low.find_first_of("([");
     if (open != std::string::npos) {
         const auto close = low.find_last_of(")]");
-        if (close != std::string::npos && close > open) given = low.substr(open + 1, close - open - 1);
+        if (close != std::string::npos && close > open)
+            given = low.substr(open + 1, close - open - 1);
         low = std::string(trimmed(low.substr(0, open)));
     }
     for (char& c : low) {
@@ -199,8 +239,9 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
         const std::string u = plain_unit(rest.empty() ? std::string_view(given) : rest.substr(1));
         if (unit_factor(known.quantity, u, m)) return m;
         if (!rest.empty()) continue;  // "precip_temp": a longer, unknown name
-        throw Error("weather: column '" + shown(name) + "': the unit '" + shown(given) + "' is not known",
-                    "Write the unit as in air_temp_c, wind_m_s, pressure_pa, precip_mm or (km/h).");
+        throw Error(
+            "weather: column '" + shown(name) + "': the unit '" + shown(given) + "' is not known",
+            "Write the unit as in air_temp_c, wind_m_s, pressure_pa, precip_mm or (km/h).");
     }
     return std::nullopt;
 }

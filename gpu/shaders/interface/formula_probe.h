@@ -23,7 +23,8 @@ SHARED_FN vec3 probe_direction(float u, float v)
 
 SHARED_FN vec4 probe_material(WeatheredMaterial m)
 {
-    return vec4(m.albedo.x + m.specular.y, m.smoothness, m.occlusion + m.emission_scale, m.normal_mix);
+    return vec4(m.albedo.x + m.specular.y, m.smoothness, m.occlusion + m.emission_scale,
+                m.normal_mix);
 }
 
 SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
@@ -36,7 +37,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     m.emission_scale = 1.0f;
     m.normal_mix = 0.0f;
     if (kind == 0) {
-        const WaterCover w = water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
+        const WaterCover w =
+            water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
         return vec4(w.anywhere, w.deep, 0.0f, 0.0f);
     }
     if (kind == 1) {
@@ -47,7 +49,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x),
                     porosity_from_smoothness(b.y), smooth_edge(a.x, b.z, b.w));
     }
-    if (kind == 3) return probe_material(apply_water(m, vec2(b.z, b.w), c.x, vec4(c.y, c.y, c.y, c.z), c.w));
+    if (kind == 3)
+        return probe_material(apply_water(m, vec2(b.z, b.w), c.x, vec4(c.y, c.y, c.y, c.z), c.w));
     if (kind == 4) return probe_material(apply_snow(m, b.z, vec3(c.x), vec3(0.02f), c.y, c.z));
     if (kind == 5) return probe_material(apply_frost(m, b.z));
     if (kind == 6) {
@@ -65,11 +68,13 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 9) {
         const float alpha = 0.05f + 0.95f * a.y;
         return vec4(ggx_distribution(a.x, alpha), ggx_visibility(a.x, a.z, alpha),
-                    schlick_fresnel(vec3(a.w), b.x).y, light_attenuation(0.2f + 5.0f * b.y, 6.0f * b.z));
+                    schlick_fresnel(vec3(a.w), b.x).y,
+                    light_attenuation(0.2f + 5.0f * b.y, 6.0f * b.z));
     }
     if (kind == 10) {
-        const vec3 r = shade_direct(probe_direction(a.x, a.y), probe_direction(a.z, a.w),
-                                    probe_direction(b.x, b.y), vec3(b.z), vec3(0.04f), 0.1f + 0.9f * b.w);
+        const vec3 r =
+            shade_direct(probe_direction(a.x, a.y), probe_direction(a.z, a.w),
+                         probe_direction(b.x, b.y), vec3(b.z), vec3(0.04f), 0.1f + 0.9f * b.w);
         return vec4(r.x, r.y, r.z, spot_attenuation(c.x, 0.9f, 0.5f * c.y));
     }
     if (kind == 11) {

@@ -14,8 +14,8 @@
 #define TEXTURE_SNOW_MASK 7
 #define TEXTURE_SLOTS 8
 
-#define MATERIAL_MASK 256u          // alpha test
-#define MATERIAL_BLEND 512u         // stochastic transparency
+#define MATERIAL_MASK 256u   // alpha test
+#define MATERIAL_BLEND 512u  // stochastic transparency
 #define MATERIAL_UNLIT 1024u
 #define MATERIAL_SHELTERED 2048u
 #define MATERIAL_DOUBLE_SIDED 4096u
@@ -41,8 +41,8 @@ struct MaterialConstants {
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
-    float f0;               // dielectric reflectance at normal incidence
-    float porosity;         // negative: from roughness
+    float f0;        // dielectric reflectance at normal incidence
+    float porosity;  // negative: from roughness
     float default_height;
     float water_slope_damp;
     vec4 water_accumulation;
@@ -63,7 +63,7 @@ struct MaterialConstants {
 
 // Push constants of one draw.
 struct DrawConstants {
-    vec4 to_world[3];       // rows of the affine transform
+    vec4 to_world[3];         // rows of the affine transform
     vec4 normal_to_world[3];  // rows; xyz used
     uint instance_id;
     uint material_id;

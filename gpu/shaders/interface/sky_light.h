@@ -16,7 +16,7 @@ struct SkyLight {
 struct SkyParams {
     vec3 sun_direction;
     float turbidity;
-    vec3 sun_illuminance;    // above the air
+    vec3 sun_illuminance;  // above the air
     float cloud_cover;
     vec3 ground_radiance;
     float time_s;

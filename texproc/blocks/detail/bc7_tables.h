@@ -54,20 +54,20 @@ inline constexpr std::uint32_t kBc7Partition3[64] = {
     0xaa444444, 0x54a854a8, 0x95809580, 0x96969600, 0xa85454a8, 0x80959580, 0xaa141414, 0x96960000,
     0xaaaa1414, 0xa05050a0, 0xa0a5a5a0, 0x96000000, 0x40804080, 0xa9a8a9a8, 0xaaaaaa44, 0x2a4a5254};
 
-/// The texel of subset 1 (and 2) whose index is stored without its highest bit, which is 0. In subset
-/// 0 it is always texel 0.
+/// The texel of subset 1 (and 2) whose index is stored without its highest bit, which is 0. In
+/// subset 0 it is always texel 0.
 inline constexpr std::uint8_t kBc7Anchor2[64] = {
-    15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 2, 8,  2, 2, 8,
+    15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 2,  8, 2, 2, 8,
     8,  15, 2,  8,  2,  2,  8,  8,  2,  2,  15, 15, 6,  8,  2,  8,  15, 15, 2, 8, 2, 2,
     2,  15, 15, 6,  6,  2,  6,  8,  15, 15, 2,  2,  15, 15, 15, 15, 15, 2,  2, 15};
 inline constexpr std::uint8_t kBc7Anchor3a[64] = {
-    3, 3, 15, 15, 8,  3, 15, 15, 8, 8, 6, 6, 6, 5,  3,  3,  3,  3,  8,  15, 3, 3, 6,  10, 5, 8,  8,  6,
-    8, 5, 15, 15, 8, 15, 3,  5,  6, 10, 8, 15, 15, 3, 15, 5, 15, 15, 15, 15, 3, 15, 5, 5, 5, 8, 5, 10,
-    5, 10, 8, 13, 15, 12, 3, 3};
+    3,  3,  15, 15, 8, 3,  15, 15, 8,  8,  6, 6,  6, 5,  3, 3,  3,  3,  8,  15, 3,  3,
+    6,  10, 5,  8,  8, 6,  8,  5,  15, 15, 8, 15, 3, 5,  6, 10, 8,  15, 15, 3,  15, 5,
+    15, 15, 15, 15, 3, 15, 5,  5,  5,  8,  5, 10, 5, 10, 8, 13, 15, 12, 3,  3};
 inline constexpr std::uint8_t kBc7Anchor3b[64] = {
-    15, 8, 8,  3,  15, 15, 3,  8,  15, 15, 15, 15, 15, 15, 15, 8,  15, 8,  15, 3, 15, 8,
-    15, 8, 3,  15, 6,  10, 15, 15, 10, 8,  15, 3,  15, 10, 10, 8,  9,  10, 6,  15, 8, 15,
-    3,  6, 6,  8,  15, 3,  15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
+    15, 8, 8, 3,  15, 15, 3,  8,  15, 15, 15, 15, 15, 15, 15, 8,  15, 8,  15, 3,  15, 8,
+    15, 8, 3, 15, 6,  10, 15, 15, 10, 8,  15, 3,  15, 10, 10, 8,  9,  10, 6,  15, 8,  15,
+    3,  6, 6, 8,  15, 3,  15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
 
 /// The subset of a texel.
 constexpr int bc7_subset(int subsets, int partition, int texel)
@@ -89,7 +89,10 @@ constexpr int bc7_widen(int value, int bits)
     const int shifted = value << (8 - bits);
     return shifted | (shifted >> bits);
 }
-constexpr int bc7_mix(int a, int b, int weight) { return (a * (64 - weight) + b * weight + 32) >> 6; }
+constexpr int bc7_mix(int a, int b, int weight)
+{
+    return (a * (64 - weight) + b * weight + 32) >> 6;
+}
 
 }  // namespace petrichor::texproc::detail
 

@@ -10,12 +10,19 @@ namespace petrichor::texproc::detail {
 using Rgba8Block = std::array<std::array<std::uint8_t, 4>, 16>;  // texel, channel
 
 /// Endpoint channels of 5 and 6 bits to 8, nearest.
-constexpr int widen5(int v) { return (v * 527 + 23) >> 6; }
-constexpr int widen6(int v) { return (v * 259 + 33) >> 6; }
+constexpr int widen5(int v)
+{
+    return (v * 527 + 23) >> 6;
+}
+constexpr int widen6(int v)
+{
+    return (v * 259 + 33) >> 6;
+}
 
 /// The four colours of a BC1 block: R, G, B, A. Two thirds of one and one third of the other; with
 /// `three` (and c0 <= c1, which callers check) the half-way colour and transparent black.
-std::array<std::array<std::uint8_t, 4>, 4> bc1_palette(std::uint16_t c0, std::uint16_t c1, bool three);
+std::array<std::array<std::uint8_t, 4>, 4> bc1_palette(std::uint16_t c0, std::uint16_t c1,
+                                                       bool three);
 
 /// The eight values of a BC4 block.
 std::array<std::uint8_t, 8> bc4_palette(int r0, int r1);

@@ -1,5 +1,5 @@
-// Sixteen texels at a time with the compiler's vector types: plain arithmetic, no fused operations, a
-// fixed order of sums, hence the same bits with any instruction set.
+// Sixteen texels at a time with the compiler's vector types: plain arithmetic, no fused operations,
+// a fixed order of sums, hence the same bits with any instruction set.
 #ifndef PETRICHOR_TEXPROC_BLOCKS_DETAIL_VECTORS_H
 #define PETRICHOR_TEXPROC_BLOCKS_DETAIL_VECTORS_H
 
@@ -17,9 +17,18 @@ inline float sum(F8 v)
 {
     return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
-inline F8 minimum(F8 a, F8 b) { return a < b ? a : b; }
-inline F8 maximum(F8 a, F8 b) { return a > b ? a : b; }
-inline F8 splat(float v) { return F8{v, v, v, v, v, v, v, v}; }
+inline F8 minimum(F8 a, F8 b)
+{
+    return a < b ? a : b;
+}
+inline F8 maximum(F8 a, F8 b)
+{
+    return a > b ? a : b;
+}
+inline F8 splat(float v)
+{
+    return F8{v, v, v, v, v, v, v, v};
+}
 inline float smallest(F8 v)
 {
     float s = v[0];
@@ -32,9 +41,15 @@ inline float largest(F8 v)
     for (int i = 1; i < 8; ++i) s = v[i] > s ? v[i] : s;
     return s;
 }
-inline F8 truncated(F8 v) { return __builtin_convertvector(__builtin_convertvector(v, I8), F8); }
+inline F8 truncated(F8 v)
+{
+    return __builtin_convertvector(__builtin_convertvector(v, I8), F8);
+}
 /// Nearest whole number of values that are not negative.
-inline F8 rounded(F8 v) { return truncated(v + 0.5f); }
+inline F8 rounded(F8 v)
+{
+    return truncated(v + 0.5f);
+}
 
 /// Whole numbers 0..255 as bytes.
 inline void store_bytes(F8 v, std::uint8_t* to)
@@ -57,8 +72,14 @@ inline Plane to_plane(const std::uint8_t* from)
     }
     return p;
 }
-inline float sum(const Plane& p) { return sum(p.v[0] + p.v[1]); }
-inline Plane operator*(const Plane& a, const Plane& b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1]}}; }
+inline float sum(const Plane& p)
+{
+    return sum(p.v[0] + p.v[1]);
+}
+inline Plane operator*(const Plane& a, const Plane& b)
+{
+    return {{a.v[0] * b.v[0], a.v[1] * b.v[1]}};
+}
 
 }  // namespace petrichor::texproc::detail
 

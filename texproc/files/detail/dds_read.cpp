@@ -14,9 +14,9 @@ using Bytes = std::span<const std::byte>;
 // Where the texels of a file lie and how.
 struct Layout {
     LabelledFormat label;
-    std::uint32_t bits = 0;      // of a texel with masks; 0: as label says
-    std::uint32_t masks[4] = {}; // red, green, blue, alpha
-    bool normal_in_alpha = false;// 'RXGB': red lies in alpha
+    std::uint32_t bits = 0;        // of a texel with masks; 0: as label says
+    std::uint32_t masks[4] = {};   // red, green, blue, alpha
+    bool normal_in_alpha = false;  // 'RXGB': red lies in alpha
     std::size_t start = 128;
 };
 
@@ -52,8 +52,8 @@ LabelledFormat by_code(std::uint32_t code)
     throw std::runtime_error("its texel format '" + letters + "' is not supported");
 }
 
-void set_masks(Layout& layout, std::uint32_t bits, std::uint32_t r, std::uint32_t g, std::uint32_t b,
-               std::uint32_t a)
+void set_masks(Layout& layout, std::uint32_t bits, std::uint32_t r, std::uint32_t g,
+               std::uint32_t b, std::uint32_t a)
 {
     layout.bits = bits;
     const std::uint32_t masks[4] = {r, g, b, a};
@@ -79,16 +79,27 @@ Layout extended_layout(Bytes bytes)
     Layout layout;
     layout.start = 148;
     switch (code) {  // packed texels, as masks
-        case 24: set_masks(layout, 32, 0x3ff, 0xffc00, 0x3ff00000, 0xc0000000u); return layout;
-        case 85: set_masks(layout, 16, 0xf800, 0x7e0, 0x1f, 0); return layout;
-        case 86: set_masks(layout, 16, 0x7c00, 0x3e0, 0x1f, 0x8000); return layout;
-        case 88: set_masks(layout, 32, 0xff0000, 0xff00, 0xff, 0); return layout;
+        case 24:
+            set_masks(layout, 32, 0x3ff, 0xffc00, 0x3ff00000, 0xc0000000u);
+            return layout;
+        case 85:
+            set_masks(layout, 16, 0xf800, 0x7e0, 0x1f, 0);
+            return layout;
+        case 86:
+            set_masks(layout, 16, 0x7c00, 0x3e0, 0x1f, 0x8000);
+            return layout;
+        case 88:
+            set_masks(layout, 32, 0xff0000, 0xff00, 0xff, 0);
+            return layout;
         case 93:
             set_masks(layout, 32, 0xff0000, 0xff00, 0xff, 0);
             layout.label.srgb = true;
             return layout;
-        case 115: set_masks(layout, 16, 0xf00, 0xf0, 0xf, 0xf000); return layout;
-        default: break;
+        case 115:
+            set_masks(layout, 16, 0xf00, 0xf0, 0xf, 0xf000);
+            return layout;
+        default:
+            break;
     }
     const auto label = from_dxgi(code);
     if (!label) {
@@ -101,7 +112,8 @@ Layout extended_layout(Bytes bytes)
 
 Layout layout_of(Bytes bytes)
 {
-    constexpr std::uint32_t kAlphaPixels = 1, kAlphaOnly = 2, kCode = 4, kRgb = 0x40, kGrey = 0x20000;
+    constexpr std::uint32_t kAlphaPixels = 1, kAlphaOnly = 2, kCode = 4, kRgb = 0x40,
+                            kGrey = 0x20000;
     const std::uint32_t flags = read_u32(bytes, 80);
     if (flags & kCode) {
         const std::uint32_t code = read_u32(bytes, 84);
@@ -143,8 +155,8 @@ std::vector<std::byte> unmasked(Bytes from, const Layout& layout)
     std::vector<std::byte> to;
     to.reserve(texels * static_cast<std::size_t>(format.channels) * (wide ? 2 : 1));
     for (std::size_t t = 0; t < texels; ++t) {
-        const auto texel = static_cast<std::uint32_t>(
-            read_little(from, t * step, static_cast<int>(step)));
+        const auto texel =
+            static_cast<std::uint32_t>(read_little(from, t * step, static_cast<int>(step)));
         for (int c = 0; c < format.channels; ++c) {
             const std::uint32_t mask = layout.masks[c];
             put_little(to, mask ? field(texel, mask, wide ? 65535 : 255) : 0, wide ? 2 : 1);
@@ -157,7 +169,8 @@ std::vector<std::byte> unmasked(Bytes from, const Layout& layout)
 
 MipTexture parse_dds(std::span<const std::byte> bytes, const ReadOptions& limits)
 {
-    if (read_u32(bytes, 0) != 0x20534444 || read_u32(bytes, 4) != 124 || read_u32(bytes, 76) != 32) {
+    if (read_u32(bytes, 0) != 0x20534444 || read_u32(bytes, 4) != 124 ||
+        read_u32(bytes, 76) != 32) {
         throw std::runtime_error("its DDS header is damaged");
     }
     const Layout layout = layout_of(bytes);
@@ -166,7 +179,8 @@ MipTexture parse_dds(std::span<const std::byte> bytes, const ReadOptions& limits
     check_texture_size(width, height, format.channels, limits);
     if (read_u32(bytes, 112) & 0x200000) throw std::runtime_error("it is a volume, not an image");
 
-    MipTexture texture{static_cast<int>(width), static_cast<int>(height), format, layout.label.srgb, {}};
+    MipTexture texture{
+        static_cast<int>(width), static_cast<int>(height), format, layout.label.srgb, {}};
     const bool says = read_u32(bytes, 8) & 0x20000;
     const std::uint32_t levels = says ? std::max(1u, read_u32(bytes, 28)) : 1;
     if (levels > static_cast<std::uint32_t>(std::bit_width(std::max(width, height)))) {
@@ -176,16 +190,18 @@ MipTexture parse_dds(std::span<const std::byte> bytes, const ReadOptions& limits
     for (int k = 0; k < static_cast<int>(levels); ++k) {
         const int w = level_extent(texture.width, k), h = level_extent(texture.height, k);
         const std::uint64_t size =
-            layout.bits ? static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h) *
-                              (layout.bits / 8)
-                        : level_bytes(format, w, h);
+            layout.bits
+                ? static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h) * (layout.bits / 8)
+                : level_bytes(format, w, h);
         const Bytes stored = part(bytes, at, size, "mip level " + std::to_string(k));
         at += size;
-        texture.levels.push_back(layout.bits ? unmasked(stored, layout)
-                                             : std::vector<std::byte>(stored.begin(), stored.end()));
+        texture.levels.push_back(layout.bits
+                                     ? unmasked(stored, layout)
+                                     : std::vector<std::byte>(stored.begin(), stored.end()));
         if (layout.label.swap_red_blue) swap_red_blue(texture.levels.back(), format.channels);
     }
-    if (layout.normal_in_alpha) {  // no program but games writes it; the swizzle is undone on plain texels
+    if (layout.normal_in_alpha) {  // no program but games writes it; the swizzle is undone on plain
+                                   // texels
         for (int k = 0; k < static_cast<int>(levels); ++k) {
             RawImage image = decode_level(texture, k, 1);
             for (std::size_t i = 0; i + 3 < image.bytes.size(); i += 4) {

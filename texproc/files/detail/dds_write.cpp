@@ -26,11 +26,16 @@ OldFormat old_format(const TextureFormat& format)
     constexpr std::uint32_t kAlpha = 1, kCode = 4, kRgb = 0x40, kGrey = 0x20000;
     if (format.block) {
         switch (*format.block) {
-            case Block::Bc1: return {kCode, code_of("DXT1")};
-            case Block::Bc3: return {kCode, code_of("DXT5")};
-            case Block::Bc4: return {kCode, code_of("ATI1")};
-            case Block::Bc5: return {kCode, code_of("ATI2")};
-            default: return {};
+            case Block::Bc1:
+                return {kCode, code_of("DXT1")};
+            case Block::Bc3:
+                return {kCode, code_of("DXT5")};
+            case Block::Bc4:
+                return {kCode, code_of("ATI1")};
+            case Block::Bc5:
+                return {kCode, code_of("ATI2")};
+            default:
+                return {};
         }
     }
     if (format.type != PixelType::U8) return {};
@@ -92,7 +97,7 @@ std::vector<std::byte> dds_header(const MipTexture& texture, std::size_t levels)
         put_u32(file, dxgi);
         put_u32(file, 3);  // two-dimensional
         put_u32(file, 0);
-        put_u32(file, 1);  // images
+        put_u32(file, 1);                             // images
         put_u32(file, format.channels == 4 ? 1 : 0);  // straight alpha
     }
     return file;

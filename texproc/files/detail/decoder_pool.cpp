@@ -30,7 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatienceMs = 300'000;  // the child's own CPU limit ends it long before, unless it sleeps
+constexpr int kPatienceMs =
+    300'000;  // the child's own CPU limit ends it long before, unless it sleeps
 
 // The decoder lies beside the program (build tree, portable copy), in its libexec folder
 // (installed), or where this library was built.
@@ -278,8 +279,8 @@ void Decoded::read(std::uint64_t offset, std::span<std::byte> to) const
 {
     std::size_t done = 0;
     while (done < to.size()) {
-        const ssize_t n = ::pread(fd_, to.data() + done, to.size() - done,
-                                  static_cast<off_t>(offset + done));
+        const ssize_t n =
+            ::pread(fd_, to.data() + done, to.size() - done, static_cast<off_t>(offset + done));
         if (n <= 0) {
             throw Error("images: the decoder process returned too few pixels",
                         "Report this file: it should not be possible.");
@@ -310,8 +311,8 @@ Decoded decode_in_child(const std::string& name, std::span<const std::byte> byte
                           : "Check that the file is an image and opens in another program; export "
                             "it again if it is damaged.");
     }
-    RawImage shape{reply.width, reply.height, reply.channels, static_cast<PixelType>(reply.type),
-                   {}, {}};
+    RawImage shape{
+        reply.width, reply.height, reply.channels, static_cast<PixelType>(reply.type), {}, {}};
     // The child is not trusted: its numbers must keep the limits that it was given.
     const double pixels = static_cast<double>(shape.width) * static_cast<double>(shape.height);
     if (outcome.fd < 0 || shape.width < 1 || shape.height < 1 || shape.channels < 1 ||

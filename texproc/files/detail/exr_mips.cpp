@@ -57,7 +57,8 @@ void write_exr_mips(const std::filesystem::path& path, const MipTexture& texture
             const std::vector<std::byte>& bytes = texture.levels[static_cast<std::size_t>(k)];
             char* data = reinterpret_cast<char*>(const_cast<std::byte*>(bytes.data()));
             const std::size_t pixel = size * static_cast<std::size_t>(channels);
-            const std::size_t row = pixel * static_cast<std::size_t>(level_extent(texture.width, k));
+            const std::size_t row =
+                pixel * static_cast<std::size_t>(level_extent(texture.width, k));
             Imf::FrameBuffer frame;
             for (int c = 0; c < channels; ++c) {
                 frame.insert(channel_name(c, channels),

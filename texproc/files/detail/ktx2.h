@@ -16,10 +16,10 @@ struct Ktx2Parts {
     LevelBytes parts;
 };
 
-/// A KTX2 file: header, level index, data format descriptor, writer's name, levels from the smallest
-/// up, each aligned. `levels` may lie elsewhere than in `texture`. `zstd` 0: stored plain, 1..22: each
-/// level compressed. Throws Error for what the container cannot say. Source: KTX 2.0, Khronos Data
-/// Format Specification 1.3.
+/// A KTX2 file: header, level index, data format descriptor, writer's name, levels from the
+/// smallest up, each aligned. `levels` may lie elsewhere than in `texture`. `zstd` 0: stored
+/// plain, 1..22: each level compressed. Throws Error for what the container cannot say. Source:
+/// KTX 2.0, Khronos Data Format Specification 1.3.
 Ktx2Parts ktx2_parts(const MipTexture& texture, const LevelBytes& levels, int zstd);
 
 /// The same in one piece.

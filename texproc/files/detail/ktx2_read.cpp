@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-constexpr unsigned char kIdentifier[12] = {0xab, 'K', 'T', 'X', ' ', '2',
+constexpr unsigned char kIdentifier[12] = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                            '0',  0xbb, '\r', '\n', 0x1a, '\n'};
 
 // Inflates a level to exactly `size` bytes; more, fewer or damaged ones are errors.
@@ -53,7 +53,8 @@ MipTexture parse_ktx2(std::span<const std::byte> bytes, const ReadOptions& limit
     const std::uint32_t faces = read_u32(bytes, 36), scheme = read_u32(bytes, 44);
     const std::uint32_t levels = std::max(1u, read_u32(bytes, 40));
     if (scheme == 1 || vulkan == 0) {
-        throw std::runtime_error("it is supercompressed with Basis Universal, which is not supported");
+        throw std::runtime_error(
+            "it is supercompressed with Basis Universal, which is not supported");
     }
     if (scheme > 3) {
         throw std::runtime_error("its supercompression " + std::to_string(scheme) +
@@ -66,12 +67,13 @@ MipTexture parse_ktx2(std::span<const std::byte> bytes, const ReadOptions& limit
     }
     check_texture_size(width, height, label->format.channels, limits);
     if (depth > 1) throw std::runtime_error("it is a volume, not an image");
-    if ((faces != 1 && faces != 6) || levels > static_cast<std::uint32_t>(
-                                                   std::bit_width(std::max(width, height)))) {
+    if ((faces != 1 && faces != 6) ||
+        levels > static_cast<std::uint32_t>(std::bit_width(std::max(width, height)))) {
         throw std::runtime_error("its header is damaged: " + std::to_string(faces) + " faces, " +
                                  std::to_string(levels) + " levels");
     }
-    MipTexture texture{static_cast<int>(width), static_cast<int>(height), label->format, label->srgb, {}};
+    MipTexture texture{
+        static_cast<int>(width), static_cast<int>(height), label->format, label->srgb, {}};
     const std::uint64_t images = static_cast<std::uint64_t>(std::max(1u, layers)) * faces;
     for (int k = 0; k < static_cast<int>(levels); ++k) {
         const std::size_t entry = 80 + 24 * static_cast<std::size_t>(k);
@@ -87,11 +89,13 @@ MipTexture parse_ktx2(std::span<const std::byte> bytes, const ReadOptions& limit
         }
         const std::uint64_t whole = image * images;
         if (read_u64(bytes, entry + 16) != whole || (scheme == 0 && size != whole)) {
-            throw std::runtime_error("its header is damaged: " + name + " of " + std::to_string(size) +
-                                     " bytes must have " + std::to_string(whole));
+            throw std::runtime_error("its header is damaged: " + name + " of " +
+                                     std::to_string(size) + " bytes must have " +
+                                     std::to_string(whole));
         }
-        std::vector<std::byte> level = scheme ? inflated(stored, static_cast<std::size_t>(whole), scheme)
-                                              : std::vector<std::byte>(stored.begin(), stored.end());
+        std::vector<std::byte> level =
+            scheme ? inflated(stored, static_cast<std::size_t>(whole), scheme)
+                   : std::vector<std::byte>(stored.begin(), stored.end());
         level.resize(image);
         if (label->swap_red_blue) swap_red_blue(level, texture.format.channels);
         texture.levels.push_back(std::move(level));

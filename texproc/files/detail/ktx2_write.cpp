@@ -51,11 +51,16 @@ std::vector<Sample> block_samples(const TextureFormat& format, bool srgb)
     constexpr std::uint32_t kAll = 0xffffffffu;
     const int alpha = kAlphaChannel | (srgb ? kLinear : 0);
     switch (*format.block) {
-        case Block::Bc1: return {{0, 64, format.channels == 4 ? 1 : 0, 0, kAll}};
-        case Block::Bc3: return {{0, 64, alpha, 0, kAll}, {64, 64, 0, 0, kAll}};
-        case Block::Bc4: return {{0, 64, 0, 0, kAll}};
-        case Block::Bc5: return {{0, 64, 0, 0, kAll}, {64, 64, 1, 0, kAll}};
-        default: return {{0, 128, 0, 0, kAll}};
+        case Block::Bc1:
+            return {{0, 64, format.channels == 4 ? 1 : 0, 0, kAll}};
+        case Block::Bc3:
+            return {{0, 64, alpha, 0, kAll}, {64, 64, 0, 0, kAll}};
+        case Block::Bc4:
+            return {{0, 64, 0, 0, kAll}};
+        case Block::Bc5:
+            return {{0, 64, 0, 0, kAll}, {64, 64, 1, 0, kAll}};
+        default:
+            return {{0, 128, 0, 0, kAll}};
     }
 }
 
@@ -63,13 +68,20 @@ int color_model(const TextureFormat& format)
 {
     if (!format.block) return 1;
     switch (*format.block) {
-        case Block::Bc1: return 128;
-        case Block::Bc2: return 129;
-        case Block::Bc3: return 130;
-        case Block::Bc4: return 131;
-        case Block::Bc5: return 132;
-        case Block::Bc6h: return 133;
-        case Block::Bc7: return 134;
+        case Block::Bc1:
+            return 128;
+        case Block::Bc2:
+            return 129;
+        case Block::Bc3:
+            return 130;
+        case Block::Bc4:
+            return 131;
+        case Block::Bc5:
+            return 132;
+        case Block::Bc6h:
+            return 133;
+        case Block::Bc7:
+            return 134;
     }
     return 0;
 }
@@ -83,18 +95,18 @@ std::size_t texel_bytes(const TextureFormat& format)
 std::vector<std::byte> descriptor(const MipTexture& texture)
 {
     const TextureFormat& format = texture.format;
-    const auto samples = format.block ? block_samples(format, texture.srgb)
-                                      : plain_samples(format, texture.srgb);
+    const auto samples =
+        format.block ? block_samples(format, texture.srgb) : plain_samples(format, texture.srgb);
     const std::size_t block_size = 24 + 16 * samples.size();
     std::vector<std::byte> dfd;
     put_u32(dfd, block_size + 4);
-    put_u32(dfd, 0);           // Khronos, basic descriptor
-    put_little(dfd, 2, 2);     // version 1.3
+    put_u32(dfd, 0);        // Khronos, basic descriptor
+    put_little(dfd, 2, 2);  // version 1.3
     put_little(dfd, block_size, 2);
     put_little(dfd, static_cast<std::uint64_t>(color_model(format)), 1);
-    put_little(dfd, 1, 1);     // Rec.709 primaries
+    put_little(dfd, 1, 1);  // Rec.709 primaries
     put_little(dfd, texture.srgb ? 2 : 1, 1);
-    put_little(dfd, 0, 1);     // straight alpha
+    put_little(dfd, 0, 1);                          // straight alpha
     put_little(dfd, format.block ? 0x0303 : 0, 4);  // texel block 4 x 4 or 1 x 1
     put_little(dfd, texel_bytes(format), 8);
     for (const Sample& s : samples) {
@@ -127,7 +139,8 @@ std::vector<std::byte> key_values()
 std::vector<std::byte> compressed(std::span<const std::byte> level, int quality)
 {
     std::vector<std::byte> to(ZSTD_compressBound(level.size()));
-    const std::size_t size = ZSTD_compress(to.data(), to.size(), level.data(), level.size(), quality);
+    const std::size_t size =
+        ZSTD_compress(to.data(), to.size(), level.data(), level.size(), quality);
     if (ZSTD_isError(size)) throw Error("ktx2: zstd failed", "Free some memory, or use --zstd 0.");
     to.resize(size);
     return to;
@@ -168,7 +181,7 @@ Ktx2Parts ktx2_parts(const MipTexture& texture, const LevelBytes& levels, int zs
         end = at[k] + stored[k].size();
     }
 
-    static constexpr unsigned char kIdentifier[12] = {0xab, 'K', 'T', 'X', ' ', '2',
+    static constexpr unsigned char kIdentifier[12] = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                                       '0',  0xbb, '\r', '\n', 0x1a, '\n'};
     std::vector<std::byte>& head = file.own[0];
     for (const unsigned char c : kIdentifier) head.push_back(static_cast<std::byte>(c));

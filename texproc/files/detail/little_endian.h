@@ -49,7 +49,10 @@ inline void put_little(std::vector<std::byte>& to, std::uint64_t value, int size
 {
     for (int i = 0; i < size; ++i) to.push_back(static_cast<std::byte>(value >> (8 * i)));
 }
-inline void put_u32(std::vector<std::byte>& to, std::uint64_t value) { put_little(to, value, 4); }
+inline void put_u32(std::vector<std::byte>& to, std::uint64_t value)
+{
+    put_little(to, value, 4);
+}
 
 }  // namespace petrichor::texproc::detail
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kBlock = 512 * 1024;  // bytes deflated as one; also the size of an IDAT chunk
 constexpr std::size_t kBatch = 32 << 20;    // bytes filtered and deflated before they are handed on
-constexpr std::size_t kWindow = 32 * 1024;  // what deflate may look back into, from the block before
+constexpr std::size_t kWindow =
+    32 * 1024;  // what deflate may look back into, from the block before
 
 void put32(std::byte* to, std::uint32_t v)
 {
@@ -165,8 +166,9 @@ void add_start(const PngImage& image, const std::vector<std::pair<std::string, s
 
 }  // namespace
 
-void encode_png(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
-                int level, int threads, const ByteSink& sink)
+void encode_png(const PngImage& image,
+                const std::vector<std::pair<std::string, std::string>>& texts, int level,
+                int threads, const ByteSink& sink)
 {
     assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
     assert(image.bits == 8 || image.bits == 16);

@@ -21,10 +21,12 @@ struct PngImage {
 /// Takes the next bytes of a file.
 using ByteSink = std::function<void(std::span<const std::byte>)>;
 
-/// A PNG file, piece by piece: at no time more than some 32 MiB of it. Each row takes the cheaper of two filters, the rows are deflated in blocks of a
-/// fixed size, on `threads` threads (0: all cores): same bytes for any number.
-void encode_png(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
-                int level, int threads, const ByteSink& sink);
+/// A PNG file, piece by piece: at no time more than some 32 MiB of it. Each row takes the cheaper
+/// of two filters, the rows are deflated in blocks of a fixed size, on `threads` threads (0: all
+/// cores): same bytes for any number.
+void encode_png(const PngImage& image,
+                const std::vector<std::pair<std::string, std::string>>& texts, int level,
+                int threads, const ByteSink& sink);
 
 /// The same in one piece.
 std::vector<std::byte> encode_png(const PngImage& image,

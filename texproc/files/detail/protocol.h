@@ -1,5 +1,5 @@
-// What the program and its decoder processes say to each other: one SOCK_SEQPACKET message each way,
-// with one file descriptor attached (bytes in, pixels out). Both ends are built together.
+// What the program and its decoder processes say to each other: one SOCK_SEQPACKET message each
+// way, with one file descriptor attached (bytes in, pixels out). Both ends are built together.
 #ifndef PETRICHOR_TEXPROC_DETAIL_PROTOCOL_H
 #define PETRICHOR_TEXPROC_DETAIL_PROTOCOL_H
 

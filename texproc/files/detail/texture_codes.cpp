@@ -13,7 +13,10 @@ struct Row {
     std::uint32_t dxgi, dxgi_srgb, vulkan, vulkan_srgb;  // 0: there is none
 };
 
-constexpr TextureFormat plain(PixelType type, int channels) { return {{}, type, channels, false}; }
+constexpr TextureFormat plain(PixelType type, int channels)
+{
+    return {{}, type, channels, false};
+}
 constexpr TextureFormat blocks(Block block, int channels, bool is_signed = false)
 {
     const PixelType type = block == Block::Bc6h ? PixelType::F16
@@ -23,32 +26,19 @@ constexpr TextureFormat blocks(Block block, int channels, bool is_signed = false
 }
 
 constexpr Row kRows[] = {
-    {plain(PixelType::U8, 1), 61, 0, 9, 15},
-    {plain(PixelType::U8, 2), 49, 0, 16, 22},
-    {plain(PixelType::U8, 3), 0, 0, 23, 29},
-    {plain(PixelType::U8, 4), 28, 29, 37, 43},
-    {plain(PixelType::U16, 1), 56, 0, 70, 0},
-    {plain(PixelType::U16, 2), 35, 0, 77, 0},
-    {plain(PixelType::U16, 3), 0, 0, 84, 0},
-    {plain(PixelType::U16, 4), 11, 0, 91, 0},
-    {plain(PixelType::F16, 1), 54, 0, 76, 0},
-    {plain(PixelType::F16, 2), 34, 0, 83, 0},
-    {plain(PixelType::F16, 3), 0, 0, 90, 0},
-    {plain(PixelType::F16, 4), 10, 0, 97, 0},
-    {plain(PixelType::F32, 1), 41, 0, 100, 0},
-    {plain(PixelType::F32, 2), 16, 0, 103, 0},
-    {plain(PixelType::F32, 3), 6, 0, 106, 0},
-    {plain(PixelType::F32, 4), 2, 0, 109, 0},
-    {blocks(Block::Bc1, 4), 71, 72, 133, 134},
-    {blocks(Block::Bc1, 3), 71, 72, 131, 132},
-    {blocks(Block::Bc2, 4), 74, 75, 135, 136},
-    {blocks(Block::Bc3, 4), 77, 78, 137, 138},
-    {blocks(Block::Bc4, 1), 80, 0, 139, 0},
-    {blocks(Block::Bc4, 1, true), 81, 0, 140, 0},
-    {blocks(Block::Bc5, 2), 83, 0, 141, 0},
-    {blocks(Block::Bc5, 2, true), 84, 0, 142, 0},
-    {blocks(Block::Bc6h, 3), 95, 0, 143, 0},
-    {blocks(Block::Bc6h, 3, true), 96, 0, 144, 0},
+    {plain(PixelType::U8, 1), 61, 0, 9, 15},   {plain(PixelType::U8, 2), 49, 0, 16, 22},
+    {plain(PixelType::U8, 3), 0, 0, 23, 29},   {plain(PixelType::U8, 4), 28, 29, 37, 43},
+    {plain(PixelType::U16, 1), 56, 0, 70, 0},  {plain(PixelType::U16, 2), 35, 0, 77, 0},
+    {plain(PixelType::U16, 3), 0, 0, 84, 0},   {plain(PixelType::U16, 4), 11, 0, 91, 0},
+    {plain(PixelType::F16, 1), 54, 0, 76, 0},  {plain(PixelType::F16, 2), 34, 0, 83, 0},
+    {plain(PixelType::F16, 3), 0, 0, 90, 0},   {plain(PixelType::F16, 4), 10, 0, 97, 0},
+    {plain(PixelType::F32, 1), 41, 0, 100, 0}, {plain(PixelType::F32, 2), 16, 0, 103, 0},
+    {plain(PixelType::F32, 3), 6, 0, 106, 0},  {plain(PixelType::F32, 4), 2, 0, 109, 0},
+    {blocks(Block::Bc1, 4), 71, 72, 133, 134}, {blocks(Block::Bc1, 3), 71, 72, 131, 132},
+    {blocks(Block::Bc2, 4), 74, 75, 135, 136}, {blocks(Block::Bc3, 4), 77, 78, 137, 138},
+    {blocks(Block::Bc4, 1), 80, 0, 139, 0},    {blocks(Block::Bc4, 1, true), 81, 0, 140, 0},
+    {blocks(Block::Bc5, 2), 83, 0, 141, 0},    {blocks(Block::Bc5, 2, true), 84, 0, 142, 0},
+    {blocks(Block::Bc6h, 3), 95, 0, 143, 0},   {blocks(Block::Bc6h, 3, true), 96, 0, 144, 0},
     {blocks(Block::Bc7, 4), 98, 99, 145, 146},
 };
 
@@ -56,18 +46,36 @@ constexpr Row kRows[] = {
 std::uint32_t typed(std::uint32_t dxgi)
 {
     switch (dxgi) {
-        case 27: case 48: case 60: case 70: case 73: case 76: case 79: case 82: case 97:
+        case 27:
+        case 48:
+        case 60:
+        case 70:
+        case 73:
+        case 76:
+        case 79:
+        case 82:
+        case 97:
             return dxgi + 1;
-        case 94: return 95;
-        case 1: return 2;
-        case 9: return 10;
-        case 15: return 16;
-        case 33: return 34;
-        case 39: return 41;
-        case 53: return 54;
-        case 90: return 87;
-        case 92: return 88;
-        default: return dxgi;
+        case 94:
+            return 95;
+        case 1:
+            return 2;
+        case 9:
+            return 10;
+        case 15:
+            return 16;
+        case 33:
+            return 34;
+        case 39:
+            return 41;
+        case 53:
+            return 54;
+        case 90:
+            return 87;
+        case 92:
+            return 88;
+        default:
+            return dxgi;
     }
 }
 
@@ -92,10 +100,12 @@ std::uint32_t vulkan_code(const TextureFormat& format, bool srgb)
 std::optional<LabelledFormat> from_dxgi(std::uint32_t code)
 {
     const std::uint32_t wanted = typed(code);
-    if (wanted == 87 || wanted == 91) return LabelledFormat{plain(PixelType::U8, 4), wanted == 91, true};
+    if (wanted == 87 || wanted == 91)
+        return LabelledFormat{plain(PixelType::U8, 4), wanted == 91, true};
     for (const Row& row : kRows) {
         if (row.dxgi && row.dxgi == wanted) return LabelledFormat{row.format, false, false};
-        if (row.dxgi_srgb && row.dxgi_srgb == wanted) return LabelledFormat{row.format, true, false};
+        if (row.dxgi_srgb && row.dxgi_srgb == wanted)
+            return LabelledFormat{row.format, true, false};
     }
     return std::nullopt;
 }

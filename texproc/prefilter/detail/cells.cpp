@@ -58,8 +58,14 @@ void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Fo
             sa += weight * static_cast<double>(a2);
         }
     }
-    means = {static_cast<float>(sx), static_cast<float>(sy), static_cast<float>(sz),
-             static_cast<float>(sp), static_cast<float>(sa), 0, 0, 0};
+    means = {static_cast<float>(sx),
+             static_cast<float>(sy),
+             static_cast<float>(sz),
+             static_cast<float>(sp),
+             static_cast<float>(sa),
+             0,
+             0,
+             0};
 }
 
 namespace {
@@ -72,9 +78,9 @@ std::uint64_t mixed(std::uint64_t v)
     return v;
 }
 
-// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what narrow
-// lobes must keep apart is nothing to wide ones. Cells keep the order of their first member, so
-// that the result does not depend on addresses.
+// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what
+// narrow lobes must keep apart is nothing to wide ones. Cells keep the order of their first member,
+// so that the result does not depend on addresses.
 void merge_round(Cells& cells, float share, float ep)
 {
     const std::size_t count = cells.nx.size();
@@ -121,9 +127,8 @@ void merge_round(Cells& cells, float share, float ep)
     }
     cells.resize(kept);
     for (std::size_t k = 0; k < kept; ++k) {
-        const float length =
-            std::sqrt(cells.nx[k] * cells.nx[k] + cells.ny[k] * cells.ny[k] +
-                      cells.nz[k] * cells.nz[k]);
+        const float length = std::sqrt(cells.nx[k] * cells.nx[k] + cells.ny[k] * cells.ny[k] +
+                                       cells.nz[k] * cells.nz[k]);
         const float scale = length > 0.0f ? 1.0f / length : 0.0f;
         cells.nx[k] *= scale;
         cells.ny[k] *= scale;
@@ -135,8 +140,8 @@ void merge_round(Cells& cells, float share, float ep)
     }
 }
 
-// Where Gaussian slopes of this spread would still fill more than twice `limit` cells of a grid: finer
-// grids are a waste.
+// Where Gaussian slopes of this spread would still fill more than twice `limit` cells of a grid:
+// finer grids are a waste.
 float useful_edge(const Cells& cells, int limit)
 {
     float w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;

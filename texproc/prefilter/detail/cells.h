@@ -33,14 +33,14 @@ struct Means {
     float vx = 0, vy = 0, vz = 0;  ///< normals shortened by their own lobe (vMF)
 };
 
-/// The texels of a footprint with their exact area weights, which sum to 1. `rows` holds the decoded
-/// rows from y.first on.
+/// The texels of a footprint with their exact area weights, which sum to 1. `rows` holds the
+/// decoded rows from y.first on.
 void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Footprint& x,
             const Footprint& y, Cells& cells, Means& means);
 
-/// Joins cells that share a place in a grid of (n_x, n_y, p) until at most `limit` are left; its edge
-/// is a growing share, from 0.2, of the alpha that lies there (at least 0.001), and 0.02 in p. Weight is conserved, and
-/// what normals differ within a cell is added to its alpha^2.
+/// Joins cells that share a place in a grid of (n_x, n_y, p) until at most `limit` are left; its
+/// edge is a growing share, from 0.2, of the alpha that lies there (at least 0.001), and 0.02 in p.
+/// Weight is conserved, and what normals differ within a cell is added to its alpha^2.
 void merge(Cells& cells, int limit);
 
 /// The mean resultant length of a lobe of this width (coth l - 1 / l, l = 2 / alpha^2).

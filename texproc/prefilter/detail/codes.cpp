@@ -7,7 +7,10 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-float top(const StoredAs& as) { return static_cast<float>((1 << as.bits) - 1); }
+float top(const StoredAs& as)
+{
+    return static_cast<float>((1 << as.bits) - 1);
+}
 
 float rounded(float v, const StoredAs& as)
 {
@@ -98,8 +101,8 @@ bool coarse_codes(float lit_alpha2, const StoredAs& as)
     return as.bits == 8 && lit_alpha2 < 0.15f * 0.15f;
 }
 
-Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2, const Codes& plain,
-                     float light2, const StoredAs& as)
+Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2,
+                     const Codes& plain, float light2, const StoredAs& as)
 {
     constexpr int kSteps = 6;  // of roughness, from one below the rounded code to four above
     Codes best = plain;
@@ -115,7 +118,8 @@ Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2
         for (int k = 0; k < kSteps; ++k) {
             Codes& c = tried[static_cast<std::size_t>(k)];
             c = aim.codes;
-            const float at = rounded(stored(alpha2, as), as) + towards_rough * static_cast<float>(k - 1);
+            const float at =
+                rounded(stored(alpha2, as), as) + towards_rough * static_cast<float>(k - 1);
             c.rough = rounded(at, as);
             alpha2s[static_cast<std::size_t>(k)] = lit(c);
         }

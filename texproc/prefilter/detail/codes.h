@@ -9,11 +9,11 @@ namespace petrichor::texproc::detail {
 
 /// How a lobe is stored in a file of integers.
 struct StoredAs {
-    int bits = 0;              ///< 0: as floats, else 8 or 16
-    bool smoothness = false;   ///< 1 - p instead of p
-    bool alpha = false;        ///< p^2 instead of p
+    int bits = 0;             ///< 0: as floats, else 8 or 16
+    bool smoothness = false;  ///< 1 - p instead of p
+    bool alpha = false;       ///< p^2 instead of p
     bool green_down = false;
-    bool rebuild_z = false;    ///< only x and y are read
+    bool rebuild_z = false;  ///< only x and y are read
 };
 
 /// The numbers of a file, 0..1.
@@ -29,12 +29,12 @@ float read_alpha2(const Codes& codes, const StoredAs& as);
 /// True where rounding to these bits moves the lobe by a visible part of its width.
 bool coarse_codes(float lit_alpha2, const StoredAs& as);
 
-/// The codes that cost least near a lobe: eight bits hold few directions of unit length, but readers
-/// normalise, so vectors up to 5 % shorter reach directions between them; and the roughness is chosen
-/// for the direction that is really stored. `plain`: codes that must not be beaten by the choice.
-/// light2: added to alpha^2 on reading.
-Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2, const Codes& plain,
-                     float light2, const StoredAs& as);
+/// The codes that cost least near a lobe: eight bits hold few directions of unit length, but
+/// readers normalise, so vectors up to 5 % shorter reach directions between them; and the roughness
+/// is chosen for the direction that is really stored. `plain`: codes that must not be beaten by the
+/// choice. light2: added to alpha^2 on reading.
+Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2,
+                     const Codes& plain, float light2, const StoredAs& as);
 
 }  // namespace petrichor::texproc::detail
 

@@ -22,12 +22,16 @@ std::uint32_t seed_of(int level, int x, int y)
     return h ^ (h >> 15);
 }
 
-Direction mean_normal(const Means& m) { return normalized({m.nx, m.ny, m.nz}); }
+Direction mean_normal(const Means& m)
+{
+    return normalized({m.nx, m.ny, m.nz});
+}
 
 }  // namespace
 
 Filter::Filter(const PrefilterOptions& options)
-    : options_(options), kind_(rule_named(options.rule).kind),
+    : options_(options),
+      kind_(rule_named(options.rule).kind),
       overlap_{options.design_light, options.joint, options.anisotropic, options.quick,
                stored_as(options)}
 {
@@ -80,7 +84,8 @@ FittedLobe Filter::from_cells(const MipTexel& t) const
     }
     lobe.alpha2 = median_alpha2(cells->view(), mean, lobe_kernel());
     if (options_.rule == "student-t") {
-        const RobustFit fit = student_t(cells->view(), mean, lobe.alpha2, 3, 12, false, lobe_kernel());
+        const RobustFit fit =
+            student_t(cells->view(), mean, lobe.alpha2, 3, 12, false, lobe_kernel());
         lobe.normal = fit.normal;
         lobe.alpha2 = fit.alpha2;
     }
@@ -124,10 +129,9 @@ void store(const FittedLobe& lobe, const MipTexel& t, const PrefilterOptions& op
     const float length = std::max(1e-6f, std::sqrt(d.x * d.x + d.y * d.y));
     const float wide = std::sqrt(std::max(lobe.alpha2_x, lobe.alpha2_y));
     const float slim = std::sqrt(alpha2);
-    const float strength =
-        lobe.elliptic && slim < 1.0f
-            ? std::sqrt(std::clamp((wide - slim) / (1.0f - slim), 0.0f, 1.0f))
-            : 0.0f;
+    const float strength = lobe.elliptic && slim < 1.0f
+                               ? std::sqrt(std::clamp((wide - slim) / (1.0f - slim), 0.0f, 1.0f))
+                               : 0.0f;
     a[0] = 0.5f + 0.5f * d.x / length;
     a[1] = 0.5f + 0.5f * (options.green_down ? -d.y : d.y) / length;
     a[2] = strength;

@@ -8,9 +8,9 @@
 
 namespace petrichor::texproc::detail {
 
-/// The lobe that a rule gives to a texel: rule, light and effort from the options, which must outlive
-/// it. Pure: the same texel, the same lobe, on any thread. Throws Error for an unknown rule and for
-/// options that the rule does not have.
+/// The lobe that a rule gives to a texel: rule, light and effort from the options, which must
+/// outlive it. Pure: the same texel, the same lobe, on any thread. Throws Error for an unknown rule
+/// and for options that the rule does not have.
 class Filter {
 public:
     explicit Filter(const PrefilterOptions& options);

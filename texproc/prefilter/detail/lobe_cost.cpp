@@ -63,9 +63,8 @@ float LobeCost::operator()(const EllipticLobe& e) const
         const float bv = e.bx * d[0] + e.by * d[1] + e.bz * d[2];
         // The width that this view sees decides how much is shadowed.
         const float across = tv * tv + bv * bv;
-        const float seen = across > 1e-6f
-                               ? (e.alpha2_x * tv * tv + e.alpha2_y * bv * bv) / across
-                               : std::sqrt(e.alpha2_x * e.alpha2_y);
+        const float seen = across > 1e-6f ? (e.alpha2_x * tv * tv + e.alpha2_y * bv * bv) / across
+                                          : std::sqrt(e.alpha2_x * e.alpha2_y);
         const float m = lobe_albedo(seen, nv);
         sum += std::min(2.0f, std::max(0.0f, (r + m - overlaps[v]) / r));
         ++views;

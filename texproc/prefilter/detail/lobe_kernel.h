@@ -34,8 +34,8 @@ struct SamplesView {
     float* radiance;  ///< of the footprint: sum of w f (n.l)
 };
 
-/// Points of a rank-1 lattice, view after view, `per_view` at most of each; the second coordinate as
-/// an angle.
+/// Points of a rank-1 lattice, view after view, `per_view` at most of each; the second coordinate
+/// as an angle.
 struct LatticeView {
     int per_view;
     const float *u, *cosine, *sine;
@@ -69,8 +69,8 @@ struct SlopeSums {
 };
 
 struct LobeKernel {
-    /// Half-vectors from the lobes of the footprint: sample k from the cell cell[k]. Fills hx hy hz,
-    /// vh2 and weight = +-4 (v.h).
+    /// Half-vectors from the lobes of the footprint: sample k from the cell cell[k]. Fills hx hy
+    /// hz, vh2 and weight = +-4 (v.h).
     void (*place)(const CellsView& cells, const Turn& turn, const LatticeView& lattice,
                   const int* cell, const SamplesView& samples);
     /// Fills density and radiance of every sample.

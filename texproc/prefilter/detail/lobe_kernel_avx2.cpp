@@ -2,7 +2,7 @@
 
 namespace petrichor::texproc::detail {
 
-const LobeKernel kLobeKernelAvx2{
-    place, shade, weigh, overlaps, elliptic_overlap, differences, reweighted, inside};
+const LobeKernel kLobeKernelAvx2{place,       shade,      weigh, overlaps, elliptic_overlap,
+                                 differences, reweighted, inside};
 
 }  // namespace petrichor::texproc::detail

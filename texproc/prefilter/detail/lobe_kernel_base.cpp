@@ -11,8 +11,8 @@ const float kViewDirections[kViews][3] = {
     {-0.85165074f, 0.39713126f, 0.34202014f},
 };
 
-const LobeKernel kLobeKernelBase{
-    place, shade, weigh, overlaps, elliptic_overlap, differences, reweighted, inside};
+const LobeKernel kLobeKernelBase{place,       shade,      weigh, overlaps, elliptic_overlap,
+                                 differences, reweighted, inside};
 
 const LobeKernel& lobe_kernel()
 {

@@ -14,16 +14,18 @@ Direction normalized(Direction d)
     return {d.x / length, d.y / length, d.z / length};
 }
 
-float dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float dot(const Direction& a, const Direction& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 Frame frame_about(const Direction& n)
 {
     const float sign = n.z >= 0.0f ? 1.0f : -1.0f;
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
-    return {n,
-            {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x},
-            {b, sign + n.y * n.y * a, -n.y}};
+    return {
+        n, {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
 namespace {
@@ -89,7 +91,7 @@ std::array<Patch, kPatches * kPatches> make_patches()
 
 const Patch* patches()
 {
-    static const std::array<Patch, kPatches * kPatches> all = make_patches();
+    static const std::array<Patch, kPatches* kPatches> all = make_patches();
     return all.data();
 }
 
@@ -117,7 +119,10 @@ float albedo_at(const Row& r, float mu)
 
 }  // namespace
 
-float lobe_albedo(float alpha2, float mu) { return albedo_at(albedo_row(alpha2), mu); }
+float lobe_albedo(float alpha2, float mu)
+{
+    return albedo_at(albedo_row(alpha2), mu);
+}
 
 void lobe_albedo_in_views(float alpha2, const Direction& n, float* out)
 {
@@ -202,7 +207,8 @@ void Samples::draw(const CellsView& cells, int total, std::uint32_t seed, const 
             cell_[static_cast<std::size_t>(v * per_view_ + i)] = cell;
         }
     }
-    kernel.place(cells, {shift_u, std::cos(angle), std::sin(angle)}, lattice(), cell_.data(), view());
+    kernel.place(cells, {shift_u, std::cos(angle), std::sin(angle)}, lattice(), cell_.data(),
+                 view());
     kernel.shade(cells, view());
     kernel.weigh(view());
 }
@@ -219,7 +225,10 @@ float slope2(const Direction& normal, float x, float y, float z)
     return (sx * sx + sy * sy + sz * sz) / (c * c);
 }
 
-int padded(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+int padded(int count)
+{
+    return (count + kLanes - 1) / kLanes * kLanes;
+}
 
 }  // namespace
 
@@ -271,8 +280,8 @@ float share_inside(const CellsView& cells, const Direction& normal, float light2
 {
     float share = 0.0f, whole = 0.0f;
     for (int i = 0; i < cells.count; ++i) {
-        const float s = cells.alpha2[i] + light2 +
-                        slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
+        const float s =
+            cells.alpha2[i] + light2 + slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
         share += cells.weight[i] * alpha2 / (alpha2 + s);
         whole += cells.weight[i];
     }
@@ -302,9 +311,10 @@ RobustFit student_t(const CellsView& cells, const Direction& start, float start_
                     int rounds, bool elliptic, const LobeKernel& kernel)
 {
     static constexpr float kRing[4] = {0.37796447f, 0.77459667f, 1.29099445f, 2.64575131f};
-    static constexpr float kTurn[4][2] = {
-        {0.92387953f, 0.38268343f}, {0.70710678f, 0.70710678f},
-        {0.38268343f, 0.92387953f}, {1.0f, 0.0f}};
+    static constexpr float kTurn[4][2] = {{0.92387953f, 0.38268343f},
+                                          {0.70710678f, 0.70710678f},
+                                          {0.38268343f, 0.92387953f},
+                                          {1.0f, 0.0f}};
     const int count = 16 * cells.count;  // a multiple of kLanes
     std::vector<float> points(3 * static_cast<std::size_t>(count));
     float* sx = points.data();
@@ -335,8 +345,7 @@ RobustFit student_t(const CellsView& cells, const Direction& start, float start_
         float xx = fit.alpha2, xy = 0.0f, yy = fit.alpha2;
         for (int round = 0; round < rounds; ++round) {
             const float det = std::max(xx * yy - xy * xy, 1e-18f);
-            const SlopeSums s =
-                kernel.reweighted(slopes, cx, cy, yy / det, -xy / det, xx / det);
+            const SlopeSums s = kernel.reweighted(slopes, cx, cy, yy / det, -xy / det, xx / det);
             // The spread is about the old centre; about the new one it is less by its move.
             const float nx = s.x / s.w, ny = s.y / s.w;
             const float dx = nx - cx, dy = ny - cy;

@@ -16,8 +16,8 @@ struct Plane {
     int channel = 0;
 };
 
-/// Level 0 of a normal map and its roughness, decoded row by row so that a 4096 x 4096 pair costs no
-/// more memory than its files.
+/// Level 0 of a normal map and its roughness, decoded row by row so that a 4096 x 4096 pair costs
+/// no more memory than its files.
 struct MapSurface {
     int width = 0, height = 0;
     Plane x, y, z;  ///< 0..1 codes of the normal; without z it is rebuilt

@@ -8,9 +8,9 @@
 
 namespace petrichor::texproc::detail {
 
-/// Nelder and Mead's simplex in N dimensions, at most about `budget` evaluations: the best point and
-/// its value. Starts from `start`, whose value is known, and one step along each axis; stops when all
-/// corners agree within `tolerance`.
+/// Nelder and Mead's simplex in N dimensions, at most about `budget` evaluations: the best point
+/// and its value. Starts from `start`, whose value is known, and one step along each axis; stops
+/// when all corners agree within `tolerance`.
 template <std::size_t N, class Function>
 std::pair<std::array<float, N>, float> simplex(const std::array<float, N>& start, float start_value,
                                                const std::array<float, N>& steps, int budget,

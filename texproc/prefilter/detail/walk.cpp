@@ -14,7 +14,10 @@ namespace {
 constexpr std::size_t kDirectLevels = 5;  // these gather level 0 themselves
 constexpr int kMeans = 8;
 
-int cells_kept(std::size_t level) { return level <= 5 ? 256 : level <= 7 ? 512 : 1024; }
+int cells_kept(std::size_t level)
+{
+    return level <= 5 ? 256 : level <= 7 ? 512 : 1024;
+}
 
 Means load_means(const Image& image, int x, int y)
 {
@@ -44,8 +47,8 @@ void add_own_lobes(const Cells& cells, Means& m)
 }
 
 // Means of one row of texels of any level, straight from level 0, without cells.
-void means_row(const MapSurface& surface, const Footprint& rows, const std::vector<Footprint>& columns,
-               bool own_lobes, int y, Image& out)
+void means_row(const MapSurface& surface, const Footprint& rows,
+               const std::vector<Footprint>& columns, bool own_lobes, int y, Image& out)
 {
     SurfaceRow row;
     const std::size_t width = static_cast<std::size_t>(surface.width);
@@ -97,10 +100,9 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
     cells.clear();
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
         for (std::size_t i = 0; i < x.weights.size(); ++i) {
-            const Cells& child =
-                below[static_cast<std::size_t>(y.first + static_cast<int>(j)) *
-                          static_cast<std::size_t>(below_width) +
-                      static_cast<std::size_t>(x.first) + i];
+            const Cells& child = below[static_cast<std::size_t>(y.first + static_cast<int>(j)) *
+                                           static_cast<std::size_t>(below_width) +
+                                       static_cast<std::size_t>(x.first) + i];
             const float w = x.weights[i] * y.weights[j];
             for (std::size_t c = 0; c < child.nx.size(); ++c) {
                 cells.add(child.nx[c], child.ny[c], child.nz[c], child.alpha2[c],
@@ -134,10 +136,9 @@ void walk(const MapSurface& surface, const WalkOptions& options,
             next.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
         }
         // Means of levels whose texels join whole texels of the one below come from there.
-        const bool nested = k > 1 && 2 * width == sizes[k - 1].width &&
-                            2 * height == sizes[k - 1].height &&
-                            surface.width % sizes[k - 1].width == 0 &&
-                            surface.height % sizes[k - 1].height == 0;
+        const bool nested =
+            k > 1 && 2 * width == sizes[k - 1].width && 2 * height == sizes[k - 1].height &&
+            surface.width % sizes[k - 1].width == 0 && surface.height % sizes[k - 1].height == 0;
         if (!direct && nested) level = area_reduced(means[k - 1], width, height, options.threads);
         std::vector<Footprint> child_columns, child_rows;
         if (options.cells && !direct) {

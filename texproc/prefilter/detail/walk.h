@@ -16,16 +16,16 @@ struct MipTexel {
 };
 
 struct WalkOptions {
-    bool cells = false;      ///< hand over the footprints
-    bool own_lobes = false;  ///< fill Means::vx.. (vMF)
+    bool cells = false;                                     ///< hand over the footprints
+    bool own_lobes = false;                                 ///< fill Means::vx.. (vMF)
     std::function<bool(int level, int x, int y)> wanted{};  ///< visit only these; empty: all
     int threads = 0;
     std::function<void(double)> progress{};
 };
 
-/// Calls visit for every texel of levels 1.., rows in parallel. Levels 1 to 5 see every texel of level
-/// 0; from there on the lists of cells are joined and merged, so that the whole is O(N). The means
-/// are exact on every level.
+/// Calls visit for every texel of levels 1.., rows in parallel. Levels 1 to 5 see every texel of
+/// level 0; from there on the lists of cells are joined and merged, so that the whole is O(N). The
+/// means are exact on every level.
 void walk(const MapSurface& surface, const WalkOptions& options,
           const std::function<void(const MipTexel&)>& visit);
 

@@ -34,8 +34,8 @@ std::vector<float> widths_between(float narrow2, float wide2)
     const int steps = std::max(1, static_cast<int>(std::ceil(std::log(ratio) / std::log(4.0f))));
     std::vector<float> widths;
     for (int i = 0; i <= steps; ++i) {
-        widths.push_back(narrow2 *
-                         std::pow(wide2 / narrow2, static_cast<float>(i) / static_cast<float>(steps)));
+        widths.push_back(
+            narrow2 * std::pow(wide2 / narrow2, static_cast<float>(i) / static_cast<float>(steps)));
     }
     return widths;
 }
@@ -64,8 +64,8 @@ void place_points(const Cells& cells, const Direction& mean, const std::vector<f
             index = k / 2;
             const float target = static_cast<float>(moved(index, 5, 2)) * whole;
             const auto found = std::upper_bound(cumulated.begin(), cumulated.end(), target);
-            const std::size_t cell = std::min(cumulated.size() - 1,
-                                              static_cast<std::size_t>(found - cumulated.begin()));
+            const std::size_t cell =
+                std::min(cumulated.size() - 1, static_cast<std::size_t>(found - cumulated.begin()));
             normal = {cells.nx[cell], cells.ny[cell], cells.nz[cell]};
             alpha2 = cells.alpha2[cell];
         }

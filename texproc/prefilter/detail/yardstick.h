@@ -28,12 +28,13 @@ struct Random {
 };
 
 /// Widths from the narrowest to the widest lobe that may be tested, at most a factor of 4 in alpha
-/// apart: between two that are further apart a lobe could hide where no point lies, and look half as
-/// bad as it is.
+/// apart: between two that are further apart a lobe could hide where no point lies, and look half
+/// as bad as it is.
 std::vector<float> widths_between(float narrow2, float wide2);
 
 /// The points of one texel: half-vectors from the footprint (half) and from lobes about the mean
-/// normal of these widths, weighted by one over the density of the mixture; shaded by the footprint.
+/// normal of these widths, weighted by one over the density of the mixture; shaded by the
+/// footprint.
 void place_points(const Cells& cells, const Direction& mean, const std::vector<float>& widths,
                   int points, Random& random, Samples& samples);
 

@@ -50,8 +50,9 @@ double bisect(const Function& function, double low, double high)
     return high;
 }
 
-/// Where the polynomial changes sign strictly between low and high, ascending. Roots are isolated by
-/// the roots of the derivative, so none is missed; a root that only touches zero is not reported.
+/// Where the polynomial changes sign strictly between low and high, ascending. Roots are isolated
+/// by the roots of the derivative, so none is missed; a root that only touches zero is not
+/// reported.
 std::vector<double> sign_changes(const Polynomial& a, double low, double high);
 
 }  // namespace petrichor::weather

@@ -1,4 +1,5 @@
-// The kernel on blocks of eight cells. Included by the files that are compiled for one kind of register.
+// The kernel on blocks of eight cells. Included by the files that are compiled for one kind of
+// register.
 #ifndef PETRICHOR_WEATHER_DETAIL_BLOCK_KERNEL_H
 #define PETRICHOR_WEATHER_DETAIL_BLOCK_KERNEL_H
 
@@ -9,8 +10,9 @@
 namespace petrichor::weather::detail {
 
 template <int kBytes>
-PETRICHOR_INLINE void advance_block(CellBlock& block, const PlaceBlock& place_block, const StepForcing* steps,
-                                    std::size_t count, const CellConstants& k, const StepConstants& s)
+PETRICHOR_INLINE void advance_block(CellBlock& block, const PlaceBlock& place_block,
+                                    const StepForcing* steps, std::size_t count,
+                                    const CellConstants& k, const StepConstants& s)
 {
     using Real = Lanes<kBytes>;
     static_assert(sizeof(CellVars<Real>) == sizeof(CellBlock));

@@ -2,8 +2,8 @@
 #ifndef PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
 #define PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
 
-#include "weather/physics/exchange.h"
 #include "weather/physics/detail/reservoir.h"
+#include "weather/physics/exchange.h"
 #include "weather/physics/ground.h"
 #include "weather/physics/phase.h"
 #include "weather/physics/snow.h"
@@ -32,7 +32,8 @@ struct CellConstants {
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
     bool permeable = false;
 };
-CellConstants make_cell_constants(const PhysicalParams& params, const Site& site, double deep_temp_k);
+CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
+                                  double deep_temp_k);
 
 // Factors that depend on the length of a substep.
 struct PartConstants {

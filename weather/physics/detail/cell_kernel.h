@@ -3,7 +3,8 @@
 //   precipitation -> snow pack or film
 //   surface energy balance, coupled implicitly to snow and ground below it
 //   melt, refreezing, percolation through the pack -> film
-//   film -> (infiltration) -> cracks -> (infiltration) -> puddles -> drainage, evaporation, freezing
+//   film -> (infiltration) -> cracks -> (infiltration) -> puddles -> drainage, evaporation,
+//   freezing
 //
 // Written without branches on the state, so that it means the same for double and for Lanes; `if
 // (any(..))` only skips work that would change nothing.
@@ -28,15 +29,15 @@ struct CellPlace {
     Real pressure_factor;      // standard pressure here over that at the station
     Real sky_view;
     Real normal_east, normal_north, normal_up;
-    Real air_offset_k;         // perturbations: added to air temperature
+    Real air_offset_k;  // perturbations: added to air temperature
     Real precip_factor, wind_factor, shortwave_factor, longwave_offset;
 };
 
 // What the weather of a step means for a cell, before it is asked for an instant.
 template <class Real>
 struct StepWeather {
-    Real shift_k;                // air here over air at the station
-    Real light;                  // shortwave here over shortwave on flat open ground
+    Real shift_k;                 // air here over air at the station
+    Real light;                   // shortwave here over shortwave on flat open ground
     SaturationCurve<Real> curve;  // of the air, about the middle of the step
 };
 template <class Real>
@@ -50,13 +51,14 @@ PETRICHOR_INLINE StepWeather<Real> weather_of(const StepForcing& step, const Cel
     StepWeather<Real> w;
     w.shift_k = shift_of(place);
     w.curve = water_curve(w.shift_k + step.air_c.at(0.5));
-    // Sun on a slope: the direct beam by its angle, the rest by the share of the sky; hidden sky gives back a fifth.
-    // On flat open ground this is exactly 1, wherever the sun is.
+    // Sun on a slope: the direct beam by its angle, the rest by the share of the sky; hidden sky
+    // gives back a fifth. On flat open ground this is exactly 1, wherever the sun is.
     Real light = place.sky_view + (1.0 - place.sky_view) * 0.2;
     if (step.sun_up > 0.05) {
-        const Real facing = larger(place.normal_east * step.sun_east + place.normal_north * step.sun_north +
-                                       place.normal_up * step.sun_up,
-                                   Real(0.0));
+        const Real facing =
+            larger(place.normal_east * step.sun_east + place.normal_north * step.sun_north +
+                       place.normal_up * step.sun_up,
+                   Real(0.0));
         light += (facing / step.sun_up - place.sky_view) * (1.0 - step.diffuse);
     }
     w.light = light * place.shortwave_factor;
@@ -73,7 +75,8 @@ struct CellWeather {
 //   x  0..1, from the beginning to the end of the step
 template <class Real>
 PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, const StepForcing& step,
-                                              const CellPlace<Real>& place, double x, double least_wind)
+                                              const CellPlace<Real>& place, double x,
+                                              double least_wind)
 {
     CellWeather<Real> w;
     const double station_c = step.air_c.at(x);
@@ -83,11 +86,14 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, cons
     // How far the air is from the middle of the step is the same everywhere.
     const double from_middle = station_c - step.air_c.at(0.5);
     Real saturation = day.curve.pressure_pa;
-    if (from_middle > kCurveReach_k || from_middle < -kCurveReach_k) saturation = saturation_water_pa(w.air_c);
-    else if (from_middle != 0.0) saturation = point_of(day.curve, w.air_c).pressure_pa;
+    if (from_middle > kCurveReach_k || from_middle < -kCurveReach_k)
+        saturation = saturation_water_pa(w.air_c);
+    else if (from_middle != 0.0)
+        saturation = point_of(day.curve, w.air_c).pressure_pa;
     const Real vapour = saturation * (0.01 * step.rh_pct.at(x));
 
-    // q = 0.622 e / D with D = P - 0.378 e, density = P / (R T (1 + 0.608 q)) and 1 / (T U^2): one division.
+    // q = 0.622 e / D with D = P - 0.378 e, density = P / (R T (1 + 0.608 q)) and 1 / (T U^2): one
+    // division.
     const Real air_k = w.air_c + kZeroCelsiusK;
     const Real dry = w.pressure - vapour * (1.0 - kWaterToAirMass);
     const Real moist = dry + vapour * (0.608 * kWaterToAirMass);
@@ -100,7 +106,8 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, cons
     w.per_air_wind2 = dry * moist * inverse;
 
     w.shortwave = day.light * larger(step.shortwave.at(x), 0.0);
-    // The sky keeps its emissivity when the air is colder or warmer; hidden sky radiates like the air.
+    // The sky keeps its emissivity when the air is colder or warmer; hidden sky radiates like the
+    // air.
     const Real ratio = air_k * (1.0 / (station_c + kZeroCelsiusK));
     const Real ratio2 = ratio * ratio;
     const Real squared = air_k * air_k;
@@ -111,7 +118,8 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, cons
 
 // Snow share of the step's precipitation at the cell.
 template <class Real>
-PETRICHOR_KERNEL Real snow_share_at(const StepForcing& step, const CellPlace<Real>& place, const PhaseParams& phase)
+PETRICHOR_KERNEL Real snow_share_at(const StepForcing& step, const CellPlace<Real>& place,
+                                    const PhaseParams& phase)
 {
     const Real shift = shift_of(place);
     const Real air_c = shift + step.air_c.at(0.5);
@@ -122,10 +130,13 @@ PETRICHOR_KERNEL Real snow_share_at(const StepForcing& step, const CellPlace<Rea
             share = unit_clamped(((phase.all_rain_k - kZeroCelsiusK) - air_c) *
                                  (1.0 / (phase.all_rain_k - phase.all_snow_k)));
             break;
-        case PhaseLaw::Humidity: share = snow_fraction_humidity_of(air_c, Real(rh)); break;
+        case PhaseLaw::Humidity:
+            share = snow_fraction_humidity_of(air_c, Real(rh));
+            break;
         case PhaseLaw::WetBulb:
-            share = snow_fraction_wet_bulb_of(wet_bulb_c_of(air_c, saturation_water_pa(air_c) * (0.01 * rh),
-                                                            place.pressure_factor * step.pressure.at(0.5)));
+            share = snow_fraction_wet_bulb_of(
+                wet_bulb_c_of(air_c, saturation_water_pa(air_c) * (0.01 * rh),
+                              place.pressure_factor * step.pressure.at(0.5)));
             break;
         case PhaseLaw::Threshold:
             share = select(air_c < phase.threshold_k - kZeroCelsiusK, Real(1.0), Real(0.0));
@@ -143,11 +154,13 @@ struct StepSums {
     Real residual = 0.0, runoff = 0.0;
 };
 
-// dt seconds with constant weather. `rain`, `snow` in kg m-2 s-1; `resistivity` (1 / conductivity) of the snow layers.
+// dt seconds with constant weather. `rain`, `snow` in kg m-2 s-1; `resistivity` (1 / conductivity)
+// of the snow layers.
 template <class Real>
-PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>& w, const Real& rain,
-                                      const Real& snow, const Real* resistivity, const CellConstants& k,
-                                      const PartConstants& part, StepSums<Real>& sums)
+PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>& w,
+                                      const Real& rain, const Real& snow, const Real* resistivity,
+                                      const CellConstants& k, const PartConstants& part,
+                                      StepSums<Real>& sums)
 {
     const Real zero = 0.0;
     const double dt = part.dt_s;
@@ -159,7 +172,8 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const Real ice_before = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
     const auto covered = ice_before > zero;
     Real ground_equivalents[kGroundLayers];
-    const Real ground_seen = ground_equivalent(ground, c.ground_temp_c, k.deep_temp_c, ground_equivalents);
+    const Real ground_seen =
+        ground_equivalent(ground, c.ground_temp_c, k.deep_temp_c, ground_equivalents);
     Real conductance = ground.conductance_w_m2_k;
     Real below_c = ground_seen;
     SnowColumn<Real> column;
@@ -204,7 +218,8 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.conductance = conductance;
     p.below_c = below_c;
     // No more can leave than is there.
-    p.most_vapour = select(covered, ice_before, select(bare_icy, ice, liquid + rain_mass)) * part.inverse_dt_1_s;
+    p.most_vapour = select(covered, ice_before, select(bare_icy, ice, liquid + rain_mass)) *
+                    part.inverse_dt_1_s;
 
     // ---- its temperature: three Newton steps, then the melting point if something changes phase
     SurfaceRoot<Real> root = surface_root(p, k.exchange, c.surface_temp_c);
@@ -218,7 +233,8 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
         SurfaceVapour<Real> vapour = vapour_at_melting_point(root.vapour, p);
         const auto f0 = fluxes_at_middle(p, vapour, at_zero_exchange);
         const Real lost = larger(f0.vapour, zero) * dt;
-        const Real meltable = larger(select(covered, ice_before - lost, select(bare_icy, ice - lost, ice)), zero);
+        const Real meltable =
+            larger(select(covered, ice_before - lost, select(bare_icy, ice - lost, ice)), zero);
         const Real freezable =
             larger(select(covered, zero, liquid + rain_mass - select(bare_icy, zero, lost)), zero);
         const Real most = meltable * (kLatentFusion / dt);
@@ -255,16 +271,16 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const Real melt_mass = melt_flux * (dt / kLatentFusion);
     Real to_film = rain_mass;
     if (any_snow) {
-        const Real runoff =
-            snow_masses(c, select(covered, vapour_mass, zero), select(covered, larger(melt_mass, zero), zero),
-                        select(covered, rain_mass, zero), snow <= zero, k);
+        const Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
+                                        select(covered, larger(melt_mass, zero), zero),
+                                        select(covered, rain_mass, zero), snow <= zero, k);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
         sums.runoff += select(covered, runoff, zero);
     }
     c.total_melt += larger(melt_mass, zero);
-    move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass), bare_icy, wet, k,
-               part);
+    move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
+               bare_icy, wet, k, part);
 
     sums.shortwave += absorbed_sw * dt;
     sums.longwave += (f.net_radiation - absorbed_sw) * dt;
@@ -285,22 +301,26 @@ PETRICHOR_INLINE Real all_stores(const CellVars<Real>& c)
     return sum + (c.film + c.crack + c.puddle) + (c.film_ice + c.crack_ice + c.puddle_ice);
 }
 
-// Frozen share of all water on the surface; where there is next to none, that of what is falling, else
-// what it was.
+// Frozen share of all water on the surface; where there is next to none, that of what is falling,
+// else what it was.
 template <class Real>
-PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& precip, const Real& snow)
+PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& precip,
+                                             const Real& snow)
 {
     Real frozen = c.film_ice + c.crack_ice + c.puddle_ice;
     for (std::size_t i = 0; i < kSnowLayers; ++i) frozen += c.snow_ice[i];
     const Real all = all_stores(c);
-    const Real falling = select(precip > 0.0, snow / larger(precip, Real(1e-30)), c.frozen_fraction);
-    c.frozen_fraction = unit_clamped(select(all < 0.01, falling, frozen / larger(all, Real(1e-30))));
+    const Real falling =
+        select(precip > 0.0, snow / larger(precip, Real(1e-30)), c.frozen_fraction);
+    c.frozen_fraction =
+        unit_clamped(select(all < 0.01, falling, frozen / larger(all, Real(1e-30))));
 }
 
 // One model step for one cell, `parts` substeps of equal length.
 template <class Real>
-PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step, const CellPlace<Real>& place,
-                                    const Real& rain, const Real& snow, const Real* resistivity,
+PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step,
+                                    const CellPlace<Real>& place, const Real& rain,
+                                    const Real& snow, const Real* resistivity,
                                     const CellConstants& k, const PartConstants& part, int parts)
 {
     StepSums<Real> sums;
@@ -330,12 +350,14 @@ PETRICHOR_KERNEL void blend(CellVars<Real>& c, const CellVars<Real>& other, cons
 }
 
 template <class Real>
-PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step, const CellPlace<Real>& place,
-                                   const CellConstants& k, const StepConstants& s)
+PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
+                                   const CellPlace<Real>& place, const CellConstants& k,
+                                   const StepConstants& s)
 {
     const Real zero = 0.0;
     const Real before = all_stores(c);
-    const Real out_before = c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration;
+    const Real out_before =
+        c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration;
     Real rain = zero, snow = zero;
     if (step.precip > 0.0) {
         const Real share = snow_share_at(step, place, k.phase);
@@ -350,7 +372,8 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step, c
     if (any(pack > zero) || any(snow > zero)) {
         const Real mid_c = shift_of(place) + step.air_c.at(0.5);
         const Real mid_wind = larger(place.wind_factor * step.wind.at(0.5), Real(k.least_wind));
-        age_snow(c, snow * step.dt_s, new_snow_density_of(k, mid_c, mid_wind), k, s, step.dt_s, resistivity);
+        age_snow(c, snow * step.dt_s, new_snow_density_of(k, mid_c, mid_wind), k, s, step.dt_s,
+                 resistivity);
     } else {
         c.snow_albedo = Real(k.snow.albedo_max);
     }
@@ -380,7 +403,9 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step, c
     c.step_rain = rain * step.dt_s;
     c.step_snow = snow * step.dt_s;
     c.total_precip += c.step_rain + c.step_snow;
-    const Real out = (c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration) - out_before;
+    const Real out =
+        (c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration) -
+        out_before;
     const Real residual = (all_stores(c) - before) - ((c.step_rain + c.step_snow) - out);
     c.mass_residual = residual;
     c.mass_residual_most = larger(c.mass_residual_most, larger(residual, residual * -1.0));

@@ -7,8 +7,8 @@
 namespace petrichor::weather::detail {
 
 /// One cell, one step.
-void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place, const CellConstants& k,
-                  const StepConstants& s);
+void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place,
+                  const CellConstants& k, const StepConstants& s);
 
 /// Eight cells: every number of CellVars eight times, side by side.
 struct alignas(64) CellBlock {
@@ -18,15 +18,15 @@ inline constexpr std::size_t kPlaceNumbers = sizeof(CellPlace<double>) / sizeof(
 struct alignas(64) PlaceBlock {
     double numbers[kPlaceNumbers][kLaneCount];
 };
-using AdvanceBlock = void (*)(CellBlock& block, const PlaceBlock& place, const StepForcing* steps, std::size_t count,
-                              const CellConstants& k, const StepConstants& s);
+using AdvanceBlock = void (*)(CellBlock& block, const PlaceBlock& place, const StepForcing* steps,
+                              std::size_t count, const CellConstants& k, const StepConstants& s);
 /// The fastest version this machine can run; all versions give the same bits.
 AdvanceBlock fastest_advance_block();
 /// Registers of 16 bytes (any machine) and of 32 bytes (AVX2), for tests.
-void advance_block_16(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t, const CellConstants&,
-                      const StepConstants&);
-void advance_block_32(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t, const CellConstants&,
-                      const StepConstants&);
+void advance_block_16(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
+                      const CellConstants&, const StepConstants&);
+void advance_block_32(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
+                      const CellConstants&, const StepConstants&);
 bool machine_has_wide_registers();
 
 /// The place of a station on flat, open ground.

@@ -1,6 +1,6 @@
 // Formulas that the cell kernel and the public functions share, as templates over double and Lanes.
-// Temperatures here are in degrees Celsius where the name ends in _c; the public headers document the
-// sources.
+// Temperatures here are in degrees Celsius where the name ends in _c; the public headers document
+// the sources.
 #ifndef PETRICHOR_WEATHER_DETAIL_FORMULAS_H
 #define PETRICHOR_WEATHER_DETAIL_FORMULAS_H
 
@@ -44,7 +44,8 @@ PETRICHOR_INLINE Real wet_bulb_c_of(const Real& t_c, const Real& vapour_pa, cons
     Real high = t_c;
     for (int i = 0; i < 26; ++i) {
         const Real middle = (low + high) * 0.5;
-        const Real f = saturation_water_pa(middle) - pressure_pa * 6.65e-4 * (t_c - middle) - vapour_pa;
+        const Real f =
+            saturation_water_pa(middle) - pressure_pa * 6.65e-4 * (t_c - middle) - vapour_pa;
         const auto above = f > 0.0;
         high = select(above, middle, high);
         low = select(above, low, middle);
@@ -62,11 +63,13 @@ PETRICHOR_INLINE Real snow_fraction_wet_bulb_of(const Real& wet_bulb_c)
     return 1.0 / (exponential((wet_bulb_c + 3.97) * 2.0) * 6.99e-5 + 1.0);
 }
 
-// B.3. Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one division:
+// B.3. Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one
+// division:
 //   stable    1 / (1 + 15 Ri sqrt(1 + 5 Ri))
 //   unstable  1 + 15 |Ri| / (1 + 75 CHn sqrt(|Ri| zU/z0))
 template <class Real>
-PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& neutral, const Real& root_z_over_z0)
+PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& neutral,
+                                          const Real& root_z_over_z0)
 {
     const auto is_stable = richardson >= 0.0;
     const Real size = larger(richardson, richardson * -1.0);

@@ -2,8 +2,8 @@
 //
 // A kernel is written once as a template over Real and runs with Real = double (one cell) or Real =
 // Lanes<bytes> (eight cells in registers of 16 or 32 bytes). Every operation is the IEEE one on
-// each element, in the same order, so both give the same bits. Which registers are used is chosen by
-// the file that instantiates the kernel; the type carries the width, so that two instantiations
+// each element, in the same order, so both give the same bits. Which registers are used is chosen
+// by the file that instantiates the kernel; the type carries the width, so that two instantiations
 // never share a symbol.
 #ifndef PETRICHOR_WEATHER_DETAIL_LANES_H
 #define PETRICHOR_WEATHER_DETAIL_LANES_H
@@ -21,7 +21,8 @@
 // Parts of a number stay in registers only when loops over them are unrolled early.
 #define PETRICHOR_UNROLL _Pragma("GCC unroll 4")
 #define PETRICHOR_INLINE inline __attribute__((always_inline))
-// Large pieces stay functions of their own: inlining them several times costs minutes of compilation.
+// Large pieces stay functions of their own: inlining them several times costs minutes of
+// compilation.
 #define PETRICHOR_KERNEL __attribute__((noinline))
 
 namespace petrichor::weather::detail {
@@ -56,33 +57,43 @@ struct alignas(64) Lanes {
     Lanes() = default;
     PETRICHOR_INLINE Lanes(double value)  // NOLINT: a plain number is a valid operand
     {
-        PETRICHOR_UNROLL for (int p = 0; p < kParts; ++p) part[p] = value - typename Native<kBytes>::Number{};
+        PETRICHOR_UNROLL for (int p = 0; p < kParts; ++p) part[p] =
+            value - typename Native<kBytes>::Number{};
     }
-    PETRICHOR_INLINE double operator[](int lane) const { return part[lane / kPerPart][lane % kPerPart]; }
-    PETRICHOR_INLINE void set(int lane, double value) { part[lane / kPerPart][lane % kPerPart] = value; }
+    PETRICHOR_INLINE double operator[](int lane) const
+    {
+        return part[lane / kPerPart][lane % kPerPart];
+    }
+    PETRICHOR_INLINE void set(int lane, double value)
+    {
+        part[lane / kPerPart][lane % kPerPart] = value;
+    }
 };
 
-#define PETRICHOR_LANE_OPERATOR(op)                                                    \
-    template <int kBytes>                                                              \
+#define PETRICHOR_LANE_OPERATOR(op)                                                            \
+    template <int kBytes>                                                                      \
     PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
-    {                                                                                  \
-        Lanes<kBytes> r;                                                               \
-        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
-        return r;                                                                      \
-    }                                                                                  \
-    template <int kBytes>                                                              \
-    PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, double b)       \
-    {                                                                                  \
-        Lanes<kBytes> r;                                                               \
-        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b;    \
-        return r;                                                                      \
-    }                                                                                  \
-    template <int kBytes>                                                              \
-    PETRICHOR_INLINE Lanes<kBytes> operator op(double a, const Lanes<kBytes>& b)       \
-    {                                                                                  \
-        Lanes<kBytes> r;                                                               \
-        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a op b.part[p];    \
-        return r;                                                                      \
+    {                                                                                          \
+        Lanes<kBytes> r;                                                                       \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] =           \
+            a.part[p] op b.part[p];                                                            \
+        return r;                                                                              \
+    }                                                                                          \
+    template <int kBytes>                                                                      \
+    PETRICHOR_INLINE Lanes<kBytes> operator op(const Lanes<kBytes>& a, double b)               \
+    {                                                                                          \
+        Lanes<kBytes> r;                                                                       \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] =           \
+            a.part[p] op b;                                                                    \
+        return r;                                                                              \
+    }                                                                                          \
+    template <int kBytes>                                                                      \
+    PETRICHOR_INLINE Lanes<kBytes> operator op(double a, const Lanes<kBytes>& b)               \
+    {                                                                                          \
+        Lanes<kBytes> r;                                                                       \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] =           \
+            a op b.part[p];                                                                    \
+        return r;                                                                              \
     }
 PETRICHOR_LANE_OPERATOR(+)
 PETRICHOR_LANE_OPERATOR(-)
@@ -90,22 +101,24 @@ PETRICHOR_LANE_OPERATOR(*)
 PETRICHOR_LANE_OPERATOR(/)
 #undef PETRICHOR_LANE_OPERATOR
 
-#define PETRICHOR_LANE_COMPARISON(op)                                                  \
-    template <int kBytes>                                                              \
+#define PETRICHOR_LANE_COMPARISON(op)                                                             \
+    template <int kBytes>                                                                         \
     PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, const Lanes<kBytes>& b) \
-    {                                                                                  \
-        LaneMask<kBytes> r;                                                            \
-        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
-        return r;                                                                      \
-    }                                                                                  \
-    template <int kBytes>                                                              \
-    PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, double b)    \
-    {                                                                                  \
-        LaneMask<kBytes> r;                                                            \
-        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {                              \
-            r.part[p] = a.part[p] op(b - typename Native<kBytes>::Number{});           \
-        }                                                                              \
-        return r;                                                                      \
+    {                                                                                             \
+        LaneMask<kBytes> r;                                                                       \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) r.part[p] =              \
+            a.part[p] op b.part[p];                                                               \
+        return r;                                                                                 \
+    }                                                                                             \
+    template <int kBytes>                                                                         \
+    PETRICHOR_INLINE LaneMask<kBytes> operator op(const Lanes<kBytes>& a, double b)               \
+    {                                                                                             \
+        LaneMask<kBytes> r;                                                                       \
+        PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)                          \
+        {                                                                                         \
+            r.part[p] = a.part[p] op(b - typename Native<kBytes>::Number{});                      \
+        }                                                                                         \
+        return r;                                                                                 \
     }
 PETRICHOR_LANE_COMPARISON(<)
 PETRICHOR_LANE_COMPARISON(>)
@@ -113,13 +126,15 @@ PETRICHOR_LANE_COMPARISON(<=)
 PETRICHOR_LANE_COMPARISON(>=)
 #undef PETRICHOR_LANE_COMPARISON
 
-#define PETRICHOR_MASK_OPERATOR(op)                                                    \
-    template <int kBytes>                                                              \
-    PETRICHOR_INLINE LaneMask<kBytes> operator op(const LaneMask<kBytes>& a, const LaneMask<kBytes>& b) \
-    {                                                                                  \
-        LaneMask<kBytes> r;                                                            \
-        PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = a.part[p] op b.part[p]; \
-        return r;                                                                      \
+#define PETRICHOR_MASK_OPERATOR(op)                                                     \
+    template <int kBytes>                                                               \
+    PETRICHOR_INLINE LaneMask<kBytes> operator op(const LaneMask<kBytes>& a,            \
+                                                  const LaneMask<kBytes>& b)            \
+    {                                                                                   \
+        LaneMask<kBytes> r;                                                             \
+        PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = \
+            a.part[p] op b.part[p];                                                     \
+        return r;                                                                       \
     }
 PETRICHOR_MASK_OPERATOR(&)
 PETRICHOR_MASK_OPERATOR(|)
@@ -159,10 +174,12 @@ PETRICHOR_INLINE Lanes<kBytes> select(const LaneMask<kBytes>& mask, const Lanes<
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)
+    {
 #if defined(__AVX__)
         if constexpr (kBytes == 32) {
-            r.part[p] = (Number)_mm256_blendv_pd((__m256d)b.part[p], (__m256d)a.part[p], (__m256d)mask.part[p]);
+            r.part[p] = (Number)_mm256_blendv_pd((__m256d)b.part[p], (__m256d)a.part[p],
+                                                 (__m256d)mask.part[p]);
             continue;
         }
 #endif
@@ -186,14 +203,16 @@ template <int kBytes>
 PETRICHOR_INLINE Lanes<kBytes> square_root(const Lanes<kBytes>& a)
 {
     Lanes<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)
+    {
 #if defined(__AVX__)
         if constexpr (kBytes == 32) {
             r.part[p] = (typename Native<kBytes>::Number)_mm256_sqrt_pd((__m256d)a.part[p]);
             continue;
         }
 #endif
-        for (int i = 0; i < Lanes<kBytes>::kPerPart; ++i) r.part[p][i] = __builtin_sqrt(a.part[p][i]);
+        for (int i = 0; i < Lanes<kBytes>::kPerPart; ++i)
+            r.part[p][i] = __builtin_sqrt(a.part[p][i]);
     }
     return r;
 }
@@ -236,7 +255,8 @@ struct MaskOfReal<Lanes<kBytes>> {
 template <class Real>
 using MaskOf = typename MaskOfReal<Real>::Type;
 
-// a < b ? a : b and a > b ? a : b, which is what the minimum and maximum instructions do, bit for bit.
+// a < b ? a : b and a > b ? a : b, which is what the minimum and maximum instructions do, bit for
+// bit.
 template <class Real>
 PETRICHOR_INLINE Real smaller(const Real& a, const Real& b)
 {
@@ -251,13 +271,15 @@ PETRICHOR_INLINE Real larger(const Real& a, const Real& b)
 PETRICHOR_INLINE Lanes<16> smaller(const Lanes<16>& a, const Lanes<16>& b)
 {
     Lanes<16> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] = _mm_min_pd(a.part[p], b.part[p]);
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] =
+        _mm_min_pd(a.part[p], b.part[p]);
     return r;
 }
 PETRICHOR_INLINE Lanes<16> larger(const Lanes<16>& a, const Lanes<16>& b)
 {
     Lanes<16> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] = _mm_max_pd(a.part[p], b.part[p]);
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<16>::kParts; ++p) r.part[p] =
+        _mm_max_pd(a.part[p], b.part[p]);
     return r;
 }
 #endif
@@ -265,13 +287,15 @@ PETRICHOR_INLINE Lanes<16> larger(const Lanes<16>& a, const Lanes<16>& b)
 PETRICHOR_INLINE Lanes<32> smaller(const Lanes<32>& a, const Lanes<32>& b)
 {
     Lanes<32> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] = _mm256_min_pd(a.part[p], b.part[p]);
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] =
+        _mm256_min_pd(a.part[p], b.part[p]);
     return r;
 }
 PETRICHOR_INLINE Lanes<32> larger(const Lanes<32>& a, const Lanes<32>& b)
 {
     Lanes<32> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] = _mm256_max_pd(a.part[p], b.part[p]);
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] =
+        _mm256_max_pd(a.part[p], b.part[p]);
     return r;
 }
 #endif

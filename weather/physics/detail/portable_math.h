@@ -1,8 +1,8 @@
 // exp, log, sin, cos and friends made of +, -, *, / and bit moves only.
 //
 // The C library's versions differ in the last bit between machines and versions, and a state hash
-// must not. These are exact to about 1e-15 relative, the same on every compiler that does not contract
-// a*b+c (the project builds with -ffp-contract=off), and run on Lanes as on double.
+// must not. These are exact to about 1e-15 relative, the same on every compiler that does not
+// contract a*b+c (the project builds with -ffp-contract=off), and run on Lanes as on double.
 #ifndef PETRICHOR_WEATHER_DETAIL_PORTABLE_MATH_H
 #define PETRICHOR_WEATHER_DETAIL_PORTABLE_MATH_H
 
@@ -26,7 +26,8 @@ PETRICHOR_INLINE Lanes<kBytes> power_of_two(const Lanes<kBytes>& k_plus_magic)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)
+    {
         r.part[p] = (Number)(((Bits)k_plus_magic.part[p] << 52) + (std::int64_t{1023} << 52));
     }
     return r;
@@ -41,7 +42,8 @@ PETRICHOR_INLINE double mantissa_of(double a)
 PETRICHOR_INLINE double exponent_of(double a)
 {
     const auto bits = std::bit_cast<std::uint64_t>(a);
-    return std::bit_cast<double>((bits >> 52) | 0x4330000000000000ull) - 4503599627370496.0 - 1023.0;
+    return std::bit_cast<double>((bits >> 52) | 0x4330000000000000ull) - 4503599627370496.0 -
+           1023.0;
 }
 template <int kBytes>
 PETRICHOR_INLINE Lanes<kBytes> mantissa_of(const Lanes<kBytes>& a)
@@ -49,7 +51,8 @@ PETRICHOR_INLINE Lanes<kBytes> mantissa_of(const Lanes<kBytes>& a)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)
+    {
         r.part[p] = (Number)(((Bits)a.part[p] & 0x000FFFFFFFFFFFFFll) | 0x3FF0000000000000ll);
     }
     return r;
@@ -60,7 +63,8 @@ PETRICHOR_INLINE Lanes<kBytes> exponent_of(const Lanes<kBytes>& a)
     using Bits = typename Native<kBytes>::Bits;
     using Number = typename Native<kBytes>::Number;
     Lanes<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p) {
+    PETRICHOR_UNROLL for (int p = 0; p < Lanes<kBytes>::kParts; ++p)
+    {
         r.part[p] = (Number)(((Bits)a.part[p] >> 52) | 0x4330000000000000ll);
     }
     return r - 4503599627370496.0 - 1023.0;
@@ -114,7 +118,8 @@ PETRICHOR_INLINE Real logarithm(const Real& x)
     series = series * z + 1.0 / 5.0;
     series = series * z + 1.0 / 3.0;
     const Real two_s = s * 2.0;
-    return k * 0.693147180369123816490 + (two_s + (two_s * z * series + k * 1.90821492927058770002e-10));
+    return k * 0.693147180369123816490 +
+           (two_s + (two_s * z * series + k * 1.90821492927058770002e-10));
 }
 
 /// x^y for positive x.
@@ -156,10 +161,14 @@ inline SinCos sine_cosine(double angle_rad)
     c = c * z - 0.5;
     c = c * z + 1.0;
     switch (static_cast<long long>(k) & 3) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+        case 0:
+            return {s, c};
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        default:
+            return {-c, s};
     }
 }
 

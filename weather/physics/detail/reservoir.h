@@ -1,4 +1,5 @@
-// The film as a linear reservoir, solved exactly over a step; shared by drainage.cpp and the kernel.
+// The film as a linear reservoir, solved exactly over a step; shared by drainage.cpp and the
+// kernel.
 #ifndef PETRICHOR_WEATHER_DETAIL_RESERVOIR_H
 #define PETRICHOR_WEATHER_DETAIL_RESERVOIR_H
 
@@ -25,11 +26,12 @@ inline ReservoirConstants reservoir_constants(double rate_1_s, double threshold,
 
 // dw/dt = net - c max(0, w - w0), w >= 0.
 //
-// At most one crossing of w0 can happen with a constant net supply, so the step is two pieces: until
-// the crossing (A) and after it (B). Above w0 the solution is an exponential towards the steady state
-// ws = w0 + net/c, below it is a line.
+// At most one crossing of w0 can happen with a constant net supply, so the step is two pieces:
+// until the crossing (A) and after it (B). Above w0 the solution is an exponential towards the
+// steady state ws = w0 + net/c, below it is a line.
 template <class Real>
-PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net, const ReservoirConstants& r)
+PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& net,
+                                                     const ReservoirConstants& r)
 {
     const Real zero = 0.0;
     const double w0 = r.threshold;
@@ -50,8 +52,9 @@ PETRICHOR_KERNEL ReservoirStep<Real> drain_reservoir(const Real& w, const Real& 
     const auto rises_through = (w <= w0) & rising & (available > w0);
     Real end = select(above, kept, available);
     if (any(falls_through)) {
-        const Real until = logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) *
-                           r.inverse_rate_s;
+        const Real until =
+            logarithm(larger((w - steady) / larger(w0 - steady, Real(1e-300)), Real(1.0))) *
+            r.inverse_rate_s;
         end = select(falls_through, net * (r.dt_s - smaller(until, Real(r.dt_s))) + w0, end);
     }
     if (any(rises_through)) {

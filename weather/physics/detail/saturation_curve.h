@@ -1,4 +1,5 @@
-// Saturation vapour pressure about a temperature: one exponential serves all evaluations within 1 K of it.
+// Saturation vapour pressure about a temperature: one exponential serves all evaluations within 1 K
+// of it.
 //
 //   ln e(T) - ln e(T0) = a b (T-T0) / ((b+T0) (b+T)) =: d
 //   d = slope (T-T0) (1 - u + u^2 - u^3 + ..), u = (T-T0) / (b+T0), slope = d ln e/dT at T0

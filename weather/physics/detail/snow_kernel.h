@@ -1,5 +1,6 @@
-// The snow pack of the cell kernel: up to three layers, top first. A layer that is not there has no mass, no
-// thickness, no resistance and no heat capacity, so it drops out of every formula by itself.
+// The snow pack of the cell kernel: up to three layers, top first. A layer that is not there has no
+// mass, no thickness, no resistance and no heat capacity, so it drops out of every formula by
+// itself.
 #ifndef PETRICHOR_WEATHER_DETAIL_SNOW_KERNEL_H
 #define PETRICHOR_WEATHER_DETAIL_SNOW_KERNEL_H
 
@@ -10,28 +11,32 @@
 namespace petrichor::weather::detail {
 
 template <class Real>
-PETRICHOR_INLINE Real new_snow_density_of(const CellConstants& k, const Real& air_c, const Real& wind)
+PETRICHOR_INLINE Real new_snow_density_of(const CellConstants& k, const Real& air_c,
+                                          const Real& wind)
 {
     switch (k.snow.new_density) {
         case NewSnowDensity::HedstromPomeroy:
             return exponential(smaller(air_c, Real(0.0)) * (1.0 / 2.59)) * 51.25 + 67.92;
-        case NewSnowDensity::Constant: return Real(k.snow.constant_density_kg_m3);
-        case NewSnowDensity::Pahaut: break;
+        case NewSnowDensity::Constant:
+            return Real(k.snow.constant_density_kg_m3);
+        case NewSnowDensity::Pahaut:
+            break;
     }
     return new_snow_density_pahaut_of(air_c, wind);
 }
 
 // New snow joins the top layer at the temperature of the air, at most 0 C.
 template <class Real>
-PETRICHOR_KERNEL void add_snowfall(CellVars<Real>& c, const Real& mass, const Real& air_c, const Real& wind,
-                                   const CellConstants& k)
+PETRICHOR_KERNEL void add_snowfall(CellVars<Real>& c, const Real& mass, const Real& air_c,
+                                   const Real& wind, const CellConstants& k)
 {
     const auto falls = mass > 0.0;
     const Real density = new_snow_density_of(k, air_c, wind);
     const Real capacity = c.snow_ice[0] * kIceHeatCapacity + c.snow_liquid[0] * kWaterHeatCapacity;
     const Real added = mass * kIceHeatCapacity;
     const Real temp = smaller(air_c, Real(0.0));
-    const Real mixed = (capacity * c.snow_temp_c[0] + added * temp) / larger(capacity + added, Real(1e-30));
+    const Real mixed =
+        (capacity * c.snow_temp_c[0] + added * temp) / larger(capacity + added, Real(1e-30));
     c.snow_temp_c[0] = select(falls, mixed, c.snow_temp_c[0]);
     c.snow_ice[0] += mass;
     c.snow_thickness[0] += mass / density;
@@ -45,7 +50,8 @@ struct SnowColumn {
 // Adds the pack on top of the ground's conductance and equivalent temperature (ground.h).
 template <class Real>
 PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resistivity, double dt,
-                                      Real& conductance, Real& equivalent_c, SnowColumn<Real>& column)
+                                      Real& conductance, Real& equivalent_c,
+                                      SnowColumn<Real>& column)
 {
     const double per_dt = 1.0 / dt;
     for (std::size_t i = kSnowLayers; i-- > 0;) {
@@ -53,11 +59,14 @@ PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resis
         column.share_top[i] = column.share_down[i] = Real(1.0);
         if (!any(c.snow_ice[i] > 0.0)) continue;
         const Real half = c.snow_thickness[i] * resistivity[i] * 0.5;
-        const Real storage = (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) * per_dt;
+        const Real storage =
+            (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) * per_dt;
         column.share_down[i] = 1.0 / (conductance * half + 1.0);
         const Real under = conductance * column.share_down[i];
         const Real total = under + storage;
-        equivalent_c = select(storage > 0.0, (under * equivalent_c + storage * c.snow_temp_c[i]) / total, equivalent_c);
+        equivalent_c =
+            select(storage > 0.0, (under * equivalent_c + storage * c.snow_temp_c[i]) / total,
+                   equivalent_c);
         column.own[i] = equivalent_c;
         column.share_top[i] = 1.0 / (total * half + 1.0);
         conductance = total * column.share_top[i];
@@ -66,7 +75,8 @@ PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resis
 
 // Layer temperatures from that of the surface; `interface_c` becomes that of the ground's surface.
 template <class Real>
-PETRICHOR_INLINE void snow_temperatures(CellVars<Real>& c, const SnowColumn<Real>& column, Real& interface_c)
+PETRICHOR_INLINE void snow_temperatures(CellVars<Real>& c, const SnowColumn<Real>& column,
+                                        Real& interface_c)
 {
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real node = column.own[i] + (interface_c - column.own[i]) * column.share_top[i];
@@ -77,8 +87,8 @@ PETRICHOR_INLINE void snow_temperatures(CellVars<Real>& c, const SnowColumn<Real
 
 // Sublimation, melt, rain, refreezing and percolation; what leaves at the bottom.
 template <class Real, class Mask>
-PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const Real& melt, const Real& rain,
-                                  const Mask& no_snowfall, const CellConstants& k)
+PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const Real& melt,
+                                  const Real& rain, const Mask& no_snowfall, const CellConstants& k)
 {
     const Real zero = 0.0;
     Real to_air = larger(vapour, zero);
@@ -95,10 +105,12 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
         left = left - melted;
         // Heat above the melting point melts from within.
         const Real capacity = left * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity;
-        const Real inside = smaller(left, larger(capacity * c.snow_temp_c[i], zero) * (1.0 / kLatentFusion));
+        const Real inside =
+            smaller(left, larger(capacity * c.snow_temp_c[i], zero) * (1.0 / kLatentFusion));
         left = left - inside;
         Real temp = smaller(c.snow_temp_c[i], zero);
-        c.snow_thickness[i] = select(ice > zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))), zero);
+        c.snow_thickness[i] =
+            select(ice > zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))), zero);
         Real liquid = c.snow_liquid[i] + melted + inside + flow;
         c.total_melt += inside;
         // Water that meets cold snow freezes, as far as the cold content goes.
@@ -108,7 +120,8 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
         left = left + frozen;
         liquid = liquid - frozen;
         const Real held = larger((c.snow_thickness[i] - left * (1.0 / kIceDensity)) *
-                                     (1000.0 * k.snow.irreducible_water), zero);
+                                     (1000.0 * k.snow.irreducible_water),
+                                 zero);
         flow = larger(liquid - held, zero);
         c.snow_liquid[i] = liquid - flow;
         c.snow_ice[i] = left;
@@ -117,8 +130,9 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
     // Frost grows on top, as dense as what it grows on.
     const Real frost = larger(vapour * -1.0, zero);
     const Real top = c.snow_ice[0];
-    c.snow_thickness[0] = select(top > zero, c.snow_thickness[0] * ((top + frost) / larger(top, Real(1e-30))),
-                                 c.snow_thickness[0]);
+    c.snow_thickness[0] =
+        select(top > zero, c.snow_thickness[0] * ((top + frost) / larger(top, Real(1e-30))),
+               c.snow_thickness[0]);
     c.snow_ice[0] += frost;
     // Vapour that found no ice (rounding of the limit) did not leave.
     c.total_sublimation -= to_air;
@@ -156,9 +170,11 @@ PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
     Real old_top = zero;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real old_bottom = old_top + c.snow_thickness[i];
-        const Real inverse = select(c.snow_thickness[i] > 0.0, 1.0 / larger(c.snow_thickness[i], Real(1e-30)), zero);
+        const Real inverse =
+            select(c.snow_thickness[i] > 0.0, 1.0 / larger(c.snow_thickness[i], Real(1e-30)), zero);
         const Real layer_heat =
-            (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) * c.snow_temp_c[i];
+            (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) *
+            c.snow_temp_c[i];
         Real top = zero;
         Real ice_left = c.snow_ice[i], liquid_left = c.snow_liquid[i], heat_left = layer_heat;
         for (std::size_t j = 0; j < kSnowLayers; ++j) {
@@ -200,10 +216,12 @@ PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
     }
 }
 
-// Ageing once a step: albedo, settling, layers; and the resistivity (1/k) of each layer for the step.
+// Ageing once a step: albedo, settling, layers; and the resistivity (1/k) of each layer for the
+// step.
 template <class Real>
 PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Real& new_density,
-                               const CellConstants& k, const StepConstants& s, double dt, Real* resistivity)
+                               const CellConstants& k, const StepConstants& s, double dt,
+                               Real* resistivity)
 {
     const Real zero = 0.0;
     const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
@@ -226,9 +244,11 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
         if (k.snow.settling == Settling::Overburden) {
             const Real cold = c.snow_temp_c[i] * -1.0;
             const Real load = above + mass * 0.5;
-            const Real weight = load * (kGravity_m_s2 / 3.7e7) * exponential(cold * -0.081 - density * 0.018);
+            const Real weight =
+                load * (kGravity_m_s2 / 3.7e7) * exponential(cold * -0.081 - density * 0.018);
             const Real breaking =
-                exponential(cold * (-1.0 / 23.8) - larger(density - 150.0, zero) * (1.0 / 21.7)) * 2.8e-6;
+                exponential(cold * (-1.0 / 23.8) - larger(density - 150.0, zero) * (1.0 / 21.7)) *
+                2.8e-6;
             denser = density * ((weight + breaking) * dt + 1.0);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
@@ -247,8 +267,9 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
             resistivity[i] = zero;
             continue;
         }
-        const Real density = select(there, (c.snow_ice[i] + c.snow_liquid[i]) / larger(c.snow_thickness[i], Real(1e-12)),
-                                    new_density);
+        const Real density = select(
+            there, (c.snow_ice[i] + c.snow_liquid[i]) / larger(c.snow_thickness[i], Real(1e-12)),
+            new_density);
         resistivity[i] = 1.0 / snow_conductivity_of(density);
     }
 }

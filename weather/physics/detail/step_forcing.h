@@ -19,25 +19,30 @@ struct StepForcing {
     std::int64_t begin_us = 0;
     double dt_s = 0.0;
     Ramp air_c, rh_pct, wind, pressure, shortwave, longwave;
-    double precip = 0.0;         // kg m-2 s-1, mean of the step
-    double snow_share = 0.0;     // of it, by the file
+    double precip = 0.0;      // kg m-2 s-1, mean of the step
+    double snow_share = 0.0;  // of it, by the file
     bool phase_known = false;
     double sun_east = 0.0, sun_north = 0.0, sun_up = 0.0;  // at the middle
-    double diffuse = 1.0;        // share of shortwave
+    double diffuse = 1.0;                                  // share of shortwave
 };
 
-/// Where the sun stands matters for slopes and under a narrow sky only; it is the dearest part of a step.
+/// Where the sun stands matters for slopes and under a narrow sky only; it is the dearest part of a
+/// step.
 enum class SunUse { Direction, FlatOpenGround };
 
 /// One step [begin, begin + length] of a filled table.
-StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin_us, std::int64_t length_us, SunUse sun);
+StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin_us,
+                              std::int64_t length_us, SunUse sun);
 
 /// The steps of a table: whole ones from the first row; the last one may be shorter.
 struct StepPlan {
     std::int64_t begin_us = 0, end_us = 0, length_us = 1;
     std::size_t count = 0;
 
-    std::int64_t begin_of(std::size_t step) const { return begin_us + static_cast<std::int64_t>(step) * length_us; }
+    std::int64_t begin_of(std::size_t step) const
+    {
+        return begin_us + static_cast<std::int64_t>(step) * length_us;
+    }
     std::int64_t length_of(std::size_t step) const;
 };
 StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us);

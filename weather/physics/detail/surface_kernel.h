@@ -11,8 +11,8 @@ namespace petrichor::weather::detail {
 // Everything that does not change during the iterations.
 template <class Real, class Mask>
 struct SurfacePoint {
-    Real absorbed;      // (1-albedo) SW + eps LW, W/m2
-    Real emitting;      // eps * sb
+    Real absorbed;  // (1-albedo) SW + eps LW, W/m2
+    Real emitting;  // eps * sb
     Real air_c;
     Real q_air;
     Real pressure;
@@ -21,12 +21,12 @@ struct SurfacePoint {
     Real richardson_k;  // g zU / (Ta U^2), 1/K
     Real root_z;        // sqrt(zU/z0)
     Real beta;
-    Real most_vapour;   // kg m-2 s-1 that can leave: the store over the step
+    Real most_vapour;  // kg m-2 s-1 that can leave: the store over the step
     Mask icy;
-    Real latent_heat;   // J/kg
-    Real rain_heat;     // p cw, W m-2 K-1
-    Real conductance;   // to the ground below
-    Real below_c;       // its temperature
+    Real latent_heat;  // J/kg
+    Real rain_heat;    // p cw, W m-2 K-1
+    Real conductance;  // to the ground below
+    Real below_c;      // its temperature
 };
 
 template <class Real>
@@ -46,7 +46,8 @@ PETRICHOR_INLINE void centre_dry(SurfaceVapour<Real>& v, const SurfacePoint<Real
     v.dry = 1.0 / (p.pressure - v.curve.pressure_pa * (1.0 - kWaterToAirMass));
 }
 template <class Real, class Mask>
-PETRICHOR_INLINE SurfaceVapour<Real> surface_vapour(const SurfacePoint<Real, Mask>& p, const Real& surface_c)
+PETRICHOR_INLINE SurfaceVapour<Real> surface_vapour(const SurfacePoint<Real, Mask>& p,
+                                                    const Real& surface_c)
 {
     SurfaceVapour<Real> v;
     v.curve = surface_curve(p.icy, surface_c);
@@ -54,7 +55,8 @@ PETRICHOR_INLINE SurfaceVapour<Real> surface_vapour(const SurfacePoint<Real, Mas
     return v;
 }
 template <class Real, class Mask>
-PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapour<Real>& a, const SurfaceVapour<Real>& b)
+PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapour<Real>& a,
+                                            const SurfaceVapour<Real>& b)
 {
     SurfaceVapour<Real> v = b;
     v.curve.middle_c = select(mask, a.curve.middle_c, b.curve.middle_c);
@@ -66,7 +68,8 @@ PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapou
 }
 // Expands again where a temperature is out of the curve's reach.
 template <class Real, class Mask>
-PETRICHOR_INLINE void follow(SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p, const Real& surface_c)
+PETRICHOR_INLINE void follow(SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p,
+                             const Real& surface_c)
 {
     const Real step = surface_c - v.curve.middle_c;
     const auto far = (step > kCurveReach_k) | (step < -kCurveReach_k);
@@ -78,7 +81,8 @@ PETRICHOR_INLINE void follow(SurfaceVapour<Real>& v, const SurfacePoint<Real, Ma
 }
 // At the melting point no exponential is needed: e is the constant of its law.
 template <class Real, class Mask>
-PETRICHOR_INLINE SurfaceVapour<Real> vapour_at_melting_point(const SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask>& p)
+PETRICHOR_INLINE SurfaceVapour<Real> vapour_at_melting_point(const SurfaceVapour<Real>& v,
+                                                             const SurfacePoint<Real, Mask>& p)
 {
     SurfaceVapour<Real> at_zero = v;
     at_zero.curve.middle_c = Real(0.0);
@@ -102,11 +106,12 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask>& p, const Excha
 
 constexpr double kLongestStep_k = 20.0;
 
-// F and -dF/dTs at a surface temperature, with a given exchange. The vapour at it: pressure `vapour_pa`, its
-// slope d ln e / dT, and `dry` = 1 / (P - 0.378 e).
+// F and -dF/dTs at a surface temperature, with a given exchange. The vapour at it: pressure
+// `vapour_pa`, its slope d ln e / dT, and `dry` = 1 / (P - 0.378 e).
 template <class Real, class Mask>
-PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask>& p, const Real& vapour_pa,
-                                               const Real& vapour_slope, const Real& dry, const Real& surface_c,
+PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask>& p,
+                                               const Real& vapour_pa, const Real& vapour_slope,
+                                               const Real& dry, const Real& surface_c,
                                                const Real& exchange)
 {
     const Real q = vapour_pa * kWaterToAirMass * dry;
@@ -127,23 +132,27 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask>& p
     f.rain_heat = p.rain_heat * (p.air_c - surface_c);
     f.balance = f.net_radiation - f.sensible - f.latent - f.ground + f.rain_heat;
     f.slope = p.emitting * cubed * 4.0 + exchange * kAirHeatCapacity +
-              select(limited, Real(0.0), p.latent_heat * beta * exchange * dq) + p.conductance + p.rain_heat;
-    // No step of Newton's is longer than 20 K: in calm air a cold surface in strong sun would be thrown beyond boiling.
+              select(limited, Real(0.0), p.latent_heat * beta * exchange * dq) + p.conductance +
+              p.rain_heat;
+    // No step of Newton's is longer than 20 K: in calm air a cold surface in strong sun would be
+    // thrown beyond boiling.
     f.slope = larger(f.slope, larger(f.balance, -f.balance) * (1.0 / kLongestStep_k));
     return f;
 }
 
 // At the middle of the curve.
 template <class Real, class Mask>
-PETRICHOR_INLINE PointFluxes<Real> fluxes_at_middle(const SurfacePoint<Real, Mask>& p, const SurfaceVapour<Real>& v,
+PETRICHOR_INLINE PointFluxes<Real> fluxes_at_middle(const SurfacePoint<Real, Mask>& p,
+                                                    const SurfaceVapour<Real>& v,
                                                     const Real& exchange)
 {
     return fluxes_with(p, v.curve.pressure_pa, v.curve.slope, v.dry, v.curve.middle_c, exchange);
 }
 // At a temperature within reach of the curve.
 template <class Real, class Mask>
-PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p, const SurfaceVapour<Real>& v,
-                                             const Real& surface_c, const Real& exchange)
+PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask>& p,
+                                             const SurfaceVapour<Real>& v, const Real& surface_c,
+                                             const Real& exchange)
 {
     const SaturationPoint<Real> s = point_of(v.curve, surface_c);
     // 1 / (P - 0.378 e) from its value at the middle; h is at most a few thousandths.
@@ -159,7 +168,8 @@ struct SurfaceRoot {
     SurfaceVapour<Real> vapour;
 };
 template <class Real, class Mask>
-PETRICHOR_INLINE SurfaceRoot<Real> surface_root(const SurfacePoint<Real, Mask>& p, const ExchangeParams& params,
+PETRICHOR_INLINE SurfaceRoot<Real> surface_root(const SurfacePoint<Real, Mask>& p,
+                                                const ExchangeParams& params,
                                                 const Real& first_guess_c)
 {
     SurfaceRoot<Real> root;

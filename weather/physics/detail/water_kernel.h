@@ -1,5 +1,5 @@
-// Film, cracks and puddles of the cell kernel. "Level" and wet area count liquid and ice together: a frozen
-// puddle still fills its hollow.
+// Film, cracks and puddles of the cell kernel. "Level" and wet area count liquid and ice together:
+// a frozen puddle still fills its hollow.
 #ifndef PETRICHOR_WEATHER_DETAIL_WATER_KERNEL_H
 #define PETRICHOR_WEATHER_DETAIL_WATER_KERNEL_H
 
@@ -14,7 +14,8 @@ template <class Real>
 PETRICHOR_INLINE Real level_of(const Hypsometry& relief, const Real& stored)
 {
     if (relief.area_fraction.empty()) {
-        return smaller(square_root(larger(stored, Real(0.0)) * (2.0 * relief.depth_mm)), Real(relief.depth_mm));
+        return smaller(square_root(larger(stored, Real(0.0)) * (2.0 * relief.depth_mm)),
+                       Real(relief.depth_mm));
     }
     return each(stored, [&](double v) { return water_level_mm(relief, v); });
 }
@@ -36,13 +37,15 @@ PETRICHOR_INLINE Real area_at(const Hypsometry& relief, const Real& level)
 
 template <class Real>
 struct WetSurface {
-    Real film_share, crack_area, puddle_area;  // 0..1; cracks where no puddle is, film where neither
-    Real beta;                                 // wet share of the cell
+    Real film_share, crack_area,
+        puddle_area;  // 0..1; cracks where no puddle is, film where neither
+    Real beta;        // wet share of the cell
 };
 
 // Under snow only the film's share is asked for: nothing evaporates there.
 template <class Real, class Mask>
-PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k, const Mask& bare)
+PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k,
+                                              const Mask& bare)
 {
     WetSurface<Real> w;
     const Real all = (c.film + c.film_ice) + (c.crack + c.crack_ice) + (c.puddle + c.puddle_ice);
@@ -76,7 +79,8 @@ PETRICHOR_KERNEL Lowered<Real> lower_store(const Hypsometry& relief, Real& liqui
     const Real total = liquid + ice;
     const Real drop = evaporation_mm + infiltration_mm;
     const Real level = level_of(relief, total);
-    const Real lost = clamped(total - volume_at(relief, level - drop), Real(0.0), larger(liquid, Real(0.0)));
+    const Real lost =
+        clamped(total - volume_at(relief, level - drop), Real(0.0), larger(liquid, Real(0.0)));
     const Real share = evaporation_mm / larger(drop, Real(1e-30));
     Lowered<Real> out;
     out.evaporated = lost * share;
@@ -107,17 +111,20 @@ PETRICHOR_INLINE Real infiltration_depth(CellVars<Real>& c, const Mask& wet, con
     return select(wet, depth, Real(0.0));
 }
 template <class Real>
-PETRICHOR_INLINE void recover_infiltration(CellVars<Real>& c, const CellConstants& k, const PartConstants& part)
+PETRICHOR_INLINE void recover_infiltration(CellVars<Real>& c, const CellConstants& k,
+                                           const PartConstants& part)
 {
     const double first = k.surface.infiltration.first_mm_h;
-    if (k.permeable) c.infiltration_mm_h = (c.infiltration_mm_h - first) * part.horton_recover + first;
+    if (k.permeable)
+        c.infiltration_mm_h = (c.infiltration_mm_h - first) * part.horton_recover + first;
 }
 
-// Ice on the ground: sublimation and frost, melting, freezing. `film_supply` is what the film receives.
+// Ice on the ground: sublimation and frost, melting, freezing. `film_supply` is what the film
+// receives.
 //   phase  melting (> 0) or freezing
 template <class Real, class Mask>
-PETRICHOR_KERNEL void change_ice(CellVars<Real>& c, Real& film_supply, const Real& to_air, const Real& settling,
-                                 const Real& phase, const Mask& icy)
+PETRICHOR_KERNEL void change_ice(CellVars<Real>& c, Real& film_supply, const Real& to_air,
+                                 const Real& settling, const Real& phase, const Mask& icy)
 {
     const Real zero = 0.0;
     Real sublimated = select(icy, to_air, zero);
@@ -159,9 +166,9 @@ PETRICHOR_KERNEL void change_ice(CellVars<Real>& c, Real& film_supply, const Rea
 //   vapour    leaving (> 0) or settling, bare ground only
 //   phase     melting (> 0) or freezing, bare ground only
 template <class Real, class Mask>
-PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour, const Real& phase,
-                                 const Mask& icy, const WetSurface<Real>& wet, const CellConstants& k,
-                                 const PartConstants& part)
+PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour,
+                                 const Real& phase, const Mask& icy, const WetSurface<Real>& wet,
+                                 const CellConstants& k, const PartConstants& part)
 {
     const Real zero = 0.0;
     const Real liquid = c.film + c.crack + c.puddle;
@@ -184,7 +191,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     const Real per_wet = evaporation / larger(wet.beta, Real(1e-12));
     const Real open = 1.0 - wet.puddle_area;
     const Real film_wanted = per_wet * (open * (1.0 - wet.crack_area) * wet.film_share);
-    const auto film = drain_reservoir(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, part.film);
+    const auto film =
+        drain_reservoir(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, part.film);
     c.film = film.water;
     Real evaporated = film_wanted - film.shortfall;
     Real flow = film.drained;
@@ -196,7 +204,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
 
     // ---- infiltration on the way down, then cracks and puddles fill
     Real infiltration = zero;
-    if (k.permeable) infiltration = infiltration_depth(c, (supply > zero) | (liquid > zero), k, part);
+    if (k.permeable)
+        infiltration = infiltration_depth(c, (supply > zero) | (liquid > zero), k, part);
     Real soaked = smaller(flow, infiltration);
     flow = flow - soaked;
     if (any((flow > zero) | (c.crack > zero))) {
@@ -204,7 +213,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
         const Real filling = smaller(flow, room);
         c.crack += filling;
         flow = flow - filling;
-        const auto cracks = lower_store(k.surface.cracks, c.crack, c.crack_ice, per_wet * open, infiltration);
+        const auto cracks =
+            lower_store(k.surface.cracks, c.crack, c.crack_ice, per_wet * open, infiltration);
         evaporated += cracks.evaporated;
         soaked += cracks.infiltrated;
     }
@@ -213,7 +223,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
         const Real filling = smaller(flow, room);
         c.puddle += filling;
         flow = flow - filling;
-        const auto puddles = lower_store(k.surface.puddles, c.puddle, c.puddle_ice, per_wet, infiltration);
+        const auto puddles =
+            lower_store(k.surface.puddles, c.puddle, c.puddle_ice, per_wet, infiltration);
         evaporated += puddles.evaporated;
         soaked += puddles.infiltrated;
     }
