@@ -6,6 +6,7 @@
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
 #include "cli/texture/prefilter_options.h"
+#include "cli/texture/prefilter_timings.h"
 #include "texproc/pack.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/prefilter/rules.h"
@@ -20,7 +21,7 @@ struct Arguments {
     std::string out, normal_out, anisotropy_out, quality = "full";
     std::string format, normal_format;
     int bits = 16;
-    bool roughness_only = false, score = false;
+    bool roughness_only = false, score = false, timings = false;
 };
 
 // Normals as the input holds them: x and y where it has them, z or 1 elsewhere.
@@ -52,7 +53,7 @@ void print_score(const Arguments& a, const PrefilterMaps& maps, const texproc::P
     std::cout << to_text(texproc::score(maps.normal, maps.map, shipped, a.input.options, scoring));
 }
 
-void run(Arguments& a)
+void take_options(Arguments& a)
 {
     for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out}) {
         if (!name.empty()) check_chain_name(name);
@@ -67,9 +68,11 @@ void run(Arguments& a)
     } else {
         o.bits = a.bits;
     }
-    PrefilterMaps maps = read_prefilter_maps(a.input);
-    texproc::Prefiltered chains = texproc::prefilter_raw(maps.normal, maps.map, o);
-    if (a.score) print_score(a, maps, chains);
+}
+
+void write_chains(const Arguments& a, const PrefilterMaps& maps, texproc::Prefiltered& chains)
+{
+    const texproc::PrefilterOptions& o = a.input.options;
     const bool whole = maps.map.channels == 1;
     write_chain({a.out, a.format, a.bits, o.threads},
                 whole ? maps.map : texproc::channel_of(maps.map, o.channel),
@@ -89,8 +92,34 @@ void run(Arguments& a)
         write_chain({a.anisotropy_out, "", a.bits, o.threads},
                     texproc::to_raw(none, texproc::PixelType::U8), "", chains.anisotropy);
     }
+}
+
+std::size_t bytes_of(const PrefilterMaps& maps, const texproc::Prefiltered& chains)
+{
+    std::size_t bytes = maps.normal.bytes.size() + maps.map.bytes.size();
+    for (const auto* chain : {&chains.normal, &chains.roughness}) {
+        for (const Image& level : *chain) bytes += level.pixels.size() * sizeof(float);
+    }
+    return bytes;
+}
+
+void run(Arguments& a)
+{
+    take_options(a);
+    const texproc::PrefilterOptions& o = a.input.options;
+    PrefilterTimings timings;
+    PrefilterMaps maps;
+    texproc::Prefiltered chains;
+    timings.read = timed([&] { maps = read_prefilter_maps(a.input); });
+    timings.kernel = timed([&] { chains = texproc::prefilter_raw(maps.normal, maps.map, o); });
+    if (a.score) print_score(a, maps, chains);
+    timings.texels =
+        static_cast<std::size_t>(maps.normal.width) * static_cast<std::size_t>(maps.normal.height);
+    timings.bytes = bytes_of(maps, chains);
+    timings.write = timed([&] { write_chains(a, maps, chains); });
     std::cout << chains.roughness.size() << " levels, " << maps.normal.width << " x "
               << maps.normal.height << ", rule " << o.rule << "\n";
+    if (a.timings) std::cout << to_text(timings);
 }
 
 }  // namespace
@@ -115,6 +144,8 @@ void add_texture_prefilter(CLI::App& texture)
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
     app->add_flag("--score", a->score, "print the lobe error of the files as written");
+    app->add_flag("--timings", a->timings,
+                  "print the time of reading, filtering and writing, beside memory bandwidth");
     app->add_option(
            "-o,--out", a->out,
            "roughness or smoothness of level k: 'out_%d.png', or all levels in out.dds, out.ktx2")

@@ -78,30 +78,50 @@ std::uint64_t mixed(std::uint64_t v)
     return v;
 }
 
+// The place of every cell in the grid of merge_round(); plain loops, which compilers vectorise.
+void find_places(const Cells& cells, float share, float ep, std::vector<std::int32_t>& places)
+{
+    const std::size_t count = cells.nx.size();
+    places.resize(3 * count);
+    std::int32_t* gx = places.data();
+    std::int32_t* gy = gx + count;
+    std::int32_t* gp = gy + count;
+    const float per_ep = 1.0f / ep;
+    const float* nx = cells.nx.data();
+    const float* ny = cells.ny.data();
+    const float* alpha2 = cells.alpha2.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float p = std::sqrt(std::sqrt(alpha2[i]));
+        gp[i] = static_cast<std::int32_t>(p * per_ep);
+        const float middle = (static_cast<float>(gp[i]) + 0.5f) * ep;
+        const float edge = share * middle * middle;
+        const float per_e = 1.0f / (edge > 0.001f ? edge : 0.001f);
+        gx[i] = static_cast<std::int32_t>((nx[i] + 1.0f) * per_e);
+        gy[i] = static_cast<std::int32_t>((ny[i] + 1.0f) * per_e);
+    }
+}
+
 // One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what
 // narrow lobes must keep apart is nothing to wide ones. Cells keep the order of their first member,
 // so that the result does not depend on addresses.
 void merge_round(Cells& cells, float share, float ep)
 {
     const std::size_t count = cells.nx.size();
-    const float per_ep = 1.0f / ep;
     std::size_t slots = 64;
     while (slots < 2 * count) slots *= 2;
     thread_local std::vector<std::uint64_t> keys;
-    thread_local std::vector<std::int32_t> owner;
+    thread_local std::vector<std::int32_t> owner, places;
+    find_places(cells, share, ep, places);
+    const std::int32_t* gx = places.data();
+    const std::int32_t* gy = gx + count;
+    const std::int32_t* gp = gy + count;
     keys.resize(slots);
     owner.assign(slots, -1);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const float p = std::sqrt(std::sqrt(cells.alpha2[i]));
-        const auto gp = static_cast<std::int64_t>(p * per_ep);
-        const float middle = (static_cast<float>(gp) + 0.5f) * ep;
-        const float per_e = 1.0f / std::max(0.001f, share * middle * middle);
-        const auto gx = static_cast<std::int64_t>((cells.nx[i] + 1.0f) * per_e);
-        const auto gy = static_cast<std::int64_t>((cells.ny[i] + 1.0f) * per_e);
-        const std::uint64_t key = (static_cast<std::uint64_t>(gx) << 42) |
-                                  (static_cast<std::uint64_t>(gy) << 16) |
-                                  static_cast<std::uint64_t>(gp);
+        const std::uint64_t key = (static_cast<std::uint64_t>(gx[i]) << 42) |
+                                  (static_cast<std::uint64_t>(gy[i]) << 16) |
+                                  static_cast<std::uint64_t>(gp[i]);
         std::size_t slot = mixed(key) & (slots - 1);
         while (owner[slot] >= 0 && keys[slot] != key) slot = (slot + 1) & (slots - 1);
         const float w = cells.weight[i];

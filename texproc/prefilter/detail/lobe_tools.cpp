@@ -245,9 +245,11 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
         s = large.data();
         w = s + count;
     }
-    float low = 1e30f, high = 0.0f, whole = 0.0f;
     for (int i = 0; i < cells.count; ++i) {
         s[i] = cells.alpha2[i] + slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
+    }
+    float low = 1e30f, high = 0.0f, whole = 0.0f;
+    for (int i = 0; i < cells.count; ++i) {
         w[i] = cells.weight[i];
         low = std::min(low, s[i]);
         high = std::max(high, s[i]);
