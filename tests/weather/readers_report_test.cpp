@@ -44,6 +44,24 @@ TEST(Report, CodesOfMissingValuesAreNamedAndCounted)
         EXPECT_NE(text.find(code), std::string::npos) << code;
 }
 
+TEST(Report, LettersOfAStationTellDayFromNight)
+{
+    const std::string text =
+        "KBOS 231754Z 24008KT 10SM FEW200 09/M04 A3032\n"
+        "KBOS 240454Z 24006KT 10SM CLR 02/M04 A3033\n";
+    const auto r = read_weather(text);
+    EXPECT_EQ(warnings(r.report), 1u) << to_text(r.report);
+    EXPECT_NE(to_text(r.report).find("contiguous United States"), std::string::npos);
+    EXPECT_GT(r.table[Field::Shortwave].front(), 100.0) << "near noon in Boston";
+    EXPECT_EQ(r.table[Field::Shortwave].back(), 0.0);
+    ReadOptions placed;
+    placed.site.latitude_deg = 42.36;
+    placed.site.longitude_deg = -71.01;
+    EXPECT_EQ(warnings(read_weather(text, placed).report), 0u);
+    // A station whose letters are not assigned is taken as before.
+    EXPECT_EQ(warnings(read_weather("XXXX 231754Z 24008KT 9999 FEW200 09/M04 Q1013\n").report), 0u);
+}
+
 TEST(Report, PrecipitationWithoutAnAmountIsWarnedOf)
 {
     const std::string head =
@@ -104,11 +122,15 @@ TEST(Report, PvgisIrradianceIsMovedToItsRow)
 
 TEST(Report, MetarStationsReportOnlyWhatFell)
 {
+    ReadOptions denver;
+    denver.site.latitude_deg = 39.83;
+    denver.site.longitude_deg = -104.66;
     const auto r = read_weather(
         "KDEN 010053Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0009\nKDEN 010153Z 36005KT 10SM "
         "OVC020 02/01 A2992 RMK AO2\n"
         "KDEN 010253Z 36005KT 10SM OVC020 02/01 A2992 RMK AO2 P0002\nKDEN 010353Z 36005KT 10SM "
-        "OVC020 02/01 A2992 RMK AO2\n");
+        "OVC020 02/01 A2992 RMK AO2\n",
+        denver);
     double sum = 0;
     for (std::size_t i = 0; i + 1 < r.table.rows(); ++i) {
         sum += r.table[Field::Precip][i] *

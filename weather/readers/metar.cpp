@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/station_regions.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -174,6 +175,18 @@ void put_report(RowCollector& rows, const MetarReport& r, double elevation_m)
     }
 }
 
+// Reports do not say where the station is; its letters tell day from night.
+void place_in_region(const std::string& station, RowCollector& rows)
+{
+    const auto region = region_of_station(station);
+    if (!region) return;
+    rows.site().latitude_deg = region->latitude_deg;
+    rows.site().longitude_deg = region->longitude_deg;
+    rows.note(ReadNote::Kind::Warning, 0, "place",
+              "reports do not say where " + station + " is: taken as the middle of " +
+                  std::string(region->name) + "; give latitude and longitude");
+}
+
 }  // namespace
 
 void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options)
@@ -220,6 +233,9 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
                     "Choose one of: " + names + ".");
     }
     rows.site().name = station;
+    if (std::isnan(options.site.latitude_deg) || std::isnan(options.site.longitude_deg)) {
+        place_in_region(station, rows);
+    }
     int year = options.year, month = options.month;
     const bool dated = std::any_of(bulletin.reports.begin(), bulletin.reports.end(),
                                    [](const MetarReport& r) { return r.year != 0; });
