@@ -25,6 +25,7 @@
 #include "texproc/decoder/psd.h"
 #include "texproc/decoder/sniff.h"
 #include "texproc/decoder/texture.h"
+#include "texproc/files/detail/message.h"
 #include "texproc/files/detail/protocol.h"
 
 namespace petrichor::texproc::decoder {
@@ -213,21 +214,7 @@ bool receive(Request& request, Fd& attached)
 
 bool answer(const Reply& reply, int fd)
 {
-    iovec data{const_cast<Reply*>(&reply), sizeof reply};
-    alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
-    msghdr message{};
-    message.msg_iov = &data;
-    message.msg_iovlen = 1;
-    if (fd >= 0) {
-        message.msg_control = control;
-        message.msg_controllen = sizeof control;
-        cmsghdr* c = CMSG_FIRSTHDR(&message);
-        c->cmsg_level = SOL_SOCKET;
-        c->cmsg_type = SCM_RIGHTS;
-        c->cmsg_len = CMSG_LEN(sizeof(int));
-        std::memcpy(CMSG_DATA(c), &fd, sizeof fd);
-    }
-    return sendmsg(detail::kDecoderSocket, &message, MSG_NOSIGNAL) == sizeof reply;
+    return detail::send_message(detail::kDecoderSocket, reply, fd);
 }
 
 }  // namespace

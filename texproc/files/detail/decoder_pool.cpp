@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "texproc/files/detail/message.h"
 #include "texproc/files/detail/protocol.h"
 
 extern "C" char** environ;
@@ -92,22 +93,8 @@ public:
 
     void send(const Request& request, int fd)
     {
-        iovec data{const_cast<Request*>(&request), sizeof request};
-        alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
-        msghdr message{};
-        message.msg_iov = &data;
-        message.msg_iovlen = 1;
-        if (fd >= 0) {
-            message.msg_control = control;
-            message.msg_controllen = sizeof control;
-            cmsghdr* c = CMSG_FIRSTHDR(&message);
-            c->cmsg_level = SOL_SOCKET;
-            c->cmsg_type = SCM_RIGHTS;
-            c->cmsg_len = CMSG_LEN(sizeof(int));
-            std::memcpy(CMSG_DATA(c), &fd, sizeof fd);
-        }
         // A failed send shows as a closed socket in receive().
-        (void)::sendmsg(socket_, &message, MSG_NOSIGNAL);
+        (void)send_message(socket_, request, fd);
     }
 
     // False: the child died or said nothing in time; why() tells.
