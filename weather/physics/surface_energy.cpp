@@ -55,10 +55,12 @@ SurfaceFluxes surface_balance(const SurfaceForcing& forcing, const SurfaceSkin& 
     const Point p = make_point(forcing, skin, exchange);
     const double surface_c = surface_temp_k - kZeroCelsiusK;
     const double exchanged = detail::exchange_at(p, exchange, surface_c);
-    const auto humidity = detail::humidity_at_middle(p, detail::surface_vapour(p, surface_c));
-    return named(detail::fluxes_with(p, humidity, detail::wet_line_at(p, humidity, exchanged),
-                                     surface_c, exchanged),
-                 surface_c);
+    detail::SurfaceVapour<double> vapour{};
+    detail::centre_vapour(vapour, p, surface_c);
+    const auto humidity = detail::humidity_at_middle(p, vapour);
+    detail::WetLine<detail::FixedShare<double>, double> wet{};
+    detail::lay_wet_line(p, humidity, exchanged, wet);
+    return named(detail::fluxes_with(p, humidity, wet, surface_c, exchanged), surface_c);
 }
 
 SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& skin,

@@ -46,7 +46,7 @@ PETRICHOR_INLINE PhaseChange<Real> change_phase(const SurfacePoint<Real, Mask, W
     held.exchange = exchange_at(p, params, zero);
     held.vapour = vapour_at_melting_point(root.vapour, p);
     const auto humidity = humidity_at_middle(p, held.vapour);
-    held.wet = wet_line_at(p, humidity, held.exchange);
+    lay_wet_line(p, humidity, held.exchange, held.wet);
     const auto f0 = fluxes_with(p, humidity, held.wet, zero, held.exchange);
 
     const Real above = clamped(f0.balance + reach, zero, reach * 2.0);

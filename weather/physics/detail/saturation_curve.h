@@ -47,18 +47,6 @@ PETRICHOR_INLINE SaturationCurve<Real> water_curve(const Real& t_c)
     centre_curve(curve, t_c);
     return curve;
 }
-// Over ice where `icy`, else over water.
-template <class Real, class Mask>
-PETRICHOR_INLINE SaturationCurve<Real> surface_curve(const Mask& icy, const Real& t_c)
-{
-    SaturationCurve<Real> curve;
-    curve.a = select(icy, Real(kIceA), Real(kWaterA));
-    curve.b = select(icy, Real(kIceB), Real(kWaterB));
-    curve.scale = select(icy, Real(kIceScale_pa), Real(kWaterScale_pa));
-    centre_curve(curve, t_c);
-    return curve;
-}
-
 template <class Real>
 PETRICHOR_INLINE SaturationPoint<Real> point_of(const SaturationCurve<Real>& curve, const Real& t_c)
 {

@@ -264,6 +264,8 @@ PETRICHOR_INLINE void age_albedo(CellVars<Real>& c, const Real& melting, const C
                Real(k.snow.albedo_max));
 }
 
+constexpr double kBroken_kg_m3 = 350.0;
+
 // Ageing once a step: fresh albedo, settling, layers; and the resistivity (1/k) of each layer for
 // the step.
 template <class Real>
@@ -289,9 +291,16 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
             const Real load = above + mass * 0.5;
             const Real weight =
                 load * (kGravity_m_s2 / 3.7e7) * exponential(cold * -0.081 - density * 0.018);
-            const Real breaking =
-                exponential(cold * (-1.0 / 23.8) - larger(density - 150.0, zero) * (1.0 / 21.7)) *
-                2.8e-6;
+            // Crystals of dense snow are broken: below a millionth an hour nothing is left to
+            // count.
+            const auto whole = density < kBroken_kg_m3;
+            Real breaking = zero;
+            if (any(whole)) {
+                const Real rate = exponential(cold * (-1.0 / 23.8) -
+                                              larger(density - 150.0, zero) * (1.0 / 21.7)) *
+                                  2.8e-6;
+                breaking = select(whole, rate, zero);
+            }
             denser = density * ((weight + breaking) * dt + 1.0);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
@@ -313,7 +322,7 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
         const Real density = select(
             there, (c.snow_ice[i] + c.snow_liquid[i]) / larger(c.snow_thickness[i], Real(1e-12)),
             new_density);
-        resistivity[i] = 1.0 / snow_conductivity_of(density);
+        resistivity[i] = snow_resistivity_of(density);
     }
 }
 

@@ -66,7 +66,7 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     if (k.permeable)
         soaking = select(liquid + rain_mass > zero,
                          infiltration_depth(c.infiltration_mm_h, part.horton, k), zero);
-    p.wet = wetness_of(c, rain_mass, soaking, covered, k, part);
+    set_wetness(p.wet, c, rain_mass, soaking, covered, k, part);
     const Real film_share = smaller(p.wet.film * k.inverse_film_capacity, Real(1.0));
     const Real bare_albedo = film_share * (k.albedo_wet - k.albedo_dry) + k.albedo_dry;
     const Real albedo = bare_albedo + cover * (c.snow_albedo - bare_albedo);

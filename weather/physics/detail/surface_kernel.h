@@ -29,7 +29,10 @@ template <class Real>
 struct FixedShare {
     using Shares = FixedShares<Real>;
     Real beta;
-    PETRICHOR_INLINE Shares shares(const Real& /*potential_rate*/) const { return {{beta, beta}}; }
+    PETRICHOR_INLINE void share(const Real& /*potential_rate*/, Shares& out) const
+    {
+        out.all.mean = out.all.end = beta;
+    }
 };
 // What evaporates as a line through one evaluation of the shares, at `potential_rate`.
 template <class Wetness, class Real>
@@ -84,13 +87,15 @@ PETRICHOR_INLINE void centre_dry(SurfaceVapour<Real>& v, const SurfacePoint<Real
     v.dry = 1.0 / (p.pressure - v.curve.pressure_pa * (1.0 - kWaterToAirMass));
 }
 template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceVapour<Real> surface_vapour(const SurfacePoint<Real, Mask, Wetness>& p,
-                                                    const Real& surface_c)
+PETRICHOR_INLINE void centre_vapour(SurfaceVapour<Real>& v,
+                                    const SurfacePoint<Real, Mask, Wetness>& p,
+                                    const Real& surface_c)
 {
-    SurfaceVapour<Real> v;
-    v.curve = surface_curve(p.icy, surface_c);
+    v.curve.a = select(p.icy, Real(kIceA), Real(kWaterA));
+    v.curve.b = select(p.icy, Real(kIceB), Real(kWaterB));
+    v.curve.scale = select(p.icy, Real(kIceScale_pa), Real(kWaterScale_pa));
+    centre_curve(v.curve, surface_c);
     centre_dry(v, p);
-    return v;
 }
 template <class Real, class Mask>
 PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapour<Real>& a,
@@ -178,13 +183,14 @@ PETRICHOR_INLINE SurfaceHumidity<Real> humidity_at(const SurfacePoint<Real, Mask
     return humidity_of(p.pressure, s.pressure_pa, s.slope, v.dry * ((h + 1.0) * (h * h + 1.0)));
 }
 
+// Structs of lanes go by reference: copying them costs more than the arithmetic.
 template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE WetLine<Wetness, Real> wet_line_at(const SurfacePoint<Real, Mask, Wetness>& p,
-                                                    const SurfaceHumidity<Real>& at,
-                                                    const Real& exchange)
+PETRICHOR_INLINE void lay_wet_line(const SurfacePoint<Real, Mask, Wetness>& p,
+                                   const SurfaceHumidity<Real>& at, const Real& exchange,
+                                   WetLine<Wetness, Real>& line)
 {
-    const Real potential_rate = exchange * (at.q - p.q_air);
-    return {p.wet.shares(potential_rate), potential_rate};
+    line.potential_rate = exchange * (at.q - p.q_air);
+    p.wet.share(line.potential_rate, line.shares);
 }
 
 // F and -dF/dTs at a surface temperature, with a given exchange.
@@ -247,17 +253,17 @@ PETRICHOR_INLINE SurfaceRoot<Real, Wetness> surface_root(const SurfacePoint<Real
                                                          const Real& first_guess_c)
 {
     SurfaceRoot<Real, Wetness> root;
-    root.vapour = surface_vapour(p, first_guess_c);
+    centre_vapour(root.vapour, p, first_guess_c);
     root.exchange = exchange_at(p, params, first_guess_c);
     const auto humidity = humidity_at_middle(p, root.vapour);
-    root.wet = wet_line_at(p, humidity, root.exchange);
+    lay_wet_line(p, humidity, root.exchange, root.wet);
     const auto first = fluxes_with(p, humidity, root.wet, first_guess_c, root.exchange);
     const Real second_c = first_guess_c + first.balance / first.slope;
 
     follow(root.vapour, p, second_c);
     const Real second_exchange = exchange_at(p, params, second_c);
     const auto second_humidity = humidity_at(p, root.vapour, second_c);
-    root.wet = wet_line_at(p, second_humidity, second_exchange);
+    lay_wet_line(p, second_humidity, second_exchange, root.wet);
     const auto second = fluxes_with(p, second_humidity, root.wet, second_c, second_exchange);
     const Real third_c = second_c + second.balance / second.slope;
 
@@ -277,7 +283,7 @@ PETRICHOR_INLINE SurfaceRoot<Real, Wetness> surface_root(const SurfacePoint<Real
         inner.exchange = second_exchange + (root.exchange - second_exchange) * share;
         follow(inner.vapour, p, between_c);
         const auto at = humidity_at(p, inner.vapour, between_c);
-        inner.wet = wet_line_at(p, at, inner.exchange);
+        lay_wet_line(p, at, inner.exchange, inner.wet);
         const auto f = fluxes_with(p, at, inner.wet, between_c, inner.exchange);
         inner.surface_c = between_c + f.balance / f.slope;
         root = chosen(overshot, inner, root);

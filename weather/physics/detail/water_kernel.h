@@ -116,10 +116,11 @@ PETRICHOR_KERNEL void fill_and_lower(Hollows<Real>& h, const CellVars<Real>& c,
 template <class Real>
 PETRICHOR_KERNEL void soak_and_fill(Hollows<Real>& h, const CellVars<Real>& c, const Real& flow,
                                     const Real& crack_drop, const Real& puddle_drop,
-                                    Real& capacity_mm_h, const CellConstants& k,
+                                    const Real& first_capacity_mm_h, const CellConstants& k,
                                     const PartConstants& part)
 {
     constexpr double kShare = 1.0 / kFillingTurns;
+    Real capacity_mm_h = first_capacity_mm_h;
     for (int i = 0; i < kFillingTurns; ++i) {
         const Real depth = infiltration_depth(capacity_mm_h, part.horton_turn, k);
         capacity_mm_h = decayed_capacity(capacity_mm_h, part.horton_turn, k);
@@ -151,29 +152,24 @@ PETRICHOR_INLINE Hollows<Real> hollows_after(CellVars<Real>& c, const Real& flow
         return h;
     }
     const Real capacity = c.infiltration_mm_h;
-    const Real wet = select(holds, Real(1.0), pores);
+    const Real decayed = decayed_capacity(capacity, part.horton, k);
     const Real recovered = recovered_capacity(capacity, part.horton, k);
-    c.infiltration_mm_h =
-        recovered + (decayed_capacity(capacity, part.horton, k) - recovered) * wet;
-    if (any(flows)) {
-        Hollows<Real> flowing = h;
-        Real left_mm_h = capacity;
-        soak_and_fill(flowing, c, flow, crack_drop, puddle_drop, left_mm_h, k, part);
-        if (any(holds)) {
-            fill_and_lower(h, c, {zero, zero}, crack_drop, puddle_drop,
-                           infiltration_depth(capacity, part.horton, k), k);
-        }
-        c.infiltration_mm_h = select(flows, left_mm_h, c.infiltration_mm_h);
-        return {select(flows, flowing.crack, h.crack), select(flows, flowing.puddle, h.puddle),
-                select(flows, flowing.evaporated, h.evaporated),
-                select(flows, flowing.infiltrated, h.infiltrated),
-                select(flows, flowing.overflow, h.overflow)};
-    }
+    const Real wet = select(holds | flows, Real(1.0), pores);
+    c.infiltration_mm_h = recovered + (decayed - recovered) * wet;
+    // A flow that the ground can take to the end does not reach the hollows.
+    const auto fills = flow > decayed * part.horton.hours;
+    h.infiltrated = flow;
     if (any(holds)) {
         fill_and_lower(h, c, {zero, zero}, crack_drop, puddle_drop,
                        infiltration_depth(capacity, part.horton, k), k);
     }
-    return h;
+    if (!any(fills)) return h;
+    Hollows<Real> filling{c.crack, c.puddle, zero, zero, zero};
+    soak_and_fill(filling, c, flow, crack_drop, puddle_drop, capacity, k, part);
+    return {select(fills, filling.crack, h.crack), select(fills, filling.puddle, h.puddle),
+            select(fills, filling.evaporated, h.evaporated),
+            select(fills, filling.infiltrated, h.infiltrated),
+            select(fills, filling.overflow, h.overflow)};
 }
 
 // Ice on the ground: sublimation and frost, melting, freezing. `film_supply` is what the film

@@ -154,14 +154,14 @@ struct Wetness {
     const PartConstants* part;
 
     using Shares = WetShares<Real>;
-    PETRICHOR_INLINE Shares shares(const Real& potential_rate) const
+    PETRICHOR_INLINE void share(const Real& potential_rate, Shares& out) const
     {
-        if (any_water) return shares_of_water(potential_rate);
+        if (any_water) return share_of_water(potential_rate, out);
         const Real zero = 0.0;
-        const Real beta = select(covered, Real(1.0), zero);
-        return {zero, zero, zero, {beta, beta}};
+        out.film = out.crack = out.puddle = zero;
+        out.all.mean = out.all.end = select(covered, Real(1.0), zero);
     }
-    PETRICHOR_KERNEL Shares shares_of_water(const Real& potential_rate) const
+    PETRICHOR_KERNEL void share_of_water(const Real& potential_rate, Shares& s) const
     {
         const Real zero = 0.0, one = 1.0;
         const Real potential = larger(potential_rate * part->dt_s, zero);
@@ -174,7 +174,6 @@ struct Wetness {
         const Real pores = (one - puddle.mean) * (one - crack.mean);
         const auto pore =
             film_while_drying(film, film_liquid, supply, potential * pores, *k, part->film);
-        WetShares<Real> s;
         s.film = pore.mean;
         s.crack = crack.mean;
         s.puddle = puddle.mean;
@@ -182,19 +181,17 @@ struct Wetness {
         s.all.end = puddle.end + (one - puddle.end) * (crack.end + (one - crack.end) * pore.end);
         s.all.mean = select(covered, one, s.all.mean);
         s.all.end = select(covered, one, s.all.end);
-        return s;
     }
 };
 
 //   supply        rain of the step, kg/m2
 //   infiltration  depth that open ground takes up, mm
 template <class Real, class Mask>
-PETRICHOR_INLINE Wetness<Real> wetness_of(const CellVars<Real>& c, const Real& supply,
-                                          const Real& infiltration, const Mask& covered,
-                                          const CellConstants& k, const PartConstants& part)
+PETRICHOR_INLINE void set_wetness(Wetness<Real>& w, const CellVars<Real>& c, const Real& supply,
+                                  const Real& infiltration, const Mask& covered,
+                                  const CellConstants& k, const PartConstants& part)
 {
     const Real zero = 0.0;
-    Wetness<Real> w;
     w.k = &k;
     w.part = &part;
     w.covered = covered;
@@ -210,7 +207,6 @@ PETRICHOR_INLINE Wetness<Real> wetness_of(const CellVars<Real>& c, const Real& s
         w.crack_level = level_of(k.surface.cracks, crack);
         w.puddle_level = level_of(k.surface.puddles, puddle);
     }
-    return w;
 }
 
 }  // namespace petrichor::weather::detail
