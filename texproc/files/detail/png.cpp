@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "texproc/detail/parallel.h"
-#include "texproc/files/detail/deflate.h"
 
 namespace petrichor::texproc::detail {
 
@@ -16,6 +15,8 @@ namespace {
 
 constexpr std::size_t kBlock = 512 * 1024;  // bytes deflated as one; also the size of an IDAT chunk
 constexpr std::size_t kBatch = 32 << 20;    // bytes filtered and deflated before they are handed on
+constexpr std::size_t kWindow =
+    32 * 1024;  // what deflate may look back into, from the block before
 
 void put32(std::byte* to, std::uint32_t v)
 {
@@ -86,30 +87,63 @@ struct Block {
     std::size_t size = 0;
 };
 
-// Rows [first, end), filtered and deflated.
-Block encode_rows(const PngImage& image, std::size_t first, std::size_t end)
+void deflate_block(Block& block, const std::uint8_t* data, std::size_t size,
+                   const std::uint8_t* before, std::size_t before_size, bool last, int level)
+{
+    z_stream z{};
+    if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_FILTERED) != Z_OK) throw std::bad_alloc();
+    if (before_size) deflateSetDictionary(&z, before, static_cast<uInt>(before_size));
+    const std::size_t most = deflateBound(&z, static_cast<uLong>(size)) + 16;
+    const auto scratch = std::make_unique_for_overwrite<Bytef[]>(most);  // far more than is kept
+    z.next_in = const_cast<Bytef*>(data);
+    z.avail_in = static_cast<uInt>(size);
+    z.next_out = scratch.get();
+    z.avail_out = static_cast<uInt>(most);
+    const int result = deflate(&z, last ? Z_FINISH : Z_SYNC_FLUSH);
+    const bool ok = z.avail_in == 0 && (last ? result == Z_STREAM_END : result == Z_OK);
+    const auto* written = reinterpret_cast<const std::byte*>(scratch.get());
+    block.deflated.assign(written, written + (most - z.avail_out));
+    deflateEnd(&z);
+    if (!ok) throw std::runtime_error("png: deflate failed");
+    block.adler = adler32_z(1, data, size);
+    block.size = size;
+}
+
+}  // namespace
+
+namespace {
+
+// Rows [first, end) filtered, and before them as many as deflate may look back into.
+Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int level)
 {
     const std::size_t pixel =
         static_cast<std::size_t>(image.channels) * static_cast<std::size_t>(image.bits / 8);
     const std::size_t row = pixel * static_cast<std::size_t>(image.width), line = row + 1;
-    std::vector<std::uint8_t> filtered((end - first) * line);
+    const std::size_t lines_before = (kWindow + line - 1) / line;
+    const std::size_t start = first > lines_before ? first - lines_before : 0;
+    std::vector<std::uint8_t> filtered((end - start) * line);
     std::vector<std::uint8_t> scratch, now, above;
-    for (std::size_t y = first; y < end; ++y) {
+    for (std::size_t y = start; y < end; ++y) {
         const std::byte* source = image.pixels + y * row;
         const std::uint8_t* current = reinterpret_cast<const std::uint8_t*>(source);
         const std::uint8_t* previous =
             y ? reinterpret_cast<const std::uint8_t*>(source - row) : nullptr;
         if (image.bits == 16) {
-            if (y && y == first) big_endian_row(source - row, row, above);
+            if (y && y == start) big_endian_row(source - row, row, above);
             big_endian_row(source, row, now);
             current = now.data();
             previous = y ? above.data() : nullptr;
         }
-        filter_row(current, previous, row, pixel, &filtered[(y - first) * line], scratch);
+        filter_row(current, previous, row, pixel, &filtered[(y - start) * line], scratch);
         if (image.bits == 16) std::swap(now, above);
     }
-    return {deflated(filtered, end == static_cast<std::size_t>(image.height)),
-            adler32_z(1, filtered.data(), filtered.size()), filtered.size()};
+    const std::size_t skip = (first - start) * line;
+    const std::size_t before = std::min(skip, kWindow);
+    Block block;
+    deflate_block(block, filtered.data() + skip, filtered.size() - skip,
+                  filtered.data() + skip - before, before,
+                  end == static_cast<std::size_t>(image.height), level);
+    return block;
 }
 
 void add_start(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
@@ -133,8 +167,8 @@ void add_start(const PngImage& image, const std::vector<std::pair<std::string, s
 }  // namespace
 
 void encode_png(const PngImage& image,
-                const std::vector<std::pair<std::string, std::string>>& texts, int threads,
-                const ByteSink& sink)
+                const std::vector<std::pair<std::string, std::string>>& texts, int level,
+                int threads, const ByteSink& sink)
 {
     assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
     assert(image.bits == 8 || image.bits == 16);
@@ -152,7 +186,7 @@ void encode_png(const PngImage& image,
         std::vector<Block> done(std::min(batch, blocks - from));
         parallel_for(done.size(), threads, [&](std::size_t i) {
             const std::size_t first = (from + i) * lines_a_block;
-            done[i] = encode_rows(image, first, std::min(height, first + lines_a_block));
+            done[i] = encode_rows(image, first, std::min(height, first + lines_a_block), level);
         });
         for (std::size_t i = 0; i < done.size(); ++i) {
             std::vector<std::byte>& data = done[i].deflated;
@@ -171,10 +205,10 @@ void encode_png(const PngImage& image,
 
 std::vector<std::byte> encode_png(const PngImage& image,
                                   const std::vector<std::pair<std::string, std::string>>& texts,
-                                  int threads)
+                                  int level, int threads)
 {
     std::vector<std::byte> file;
-    encode_png(image, texts, threads, [&](std::span<const std::byte> bytes) {
+    encode_png(image, texts, level, threads, [&](std::span<const std::byte> bytes) {
         file.insert(file.end(), bytes.begin(), bytes.end());
     });
     return file;
