@@ -29,6 +29,13 @@ void add_site_options(CLI::App& command, SiteOptions& site, const std::string& g
         ->group(group);
     command.add_option("--month", site.month, "of METAR reports, like 2024-02")->group(group);
     command
+        .add_option("--taf", site.taf,
+                    "TEMPO and PROB groups of forecasts: expected mixes them in by their share "
+                    "(TEMPO 0.5, PROB30 0.3), prevailing leaves them out, worst takes the worst")
+        ->check(CLI::IsMember({"expected", "prevailing", "worst"}))
+        ->group(group)
+        ->capture_default_str();
+    command
         .add_option(
             "--missing-precip", site.missing_precip,
             "where the file gives no amount: dry, or estimate from cloud, humidity and sight")
