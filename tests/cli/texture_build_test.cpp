@@ -339,5 +339,38 @@ TEST(TextureBuild, MapsOfDifferentSizesAreNamed)
     EXPECT_FALSE(fs::exists(place / "out/Brick01_normal.png"));
 }
 
+// A leaf, green where its own opacity map says so and black elsewhere.
+TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
+{
+    const Workplace place("petrichor-build-leaf");
+    Image color(32, 32, 3, ColorSpace::Linear), opacity(32, 32, 1, ColorSpace::Data);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            if ((x / 3 + y / 3) % 3 == 0) continue;
+            opacity.at(x, y, 0) = 1.0f;
+            color.at(x, y, 1) = 0.5f;
+        }
+    }
+    texproc::write_image(place / "Leaf_Color.png", color);
+    texproc::write_image(place / "Leaf_Opacity.png", opacity);
+    const std::string recipe =
+        "name = \"Leaf\"\n[inputs]\nalbedo = \"Leaf_Color.png\"\n"
+        "opacity = \"Leaf_Opacity.png\"\n[[output]]\n"
+        "file = \"{name}\"\nchannels = [\"albedo.r\", \"albedo.g\", "
+        "\"albedo.b\", \"opacity\"]\nsrgb = true\nlevel_files = true\n";
+    const auto green_of_level_2 = [&](const std::string& more) {
+        write_file(place / "leaf.toml", recipe + more);
+        const Outcome made = run({"texture", "build", "leaf.toml", "-o", "out"}, place);
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return texproc::read_image(place / "out/Leaf_2.png", {.space = ColorSpace::Linear});
+    };
+    const Image weighted = green_of_level_2("");
+    for (std::size_t i = 0; i < weighted.pixels.size(); i += 4) {
+        EXPECT_NEAR(weighted.pixels[i + 1], 0.5f, 0.005f);
+    }
+    const Image plain = green_of_level_2("[mips]\nalpha_weighted = false\n");
+    EXPECT_LT(plain.pixels[1], 0.45f);
+}
+
 }  // namespace
 }  // namespace petrichor::cli
