@@ -110,7 +110,7 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
             }
         }
     }
-    merge(cells, limit);
+    merge(cells, limit, 4 * limit);
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ void walk(const MapSurface& surface, const WalkOptions& options,
                            cells, m);
                     if (options.own_lobes) add_own_lobes(cells, m);
                     if (!level.empty()) store_means(level, x, y, m);
-                    if (cells.count() > cells_kept(k)) merge(cells, cells_kept(k));
+                    merge(cells, cells_kept(k), 4 * cells_kept(k));
                 } else {
                     m = load_means(level, x, y);
                     if (options.cells) {
