@@ -124,6 +124,15 @@ float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2,
                       1.0f);
 }
 
+// Several lobes far apart share little light with any one, and that little is what few samples tell
+// badly: true where the narrowest lobe is lost among the slopes or beside the widest.
+bool far_apart(const Cells& cells, const Direction& normal, float light2)
+{
+    const auto [least, most] = std::minmax_element(cells.alpha2.begin(), cells.alpha2.end());
+    return *most + light2 > 8.0f * (*least + light2) ||
+           slope_variance(cells.view(), normal) > 4.0f * (*least + light2);
+}
+
 // What a footprint is searched with.
 struct Search {
     const OverlapOptions& options;
@@ -147,6 +156,12 @@ Candidate best_rough(const Search& s, bool search_on)
 {
     const Direction& n = s.plain.normal;
     Candidate rough = climb(s.cost, n, s.low2, s.high2, s.effort.ladder);
+    // Where many narrow lobes lie apart, little of their light is met by any lobe about their mean,
+    // and a wide dim one misplaces least.
+    if (s.high2 < 0.4f) {
+        const Candidate wide = climb(s.cost, n, 0.45f, 0.9f, 2);
+        if (wide.cost < rough.cost) rough = wide;
+    }
     if (s.median.cost < rough.cost) rough = s.median;
     if (s.plain.cost <= rough.cost) rough = s.plain;
     if (!search_on) return rough;
@@ -205,7 +220,7 @@ Candidate cheapest(const Search& s, const Candidate& rough, const Candidate& joi
 }
 
 // Starts, searches and guard. `second`: where the guard's samples go.
-Candidate searched(Search& s, const Masses& mass, float plain2, int level, std::uint32_t seed,
+Candidate searched(Search& s, const Whole& whole, float plain2, int level, std::uint32_t seed,
                    Samples& second)
 {
     const Direction& mean = s.plain.normal;
@@ -227,7 +242,7 @@ Candidate searched(Search& s, const Masses& mass, float plain2, int level, std::
     const Candidate rough = best_rough(s, !s.options.joint || level > 2);
     const Candidate joint = s.options.joint ? best_joint(s, rough) : rough;
     if (s.effort.guard == 0) return cheapest(s, rough, joint);
-    return guarded(LobeCost(s.cells, mass, s.effort.guard, 2 * seed + 1, second), s, rough, joint);
+    return guarded(LobeCost(s.cells, whole, s.effort.guard, 2 * seed + 1, second), s, rough, joint);
 }
 
 }  // namespace
@@ -249,7 +264,11 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
             return lobe(mean_normal, one);
     }
 
-    const Effort effort = effort_at(level, options.quick);
+    Effort effort = effort_at(level, options.quick);
+    if (level <= 5 && !options.quick && far_apart(cells, mean_normal, light2)) {
+        effort.samples *= 2;
+        effort.guard = std::max(effort.guard, effort.samples);
+    }
     const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
     const auto unlit = [&](float a2) {
         // A lobe narrower than any of the footprint's own is possible only through the light.
@@ -258,21 +277,21 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     thread_local Cells lit;
     thread_local Samples first_samples, second_samples;
     lit = cells;
-    merge(lit, effort.cells);
+    merge(lit, effort.cells, lit.count());
     for (float& a2 : lit.alpha2) a2 = clamped2(a2 + light2);
     const CellsView view = lit.view();
-    const Masses mass = masses(view);
+    const Whole whole = whole_of(view, means);
     const LobeKernel& kernel = lobe_kernel();
     Search s{options,
              effort,
              kernel,
              view,
-             LobeCost(view, mass, effort.samples, 2 * seed, first_samples),
+             LobeCost(view, whole, effort.samples, 2 * seed, first_samples),
              {mean_normal, clamped2(plain_alpha2 + light2)}};
     FittedLobe out = lobe(mean_normal, one);
     Candidate chosen{mean_normal, one + light2};
     if (!(one > 0.0f)) {
-        chosen = searched(s, mass, plain_alpha2 + light2, level, seed, second_samples);
+        chosen = searched(s, whole, plain_alpha2 + light2, level, seed, second_samples);
         out = lobe(chosen.normal, unlit(chosen.alpha2));
     }
 
@@ -280,7 +299,7 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
         const RobustFit robust = student_t(view, mean_normal, chosen.alpha2, 2, 8, true, kernel);
         const EllipticLobe found = fit_elliptic(s.cost, chosen, robust, 90).first;
         // On fresh samples against the chosen lobe, as the guard does.
-        const LobeCost judge(view, mass, 2 * effort.samples, 2 * seed + 1, second_samples);
+        const LobeCost judge(view, whole, 2 * effort.samples, 2 * seed + 1, second_samples);
         if (judge(found) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
             out = {{found.nx, found.ny, found.nz},
                    chosen.alpha2,
@@ -292,7 +311,7 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
         }
     } else if (coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.
-        const LobeCost judge(view, mass, 2 * effort_at(level, false).samples, 2 * seed + 1,
+        const LobeCost judge(view, whole, 2 * effort_at(level, false).samples, 2 * seed + 1,
                              second_samples);
         const Codes plain = rounded(mean_normal, plain_alpha2, options.stored);
         out.codes = cheapest_codes(judge, out.normal, out.alpha2, plain, light2, options.stored);

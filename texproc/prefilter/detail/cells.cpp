@@ -147,7 +147,7 @@ void to_means(Cells& cells)
         cells.nz[k] = length > 0.0f ? cells.nz[k] * scale : 1.0f;
         // What the normals differ within the cell widens its lobe: E |d|^2 = 2 (1 - r). Without it
         // every round of merging would narrow the footprint by some per cent.
-        const float lost = 2.0f * std::max(0.0f, 1.0f - length / cells.weight[k]);
+        const float lost = 1.76f * std::max(0.0f, 1.0f - length / cells.weight[k]);
         cells.alpha2[k] = cells.alpha2[k] / cells.weight[k] + lost;
     }
 }
@@ -219,9 +219,13 @@ float useful_edge(const Cells& cells, int limit)
     return std::sqrt(6.0f * area / static_cast<float>(limit));
 }
 
+// Lobes further apart than this share of their alpha are two: one in their place, as wide as both,
+// shares light with everything between them.
+constexpr float kFaithful = 0.7f;
+
 }  // namespace
 
-void merge(Cells& cells, int limit)
+void merge(Cells& cells, int limit, int most)
 {
     if (cells.count() <= limit) return;
     // Weightless cells (parts of a footprint that rounding left empty) have no mean.
@@ -236,9 +240,14 @@ void merge(Cells& cells, int limit)
     }
     cells.resize(kept);
     const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
+    most = std::max(limit, most);
     float share = std::max(0.2f, useful_edge(cells, limit) / widest);
+    if (share > kFaithful) {
+        const float useful = cells.count() > most ? useful_edge(cells, most) / widest : 0.0f;
+        share = std::max(kFaithful, useful);
+    }
     float ep = 0.02f;
-    while (cells.count() > limit) {
+    while (cells.count() > limit && !(share > kFaithful && cells.count() <= most)) {
         merge_round(cells, share, ep);
         // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
