@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "texproc/detail/portable_math.h"
 #include "texproc/prefilter/detail/elliptic_fit.h"
 #include "texproc/prefilter/detail/lobe_cost.h"
 #include "texproc/prefilter/detail/simplex.h"
@@ -54,7 +55,7 @@ Candidate climb(const LobeCost& cost, const Direction& normal, float low2, float
     if (count < 1) return {};
     float alpha2s[LobeCost::kMost], costs[LobeCost::kMost];
     const float ratio =
-        count > 1 ? std::pow(high2 / low2, 1.0f / static_cast<float>(count - 1)) : 1.0f;
+        count > 1 ? portable_exp(portable_log(high2 / low2) / static_cast<float>(count - 1)) : 1.0f;
     float a2 = low2;
     for (int k = 0; k < count; ++k, a2 *= ratio) alpha2s[k] = clamped2(a2);
     cost(normal, alpha2s, count, costs);
@@ -67,12 +68,12 @@ Candidate refine_line(const LobeCost& cost, const Candidate& from, float step, i
 {
     if (budget <= 0) return from;
     const auto f = [&](const std::array<float, 1>& x) {
-        return cost(from.normal, clamped2(std::exp(x[0])));
+        return cost(from.normal, clamped2(portable_exp(x[0])));
     };
     const auto [x, value] =
-        simplex<1>({std::log(from.alpha2)}, from.cost, {step}, budget, 1e-4f, f);
+        simplex<1>({portable_log(from.alpha2)}, from.cost, {step}, budget, 1e-4f, f);
     if (!(value < from.cost)) return from;
-    return {from.normal, clamped2(std::exp(x[0])), value};
+    return {from.normal, clamped2(portable_exp(x[0])), value};
 }
 
 Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
@@ -83,12 +84,12 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
     const auto f = [&](const std::array<float, 3>& x) {
         const Direction n = leaned(frame, alpha * x[0], alpha * x[1]);
         if (n.z < 0.05f) return 2.0f;
-        return cost(n, clamped2(std::exp(x[2])));
+        return cost(n, clamped2(portable_exp(x[2])));
     };
-    const auto [x, value] = simplex<3>({0.0f, 0.0f, std::log(from.alpha2)}, from.cost,
+    const auto [x, value] = simplex<3>({0.0f, 0.0f, portable_log(from.alpha2)}, from.cost,
                                        {0.35f, 0.35f, 0.5f}, budget, 2e-4f, f);
     if (!(value < from.cost)) return from;
-    return {leaned(frame, alpha * x[0], alpha * x[1]), clamped2(std::exp(x[2])), value};
+    return {leaned(frame, alpha * x[0], alpha * x[1]), clamped2(portable_exp(x[2])), value};
 }
 
 // Footprints of nearly one lobe, most texels of the finest levels, have a closed form: the
@@ -101,21 +102,27 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
 float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2, float most_spread)
 {
     const float variance = slope_variance(cells.view(), normal);
-    float least = 1.0f;
-    for (const float a2 : cells.alpha2) least = std::min(least, a2);
+    const auto [narrow, wide] = std::minmax_element(cells.alpha2.begin(), cells.alpha2.end());
+    const float least = *narrow + light2, most = *wide + light2;
     // Cheap tests first: no footprint passes that is far above its narrowest lobe.
-    if (variance > 4.0f * most_spread * (least + light2)) return 0.0f;
+    if (variance > 4.0f * most_spread * least || most > 4.0f * least) return 0.0f;
+    const float middle = std::sqrt(least * most);
     float whole = 0.0f, mean = 0.0f, square = 0.0f;
     for (std::size_t i = 0; i < cells.alpha2.size(); ++i) {
+        // log(a / middle), whose ratio is at most 2.
+        const float a = cells.alpha2[i] + light2;
+        const float s = (a - middle) / (a + middle), s2 = s * s;
+        const float x =
+            2.0f * s *
+            (1.0f + s2 * (1.0f / 3.0f + s2 * (0.2f + s2 * (1.0f / 7.0f + s2 * (1.0f / 9.0f)))));
         const float w = cells.weight[i];
-        const float x = std::log(cells.alpha2[i] + light2);
         whole += w;
         mean += w * x;
         square += w * x * x;
     }
     mean /= whole;
     const float spread = std::max(0.0f, square / whole - mean * mean);
-    const float centre = std::exp(mean);
+    const float centre = middle * portable_exp(mean);
     if (spread > 0.06f || variance > most_spread * centre) return 0.0f;
     const float share = share_inside(cells.view(), normal, light2, centre + 0.92f * variance);
     if (!(std::abs(share - 0.5f) < 0.012f)) return 0.0f;
@@ -166,7 +173,7 @@ Candidate best_rough(const Search& s, bool search_on)
     if (s.plain.cost <= rough.cost) rough = s.plain;
     if (!search_on) return rough;
     const float rung =
-        std::log(s.high2 / s.low2) / static_cast<float>(std::max(1, s.effort.ladder - 1));
+        portable_log(s.high2 / s.low2) / static_cast<float>(std::max(1, s.effort.ladder - 1));
     return refine_line(s.cost, rough, 0.5f * rung, s.effort.line);
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "texproc/detail/portable_math.h"
+
 namespace petrichor::texproc::detail {
 
 void Cells::clear()
@@ -31,8 +33,9 @@ void Cells::add(float x, float y, float z, float a2, float w)
 float lobe_length(float alpha2)
 {
     const float sharpness = 2.0f / std::max(alpha2, kMinAlpha2);
-    const float coth = sharpness < 10.0f ? 1.0f / std::tanh(sharpness) : 1.0f;
-    return coth - 1.0f / sharpness;
+    if (sharpness >= 10.0f) return 1.0f - 1.0f / sharpness;
+    const float e = portable_exp(2.0f * sharpness);
+    return (e + 1.0f) / (e - 1.0f) - 1.0f / sharpness;
 }
 
 namespace {
