@@ -1,6 +1,7 @@
 // Landscapes: terrain files, the model on every cell, maps, the snow line; and stores from a height
 // map.
 #include "cli/simulate/grid.h"
+#include "cli/simulate/plot_axes.h"
 
 #include <gtest/gtest.h>
 

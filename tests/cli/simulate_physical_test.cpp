@@ -1,5 +1,7 @@
 // The physical model behind `petrichor simulate`: columns, times, checkpoints, ensembles, the fit.
+#include "cli/simulate/panel_choice.h"
 #include "cli/simulate/physical.h"
+#include "cli/simulate/plot_axes.h"
 
 #include <gtest/gtest.h>
 
