@@ -316,7 +316,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
                    unlit(found.alpha2_y),
                    {}};
         }
-    } else if (coarse_codes(chosen.alpha2, options.stored)) {
+    }
+    if (!out.elliptic && coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.
         const LobeCost judge(view, whole, 2 * effort_at(level, false).samples, 2 * seed + 1,
                              second_samples);
