@@ -32,11 +32,11 @@ Effort effort_at(int level, bool quick)
     static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 960, 1280};
     const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
-        // The finest levels hold most texels: there the cheapest of the fits, without a search.
-        if (level <= 2) return {40, 0, 0, 0, 0, 0, false, 3, 16};
-        const int half = std::max(80, samples / 2);
+        // The finest levels hold most texels: there the cheapest of the fits and of a few alphas.
+        if (level <= 2) return {40, 0, 5, 0, 6, 8, false, 3, 16};
+        const int half = level >= 6 ? samples / 3 / 40 * 40 : std::max(80, samples / 2);
         if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
-        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 1024};
+        return {half, half, 6, 3, 6, 20, false, 4, level <= 4 ? 64 : level <= 6 ? 160 : 256};
     }
     if (level <= 1) return {samples, 2 * samples, 5, 3, 8, 18, false, 4, 16};
     if (level == 2) return {samples, 2 * samples, 6, 3, 8, 24, false, 4, 64};
@@ -272,9 +272,9 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     }
 
     Effort effort = effort_at(level, options.quick);
-    if (level <= 5 && !options.quick && far_apart(cells, mean_normal, light2)) {
+    if (level <= 5 && far_apart(cells, mean_normal, light2)) {
         effort.samples *= 2;
-        effort.guard = std::max(effort.guard, effort.samples);
+        if (effort.guard > 0) effort.guard = std::max(effort.guard, effort.samples);
     }
     const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
     const auto unlit = [&](float a2) {
@@ -316,7 +316,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
                    unlit(found.alpha2_y),
                    {}};
         }
-    } else if (coarse_codes(chosen.alpha2, options.stored)) {
+    }
+    if (!out.elliptic && coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.
         const LobeCost judge(view, whole, 2 * effort_at(level, false).samples, 2 * seed + 1,
                              second_samples);
