@@ -73,6 +73,17 @@ std::string read_input_file(const fs::path& path)
     return head + rest.str();
 }
 
+std::string read_checkpoint_file(const fs::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream whole;
+    if (!in || fs::is_directory(path) || !(whole << in.rdbuf())) {
+        throw Error("simulate: --resume: cannot read " + path.string(),
+                    "Give a file that --checkpoint wrote.");
+    }
+    return std::move(whole).str();
+}
+
 InputKind kind_of_text(std::string_view text)
 {
     weather::Lines lines(text.substr(0, 65536));

@@ -168,6 +168,13 @@ void add_texture_score(CLI::App& texture)
                   "for --protocol: without the maps made from code");
     app->add_flag("!--no-puddles", a->protocol.puddles,
                   "for --protocol: no wet variant of sets with a height map");
+    app->add_flag("--patchwork", a->protocol.patchwork,
+                  "for --protocol: each set also in patches with the next one");
+    app->add_option("--fresh", a->protocol.fresh,
+                    "for --protocol: also 14 materials that no rule was chosen on, drawn from "
+                    "this seed (several with commas between)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app->add_option("--csv", a->protocol.csv, "for --protocol: every level of every row");
     app->footer(
         "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in "

@@ -252,14 +252,16 @@ TEST(Metar, MonthsTurnAndForecastsFollow)
         "METAR EDDF 010050Z 24010KT 9999 -SN OVC030 01/00 Q1010=\n"
         "TAF EDDF 312300Z 0100/0106 24010KT 9999 BKN020 TX03/0103Z\n"
         "   FM010300 20005KT 4000 RA OVC010\n   TEMPO 0103/0105 +RA=\n";
-    const auto r = read_weather(text, {.year = 2023, .month = 12});
-    ASSERT_EQ(r.table.rows(), 7u);  // two reports, then 01..05 UTC after the last report
+    const auto r = read_weather(text, {.year = 2023, .month = 12, .taf = TafUse::Prevailing});
+    ASSERT_EQ(r.table.rows(), 8u);  // two reports, then 01..06 UTC after the last report
     EXPECT_EQ(iso_from_us(r.table.time_us[1]), "2024-01-01T00:50:00Z");
     EXPECT_EQ(iso_from_us(r.table.time_us[2]), "2024-01-01T01:00:00Z");
     EXPECT_NEAR(r.table[Field::Snow][1] * 3600, 0.5, 1e-9);
     EXPECT_NEAR(r.table[Field::Rain][5] * 3600, 4.5, 1e-9);  // 04 UTC
     EXPECT_NEAR(r.table[Field::AirTemp][4], 276.15, 1e-9);   // TX at 03 UTC
-    EXPECT_NE(to_text(r.report).find("1 passing"), std::string::npos);
+    EXPECT_NE(to_text(r.report).find("1 TEMPO or PROB groups, these not used"), std::string::npos);
+    const auto expected = read_weather(text, {.year = 2023, .month = 12});
+    EXPECT_NEAR(expected.table[Field::Rain][5] * 3600, 0.5 * (4.5 + 12.0), 1e-9);
 }
 
 // ---- formats without a real file at hand

@@ -217,7 +217,7 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
         const detail::PngImage png_image{image.width, image.height, image.channels, bits,
                                          image.bytes.data()};
         write_pieces(path, [&](const detail::ByteSink& sink) {
-            detail::encode_png(png_image, {}, options.threads, sink);
+            detail::encode_png(png_image, {}, 1, options.threads, sink);
         });
         return;
     }

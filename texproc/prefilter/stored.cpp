@@ -123,12 +123,13 @@ std::vector<Image> aim_roughness(const RawImage& normal, const RawImage& roughne
         thread_local Samples storage;
         const std::size_t k = static_cast<std::size_t>(t.level);
         lit = *t.cells;
-        merge(lit, t.level < 5 ? 128 : 1024);
+        merge(lit, t.level < 5 ? 128 : 1024, lit.count());
         for (float& a2 : lit.alpha2) a2 = std::clamp(a2 + light2, kMinAlpha2, 1.0f);
         const float* c = &stored.normal[k].pixels[stored.normal[k].index(t.x, t.y, 0)];
         const Direction n = read_normal({{c[0], c[1], c[2]}, 0.0f}, as);
         const std::uint32_t seed = static_cast<std::uint32_t>(t.level * 7919 + t.y * 104729 + t.x);
-        const LobeCost cost(lit.view(), masses(lit.view()), samples_at(t.level), seed, storage);
+        const LobeCost cost(lit.view(), whole_of(lit.view(), t.means), samples_at(t.level), seed,
+                            storage);
         float& number = aim[k].at(t.x, t.y, 0);
         number = cheapest_number(cost, n, number, light2, as);
     });

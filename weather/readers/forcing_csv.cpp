@@ -27,7 +27,9 @@ bool is_time_name(std::string_view name)
 // column here.
 bool is_missing_word(std::string_view text)
 {
-    const std::string low = lower(trimmed(text));
+    text = trimmed(text);
+    if (!text.empty() && text.front() >= '0' && text.front() <= '9') return false;
+    const std::string low = lower(text);
     for (const char* word :
          {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "m", "missing"}) {
         if (low == word) return true;
@@ -149,10 +151,11 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
     const double seconds = static_cast<double>(usual_us) * 1e-6;
 
     std::map<std::string, std::size_t> missing_codes;
+    std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty() || t.front() == '#') continue;
-        const auto f = split(*line, separator, 256);
+        split(*line, separator, f, 256);
         if (f.size() != names.size()) {
             rows.bad_row(lines.number(), "",
                          "has " + std::to_string(f.size()) + " columns, the header has " +

@@ -92,9 +92,10 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
     std::vector<std::string> names;
     std::string station;
     bool others = false;
+    std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) continue;
-        const auto f = split(*line, ',', 256);
+        split(*line, ',', f, 256);
         if (lines.number() == 1 && lower(*line).find("station") != std::string::npos) {
             for (const auto n : f) names.emplace_back(n);
             continue;

@@ -46,8 +46,9 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
               "given for sea level, brought to " + std::to_string(static_cast<int>(z)) +
                   " m; the file has no place, give latitude, longitude and elevation");
     Lines lines(text);
+    std::vector<std::string_view> w;
     while (const auto line = lines.next()) {
-        const auto w = words(*line, 32);
+        words(*line, w, 32);
         if (w.empty()) continue;
         if (w.size() != 12) {
             rows.bad_row(lines.number(), "",

@@ -38,8 +38,9 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
     }
     rows.site().temp_height_m = 10.0;
     rows.site().wind_height_m = 10.0;
+    std::vector<std::string_view> w;
     while (const auto line = lines.next()) {
-        const auto w = words(*line, 96);
+        words(*line, w, 96);
         if (w.empty()) continue;
         if (w.size() < 48) {
             rows.bad_row(lines.number(), "",

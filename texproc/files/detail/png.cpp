@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "texproc/detail/parallel.h"
-#include "texproc/files/detail/deflate.h"
 
 namespace petrichor::texproc::detail {
 
@@ -16,6 +15,9 @@ namespace {
 
 constexpr std::size_t kBlock = 512 * 1024;  // bytes deflated as one; also the size of an IDAT chunk
 constexpr std::size_t kBatch = 32 << 20;    // bytes filtered and deflated before they are handed on
+constexpr std::size_t kWindow =
+    32 * 1024;  // what deflate may look back into, from the block before
+constexpr std::size_t kSample = 16 * 1024;  // bytes that stand for their block
 
 void put32(std::byte* to, std::uint32_t v)
 {
@@ -86,30 +88,73 @@ struct Block {
     std::size_t size = 0;
 };
 
-// Rows [first, end), filtered and deflated.
-Block encode_rows(const PngImage& image, std::size_t first, std::size_t end)
+// Raw deflate of `data`, which may point back into the `before_size` bytes in front of it.
+std::vector<std::byte> deflated(const std::uint8_t* data, std::size_t size, std::size_t before_size,
+                                bool last, int level, int strategy)
+{
+    z_stream z{};
+    if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, strategy) != Z_OK) throw std::bad_alloc();
+    if (before_size) deflateSetDictionary(&z, data - before_size, static_cast<uInt>(before_size));
+    const std::size_t most = deflateBound(&z, static_cast<uLong>(size)) + 16;
+    const auto scratch = std::make_unique_for_overwrite<Bytef[]>(most);  // far more than is kept
+    z.next_in = const_cast<Bytef*>(data);
+    z.avail_in = static_cast<uInt>(size);
+    z.next_out = scratch.get();
+    z.avail_out = static_cast<uInt>(most);
+    const int result = deflate(&z, last ? Z_FINISH : Z_SYNC_FLUSH);
+    const bool ok = z.avail_in == 0 && (last ? result == Z_STREAM_END : result == Z_OK);
+    const auto* written = reinterpret_cast<const std::byte*>(scratch.get());
+    std::vector<std::byte> kept(written, written + (most - z.avail_out));
+    deflateEnd(&z);
+    if (!ok) throw std::runtime_error("png: deflate failed");
+    return kept;
+}
+
+// Looking for repeats pays on patterns; on the fine grain of most scanned maps it takes twice the
+// time and finds nothing. A sample of the block tells.
+int best_strategy(const std::uint8_t* data, std::size_t size, int level)
+{
+    if (size < kWindow + kSample) return Z_FILTERED;
+    const std::uint8_t* end = data + size - kSample;
+    const std::size_t runs = deflated(end, kSample, 0, false, level, Z_RLE).size();
+    const std::size_t repeats = deflated(end, kSample, kWindow, false, level, Z_FILTERED).size();
+    return runs <= repeats ? Z_RLE : Z_FILTERED;
+}
+
+// Rows [first, end) filtered, and before them as many as deflate may look back into.
+Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int level)
 {
     const std::size_t pixel =
         static_cast<std::size_t>(image.channels) * static_cast<std::size_t>(image.bits / 8);
     const std::size_t row = pixel * static_cast<std::size_t>(image.width), line = row + 1;
-    std::vector<std::uint8_t> filtered((end - first) * line);
+    const std::size_t lines_before = (kWindow + line - 1) / line;
+    const std::size_t start = first > lines_before ? first - lines_before : 0;
+    std::vector<std::uint8_t> filtered((end - start) * line);
     std::vector<std::uint8_t> scratch, now, above;
-    for (std::size_t y = first; y < end; ++y) {
+    for (std::size_t y = start; y < end; ++y) {
         const std::byte* source = image.pixels + y * row;
         const std::uint8_t* current = reinterpret_cast<const std::uint8_t*>(source);
         const std::uint8_t* previous =
             y ? reinterpret_cast<const std::uint8_t*>(source - row) : nullptr;
         if (image.bits == 16) {
-            if (y && y == first) big_endian_row(source - row, row, above);
+            if (y && y == start) big_endian_row(source - row, row, above);
             big_endian_row(source, row, now);
             current = now.data();
             previous = y ? above.data() : nullptr;
         }
-        filter_row(current, previous, row, pixel, &filtered[(y - first) * line], scratch);
+        filter_row(current, previous, row, pixel, &filtered[(y - start) * line], scratch);
         if (image.bits == 16) std::swap(now, above);
     }
-    return {deflated(filtered, end == static_cast<std::size_t>(image.height)),
-            adler32_z(1, filtered.data(), filtered.size()), filtered.size()};
+    const std::size_t skip = (first - start) * line;
+    const std::size_t before = std::min(skip, kWindow);
+    const std::uint8_t* data = filtered.data() + skip;
+    const std::size_t size = filtered.size() - skip;
+    Block block;
+    block.deflated = deflated(data, size, before, end == static_cast<std::size_t>(image.height),
+                              level, best_strategy(data, size, level));
+    block.adler = adler32_z(1, data, size);
+    block.size = size;
+    return block;
 }
 
 void add_start(const PngImage& image, const std::vector<std::pair<std::string, std::string>>& texts,
@@ -133,8 +178,8 @@ void add_start(const PngImage& image, const std::vector<std::pair<std::string, s
 }  // namespace
 
 void encode_png(const PngImage& image,
-                const std::vector<std::pair<std::string, std::string>>& texts, int threads,
-                const ByteSink& sink)
+                const std::vector<std::pair<std::string, std::string>>& texts, int level,
+                int threads, const ByteSink& sink)
 {
     assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
     assert(image.bits == 8 || image.bits == 16);
@@ -152,7 +197,7 @@ void encode_png(const PngImage& image,
         std::vector<Block> done(std::min(batch, blocks - from));
         parallel_for(done.size(), threads, [&](std::size_t i) {
             const std::size_t first = (from + i) * lines_a_block;
-            done[i] = encode_rows(image, first, std::min(height, first + lines_a_block));
+            done[i] = encode_rows(image, first, std::min(height, first + lines_a_block), level);
         });
         for (std::size_t i = 0; i < done.size(); ++i) {
             std::vector<std::byte>& data = done[i].deflated;
@@ -171,10 +216,10 @@ void encode_png(const PngImage& image,
 
 std::vector<std::byte> encode_png(const PngImage& image,
                                   const std::vector<std::pair<std::string, std::string>>& texts,
-                                  int threads)
+                                  int level, int threads)
 {
     std::vector<std::byte> file;
-    encode_png(image, texts, threads, [&](std::span<const std::byte> bytes) {
+    encode_png(image, texts, level, threads, [&](std::span<const std::byte> bytes) {
         file.insert(file.end(), bytes.begin(), bytes.end());
     });
     return file;

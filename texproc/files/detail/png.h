@@ -25,13 +25,13 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// of two filters, the rows are deflated in blocks of a fixed size, on `threads` threads (0: all
 /// cores): same bytes for any number.
 void encode_png(const PngImage& image,
-                const std::vector<std::pair<std::string, std::string>>& texts, int threads,
-                const ByteSink& sink);
+                const std::vector<std::pair<std::string, std::string>>& texts, int level,
+                int threads, const ByteSink& sink);
 
 /// The same in one piece.
 std::vector<std::byte> encode_png(const PngImage& image,
                                   const std::vector<std::pair<std::string, std::string>>& texts,
-                                  int threads = 0);
+                                  int level = 1, int threads = 0);
 
 }  // namespace petrichor::texproc::detail
 
