@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "texproc/detail/portable_math.h"
+
 namespace petrichor::texproc::detail {
 
 void Cells::clear()
@@ -31,8 +33,9 @@ void Cells::add(float x, float y, float z, float a2, float w)
 float lobe_length(float alpha2)
 {
     const float sharpness = 2.0f / std::max(alpha2, kMinAlpha2);
-    const float coth = sharpness < 10.0f ? 1.0f / std::tanh(sharpness) : 1.0f;
-    return coth - 1.0f / sharpness;
+    if (sharpness >= 10.0f) return 1.0f - 1.0f / sharpness;
+    const float e = portable_exp(2.0f * sharpness);
+    return (e + 1.0f) / (e - 1.0f) - 1.0f / sharpness;
 }
 
 namespace {
@@ -147,7 +150,7 @@ void to_means(Cells& cells)
         cells.nz[k] = length > 0.0f ? cells.nz[k] * scale : 1.0f;
         // What the normals differ within the cell widens its lobe: E |d|^2 = 2 (1 - r). Without it
         // every round of merging would narrow the footprint by some per cent.
-        const float lost = 2.0f * std::max(0.0f, 1.0f - length / cells.weight[k]);
+        const float lost = 1.76f * std::max(0.0f, 1.0f - length / cells.weight[k]);
         cells.alpha2[k] = cells.alpha2[k] / cells.weight[k] + lost;
     }
 }
@@ -219,9 +222,13 @@ float useful_edge(const Cells& cells, int limit)
     return std::sqrt(6.0f * area / static_cast<float>(limit));
 }
 
+// Lobes further apart than this share of their alpha are two: one in their place, as wide as both,
+// shares light with everything between them.
+constexpr float kFaithful = 0.7f;
+
 }  // namespace
 
-void merge(Cells& cells, int limit)
+void merge(Cells& cells, int limit, int most)
 {
     if (cells.count() <= limit) return;
     // Weightless cells (parts of a footprint that rounding left empty) have no mean.
@@ -236,9 +243,14 @@ void merge(Cells& cells, int limit)
     }
     cells.resize(kept);
     const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
+    most = std::max(limit, most);
     float share = std::max(0.2f, useful_edge(cells, limit) / widest);
+    if (share > kFaithful) {
+        const float useful = cells.count() > most ? useful_edge(cells, most) / widest : 0.0f;
+        share = std::max(kFaithful, useful);
+    }
     float ep = 0.02f;
-    while (cells.count() > limit) {
+    while (cells.count() > limit && !(share > kFaithful && cells.count() <= most)) {
         merge_round(cells, share, ep);
         // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);

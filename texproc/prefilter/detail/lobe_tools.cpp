@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "texproc/detail/portable_math.h"
+
 namespace petrichor::texproc::detail {
 
 Direction normalized(Direction d)
@@ -12,11 +14,6 @@ Direction normalized(Direction d)
     const float length = std::sqrt(dot(d, d));
     if (!(length > 1e-12f)) return {};
     return {d.x / length, d.y / length, d.z / length};
-}
-
-float dot(const Direction& a, const Direction& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 Frame frame_about(const Direction& n)
@@ -50,7 +47,7 @@ std::array<float, kTable * kTable> make_albedo_table()
                 const double phi = 6.283185307179586 * (turn - std::floor(turn));
                 const double tan2 = a2 * u / (1.0 - u);
                 const double hz = 1.0 / std::sqrt(1.0 + tan2);
-                const double hx = std::sqrt(tan2) * hz * std::cos(phi);
+                const double hx = std::sqrt(tan2) * hz * portable_sin_cos(phi).cosine;
                 const double vh = vx * hx + mu * hz;
                 const double nl = 2.0 * vh * hz - mu;
                 if (vh <= 0.0 || nl <= 0.0) continue;
@@ -163,8 +160,8 @@ struct Lattice {
             const double a = 0.7548776662466927 * j, b = 0.5698402909980532 * j;
             u[k] = static_cast<float>(a - std::floor(a));
             const double phi = 6.283185307179586 * (b - std::floor(b));
-            cosine[k] = static_cast<float>(std::cos(phi));
-            sine[k] = static_cast<float>(std::sin(phi));
+            cosine[k] = static_cast<float>(portable_sin_cos(phi).cosine);
+            sine[k] = static_cast<float>(portable_sin_cos(phi).sine);
         }
     }
 };
@@ -207,8 +204,8 @@ void Samples::draw(const CellsView& cells, int total, std::uint32_t seed, const 
             cell_[static_cast<std::size_t>(v * per_view_ + i)] = cell;
         }
     }
-    kernel.place(cells, {shift_u, std::cos(angle), std::sin(angle)}, lattice(), cell_.data(),
-                 view());
+    kernel.place(cells, {shift_u, portable_cos(angle), portable_sin(angle)}, lattice(),
+                 cell_.data(), view());
     kernel.shade(cells, view());
     kernel.weigh(view());
 }
@@ -294,7 +291,7 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
         }
         // d share / d log x lies between 0 and 1/4 and is near share (1 - share).
         const float slope = std::max(0.05f, share * (1.0f - share));
-        float next = x * std::exp((0.5f - share) / slope);
+        float next = x * portable_exp((0.5f - share) / slope);
         if (!(next > low && next < high)) next = std::sqrt(low * high);
         if (std::abs(next - x) < 2e-4f * x) return next;
         x = next;

@@ -110,7 +110,7 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
             }
         }
     }
-    merge(cells, limit);
+    merge(cells, limit, 4 * limit);
 }
 
 // Grids over level 0.
@@ -223,7 +223,7 @@ private:
                    levels_[k].columns[static_cast<std::size_t>(x)],
                    levels_[k].rows[static_cast<std::size_t>(y)], cells, m);
             if (options_.own_lobes) add_own_lobes(cells, m);
-            if (cells.count() > cells_kept(k)) merge(cells, cells_kept(k));
+            merge(cells, cells_kept(k), 4 * cells_kept(k));
             if (keep) {
                 store_means(means_[k], x, y, m);
                 lists_[static_cast<std::size_t>(y) * width(k) + static_cast<std::size_t>(x)] =

@@ -154,6 +154,21 @@ struct StepSums {
     Real residual = 0.0, runoff = 0.0;
 };
 
+// Where the base of a pack would be above 0 C: melts it with the heat that the ground then gives,
+// and lowers the base's temperature by what that takes. Returns the water that leaves.
+template <class Real, class Mask>
+PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, double conductance,
+                                       double dt, Real& base_c)
+{
+    Real flow = 0.0;
+    const Real warmth = select(covered, larger(base_c, Real(0.0)), Real(0.0));
+    if (!any(warmth > 0.0)) return flow;
+    const Real melted = melt_base(c, warmth * (conductance * dt / kLatentFusion), flow);
+    base_c = base_c - melted * (kLatentFusion / (conductance * dt));
+    c.total_melt += melted;
+    return flow;
+}
+
 // dt seconds with constant weather. `rain`, `snow` in kg m-2 s-1; `resistivity` (1 / conductivity)
 // of the snow layers.
 template <class Real>
@@ -264,20 +279,21 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     // ---- new temperatures below
     Real interface_c = surface_c;
     if (any_snow) snow_temperatures(c, column, interface_c);
-    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
 
     // ---- masses
     const Real vapour_mass = f.vapour * dt;
     const Real melt_mass = melt_flux * (dt / kLatentFusion);
     Real to_film = rain_mass;
     if (any_snow) {
-        const Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
-                                        select(covered, larger(melt_mass, zero), zero),
-                                        select(covered, rain_mass, zero), snow <= zero, k);
+        Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
+                                  select(covered, larger(melt_mass, zero), zero),
+                                  select(covered, rain_mass, zero), snow <= zero, k);
+        runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
         sums.runoff += select(covered, runoff, zero);
     }
+    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
     c.total_melt += larger(melt_mass, zero);
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
                bare_icy, wet, k, part);
