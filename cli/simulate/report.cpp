@@ -157,7 +157,7 @@ const panels=D.panels.map((p,index)=>{const box=document.createElement("div");bo
 const LEFT=44,RIGHT=10;
 function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink"),dot=css("--dot");
  const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
- const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/78)));
+ const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/66)));
  for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:8,top=6,ratio=window.devicePixelRatio||1;
   canvas.style.height=h+foot+top+"px";canvas.width=Math.round(width*ratio);canvas.height=Math.round((h+foot+top)*ratio);
   const c=canvas.getContext("2d");c.scale(ratio,ratio);c.clearRect(0,0,width,h+foot+top);c.font="12px system-ui,'DejaVu Sans',sans-serif";
