@@ -305,9 +305,10 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     if (options.anisotropic) {
         const RobustFit robust = student_t(view, mean_normal, chosen.alpha2, 2, 8, true, kernel);
         const EllipticLobe found = fit_elliptic(s.cost, chosen, robust, 90).first;
-        // On fresh samples against the chosen lobe, as the guard does.
+        // On fresh samples against the chosen lobe, as the guard does; the mass of an ellipse is
+        // known to about a hundredth only.
         const LobeCost judge(view, whole, 2 * effort.samples, 2 * seed + 1, second_samples);
-        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
+        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 0.01f) {
             out = {{found.nx, found.ny, found.nz},
                    chosen.alpha2,
                    true,
