@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "texproc/detail/morphology.h"
 #include "texproc/detail/parallel.h"
+#include "texproc/detail/portable_math.h"
 
 namespace petrichor::texproc {
 
@@ -147,8 +148,9 @@ Image ambient_occlusion(const Image& height, const BakeOptions& options)
             const float share = static_cast<float>(s) / kSteps;
             const float r = std::max(static_cast<float>(s), reach * share * share);
             if (r > reach) break;
-            samples[d].push_back({static_cast<int>(std::lround(r * std::cos(angle))),
-                                  static_cast<int>(std::lround(r * std::sin(angle))), rise / r});
+            samples[d].push_back({static_cast<int>(std::lround(r * detail::portable_cos(angle))),
+                                  static_cast<int>(std::lround(r * detail::portable_sin(angle))),
+                                  rise / r});
         }
     }
     const int w = height.width, h = height.height;

@@ -10,6 +10,7 @@
 #include "cli/texture/naming.h"
 #include "cli/words.h"
 #include "texproc/pack.h"
+#include "texproc/prefilter/fresh_maps.h"
 #include "texproc/prefilter/protocol.h"
 
 namespace petrichor::cli {
@@ -17,6 +18,8 @@ namespace petrichor::cli {
 namespace {
 
 constexpr int kHardSize = 512;
+constexpr int kFreshSize = 384;
+constexpr int kPatch = 37;  // no level has a border at every patch
 
 // A set as its maps, and once more after rain where a height map tells where water stands.
 void add_set(const std::string& set, const ProtocolRequest& request,
@@ -40,6 +43,14 @@ void add_set(const std::string& set, const ProtocolRequest& request,
     if (levels.channels > 1) levels = texproc::channel_of(levels, 0);
     materials.push_back(
         texproc::with_puddles(materials.back(), texproc::to_image(levels, ColorSpace::Data)));
+}
+
+void add_patchwork(std::vector<texproc::ScoredMaps>& materials)
+{
+    const std::size_t count = materials.size();
+    for (std::size_t i = 0; count > 1 && i < count; ++i) {
+        materials.push_back(texproc::patchwork(materials[i], materials[(i + 1) % count], kPatch));
+    }
 }
 
 std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
@@ -67,6 +78,12 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
     const std::vector<texproc::Variant> variants = chosen_variants(request);
     std::vector<texproc::ScoredMaps> materials;
     for (const std::string& set : request.sets) add_set(set, request, reading, materials);
+    if (request.patchwork) add_patchwork(materials);
+    for (const std::uint32_t seed : request.fresh) {
+        for (texproc::ScoredMaps& maps : texproc::fresh_maps(kFreshSize, seed)) {
+            materials.push_back(std::move(maps));
+        }
+    }
     if (request.hard) {
         for (texproc::ScoredMaps& maps : texproc::hard_maps(kHardSize)) {
             materials.push_back(std::move(maps));

@@ -153,8 +153,8 @@ TEST(Codes, ChoiceBeatsRounding)
         const float t = 0.1f + 0.01f * static_cast<float>(i);
         const Direction n = normalized({t, 0.37f * t, 1.0f});
         cells.add(n.x, n.y, n.z, 2e-5f, 1.0f);
-        const LobeCost cost(cells.view(), masses(cells.view()), 640, static_cast<std::uint32_t>(i),
-                            samples);
+        const LobeCost cost(cells.view(), whole_of(cells.view(), {}), 640,
+                            static_cast<std::uint32_t>(i), samples);
         const Codes plain = rounded(n, 2e-5f, as);
         const Codes chosen = cheapest_codes(cost, n, 2e-5f, plain, 0.0f, as);
         const float a = cost(read_normal(plain, as), read_alpha2(plain, as));

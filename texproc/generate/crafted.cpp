@@ -1,6 +1,7 @@
 // Wood and metal.
 #include <array>
 
+#include "texproc/detail/portable_math.h"
 #include "texproc/generate/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
@@ -24,8 +25,8 @@ std::vector<float> scratch_layer(const MaterialSurface& surface, int count, floa
         const float length = longest_m * (0.15f + 0.85f * hash_unit(h, 2) * hash_unit(h, 3));
         const float depth = 0.25f + 0.75f * hash_unit(h, 4);
         const int steps = std::max(2, static_cast<int>(length / surface.texel_m()));
-        const float dx = std::cos(angle);
-        const float dy = std::sin(angle);
+        const float dx = portable_cos(angle);
+        const float dy = portable_sin(angle);
         const float bend = 0.4f * hash_signed(h, 5) / static_cast<float>(steps);
         const float x0 = hash_unit(h, 6) * static_cast<float>(size);
         const float y0 = hash_unit(h, 7) * static_cast<float>(size);
@@ -85,12 +86,12 @@ void make_plank(MaterialSurface& surface)
             ky -= surface.tile_m * std::round(ky / surface.tile_m);
             const float reach = ky / (4.2f * radius);
             if (std::abs(reach) > 4.0f) continue;
-            const float push = 1.5f * radius * std::exp(-reach * reach);
+            const float push = 1.5f * radius * portable_exp(-reach * reach);
             line_x -= std::copysign(
-                std::min(push, std::abs(kx)) * std::exp(-std::abs(kx) / (4.0f * radius)), kx);
+                std::min(push, std::abs(kx)) * portable_exp(-std::abs(kx) / (4.0f * radius)), kx);
             const float r = std::sqrt(kx * kx + 0.30f * ky * ky) / radius + 0.06f * edge_noise[k];
             knot = std::max(knot, saturate(1.0f - r));
-            if (r < 1.0f) knot_ring = 0.5f + 0.5f * std::sin(24.0f * r);
+            if (r < 1.0f) knot_ring = 0.5f + 0.5f * portable_sin(24.0f * r);
         }
         const float rings = line_x * (150.0f + 70.0f * hash_signed(h, 3));
         const float ring = rings - std::floor(rings);
@@ -158,9 +159,9 @@ void make_metal_plate(MaterialSurface& surface)
                                              y * to_cells + 0.35f * warp_y[k], cells, cells, seed);
         const float tone = hash_signed(crystal.id, 1);
         const float angle = 6.2831853f * hash_unit(crystal.id, 2);
-        const float feather =
-            std::sin(55.0f * (crystal.dx * std::cos(angle) + crystal.dy * std::sin(angle)) +
-                     3.0f * warp_x[k]);
+        const float feather = portable_sin(
+            55.0f * (crystal.dx * portable_cos(angle) + crystal.dy * portable_sin(angle)) +
+            3.0f * warp_x[k]);
         const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
         MaterialTexel texel;
         texel.height_m = 0.00050f * waves[k] + 0.000010f * tone + 0.000008f * fine[k] -

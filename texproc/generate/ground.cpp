@@ -1,6 +1,7 @@
 // Ground and cast surfaces: asphalt, concrete, soil, grass.
 #include <array>
 
+#include "texproc/detail/portable_math.h"
 #include "texproc/generate/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
@@ -181,8 +182,8 @@ void make_grass_ground(MaterialSurface& surface)
         for (int s = 0; s <= steps; ++s) {
             const float t = static_cast<float>(s) / static_cast<float>(steps);
             const float half = std::max(0.5f, width * (1.0f - t * t));
-            const float nx = -std::sin(heading);
-            const float ny = std::cos(heading);
+            const float nx = -portable_sin(heading);
+            const float ny = portable_cos(heading);
             const int reach = static_cast<int>(half + 0.5f);
             for (int w = -reach; w <= reach; ++w) {
                 const float across = static_cast<float>(w) / (half + 0.5f);
@@ -192,7 +193,7 @@ void make_grass_ground(MaterialSurface& surface)
                 const int py = wrap_index(static_cast<int>(std::floor(y + ny * offset)), size);
                 MaterialTexel& texel =
                     surface.texels[static_cast<std::size_t>(py) * n + static_cast<std::size_t>(px)];
-                const float height = 0.010f + 0.016f * order + 0.010f * std::sin(3.0f * t) -
+                const float height = 0.010f + 0.016f * order + 0.010f * portable_sin(3.0f * t) -
                                      0.0015f * across * across;
                 if (height < texel.height_m) continue;
                 texel.height_m = height;
@@ -200,8 +201,8 @@ void make_grass_ground(MaterialSurface& surface)
                 texel.roughness = 0.62f;
             }
             heading += curl * length / static_cast<float>(steps);
-            x += std::cos(heading) * length / static_cast<float>(steps);
-            y += std::sin(heading) * length / static_cast<float>(steps);
+            x += portable_cos(heading) * length / static_cast<float>(steps);
+            y += portable_sin(heading) * length / static_cast<float>(steps);
         }
     }
 }

@@ -1,6 +1,7 @@
 // Stone underfoot: setts, slabs, hammered granite.
 #include <array>
 
+#include "texproc/detail/portable_math.h"
 #include "texproc/generate/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
@@ -120,7 +121,7 @@ void make_cobble(MaterialSurface& surface)
         color *= 0.92f + 0.20f * hash_signed(id, 13);
         color = granite_grain(color, pits[k], grain[k]) * (1.0f + 0.10f * bumps[k]);
         color *= mix(0.86f, 1.07f, polish);
-        const float grime = saturate(1.15f * std::pow(1.0f - flank, 0.8f) +
+        const float grime = saturate(1.15f * portable_pow(1.0f - flank, 0.8f) +
                                      0.25f * smooth_step(0.2f, 0.9f, -warp_x[k]));
         color = mix(color, kDirt, 0.78f * grime);
         color = mix(color, kMoss, 0.55f * green * smooth_step(0.15f, 0.75f, 1.0f - flank));

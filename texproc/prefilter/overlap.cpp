@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "texproc/detail/portable_math.h"
 #include "texproc/prefilter/detail/elliptic_fit.h"
 #include "texproc/prefilter/detail/lobe_cost.h"
 #include "texproc/prefilter/detail/simplex.h"
@@ -28,14 +29,14 @@ struct Effort {
 
 Effort effort_at(int level, bool quick)
 {
-    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 960, 1280};
+    static constexpr int kSamples[] = {120, 120, 120, 160, 240, 320, 960, 1280};
     const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
-        // The finest levels hold most texels: there the cheapest of the fits, without a search.
-        if (level <= 2) return {40, 0, 0, 0, 0, 0, false, 3, 16};
-        const int half = std::max(80, samples / 2);
+        // The finest levels hold most texels: there the cheapest of the fits and of a few alphas.
+        if (level <= 2) return {40, 0, 5, 0, 6, 8, false, 3, 16};
+        const int half = level >= 6 ? samples / 3 / 40 * 40 : std::max(80, samples / 2);
         if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
-        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 1024};
+        return {half, half, 6, 3, 6, 20, false, 4, level <= 4 ? 64 : level <= 6 ? 160 : 256};
     }
     if (level <= 1) return {samples, 2 * samples, 5, 3, 8, 18, false, 4, 16};
     if (level == 2) return {samples, 2 * samples, 6, 3, 8, 24, false, 4, 64};
@@ -54,7 +55,7 @@ Candidate climb(const LobeCost& cost, const Direction& normal, float low2, float
     if (count < 1) return {};
     float alpha2s[LobeCost::kMost], costs[LobeCost::kMost];
     const float ratio =
-        count > 1 ? std::pow(high2 / low2, 1.0f / static_cast<float>(count - 1)) : 1.0f;
+        count > 1 ? portable_exp(portable_log(high2 / low2) / static_cast<float>(count - 1)) : 1.0f;
     float a2 = low2;
     for (int k = 0; k < count; ++k, a2 *= ratio) alpha2s[k] = clamped2(a2);
     cost(normal, alpha2s, count, costs);
@@ -67,12 +68,12 @@ Candidate refine_line(const LobeCost& cost, const Candidate& from, float step, i
 {
     if (budget <= 0) return from;
     const auto f = [&](const std::array<float, 1>& x) {
-        return cost(from.normal, clamped2(std::exp(x[0])));
+        return cost(from.normal, clamped2(portable_exp(x[0])));
     };
     const auto [x, value] =
-        simplex<1>({std::log(from.alpha2)}, from.cost, {step}, budget, 1e-4f, f);
+        simplex<1>({portable_log(from.alpha2)}, from.cost, {step}, budget, 1e-4f, f);
     if (!(value < from.cost)) return from;
-    return {from.normal, clamped2(std::exp(x[0])), value};
+    return {from.normal, clamped2(portable_exp(x[0])), value};
 }
 
 Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
@@ -83,12 +84,12 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
     const auto f = [&](const std::array<float, 3>& x) {
         const Direction n = leaned(frame, alpha * x[0], alpha * x[1]);
         if (n.z < 0.05f) return 2.0f;
-        return cost(n, clamped2(std::exp(x[2])));
+        return cost(n, clamped2(portable_exp(x[2])));
     };
-    const auto [x, value] = simplex<3>({0.0f, 0.0f, std::log(from.alpha2)}, from.cost,
+    const auto [x, value] = simplex<3>({0.0f, 0.0f, portable_log(from.alpha2)}, from.cost,
                                        {0.35f, 0.35f, 0.5f}, budget, 2e-4f, f);
     if (!(value < from.cost)) return from;
-    return {leaned(frame, alpha * x[0], alpha * x[1]), clamped2(std::exp(x[2])), value};
+    return {leaned(frame, alpha * x[0], alpha * x[1]), clamped2(portable_exp(x[2])), value};
 }
 
 // Footprints of nearly one lobe, most texels of the finest levels, have a closed form: the
@@ -101,27 +102,42 @@ Candidate refine_joint(const LobeCost& cost, const Candidate& from, int budget)
 float nearly_one_lobe(const Cells& cells, const Direction& normal, float light2, float most_spread)
 {
     const float variance = slope_variance(cells.view(), normal);
-    float least = 1.0f;
-    for (const float a2 : cells.alpha2) least = std::min(least, a2);
+    const auto [narrow, wide] = std::minmax_element(cells.alpha2.begin(), cells.alpha2.end());
+    const float least = *narrow + light2, most = *wide + light2;
     // Cheap tests first: no footprint passes that is far above its narrowest lobe.
-    if (variance > 4.0f * most_spread * (least + light2)) return 0.0f;
+    if (variance > 4.0f * most_spread * least || most > 4.0f * least) return 0.0f;
+    const float middle = std::sqrt(least * most);
     float whole = 0.0f, mean = 0.0f, square = 0.0f;
     for (std::size_t i = 0; i < cells.alpha2.size(); ++i) {
+        // log(a / middle), whose ratio is at most 2.
+        const float a = cells.alpha2[i] + light2;
+        const float s = (a - middle) / (a + middle), s2 = s * s;
+        const float x =
+            2.0f * s *
+            (1.0f + s2 * (1.0f / 3.0f + s2 * (0.2f + s2 * (1.0f / 7.0f + s2 * (1.0f / 9.0f)))));
         const float w = cells.weight[i];
-        const float x = std::log(cells.alpha2[i] + light2);
         whole += w;
         mean += w * x;
         square += w * x * x;
     }
     mean /= whole;
     const float spread = std::max(0.0f, square / whole - mean * mean);
-    const float centre = std::exp(mean);
+    const float centre = middle * portable_exp(mean);
     if (spread > 0.06f || variance > most_spread * centre) return 0.0f;
     const float share = share_inside(cells.view(), normal, light2, centre + 0.92f * variance);
     if (!(std::abs(share - 0.5f) < 0.012f)) return 0.0f;
     const float rough = std::max(0.0f, std::sqrt(centre) - 0.4f);
     return std::clamp(centre + (0.88f - 2.9f * rough * rough) * variance - light2, kMinAlpha2,
                       1.0f);
+}
+
+// Several lobes far apart share little light with any one, and that little is what few samples tell
+// badly: true where the narrowest lobe is lost among the slopes or beside the widest.
+bool far_apart(const Cells& cells, const Direction& normal, float light2)
+{
+    const auto [least, most] = std::minmax_element(cells.alpha2.begin(), cells.alpha2.end());
+    return *most + light2 > 8.0f * (*least + light2) ||
+           slope_variance(cells.view(), normal) > 4.0f * (*least + light2);
 }
 
 // What a footprint is searched with.
@@ -143,15 +159,20 @@ struct Search {
 };
 
 // The best alpha about the mean normal.
-Candidate best_rough(const Search& s, bool search_on)
+Candidate best_rough(const Search& s)
 {
     const Direction& n = s.plain.normal;
     Candidate rough = climb(s.cost, n, s.low2, s.high2, s.effort.ladder);
+    // Where many narrow lobes lie apart, little of their light is met by any lobe about their mean,
+    // and a wide dim one misplaces least.
+    if (s.high2 < 0.4f) {
+        const Candidate wide = climb(s.cost, n, 0.45f, 0.9f, 2);
+        if (wide.cost < rough.cost) rough = wide;
+    }
     if (s.median.cost < rough.cost) rough = s.median;
     if (s.plain.cost <= rough.cost) rough = s.plain;
-    if (!search_on) return rough;
     const float rung =
-        std::log(s.high2 / s.low2) / static_cast<float>(std::max(1, s.effort.ladder - 1));
+        portable_log(s.high2 / s.low2) / static_cast<float>(std::max(1, s.effort.ladder - 1));
     return refine_line(s.cost, rough, 0.5f * rung, s.effort.line);
 }
 
@@ -205,8 +226,7 @@ Candidate cheapest(const Search& s, const Candidate& rough, const Candidate& joi
 }
 
 // Starts, searches and guard. `second`: where the guard's samples go.
-Candidate searched(Search& s, const Masses& mass, float plain2, int level, std::uint32_t seed,
-                   Samples& second)
+Candidate searched(Search& s, const Whole& whole, float plain2, std::uint32_t seed, Samples& second)
 {
     const Direction& mean = s.plain.normal;
     const auto started = [&](const Direction& n, float alpha2) {
@@ -224,10 +244,10 @@ Candidate searched(Search& s, const Masses& mass, float plain2, int level, std::
     }
     const Candidate mode = s.cost.mode();
     s.mode = started(mode.normal.z < 0.05f ? mean : mode.normal, mode.alpha2);
-    const Candidate rough = best_rough(s, !s.options.joint || level > 2);
+    const Candidate rough = best_rough(s);
     const Candidate joint = s.options.joint ? best_joint(s, rough) : rough;
     if (s.effort.guard == 0) return cheapest(s, rough, joint);
-    return guarded(LobeCost(s.cells, mass, s.effort.guard, 2 * seed + 1, second), s, rough, joint);
+    return guarded(LobeCost(s.cells, whole, s.effort.guard, 2 * seed + 1, second), s, rough, joint);
 }
 
 }  // namespace
@@ -249,7 +269,11 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
             return lobe(mean_normal, one);
     }
 
-    const Effort effort = effort_at(level, options.quick);
+    Effort effort = effort_at(level, options.quick);
+    if (level <= 5 && far_apart(cells, mean_normal, light2)) {
+        effort.samples *= 2;
+        if (effort.guard > 0) effort.guard = std::max(effort.guard, effort.samples);
+    }
     const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
     const auto unlit = [&](float a2) {
         // A lobe narrower than any of the footprint's own is possible only through the light.
@@ -258,30 +282,31 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     thread_local Cells lit;
     thread_local Samples first_samples, second_samples;
     lit = cells;
-    merge(lit, effort.cells);
+    merge(lit, effort.cells, lit.count());
     for (float& a2 : lit.alpha2) a2 = clamped2(a2 + light2);
     const CellsView view = lit.view();
-    const Masses mass = masses(view);
+    const Whole whole = whole_of(view, means);
     const LobeKernel& kernel = lobe_kernel();
     Search s{options,
              effort,
              kernel,
              view,
-             LobeCost(view, mass, effort.samples, 2 * seed, first_samples),
+             LobeCost(view, whole, effort.samples, 2 * seed, first_samples),
              {mean_normal, clamped2(plain_alpha2 + light2)}};
     FittedLobe out = lobe(mean_normal, one);
     Candidate chosen{mean_normal, one + light2};
     if (!(one > 0.0f)) {
-        chosen = searched(s, mass, plain_alpha2 + light2, level, seed, second_samples);
+        chosen = searched(s, whole, plain_alpha2 + light2, seed, second_samples);
         out = lobe(chosen.normal, unlit(chosen.alpha2));
     }
 
     if (options.anisotropic) {
         const RobustFit robust = student_t(view, mean_normal, chosen.alpha2, 2, 8, true, kernel);
         const EllipticLobe found = fit_elliptic(s.cost, chosen, robust, 90).first;
-        // On fresh samples against the chosen lobe, as the guard does.
-        const LobeCost judge(view, mass, 2 * effort.samples, 2 * seed + 1, second_samples);
-        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
+        // On fresh samples against the chosen lobe, as the guard does; the mass of an ellipse is
+        // known to about a hundredth only.
+        const LobeCost judge(view, whole, 2 * effort.samples, 2 * seed + 1, second_samples);
+        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 0.01f) {
             out = {{found.nx, found.ny, found.nz},
                    chosen.alpha2,
                    true,
@@ -290,9 +315,10 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
                    unlit(found.alpha2_y),
                    {}};
         }
-    } else if (coarse_codes(chosen.alpha2, options.stored)) {
+    }
+    if (!out.elliptic && coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.
-        const LobeCost judge(view, mass, 2 * effort_at(level, false).samples, 2 * seed + 1,
+        const LobeCost judge(view, whole, 2 * effort_at(level, false).samples, 2 * seed + 1,
                              second_samples);
         const Codes plain = rounded(mean_normal, plain_alpha2, options.stored);
         out.codes = cheapest_codes(judge, out.normal, out.alpha2, plain, light2, options.stored);

@@ -7,60 +7,13 @@
 
 #include "base/error.h"
 #include "texproc/detail/input.h"
+#include "texproc/prefilter/detail/made_surface.h"
 
 namespace petrichor::texproc {
 
 namespace {
 
-std::uint32_t hash(std::uint32_t x, std::uint32_t y, std::uint32_t which)
-{
-    std::uint32_t h = x * 0x9e3779b9u ^ y * 0x85ebca6bu ^ which * 0xc2b2ae35u;
-    h ^= h >> 15;
-    h *= 0x2c1b3c6du;
-    h ^= h >> 12;
-    h *= 0x297a2d39u;
-    return h ^ (h >> 15);
-}
-
-// A stream of random numbers for a place, by number.
-struct Place {
-    std::uint32_t x, y;
-    float uniform(std::uint32_t which) const
-    {
-        return static_cast<float>(hash(x, y, which) >> 8) / 16777216.0f;
-    }
-    float gaussian(std::uint32_t which) const
-    {
-        return std::sqrt(-2.0f * std::log(1.0f - uniform(2 * which))) *
-               std::cos(6.2831853f * uniform(2 * which + 1));
-    }
-};
-
-struct Texel {
-    float slope_x = 0.0f, slope_y = 0.0f, p = 0.5f;
-};
-
-template <class Surface>
-ScoredMaps material(const char* name, int size, const Surface& surface)
-{
-    Image n(size, size, 3, ColorSpace::Data), r(size, size, 1, ColorSpace::Data);
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            const Texel t = surface(x, y);
-            const float length = std::sqrt(1.0f + t.slope_x * t.slope_x + t.slope_y * t.slope_y);
-            n.at(x, y, 0) = 0.5f - 0.5f * t.slope_x / length;
-            n.at(x, y, 1) = 0.5f - 0.5f * t.slope_y / length;
-            n.at(x, y, 2) = 0.5f + 0.5f / length;
-            r.at(x, y, 0) = t.p;
-        }
-    }
-    return {name, to_raw(n, PixelType::U16), to_raw(r, PixelType::U16)};
-}
-
-Place place(int x, int y)
-{
-    return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
-}
+using namespace detail;
 
 // Flakes of 3 x 3 texels at random angles, half of the area, in a smooth lacquer.
 Texel glitter(int x, int y)
@@ -127,12 +80,12 @@ std::vector<ScoredMaps> hard_maps(int size)
     const auto sized = [size](auto surface) {
         return [size, surface](int x, int y) { return surface(x, y, size); };
     };
-    return {material("glitter", size, glitter),
-            material("brushed metal", size, brushed),
-            material("two-gloss tile", size, sized(two_gloss)),
-            material("rough noise", size, rough_noise),
-            material("slope checker", size, checker),
-            material("scratched mirror", size, sized(scratched))};
+    return {made_material("glitter", size, size, glitter),
+            made_material("brushed metal", size, size, brushed),
+            made_material("two-gloss tile", size, size, sized(two_gloss)),
+            made_material("rough noise", size, size, rough_noise),
+            made_material("slope checker", size, size, checker),
+            made_material("scratched mirror", size, size, sized(scratched))};
 }
 
 ScoredMaps scored_maps(std::string name, const RawImage& normal, const RawImage& map,

@@ -5,26 +5,44 @@
 
 namespace petrichor::texproc::detail {
 
-Masses masses(const CellsView& cells)
+namespace {
+
+// How much diffuse light counts beside mirrored light: a normal half a radian off costs a sixth
+// of the lobe.
+constexpr float kDiffuseShare = 0.7f;
+
+}  // namespace
+
+Whole whole_of(const CellsView& cells, const Means& means)
 {
-    Masses mass{};
+    Whole whole{{}, {means.nx, means.ny, means.nz}};
     for (int i = 0; i < cells.count; ++i) {
         float mine[kViews];
         lobe_albedo_in_views(cells.alpha2[i], {cells.nx[i], cells.ny[i], cells.nz[i]}, mine);
-        for (std::size_t v = 0; v < kViews; ++v) mass[v] += cells.weight[i] * mine[v];
+        for (std::size_t v = 0; v < kViews; ++v) whole.mass[v] += cells.weight[i] * mine[v];
     }
-    return mass;
+    return whole;
 }
 
-LobeCost::LobeCost(const CellsView& cells, const Masses& mass, int samples, std::uint32_t seed,
+LobeCost::LobeCost(const CellsView& cells, const Whole& whole, int samples, std::uint32_t seed,
                    Samples& storage)
-    : kernel_(lobe_kernel()), storage_(storage), mass_(mass)
+    : kernel_(lobe_kernel()),
+      storage_(storage),
+      whole_(whole),
+      length_(std::sqrt(dot(whole.mean, whole.mean)))
 {
     storage_.draw(cells, samples, seed, kernel_);
 }
 
+// |n - mean|^2 - (1 - length)^2 of a unit normal.
+float LobeCost::diffuse(const Direction& n) const
+{
+    return kDiffuseShare * std::max(0.0f, 2.0f * (length_ - dot(n, whole_.mean)));
+}
+
 void LobeCost::operator()(const Direction& n, const float* alpha2s, int count, float* costs) const
 {
+    const float turned = diffuse(n);
     float overlaps[kViews * kMost];
     kernel_.overlaps(storage_.view(), {n.x, n.y, n.z, 0.0f}, alpha2s, count, overlaps);
     for (int k = 0; k < count; ++k) {
@@ -32,12 +50,12 @@ void LobeCost::operator()(const Direction& n, const float* alpha2s, int count, f
         int views = 0;
         lobe_albedo_in_views(alpha2s[k], n, mine);
         for (int v = 0; v < kViews; ++v) {
-            const float r = mass_[static_cast<std::size_t>(v)];
+            const float r = whole_.mass[static_cast<std::size_t>(v)];
             if (!(r > 1e-6f)) continue;
             sum += std::min(2.0f, std::max(0.0f, (r + mine[v] - overlaps[v * count + k]) / r));
             ++views;
         }
-        costs[k] = views ? sum / static_cast<float>(views) : 0.0f;
+        costs[k] = turned + (views ? sum / static_cast<float>(views) : 0.0f);
     }
 }
 
@@ -55,7 +73,7 @@ float LobeCost::operator()(const EllipticLobe& e) const
     float sum = 0.0f;
     int views = 0;
     for (int v = 0; v < kViews; ++v) {
-        const float r = mass_[static_cast<std::size_t>(v)];
+        const float r = whole_.mass[static_cast<std::size_t>(v)];
         if (!(r > 1e-6f)) continue;
         const float* d = kViewDirections[v];
         const float nv = e.nx * d[0] + e.ny * d[1] + e.nz * d[2];
@@ -69,7 +87,7 @@ float LobeCost::operator()(const EllipticLobe& e) const
         sum += std::min(2.0f, std::max(0.0f, (r + m - overlaps[v]) / r));
         ++views;
     }
-    return views ? sum / static_cast<float>(views) : 0.0f;
+    return diffuse({e.nx, e.ny, e.nz}) + (views ? sum / static_cast<float>(views) : 0.0f);
 }
 
 Candidate LobeCost::mode() const

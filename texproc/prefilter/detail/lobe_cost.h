@@ -7,10 +7,12 @@
 
 namespace petrichor::texproc::detail {
 
-using Masses = std::array<float, kViews>;
-
-/// Light of a footprint under each view.
-Masses masses(const CellsView& cells);
+/// What every lobe for a footprint is measured against.
+struct Whole {
+    std::array<float, kViews> mass{};  ///< mirrored light under each view
+    Direction mean;                    ///< mean normal, as short as it is
+};
+Whole whole_of(const CellsView& cells, const Means& means);
 
 /// A lobe with what it costs.
 struct Candidate {
@@ -20,11 +22,13 @@ struct Candidate {
 };
 
 /// What a lobe costs on one set of samples: mass + mass - 2 overlap, relative to the mass of the
-/// footprint, mean over the views, 0..2. A lobe that wanders off the samples costs 2.
+/// footprint, mean over the views, 0..2. A lobe that wanders off the samples costs 2. To that comes
+/// a share of what its normal n does to diffuse light, |n - mean|^2 more than the mean direction
+/// itself, so that no texel turns from the light for a little more gloss.
 class LobeCost {
 public:
     /// Draws the samples into `storage`, which must outlive the cost.
-    LobeCost(const CellsView& cells, const Masses& mass, int samples, std::uint32_t seed,
+    LobeCost(const CellsView& cells, const Whole& whole, int samples, std::uint32_t seed,
              Samples& storage);
 
     static constexpr int kMost = 16;
@@ -39,9 +43,12 @@ public:
     Candidate mode() const;
 
 private:
+    float diffuse(const Direction& n) const;
+
     const LobeKernel& kernel_;
     Samples& storage_;
-    Masses mass_;
+    Whole whole_;
+    float length_;  ///< of the mean
 };
 
 /// n + u t + v b, unit.

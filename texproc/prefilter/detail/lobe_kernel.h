@@ -78,7 +78,8 @@ struct LobeKernel {
     /// Divides the weights by density and number, after shade().
     void (*weigh)(const SamplesView& samples);
     /// out[v * count + k], for lobes that share a normal: the sum over the samples of view v of
-    /// 2 weight min(radiance, lobe k) above the horizon and of -weight lobe k below it.
+    /// 2 weight min(radiance, lobe k) above the horizon and of -weight min(8 radiance, lobe k)
+    /// below it.
     void (*overlaps)(const SamplesView& samples, const Lobe& lobe, const float* alpha2s, int count,
                      float* out);
     /// out[v]: the same for one elliptic lobe.

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "texproc/detail/portable_math.h"
+
 namespace petrichor::texproc::detail {
 
 Direction normalized(Direction d)
@@ -12,11 +14,6 @@ Direction normalized(Direction d)
     const float length = std::sqrt(dot(d, d));
     if (!(length > 1e-12f)) return {};
     return {d.x / length, d.y / length, d.z / length};
-}
-
-float dot(const Direction& a, const Direction& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 Frame frame_about(const Direction& n)
@@ -50,7 +47,7 @@ std::array<float, kTable * kTable> make_albedo_table()
                 const double phi = 6.283185307179586 * (turn - std::floor(turn));
                 const double tan2 = a2 * u / (1.0 - u);
                 const double hz = 1.0 / std::sqrt(1.0 + tan2);
-                const double hx = std::sqrt(tan2) * hz * std::cos(phi);
+                const double hx = std::sqrt(tan2) * hz * portable_sin_cos(phi).cosine;
                 const double vh = vx * hx + mu * hz;
                 const double nl = 2.0 * vh * hz - mu;
                 if (vh <= 0.0 || nl <= 0.0) continue;
@@ -163,8 +160,8 @@ struct Lattice {
             const double a = 0.7548776662466927 * j, b = 0.5698402909980532 * j;
             u[k] = static_cast<float>(a - std::floor(a));
             const double phi = 6.283185307179586 * (b - std::floor(b));
-            cosine[k] = static_cast<float>(std::cos(phi));
-            sine[k] = static_cast<float>(std::sin(phi));
+            cosine[k] = static_cast<float>(portable_sin_cos(phi).cosine);
+            sine[k] = static_cast<float>(portable_sin_cos(phi).sine);
         }
     }
 };
@@ -207,8 +204,8 @@ void Samples::draw(const CellsView& cells, int total, std::uint32_t seed, const 
             cell_[static_cast<std::size_t>(v * per_view_ + i)] = cell;
         }
     }
-    kernel.place(cells, {shift_u, std::cos(angle), std::sin(angle)}, lattice(), cell_.data(),
-                 view());
+    kernel.place(cells, {shift_u, portable_cos(angle), portable_sin(angle)}, lattice(),
+                 cell_.data(), view());
     kernel.shade(cells, view());
     kernel.weigh(view());
 }
@@ -223,6 +220,34 @@ float slope2(const Direction& normal, float x, float y, float z)
     const float sy = normal.z * x - normal.x * z;
     const float sz = normal.x * y - normal.y * x;
     return (sx * sx + sy * sy + sz * sz) / (c * c);
+}
+
+struct Spread {
+    float low, high;  // of the values
+    float whole;      // sum of the weights
+};
+
+// In lanes, which compilers make vectors of; count is a multiple of kLanes.
+Spread spread_of(const float* values, const float* weights, int count)
+{
+    float low[kLanes], high[kLanes], whole[kLanes] = {};
+    std::copy_n(values, kLanes, low);
+    std::copy_n(values, kLanes, high);
+    for (int i = 0; i < count; i += kLanes) {
+        for (int l = 0; l < kLanes; ++l) {
+            const float v = values[i + l];
+            low[l] = v < low[l] ? v : low[l];
+            high[l] = v > high[l] ? v : high[l];
+            whole[l] += weights[i + l];
+        }
+    }
+    Spread spread{low[0], high[0], 0.0f};
+    for (int l = 0; l < kLanes; ++l) {
+        spread.low = std::min(spread.low, low[l]);
+        spread.high = std::max(spread.high, high[l]);
+        spread.whole += whole[l];
+    }
+    return spread;
 }
 
 int padded(int count)
@@ -248,21 +273,17 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
     for (int i = 0; i < cells.count; ++i) {
         s[i] = cells.alpha2[i] + slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
     }
-    float low = 1e30f, high = 0.0f, whole = 0.0f;
-    for (int i = 0; i < cells.count; ++i) {
-        w[i] = cells.weight[i];
-        low = std::min(low, s[i]);
-        high = std::max(high, s[i]);
-        whole += w[i];
-    }
+    for (int i = 0; i < cells.count; ++i) w[i] = cells.weight[i];
     for (int i = cells.count; i < count; ++i) {
-        s[i] = 1.0f;
+        s[i] = s[0];
         w[i] = 0.0f;
     }
+    const Spread spread = spread_of(s, w, count);
+    float low = spread.low, high = spread.high;
     // Newton in log x on the share inside, kept between the bounds.
     float x = std::sqrt(low * high);
     for (int round = 0; round < 16 && high > low * 1.0005f; ++round) {
-        const float share = kernel.inside(s, w, count, x) / whole;
+        const float share = kernel.inside(s, w, count, x) / spread.whole;
         if (share < 0.5f) {
             low = x;
         } else {
@@ -270,7 +291,7 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
         }
         // d share / d log x lies between 0 and 1/4 and is near share (1 - share).
         const float slope = std::max(0.05f, share * (1.0f - share));
-        float next = x * std::exp((0.5f - share) / slope);
+        float next = x * portable_exp((0.5f - share) / slope);
         if (!(next > low && next < high)) next = std::sqrt(low * high);
         if (std::abs(next - x) < 2e-4f * x) return next;
         x = next;

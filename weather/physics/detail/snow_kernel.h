@@ -186,6 +186,45 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
     return flow;
 }
 
+// Ice is never warmer than 0 C where it lies on the ground either: heat from below melts the pack
+// from the last layer upwards, and the water leaves. Melts at most `most`; returns what melted, and
+// adds to `flow` what leaves.
+template <class Real>
+PETRICHOR_KERNEL Real melt_base(CellVars<Real>& c, const Real& most, Real& flow)
+{
+    const Real zero = 0.0;
+    Real wanted = most;
+    for (std::size_t i = kSnowLayers; i-- > 0;) {
+        if (!any(wanted > zero)) break;
+        const Real ice = c.snow_ice[i];
+        const Real melted = smaller(ice, wanted);
+        const Real left = ice - melted;
+        const auto gone = left <= zero;
+        flow += melted + select(gone, c.snow_liquid[i], zero);
+        c.snow_liquid[i] = select(gone, zero, c.snow_liquid[i]);
+        c.snow_thickness[i] =
+            select(gone, zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))));
+        c.snow_ice[i] = left;
+        wanted = wanted - melted;
+    }
+    return most - wanted;
+}
+
+// Where the base of a pack would be above 0 C: melts it with the heat that the ground then gives,
+// and lowers the base's temperature by what that takes. Returns the water that leaves.
+template <class Real, class Mask>
+PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, double conductance,
+                                       double dt, Real& base_c)
+{
+    Real flow = 0.0;
+    const Real warmth = select(covered, larger(base_c, Real(0.0)), Real(0.0));
+    if (!any(warmth > 0.0)) return flow;
+    const Real melted = melt_base(c, warmth * (conductance * dt / kLatentFusion), flow);
+    base_c = base_c - melted * (kLatentFusion / (conductance * dt));
+    c.total_melt += melted;
+    return flow;
+}
+
 // Cuts the pack into layers of 0.1 and 0.2 m from the top; masses and heat go with the thickness.
 template <class Real>
 PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)

@@ -116,20 +116,21 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     // ---- new temperatures below
     Real interface_c = surface_c;
     if (any_snow) snow_temperatures(c, column, interface_c);
-    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
 
     // ---- masses
     const Real vapour_mass = f.vapour * dt;
     const Real melt_mass = change.melt_flux * (dt / kLatentFusion);
     Real to_film = rain_mass;
     if (any_snow) {
-        const Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
-                                        select(covered, larger(melt_mass, zero), zero),
-                                        select(covered, rain_mass, zero), snow <= zero, k);
+        Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
+                                  select(covered, larger(melt_mass, zero), zero),
+                                  select(covered, rain_mass, zero), snow <= zero, k);
+        runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
         sums.runoff += select(covered, runoff, zero);
     }
+    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
     c.total_melt += larger(melt_mass, zero);
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
                bare_icy, root.wet.shares, k, part);
