@@ -339,6 +339,43 @@ TEST(TextureBuild, MapsOfDifferentSizesAreNamed)
     EXPECT_FALSE(fs::exists(place / "out/Brick01_normal.png"));
 }
 
+// Several engines built one after the other into one folder: the manifest tells of all whose files
+// are still there.
+TEST(TextureBuild, TheManifestKeepsAnEntryForEachEngine)
+{
+    const Workplace place("build-engines");
+    write_materials(place / "in");
+    const auto build = [&](const std::string& engine) {
+        return run({"texture", "build", "in", "--engine", engine, "-o", "out"}, place);
+    };
+    const auto entries = [&] {
+        std::set<std::string> all;
+        const json manifest = json::parse(read_file(place / "out/manifest.json"));
+        for (const json& set : manifest["sets"]) {
+            all.insert(set["name"].get<std::string>() + " " +
+                       set["engines"].at(0).get<std::string>());
+        }
+        return all;
+    };
+    ASSERT_EQ(build("gltf").exit_code, 0);
+    ASSERT_EQ(build("unity-hdrp").exit_code, 0);
+    const std::set<std::string> both{"Brick01 gltf", "Brick01 unity-hdrp", "wet/soil gltf",
+                                     "wet/soil unity-hdrp"};
+    EXPECT_EQ(entries(), both);
+    EXPECT_THAT(build("gltf").out, HasSubstr("0 built (0 files), 2 up to date"));
+    EXPECT_EQ(entries(), both);
+
+    // Both write Brick01_Normal.dds.
+    ASSERT_EQ(build("unity-urp").exit_code, 0);
+    EXPECT_EQ(entries(), (std::set<std::string>{"Brick01 gltf", "Brick01 unity-urp",
+                                                "wet/soil gltf", "wet/soil unity-urp"}));
+    // A material that is gone is forgotten, for the engine that was built.
+    fs::remove_all(place / "in/wet");
+    ASSERT_EQ(build("unity-urp").exit_code, 0);
+    EXPECT_EQ(entries(),
+              (std::set<std::string>{"Brick01 gltf", "Brick01 unity-urp", "wet/soil gltf"}));
+}
+
 // A leaf, green where its own opacity map says so and black elsewhere.
 TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
 {
