@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "texproc/area.h"
+#include "texproc/detail/alpha.h"
 
 namespace petrichor::texproc {
 
@@ -69,6 +70,19 @@ std::vector<Image> smaller_levels(const Image& image, const MipOptions& options)
     return chain;
 }
 
+// Where the image is opaque the plain levels are right, to the bit.
+std::vector<Image> color_levels(const Image& image, const MipOptions& options)
+{
+    std::vector<Image> chain = smaller_levels(image, options);
+    const bool weighted = options.alpha_weighted && image.space == ColorSpace::Linear;
+    if (!weighted || !detail::has_holes(image)) return chain;
+    const std::vector<Image> covered = smaller_levels(detail::premultiplied(image), options);
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        chain[k] = detail::straight(covered[k], chain[k], options.wrap_u, options.wrap_v);
+    }
+    return chain;
+}
+
 }  // namespace
 
 std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
@@ -92,7 +106,7 @@ std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
             for (Image& level : chain) normalize_texels(level);
         }
     } else {
-        chain = smaller_levels(image, options);
+        chain = color_levels(image, options);
     }
     if (cut) {
         const double wanted = coverage(image, options.alpha_cutoff);

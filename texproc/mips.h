@@ -26,7 +26,10 @@ struct MipOptions {
     bool mirror_u = false;  ///< instead of wrap or clamp
     bool mirror_v = false;
     bool keep_length = false;  ///< normals: leave them shorter where they differ
-    int threads = 0;           ///< 0: all cores; the bytes do not depend on it
+    /// Colour (space Linear) with alpha counts by its alpha, which means coverage: no fringes of
+    /// what lies under holes. An opaque image gives the same bits either way. Data: no effect.
+    bool alpha_weighted = false;
+    int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };
 
 /// Level 0 is the input; each next level is floor(half), at least 1, down to 1 x 1. Box: a texel is

@@ -12,6 +12,7 @@ namespace {
 void add_weather(CLI::App& bench)
 {
     auto o = std::make_shared<WeatherBenchOptions>();
+    auto rivals = std::make_shared<std::vector<std::string>>();
     CLI::App* command = bench.add_subcommand(
         "weather", "Time the weather models and readers beside a plain degree-day loop.");
     command->add_option("--file", o->file,
@@ -26,13 +27,29 @@ void add_weather(CLI::App& bench)
         ->check(CLI::Range(2, 365));
     command->add_option("--threads", o->threads, "most CPU threads (all)")
         ->check(CLI::Range(1, 1024));
+    command
+        ->add_option("--rival", *rivals,
+                     "another program to time, as NAME=COMMAND for the shell; may be repeated")
+        ->type_name("NAME=COMMAND")
+        ->allow_extra_args(false);
     command->add_flag("--json", o->json, "report for programs");
     command->footer(
         "Example: petrichor bench weather --file denver.epw --repeat 9\n"
+        "         petrichor bench weather --file met_CdP_0506.txt \\\n"
+        "             --rival \"FSM2=./FSM2 < nlst_CdP_0506.txt\" \\\n"
+        "             --rival \"petrichor=petrichor simulate met_CdP_0506.txt -o run.csv\"\n"
+        "A rival is timed whole: its start, its reading and its writing are in its time, not in "
+        "ours; "
+        "the hours\n"
+        "of the file stand in the row cell_year_file. Give petrichor itself as a rival to compare "
+        "whole programs.\n"
         "CPU time is that of all threads together. `goal` is what the row should stay below; it is "
         "that of\n"
         "10000 cells, 365 days and 1000 segments.");
-    command->callback([o] { run_weather_bench(*o); });
+    command->callback([o, rivals] {
+        for (const std::string& text : *rivals) o->rivals.push_back(parse_rival(text));
+        run_weather_bench(*o);
+    });
 }
 
 }  // namespace

@@ -37,15 +37,21 @@ double median(std::vector<double> values)
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-Cost median_cost(int repeat, const std::function<void()>& work)
+Cost median_of_costs(const std::vector<Cost>& costs)
 {
     std::vector<double> cpu, wall;
-    for (int i = 0; i < repeat; ++i) {
-        const Cost cost = timed(work);
+    for (const Cost& cost : costs) {
         cpu.push_back(cost.cpu_ms);
         wall.push_back(cost.wall_ms);
     }
     return {median(cpu), median(wall)};
+}
+
+Cost median_cost(int repeat, const std::function<void()>& work)
+{
+    std::vector<Cost> costs;
+    for (int i = 0; i < repeat; ++i) costs.push_back(timed(work));
+    return median_of_costs(costs);
 }
 
 long peak_memory_mib()

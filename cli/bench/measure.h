@@ -15,6 +15,8 @@ Cost timed(const std::function<void()>& work);
 
 /// Middle of the values, or the mean of the middle two; 0 for none.
 double median(std::vector<double> values);
+/// Median of each clock.
+Cost median_of_costs(const std::vector<Cost>& costs);
 /// Median of each clock over `repeat` runs of the work, repeat >= 1.
 Cost median_cost(int repeat, const std::function<void()>& work);
 

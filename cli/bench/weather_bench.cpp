@@ -141,6 +141,16 @@ void add_grid_rows(const WeatherCase& one, const WeatherBenchOptions& options, i
     }
 }
 
+std::vector<BenchRow> rival_rows(const WeatherBenchOptions& options)
+{
+    std::vector<BenchRow> rows;
+    for (const Rival& rival : options.rivals) {
+        rows.push_back(
+            {rival.name, "the whole program: " + rival.command, time_rival(rival, options.repeat)});
+    }
+    return rows;
+}
+
 void add_reader_rows(const WeatherBenchOptions& options, std::vector<BenchRow>& rows)
 {
     const ForcingTable table = sample_year(options.days, false);
@@ -217,8 +227,8 @@ void print_text(const WeatherBenchOptions& options, const std::vector<BenchRow>&
 
 std::vector<BenchRow> weather_rows(const WeatherBenchOptions& options)
 {
-    std::vector<BenchRow> rows;
     const auto cases = cases_of(options);
+    std::vector<BenchRow> rows = rival_rows(options);  // first: they may not even start
     for (const WeatherCase& one : cases) add_cell_rows(one, options.repeat, rows);
     add_reader_rows(options, rows);
     add_artist_rows(options.repeat, rows);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/bench/measure.h"
+#include "cli/bench/rival.h"
 
 namespace petrichor::cli {
 
@@ -18,6 +19,7 @@ struct WeatherBenchOptions {
     int days = 365;   ///< of the made-up weather
     int threads = 0;  ///< 0: all
     bool json = false;
+    std::vector<Rival> rivals{};  ///< other programs, timed first and whole
 };
 
 /// One line of the report.
@@ -28,7 +30,8 @@ struct BenchRow {
     double goal_ms = 0.0;     ///< CPU time it should stay below; 0: none
     double memory_mib = 0.0;  ///< of the model itself; 0: not counted
 };
-/// Times every row, in the order of the report. Throws Error when the file cannot be read.
+/// Times every row, in the order of the report. Throws Error when the file cannot be read or a
+/// rival fails.
 std::vector<BenchRow> weather_rows(const WeatherBenchOptions& options);
 
 /// The report for programs.

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "cli/exit.h"
+#include "cli/simulate/grid_progress.h"
 #include "weather/physical_grid.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/text.h"
@@ -48,7 +50,11 @@ std::vector<PlotPanel> panels()
              {{.column = "snow_cover_fraction", .label = "", .color = "#4a80bd", .filled = true}},
          .group = "snow"},
         {.title = "height, m",
-         .series = {{.column = "snow_line_m", .label = "snow line", .color = "#1f5f9e"},
+         .series = {{.column = "snow_line_m",
+                     .label = "snow line",
+                     .color = "#1f5f9e",
+                     .only_where = "snow_cover_fraction",
+                     .only_above = 0.001},
                     {.column = "rain_to_snow_height_m",
                      .label = "rain turns to snow",
                      .color = "#9aa6b5"}},
@@ -66,8 +72,8 @@ std::vector<PlotPanel> panels()
         one("mean surface temperature, \u00b0C", "surface_temp_c", "#c8442e", "heat"),
         {.title = "mean water on the ground, kg/m\u00b2",
          .series = {{.column = "film_kg_m2", .label = "film", .color = "#0e9f8e"},
-                    {.column = "puddle_kg_m2", .label = "puddles", .color = "#3b6fe0"},
-                    {.column = "ice_kg_m2", .label = "ice", .color = "#85929e"}},
+                    {.column = "puddle_kg_m2", .label = "puddles", .color = "#2456c4"},
+                    {.column = "ice_kg_m2", .label = "ice", .color = "#56b4e9"}},
          .low = 0.0,
          .high = 0.0,
          .group = "water"},
@@ -162,6 +168,78 @@ std::size_t step_at(std::int64_t us, const weather::PhysicalGrid& grid, std::int
                     static_cast<std::size_t>((us - begin_us + step_us / 2) / step_us));
 }
 
+// When a run does what, in steps.
+struct Plan {
+    std::size_t first = 0, last = 0;  // rows
+    std::size_t row_every = 1;
+    std::vector<std::size_t> map_steps;
+};
+
+Plan plan_of(const weather::ForcingTable& table, const GridRun& run,
+             const weather::PhysicalGrid& grid)
+{
+    const auto step_us = static_cast<std::int64_t>(std::llround(run.model.step_s * 1e6));
+    const double steps_a_row = run.model.every_s / run.model.step_s;
+    if (steps_a_row < 1.0 || std::abs(steps_a_row - std::round(steps_a_row)) > 1e-9) {
+        throw Error("grid: --every must be a whole number of steps of " +
+                        std::to_string(run.model.step_s) + " s",
+                    "Give --every as a multiple of --dt.");
+    }
+    const std::int64_t origin = table.time_us.front();
+    const std::int64_t end_us = grid.time_us() + static_cast<std::int64_t>(grid.steps()) * step_us;
+    const auto step_of = [&](double seconds) {
+        const auto us = origin + static_cast<std::int64_t>(std::llround(seconds * 1e6));
+        return step_at(std::clamp(us, origin, end_us), grid, origin, end_us, step_us);
+    };
+    Plan plan;
+    plan.row_every = static_cast<std::size_t>(std::llround(steps_a_row));
+    plan.first = step_of(run.model.from_s.value_or(0.0));
+    plan.last = run.model.to_s ? step_of(*run.model.to_s) : grid.steps();
+    for (const std::int64_t us : run.map_times_us) {
+        plan.map_steps.push_back(step_at(us, grid, origin, end_us, step_us));
+        plan.last = std::max(plan.last, plan.map_steps.back());
+    }
+    return plan;
+}
+
+// Moves the grid to its checkpoint; the table gets the rows before it. The checkpoint's own row,
+// and one that only ended the run before, come again if they are due.
+void resume(SimulationTable& table, weather::PhysicalGrid& grid,
+            const weather::GridIdentity& identity, const GridRun& run, const Plan& plan)
+{
+    const GridProgress before =
+        load_progress(grid, identity, run.model.every_s, table.columns.size(), run.model.resume);
+    if (grid.step() > plan.last) {
+        throw Error("grid: the checkpoint is of " + weather::iso_from_us(grid.time_us()) +
+                        ", after the last row that is asked for",
+                    "Give a later --to, or an earlier checkpoint.");
+    }
+    const double now_s = static_cast<double>(grid.time_us() - table.utc_start_us) * 1e-6;
+    const double first_s = static_cast<double>(plan.first) * run.model.step_s;
+    for (const auto& row : before.rows) {
+        const bool due = std::fmod(row.front(), run.model.every_s) == 0.0;
+        if (due && row.front() < now_s && row.front() >= first_s) table.rows.push_back(row);
+    }
+    table.notes.push_back("resumed at " + weather::iso_from_us(grid.time_us()) + " with " +
+                          std::to_string(table.rows.size()) + " rows before");
+}
+
+SimulationTable headed_table(const weather::ReadResult& read, const std::string& name,
+                             const Terrain& terrain, std::size_t cells)
+{
+    SimulationTable table;
+    table.title = name;
+    table.model = "physical";
+    table.mode = "grid of " + std::to_string(cells) + " cells";
+    table.utc = table.dated = true;
+    table.utc_start_us = read.table.time_us.front();
+    add_read_report(table, read);
+    table.notes.push_back(terrain.note);
+    table.columns.assign(std::begin(kColumns), std::end(kColumns));
+    table.panels = panels();
+    return table;
+}
+
 }  // namespace
 
 double snow_line_m(const std::vector<double>& heights_m, const std::vector<double>& depths_m,
@@ -202,53 +280,34 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
     params.threads = run.model.threads;
     const Cells inside = cells_of(terrain);
     weather::PhysicalGrid grid(read.table, params, inside.cells);
+    SimulationTable table = headed_table(read, name, terrain, inside.cells.size());
+    const Plan plan = plan_of(read.table, run, grid);
+    const auto identity = weather::grid_identity(read.table, params, inside.cells);
+    if (!run.model.resume.empty()) resume(table, grid, identity, run, plan);
 
-    SimulationTable table;
-    table.title = name;
-    table.model = "physical";
-    table.mode = "grid of " + std::to_string(inside.cells.size()) + " cells";
-    table.utc = table.dated = true;
-    const std::int64_t origin = table.utc_start_us = read.table.time_us.front();
-    add_read_report(table, read);
-    table.notes.push_back(terrain.note);
-    table.columns.assign(std::begin(kColumns), std::end(kColumns));
-    table.panels = panels();
-
-    const auto step_us = static_cast<std::int64_t>(std::llround(run.model.step_s * 1e6));
-    const double steps_a_row = run.model.every_s / run.model.step_s;
-    if (steps_a_row < 1.0 || std::abs(steps_a_row - std::round(steps_a_row)) > 1e-9) {
-        throw Error("grid: --every must be a whole number of steps of " +
-                        std::to_string(run.model.step_s) + " s",
-                    "Give --every as a multiple of --dt.");
-    }
-    const std::int64_t end_us = grid.time_us() + static_cast<std::int64_t>(grid.steps()) * step_us;
-    const auto bounded = [&](double seconds) {
-        return std::clamp(origin + static_cast<std::int64_t>(std::llround(seconds * 1e6)), origin,
-                          end_us);
-    };
-    const std::size_t first =
-        step_at(bounded(run.model.from_s.value_or(0.0)), grid, origin, end_us, step_us);
-    std::size_t last = run.model.to_s
-                           ? step_at(bounded(*run.model.to_s), grid, origin, end_us, step_us)
-                           : grid.steps();
-    std::vector<std::size_t> map_steps;
-    for (const std::int64_t us : run.map_times_us) {
-        map_steps.push_back(step_at(us, grid, origin, end_us, step_us));
-        last = std::max(last, map_steps.back());
-    }
-    const auto row_every = static_cast<std::size_t>(std::llround(steps_a_row));
     std::size_t next_map = 0;
+    while (next_map < plan.map_steps.size() && plan.map_steps[next_map] < grid.step()) ++next_map;
+    if (next_map > 0)
+        table.notes.emplace_back("maps of times before the checkpoint are not written again");
     for (;;) {
         const std::size_t now = grid.step();
-        if (now >= first && (now % row_every == 0 || now == last))
+        if (now >= plan.first && (now % plan.row_every == 0 || now == plan.last))
             table.rows.push_back(regional_row(grid, inside, read.table));
-        for (; next_map < map_steps.size() && map_steps[next_map] <= now; ++next_map)
+        for (; next_map < plan.map_steps.size() && plan.map_steps[next_map] <= now; ++next_map)
             run.on_map(map_of(grid, inside, terrain.cells()));
-        if (now >= last) break;
-        std::size_t to = std::min(last, (now / row_every + 1) * row_every);
-        if (next_map < map_steps.size()) to = std::min(to, map_steps[next_map]);
+        const bool done = now >= plan.last, stopped = !done && run.stop && run.stop();
+        if ((done || stopped) && run.on_checkpoint)
+            run.on_checkpoint(save_progress(grid, identity, {run.model.every_s, table.rows}));
+        if (done) break;
+        if (stopped) {
+            throw Interrupted("interrupted: grid at " + weather::iso_from_us(grid.time_us()) +
+                              ", " + std::to_string(now) + " of " + std::to_string(plan.last) +
+                              " steps");
+        }
+        std::size_t to = std::min(plan.last, (now / plan.row_every + 1) * plan.row_every);
+        if (next_map < plan.map_steps.size()) to = std::min(to, plan.map_steps[next_map]);
         grid.advance(to - now);
-        if (run.on_progress) run.on_progress(grid.step(), last);
+        if (run.on_progress) run.on_progress(grid.step(), plan.last);
     }
     table.state_hash = grid.hash();
     table.table_hash = table.state_hash;

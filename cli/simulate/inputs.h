@@ -37,6 +37,10 @@ InputKind kind_of_text(std::string_view text);
 ///   throws  Error when it cannot be read or has more than 256 MiB
 std::string read_input_file(const std::filesystem::path& path);
 
+/// The whole of a file that --checkpoint wrote, whatever its size.
+///   throws  Error when it cannot be read
+std::string read_checkpoint_file(const std::filesystem::path& path);
+
 }  // namespace petrichor::cli
 
 #endif

@@ -10,10 +10,6 @@
 #include "weather/physical.h"
 #include "weather/readers/read_weather.h"
 
-namespace CLI {
-class App;
-}
-
 namespace petrichor::cli {
 
 /// How the physical model is run.
@@ -51,9 +47,6 @@ std::string fitted_artist_toml(const weather::ReadResult& read, const PhysicalRu
 
 /// Notes, warnings and JSON of what was read, for any model.
 void add_read_report(SimulationTable& table, const weather::ReadResult& read);
-
-/// Declares the options above on a command.
-void add_physical_options(CLI::App& command, PhysicalRun& run);
 
 }  // namespace petrichor::cli
 

@@ -24,6 +24,9 @@ weather::ReadOptions read_options(const SiteOptions& options)
     read.filling.missing_precip = options.missing_precip == "estimate"
                                       ? weather::MissingPrecip::Estimate
                                       : weather::MissingPrecip::Dry;
+    read.taf = options.taf == "prevailing" ? weather::TafUse::Prevailing
+               : options.taf == "worst"    ? weather::TafUse::Worst
+                                           : weather::TafUse::Expected;
     if (options.month.empty()) return read;
     const auto day = weather::us_from_iso(options.month + "-01");
     if (!day)

@@ -9,10 +9,6 @@
 #include "cli/weather_file.h"
 #include "weather/readers/read_weather.h"
 
-namespace CLI {
-class App;
-}
-
 namespace petrichor::cli {
 
 /// What the command line says about a weather file. What is not given comes from the file, then
@@ -23,10 +19,8 @@ struct SiteOptions {
     std::string station;                 ///< of a METAR file
     std::string month;                   ///< "2024-02": of METAR reports, which name only the day
     std::string missing_precip = "dry";  ///< dry or estimate
+    std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups
 };
-
-/// Declares the options above on a command.
-void add_site_options(CLI::App& command, SiteOptions& options, const std::string& group);
 
 /// The [site] table of a parameter TOML under what the command line says. Other tables but [artist]
 /// are errors.

@@ -91,6 +91,7 @@ void write_chain(const ChainOutput& output, const texproc::RawImage& level0, con
     texproc::TextureWriteOptions writing;
     writing.format = output.format;
     writing.threads = output.threads;
+    writing.texel_weights = output.texel_weights;
     texproc::write_mip_chain(output.name, all, writing);
 }
 

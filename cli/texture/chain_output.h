@@ -15,6 +15,7 @@ struct ChainOutput {
     std::string format;  ///< of a texture file, as bc5; empty: plain numbers
     int bits = 16;
     int threads = 0;
+    std::vector<Image> texel_weights{};  ///< TextureWriteOptions::texel_weights
 };
 
 /// Throws Error when the name can hold no levels: neither a %d nor a texture file.

@@ -160,6 +160,7 @@ constexpr const char* kFooter =
     "  quality = \"full\"                 # quick\n"
     "  [mips]\n"
     "  filter = \"kaiser\"                # box, lanczos3, mitchell; wrap_u, wrap_v, alpha_cutoff\n"
+    "  alpha_weighted = false           # alpha of colour is no coverage\n"
     "  [[output]]\n"
     "  file = \"{name}_wet\"\n"
     "  channels = [\"porosity\", \"1 - roughness\"]\n"

@@ -52,12 +52,15 @@ Image rgb_of(const Image& image)
     return out;
 }
 
-// Four channels whose last says nothing: opaque everywhere.
+// Four channels whose last says nothing: opaque everywhere, but for the few codes that lossy blocks
+// are off by.
 bool has_idle_alpha(const RawImage& image)
 {
+    constexpr float kOpaque = 250.0f / 255.0f;
     if (image.channels != 4) return false;
     const Image alpha = texproc::to_image(texproc::channel_of(image, 3), ColorSpace::Data);
-    return std::all_of(alpha.pixels.begin(), alpha.pixels.end(), [](float a) { return a == 1.0f; });
+    return std::all_of(alpha.pixels.begin(), alpha.pixels.end(),
+                       [](float a) { return a >= kOpaque; });
 }
 
 // Texture files have no three channels: opaque alpha beside none is no difference.

@@ -23,6 +23,7 @@ struct Arguments {
     std::string in, out, format;
     std::string wrap = "wrap";
     bool srgb = false, linear = false, mips = false, normals = false, dither = false;
+    bool alpha_data = false;
     int bits = 0, jpeg_quality = 95, zstd = 0, threads = 0;
     texproc::BlockQuality quality = texproc::BlockQuality::Normal;
     texproc::MipFilter filter = texproc::MipFilter::Box;
@@ -110,6 +111,7 @@ std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
                                       .filter = a.filter,
                                       .mirror_u = a.wrap == "mirror",
                                       .mirror_v = a.wrap == "mirror",
+                                      .alpha_weighted = !a.alpha_data,
                                       .threads = a.threads});
 }
 
@@ -171,6 +173,8 @@ void add_texture_convert(CLI::App& texture)
     app->add_option("--wrap", a->wrap, "past the edges: wrap, clamp, mirror")
         ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
         ->capture_default_str();
+    app->add_flag("--alpha-data", a->alpha_data,
+                  "--srgb --mips: alpha is no coverage; colour counts the same under all of it");
     app->add_flag("--normals", a->normals, "a normal map: levels are made unit length again");
     app->add_option("--quality", a->quality, "of blocks: fast, normal, best")
         ->transform(CLI::CheckedTransformer(kQualities, CLI::ignore_case));

@@ -51,7 +51,7 @@ void check_same_size(const std::string& name_a, const Image& a, const std::strin
 
 struct MipsArguments {
     std::string in, out, format, wrap_u = "wrap", wrap_v = "wrap";
-    bool color = false;
+    bool color = false, alpha_data = false;
     int bits = 8;
     texproc::MipOptions options;
 };
@@ -85,6 +85,7 @@ void run_mips(MipsArguments& a)
     a.options.wrap_v = a.wrap_v == "wrap";
     a.options.mirror_u = a.wrap_u == "mirror";
     a.options.mirror_v = a.wrap_v == "mirror";
+    a.options.alpha_weighted = !a.alpha_data;
     const Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     write_mips(a, chain);
@@ -225,6 +226,8 @@ void add_texture_maps(CLI::App& texture)
                 ->capture_default_str();
         }
         app->add_flag("--color", a->color, "sRGB colour: filtered in linear light");
+        app->add_flag("--alpha-data", a->alpha_data,
+                      "--color: alpha is no coverage; colour counts the same under all of it");
         app->add_flag("--normals", a->options.normals, "a normal map: unit length on every level");
         app->add_flag("--keep-length", a->options.keep_length, "normals: leave them shortened");
         app->add_option("--alpha-cutoff", a->options.alpha_cutoff,

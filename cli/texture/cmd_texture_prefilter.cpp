@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "cli/texture/block_fit.h"
 #include "cli/texture/chain_output.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/prefilter_timings.h"
+#include "texproc/files/texture.h"
 #include "texproc/pack.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/prefilter/rules.h"
@@ -24,33 +28,29 @@ struct Arguments {
     bool roughness_only = false, score = false, timings = false;
 };
 
-// Normals as the input holds them: x and y where it has them, z or 1 elsewhere.
-void lay_out(std::vector<Image>& normals, const texproc::PrefilterOptions& o, int channels)
+std::optional<texproc::Block> block_of(const std::string& format)
 {
-    if (channels == 3 && o.normal_x == 0 && !o.rebuild_z) return;
-    for (std::size_t k = 1; k < normals.size(); ++k) {
-        Image to(normals[k].width, normals[k].height, channels, ColorSpace::Data, 1.0f);
-        const std::size_t step = static_cast<std::size_t>(channels);
-        for (std::size_t i = 0; 3 * i < normals[k].pixels.size(); ++i) {
-            const float* from = &normals[k].pixels[3 * i];
-            float* texel = &to.pixels[step * i];
-            if (channels >= 3) texel[2] = from[2];
-            texel[o.normal_x] = from[0];
-            texel[o.normal_y] = from[1];
-        }
-        normals[k] = std::move(to);
-    }
+    if (format.empty()) return {};
+    return texproc::texture_format(format).block;
+}
+
+// What will be read from the files decides codes and score.
+StoredFormats stored_formats(const Arguments& a, const PrefilterMaps& maps)
+{
+    const bool normals = !a.normal_out.empty();
+    return {.normal = normals ? block_of(a.normal_format) : std::nullopt,
+            .roughness = block_of(a.format),
+            .bits = a.bits,
+            .normal_channels = maps.normal.channels,
+            .keeps_normals = normals};
 }
 
 // What a reader of the files will see.
-void print_score(const Arguments& a, const PrefilterMaps& maps, const texproc::Prefiltered& chains)
+void print_score(const Arguments& a, const PrefilterMaps& maps, const BlockFit& fit)
 {
-    texproc::Prefiltered shipped = chains;
-    texproc::quantize(shipped, a.bits);
-    if (a.normal_out.empty()) shipped.normal.clear();
     texproc::ScoreOptions scoring;
     scoring.light = a.input.options.design_light;
-    std::cout << to_text(texproc::score(maps.normal, maps.map, shipped, a.input.options, scoring));
+    std::cout << to_text(texproc::score(maps.normal, maps.map, fit.read, a.input.options, scoring));
 }
 
 void take_options(Arguments& a)
@@ -62,25 +62,28 @@ void take_options(Arguments& a)
     o.joint = !a.roughness_only;
     o.quick = a.quality == "quick";
     o.anisotropic = !a.anisotropy_out.empty();
-    // Re-aimed normals are of use only where they are written.
+    // Re-aimed normals are of use only where they are written. Blocks choose their own codes.
     if (a.normal_out.empty()) {
         o.joint = false;
-    } else {
+    } else if (!block_of(a.normal_format) && !block_of(a.format)) {
         o.bits = a.bits;
     }
 }
 
-void write_chains(const Arguments& a, const PrefilterMaps& maps, texproc::Prefiltered& chains)
+void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit& fit,
+                  texproc::Prefiltered& chains)
 {
     const texproc::PrefilterOptions& o = a.input.options;
     const bool whole = maps.map.channels == 1;
-    write_chain({a.out, a.format, a.bits, o.threads},
+    write_chain({a.out, a.format, a.bits, o.threads, fit.roughness_weights},
                 whole ? maps.map : texproc::channel_of(maps.map, o.channel),
                 whole ? maps.map_path : "", chains.roughness);
     if (!a.normal_out.empty()) {
-        lay_out(chains.normal, o, maps.normal.channels);
-        write_chain({a.normal_out, a.normal_format, a.bits, o.threads}, maps.normal, a.input.normal,
-                    chains.normal);
+        for (std::size_t k = 1; k < chains.normal.size(); ++k) {
+            chains.normal[k] = lay_out_normals(chains.normal[k], o, maps.normal.channels);
+        }
+        write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
+                    maps.normal, a.input.normal, chains.normal);
     }
     if (!a.anisotropy_out.empty()) {
         // Level 0 has none: along x, strength 0.
@@ -89,7 +92,7 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, texproc::Prefil
             none.pixels[i] = 1.0f;
             none.pixels[i + 2] = 0.0f;
         }
-        write_chain({a.anisotropy_out, "", a.bits, o.threads},
+        write_chain({a.anisotropy_out, "", a.bits, o.threads, {}},
                     texproc::to_raw(none, texproc::PixelType::U8), "", chains.anisotropy);
     }
 }
@@ -111,12 +114,19 @@ void run(Arguments& a)
     PrefilterMaps maps;
     texproc::Prefiltered chains;
     timings.read = timed([&] { maps = read_prefilter_maps(a.input); });
-    timings.kernel = timed([&] { chains = texproc::prefilter_raw(maps.normal, maps.map, o); });
-    if (a.score) print_score(a, maps, chains);
+    BlockFit fit;
+    timings.kernel = timed([&] {
+        chains = texproc::prefilter_raw(maps.normal, maps.map, o);
+        const StoredFormats formats = stored_formats(a, maps);
+        if (a.score || formats.normal || formats.roughness) {
+            fit = fit_to_blocks(maps.normal, maps.map, o, formats, chains);
+        }
+    });
+    if (a.score) print_score(a, maps, fit);
     timings.texels =
         static_cast<std::size_t>(maps.normal.width) * static_cast<std::size_t>(maps.normal.height);
     timings.bytes = bytes_of(maps, chains);
-    timings.write = timed([&] { write_chains(a, maps, chains); });
+    timings.write = timed([&] { write_chains(a, maps, fit, chains); });
     std::cout << chains.roughness.size() << " levels, " << maps.normal.width << " x "
               << maps.normal.height << ", rule " << o.rule << "\n";
     if (a.timings) std::cout << to_text(timings);

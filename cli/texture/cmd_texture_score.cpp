@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/score_protocol.h"
 #include "texproc/files/texture.h"
@@ -32,8 +33,8 @@ std::vector<Image> read_chain_file(const std::string& name, const texproc::ReadO
     const texproc::MipTexture texture = texproc::read_texture(name, reading);
     std::vector<Image> levels(1);
     for (std::size_t k = 1; k < texture.levels.size(); ++k) {
-        levels.push_back(texproc::to_image(texproc::decode_level(texture, static_cast<int>(k)),
-                                           ColorSpace::Data));
+        levels.push_back(texproc::to_image(
+            texproc::decode_level(texture, static_cast<int>(k), 0, true), ColorSpace::Data));
     }
     return levels;
 }
@@ -59,31 +60,6 @@ std::vector<Image> read_chain(const std::string& pattern, const texproc::ReadOpt
                     "Name the chain as 'out_%d.png', with level 1 as out_1.png.");
     }
     return levels;
-}
-
-// Normals of any layout as x y z.
-Image three_channels(const Image& level, const texproc::PrefilterOptions& o, int number)
-{
-    const int needed = std::max({o.normal_x, o.normal_y, o.rebuild_z ? 0 : 2}) + 1;
-    if (level.channels < needed) {
-        throw Error("score: level " + std::to_string(number) + " of the normals has " +
-                        std::to_string(level.channels) + " channels, " + std::to_string(needed) +
-                        " are needed",
-                    "Name a chain of normal maps laid out as --normal-layout says.");
-    }
-    Image to(level.width, level.height, 3, ColorSpace::Data);
-    for (int y = 0; y < level.height; ++y) {
-        for (int x = 0; x < level.width; ++x) {
-            const float cx = level.at(x, y, o.normal_x), cy = level.at(x, y, o.normal_y);
-            const float nx = 2.0f * cx - 1.0f, ny = 2.0f * cy - 1.0f;
-            to.at(x, y, 0) = cx;
-            to.at(x, y, 1) = cy;
-            to.at(x, y, 2) = o.rebuild_z
-                                 ? 0.5f + 0.5f * std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny))
-                                 : level.at(x, y, 2);
-        }
-    }
-    return to;
 }
 
 void print_json(const texproc::Score& s)
@@ -142,7 +118,7 @@ void run(Arguments& a)
     }
     if (!a.normal_chain.empty()) chain.normal = read_chain(a.normal_chain, a.input.reading);
     for (std::size_t k = 1; k < chain.normal.size(); ++k) {
-        chain.normal[k] = three_channels(chain.normal[k], a.input.options, static_cast<int>(k));
+        chain.normal[k] = read_out_normals(chain.normal[k], a.input.options, static_cast<int>(k));
     }
     const texproc::Score s =
         texproc::score(maps.normal, maps.map, chain, a.input.options, a.scoring);

@@ -84,6 +84,75 @@ TEST(BenchWeather, SaysWhichFileIsNotThere)
     }
 }
 
+TEST(BenchRival, NameAndCommandAreSplitAtTheFirstEqualsSign)
+{
+    const Rival rival = parse_rival("FSM2.1=./FSM2 < nlst=a");
+    EXPECT_EQ(rival.name, "FSM2.1");
+    EXPECT_EQ(rival.command, "./FSM2 < nlst=a");
+    for (const char* text : {"", "FSM2", "=./FSM2", "FSM2=", "FSM2= ", "a b=true", "a;b=true"}) {
+        try {
+            parse_rival(text);
+            ADD_FAILURE() << "no error: " << text;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr(std::string("'") + text + "'"));
+        }
+    }
+}
+
+// Work done by what the command starts counts too, and time asleep is no CPU time.
+TEST(BenchRival, CountsTheWorkOfTheCommandAndItsChildren)
+{
+    const Cost asleep = time_rival({"sleep", "sleep 0.2"}, 1);
+    EXPECT_GE(asleep.wall_ms, 200.0);
+    EXPECT_LT(asleep.cpu_ms, 100.0);
+    const std::string count = "i=0; while [ $i -lt 200000 ]; do i=$((i+1)); done";
+    const Cost busy = time_rival({"busy", "sh -c '" + count + "' | cat; true"}, 1);
+    EXPECT_GT(busy.cpu_ms, asleep.cpu_ms + 10.0);
+}
+
+TEST(BenchRival, IsTheFirstRow)
+{
+    WeatherBenchOptions options = kQuick;
+    options.rivals = {{"echo", "echo much text; echo more >&2"}, {"true", "true"}};
+    const auto report = report_of(options);
+    const auto names = names_of(report);
+    ASSERT_GE(names.size(), 2u);
+    EXPECT_EQ(names[0], "echo");
+    EXPECT_EQ(names[1], "true");
+    EXPECT_THAT(report["rows"][0]["what"].get<std::string>(), HasSubstr("echo much text"));
+    EXPECT_GT(report["rows"][0]["wall_ms"], 0.0);
+}
+
+struct FailingRival {
+    const char *name, *command, *message;
+};
+void PrintTo(const FailingRival& c, std::ostream* out)
+{
+    *out << c.name;
+}
+class BenchRivalFails : public testing::TestWithParam<FailingRival> {};
+TEST_P(BenchRivalFails, AndSaysHow)
+{
+    const auto& c = GetParam();
+    try {
+        time_rival({c.name, c.command}, 1);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr(std::string("'") + c.name + "'"));
+        EXPECT_THAT(error.what(), HasSubstr(c.message));
+        EXPECT_NE(error.fix(), "");
+    }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Table, BenchRivalFails,
+    testing::Values(FailingRival{"missing", "./no_such_model < a.txt", "a.txt"},
+                    FailingRival{"gone", "./no_such_model", "was not found"},
+                    FailingRival{"folder", "/tmp", "is not a program"},
+                    FailingRival{"failing", "echo first >&2; echo bad namelist >&2; exit 3",
+                                 "failed with exit code 3: bad namelist"},
+                    FailingRival{"killed", "kill -9 $$", "was ended by signal 9"}),
+    [](const auto& test) { return test.param.name; });
+
 TEST(BenchMedian, IsTheMiddle)
 {
     EXPECT_EQ(median({}), 0.0);

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 namespace petrichor::cli {
 namespace {
 
@@ -147,6 +151,21 @@ TEST(Program, InitWritesAScenarioThatIsAccepted)
     const Outcome render = run({"render", "mine.toml", "--weather", "w.toml"}, place);
     EXPECT_EQ(render.exit_code, 2);
     EXPECT_THAT(render.err, HasSubstr("gone.glb"));
+}
+
+// What the rival started ends too: it would have left a file two seconds later.
+TEST(Program, InterruptedBenchEndsItsRivals)
+{
+    const Workplace place("rival");
+    const Outcome outcome =
+        run_petrichor({.arguments = {"bench", "weather", "--rival",
+                                     "slow=(sleep 2; touch late) & touch started; wait"},
+                       .interrupt_when = place / "started"},
+                      place.path());
+    EXPECT_EQ(outcome.exit_code, 128 + SIGINT);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+    EXPECT_FALSE(std::filesystem::exists(place / "late"));
 }
 
 TEST(Program, DoctorReportsAsJson)

@@ -13,6 +13,7 @@
 #include "base/output_file.h"
 #include "cli/simulate/artist.h"
 #include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/report.h"
 #include "weather/artist/csv.h"
 

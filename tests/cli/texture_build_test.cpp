@@ -339,5 +339,75 @@ TEST(TextureBuild, MapsOfDifferentSizesAreNamed)
     EXPECT_FALSE(fs::exists(place / "out/Brick01_normal.png"));
 }
 
+// Several engines built one after the other into one folder: the manifest tells of all whose files
+// are still there.
+TEST(TextureBuild, TheManifestKeepsAnEntryForEachEngine)
+{
+    const Workplace place("build-engines");
+    write_materials(place / "in");
+    const auto build = [&](const std::string& engine) {
+        return run({"texture", "build", "in", "--engine", engine, "-o", "out"}, place);
+    };
+    const auto entries = [&] {
+        std::set<std::string> all;
+        const json manifest = json::parse(read_file(place / "out/manifest.json"));
+        for (const json& set : manifest["sets"]) {
+            all.insert(set["name"].get<std::string>() + " " +
+                       set["engines"].at(0).get<std::string>());
+        }
+        return all;
+    };
+    ASSERT_EQ(build("gltf").exit_code, 0);
+    ASSERT_EQ(build("unity-hdrp").exit_code, 0);
+    const std::set<std::string> both{"Brick01 gltf", "Brick01 unity-hdrp", "wet/soil gltf",
+                                     "wet/soil unity-hdrp"};
+    EXPECT_EQ(entries(), both);
+    EXPECT_THAT(build("gltf").out, HasSubstr("0 built (0 files), 2 up to date"));
+    EXPECT_EQ(entries(), both);
+
+    // Both write Brick01_Normal.dds.
+    ASSERT_EQ(build("unity-urp").exit_code, 0);
+    EXPECT_EQ(entries(), (std::set<std::string>{"Brick01 gltf", "Brick01 unity-urp",
+                                                "wet/soil gltf", "wet/soil unity-urp"}));
+    // A material that is gone is forgotten, for the engine that was built.
+    fs::remove_all(place / "in/wet");
+    ASSERT_EQ(build("unity-urp").exit_code, 0);
+    EXPECT_EQ(entries(),
+              (std::set<std::string>{"Brick01 gltf", "Brick01 unity-urp", "wet/soil gltf"}));
+}
+
+// A leaf, green where its own opacity map says so and black elsewhere.
+TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
+{
+    const Workplace place("petrichor-build-leaf");
+    Image color(32, 32, 3, ColorSpace::Linear), opacity(32, 32, 1, ColorSpace::Data);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            if ((x / 3 + y / 3) % 3 == 0) continue;
+            opacity.at(x, y, 0) = 1.0f;
+            color.at(x, y, 1) = 0.5f;
+        }
+    }
+    texproc::write_image(place / "Leaf_Color.png", color);
+    texproc::write_image(place / "Leaf_Opacity.png", opacity);
+    const std::string recipe =
+        "name = \"Leaf\"\n[inputs]\nalbedo = \"Leaf_Color.png\"\n"
+        "opacity = \"Leaf_Opacity.png\"\n[[output]]\n"
+        "file = \"{name}\"\nchannels = [\"albedo.r\", \"albedo.g\", "
+        "\"albedo.b\", \"opacity\"]\nsrgb = true\nlevel_files = true\n";
+    const auto green_of_level_2 = [&](const std::string& more) {
+        write_file(place / "leaf.toml", recipe + more);
+        const Outcome made = run({"texture", "build", "leaf.toml", "-o", "out"}, place);
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return texproc::read_image(place / "out/Leaf_2.png", {.space = ColorSpace::Linear});
+    };
+    const Image weighted = green_of_level_2("");
+    for (std::size_t i = 0; i < weighted.pixels.size(); i += 4) {
+        EXPECT_NEAR(weighted.pixels[i + 1], 0.5f, 0.005f);
+    }
+    const Image plain = green_of_level_2("[mips]\nalpha_weighted = false\n");
+    EXPECT_LT(plain.pixels[1], 0.45f);
+}
+
 }  // namespace
 }  // namespace petrichor::cli

@@ -151,6 +151,21 @@ TEST_F(Io, PngBytesDoNotDependOnThreads)
     EXPECT_GT(content(folder / "1.png").size(), 1000u);
 }
 
+// Grain above, where looking for repeats is in vain; below it a pattern that comes again.
+TEST_F(Io, PngOfGrainAndPatternReadsBackAndThePatternNearlyVanishes)
+{
+    RawImage image = ramp(1024, 1024, 2, PixelType::U16);
+    std::uint32_t state = 1;
+    const std::size_t half = image.bytes.size() / 2, period = 2 * image.bytes.size() / 1024;
+    for (std::size_t i = 0; i < image.bytes.size(); ++i) {
+        state = state * 1664525u + 1013904223u;
+        image.bytes[i] = i < half ? static_cast<std::byte>(state >> 24) : image.bytes[i - period];
+    }
+    write_raw(folder / "both.png", image, {.threads = 2});
+    EXPECT_EQ(read_raw(folder / "both.png").bytes, image.bytes);
+    EXPECT_LT(fs::file_size(folder / "both.png"), half + half / 8);
+}
+
 TEST_F(Io, RefusesWithTheReason)
 {
     const auto problem = [](const auto& act) {

@@ -193,5 +193,119 @@ TEST(Mips, AlphaCoverageIsKept)
     EXPECT_LT(share(plain[3]), 0.1) << "the test would not notice a chain that does nothing";
 }
 
+// A leaf: a disc of one colour, black under the holes as paint programs leave it.
+Image leaf(int size)
+{
+    Image image(size, size, 4, ColorSpace::Linear, 0.0f);
+    const float middle = 0.5f * static_cast<float>(size);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const float dx = static_cast<float>(x) - middle, dy = static_cast<float>(y) - middle;
+            if (dx * dx + dy * dy > 0.1f * middle * middle) continue;
+            const float color[4] = {0.2f, 0.6f, 0.1f, 1.0f};
+            std::copy(color, color + 4, &image.at(x, y, 0));
+        }
+    }
+    return image;
+}
+
+constexpr MipFilter kAllFilters[] = {MipFilter::Box, MipFilter::Kaiser, MipFilter::Lanczos3,
+                                     MipFilter::Mitchell};
+
+TEST(AlphaWeighted, OpaqueColourAndDataKeepTheirBits)
+{
+    Image opaque = noise(48, 37, 4);
+    opaque.space = ColorSpace::Linear;
+    for (std::size_t i = 3; i < opaque.pixels.size(); i += 4) opaque.pixels[i] = 1.0f;
+    const Image data = noise(48, 37, 4);
+    for (const MipFilter filter : kAllFilters) {
+        for (const Image& image : {opaque, data}) {
+            const auto plain = mip_chain(image, {.filter = filter});
+            const auto weighted = mip_chain(image, {.filter = filter, .alpha_weighted = true});
+            for (std::size_t k = 0; k < plain.size(); ++k) {
+                EXPECT_EQ(plain[k].pixels, weighted[k].pixels) << k;
+            }
+        }
+    }
+}
+
+TEST(AlphaWeighted, LeavesHaveNoDarkFringe)
+{
+    const Image image = leaf(64);
+    for (const MipFilter filter : kAllFilters) {
+        const auto chain = mip_chain(image, {.filter = filter, .alpha_weighted = true});
+        for (std::size_t k = 1; k < chain.size(); ++k) {
+            int covered = 0;
+            for (std::size_t i = 0; i < chain[k].pixels.size(); i += 4) {
+                const float* texel = &chain[k].pixels[i];
+                if (!(texel[3] > 1.0f / 4096.0f)) continue;
+                ++covered;
+                EXPECT_NEAR(texel[0], 0.2f, 1e-4f) << k;
+                EXPECT_NEAR(texel[1], 0.6f, 1e-4f) << k;
+            }
+            EXPECT_GT(covered, 0) << k;
+        }
+    }
+    // Without weights the edge of a level is darker than any texel of the leaf.
+    float darkest = 1.0f;
+    for (const Image& level : {mip_chain(image)[2]}) {
+        for (std::size_t i = 0; i < level.pixels.size(); i += 4) {
+            if (level.pixels[i + 3] > 0.01f) darkest = std::min(darkest, level.pixels[i + 1]);
+        }
+    }
+    EXPECT_LT(darkest, 0.3f);
+}
+
+// A bilinear tap between the leaf and a hole beside it must not fetch black.
+TEST(AlphaWeighted, HolesTakeTheColourOfTheirNeighbours)
+{
+    const Image level = mip_chain(leaf(64), {.alpha_weighted = true})[2];
+    int beside = 0;
+    for (int y = 1; y + 1 < level.height; ++y) {
+        for (int x = 1; x + 1 < level.width; ++x) {
+            if (level.at(x, y, 3) > 0.0f) continue;
+            const bool touches = level.at(x - 1, y, 3) > 0.01f || level.at(x + 1, y, 3) > 0.01f ||
+                                 level.at(x, y - 1, 3) > 0.01f || level.at(x, y + 1, 3) > 0.01f;
+            if (!touches) continue;
+            ++beside;
+            EXPECT_NEAR(level.at(x, y, 1), 0.6f, 1e-4f);
+        }
+    }
+    EXPECT_GT(beside, 4);
+}
+
+// What a level shows over black is what level 0 shows, and rolling rolls it.
+TEST(AlphaWeighted, CoverageTimesColourIsKeptAndRollsAlong)
+{
+    Image image = noise(32, 32, 4);
+    image.space = ColorSpace::Linear;
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
+        image.pixels[i] = std::max(0.0f, 2.0f * image.pixels[i] - 1.0f);
+    }
+    const auto shown = [](const Image& level) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < level.pixels.size(); i += 4) {
+            sum += static_cast<double>(level.pixels[i] * level.pixels[i + 3]);
+        }
+        return 4.0 * sum / static_cast<double>(level.pixels.size());
+    };
+    Image rolled = image;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            std::copy_n(&image.at((x + 4) % 32, (y + 8) % 32, 0), 4, &rolled.at(x, y, 0));
+        }
+    }
+    const auto chain = mip_chain(image, {.alpha_weighted = true});
+    for (const Image& level : chain) EXPECT_NEAR(shown(level), shown(image), 1e-6);
+    const Image moved = mip_chain(rolled, {.alpha_weighted = true})[2];
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            for (int c = 0; c < 4; ++c) {
+                EXPECT_EQ(moved.at(x, y, c), chain[2].at((x + 1) % 8, (y + 2) % 8, c));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::texproc

@@ -55,11 +55,25 @@ struct BlockOptions {
 std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options = {});
 
+/// BC4 or BC5 of numbers 0..1 for a GPU, which interpolates between codes: each block has the least
+/// sum of distances, where a texel counts by its weight (one channel, >= 0). Numbers between two
+/// codes are reached to about 1/7 of a code where a block is smooth, so that a flat normal (127.5)
+/// is flat. Slower than encode_blocks(). Throws Error for other formats and sizes that differ.
+std::vector<std::byte> encode_blocks_weighted(const Image& image, const Image& weights, Block block,
+                                              int threads = 0);
+
 /// How the numbers of BC4, BC5 and BC6H are to be read.
-enum class BlockSign { Unsigned, Signed };
+enum class BlockSign {
+    Unsigned,
+    Signed,
+    /// BC4 and BC5: unsigned with the fractions between codes, F32 in 0..1. What a shader reads:
+    /// the definition of BC4_UNORM (Direct3D, "Block Compression") divides floats, and GPUs keep 14
+    /// bits or more of it (Giesen 2021, "GPU BCn decoding").
+    Exact,
+};
 
 /// Decodes a level: U8 with channels_of(block) channels, the integers of the format's definition
-/// (BC1 to BC5: nearest integer steps of the widened endpoints, as common decoders do); BC6H gives
+/// (BC1 to BC5: the nearest integers to the interpolated values); BC6H gives
 /// F16, signed BC4 and BC5 F32 in -1..1.
 ///
 ///   bytes   at least blocks_size(); throws Error when there are fewer

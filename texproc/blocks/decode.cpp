@@ -21,29 +21,28 @@ void put(BlockBytes& to, std::size_t at, Value value)
     std::memcpy(to.data() + at * sizeof value, &value, sizeof value);
 }
 
-void put_channel(const std::byte* block, bool is_signed, std::size_t channel, std::size_t channels,
+void put_channel(const std::byte* block, BlockSign sign, std::size_t channel, std::size_t channels,
                  BlockBytes& to)
 {
-    if (is_signed) {
-        const auto values = detail::decode_bc4_signed(block);
+    const auto put_all = [&](const auto& values) {
         for (std::size_t t = 0; t < 16; ++t) put(to, t * channels + channel, values[t]);
-    } else {
-        const auto values = detail::decode_bc4(block);
-        for (std::size_t t = 0; t < 16; ++t) put(to, t * channels + channel, values[t]);
-    }
+    };
+    if (sign == BlockSign::Signed) put_all(detail::decode_bc4_signed(block));
+    if (sign == BlockSign::Unsigned) put_all(detail::decode_bc4(block));
+    if (sign == BlockSign::Exact) put_all(detail::decode_bc4_exact(block));
 }
 
-void decode_one(const std::byte* from, Block block, bool is_signed, BlockBytes& to)
+void decode_one(const std::byte* from, Block block, BlockSign sign, BlockBytes& to)
 {
     if (block == Block::Bc4 || block == Block::Bc5) {
         const std::size_t channels = block == Block::Bc4 ? 1 : 2;
         for (std::size_t c = 0; c < channels; ++c) {
-            put_channel(from + 8 * c, is_signed, c, channels, to);
+            put_channel(from + 8 * c, sign, c, channels, to);
         }
         return;
     }
     if (block == Block::Bc6h) {
-        const auto texels = detail::decode_bc6h(from, is_signed);
+        const auto texels = detail::decode_bc6h(from, sign == BlockSign::Signed);
         std::memcpy(to.data(), texels.data(), sizeof texels);
         return;
     }
@@ -88,8 +87,7 @@ RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width,
                         " bytes that are there",
                     "Export the file again; it is damaged.");
     }
-    const bool is_signed = sign == BlockSign::Signed;
-    const bool wide = is_signed && (block == Block::Bc4 || block == Block::Bc5);
+    const bool wide = sign != BlockSign::Unsigned && (block == Block::Bc4 || block == Block::Bc5);
     const PixelType type = block == Block::Bc6h ? PixelType::F16
                            : wide               ? PixelType::F32
                                                 : PixelType::U8;
@@ -105,7 +103,7 @@ RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width,
             bytes.data() + by * static_cast<std::size_t>(across) * block_bytes(block);
         for (int bx = 0; bx < across; ++bx, from += block_bytes(block)) {
             BlockBytes texels;
-            decode_one(from, block, is_signed, texels);
+            decode_one(from, block, sign, texels);
             const std::size_t length =
                 pixel * static_cast<std::size_t>(std::min(4, width - 4 * bx));
             for (int y = 0; y < rows; ++y) {

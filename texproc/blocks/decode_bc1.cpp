@@ -62,6 +62,16 @@ std::array<std::uint8_t, 16> decode_bc4(const std::byte* block)
     return values;
 }
 
+std::array<float, 16> decode_bc4_exact(const std::byte* block)
+{
+    const std::uint64_t v = load64(block);
+    const auto palette =
+        exact_bc4_palette(static_cast<int>(v & 255), static_cast<int>((v >> 8) & 255));
+    std::array<float, 16> values;
+    for (std::size_t t = 0; t < 16; ++t) values[t] = palette[(v >> (16 + 3 * t)) & 7] / 255.0f;
+    return values;
+}
+
 std::array<float, 16> decode_bc4_signed(const std::byte* block)
 {
     const std::uint64_t v = load64(block);

@@ -200,7 +200,14 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
 {
     MipTexture texture = detail::texture_shape(levels, options);
     const TextureFormat& format = texture.format;
-    for (const RawImage& level : levels) {
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        const RawImage& level = levels[k];
+        if (format.block && k < options.texel_weights.size() && !options.texel_weights[k].empty()) {
+            texture.levels.push_back(encode_blocks_weighted(to_image(level, ColorSpace::Data),
+                                                            options.texel_weights[k], *format.block,
+                                                            options.threads));
+            continue;
+        }
         if (!format.block) {
             texture.levels.push_back(converted(level, format.type, format.channels, options).bytes);
             continue;
@@ -220,7 +227,7 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
     return texture;
 }
 
-RawImage decode_level(const MipTexture& texture, int level, int threads)
+RawImage decode_level(const MipTexture& texture, int level, int threads, bool exact)
 {
     if (level < 0 || static_cast<std::size_t>(level) >= texture.levels.size()) {
         throw Error("texture: there is no level " + std::to_string(level) + ", it has " +
@@ -231,9 +238,10 @@ RawImage decode_level(const MipTexture& texture, int level, int threads)
     const std::vector<std::byte>& bytes = texture.levels[static_cast<std::size_t>(level)];
     const TextureFormat& format = texture.format;
     if (!format.block) return {w, h, format.channels, format.type, {}, bytes};
-    RawImage image =
-        decode_blocks(bytes, *format.block, w, h,
-                      format.is_signed ? BlockSign::Signed : BlockSign::Unsigned, threads);
+    const BlockSign sign = format.is_signed ? BlockSign::Signed
+                           : exact          ? BlockSign::Exact
+                                            : BlockSign::Unsigned;
+    RawImage image = decode_blocks(bytes, *format.block, w, h, sign, threads);
     if (format.channels == image.channels) return image;
     return with_channels8(image, format.channels);  // opaque BC1
 }

@@ -55,6 +55,9 @@ struct TextureWriteOptions {
     bool dither = false;  ///< to 8 bits: ordered 8 x 8 pattern in place of rounding
     BlockQuality quality = BlockQuality::Normal;
     std::array<float, 4> weights{1.0f, 1.0f, 1.0f, 1.0f};  ///< of the channels, for block formats
+    /// BC4 and BC5: what an error of each texel costs, by level; empty (or an empty level): all
+    /// alike.
+    std::vector<Image> texel_weights{};
     int zstd = 0;     ///< KTX2: 0 stored plain, 1..22 compressed
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };
@@ -64,8 +67,9 @@ struct TextureWriteOptions {
 /// 1). Levels may be fewer than down to 1 x 1. Throws Error when a level has the wrong size.
 MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOptions& options = {});
 
-/// One level in plain numbers. Throws Error when there is no such level.
-RawImage decode_level(const MipTexture& texture, int level, int threads = 0);
+/// One level in plain numbers; `exact`: BC4 and BC5 as a shader reads them (BlockSign::Exact), else
+/// in 8 bits. Throws Error when there is no such level.
+RawImage decode_level(const MipTexture& texture, int level, int threads = 0, bool exact = false);
 
 /// Writes a whole chain into one file, whole or not at all; the extension decides: .dds, .ktx2, or
 /// .exr (tiled with mip levels, half or float: what texture systems of film renderers read; needs

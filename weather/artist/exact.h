@@ -83,8 +83,6 @@ public:
     const Timeline& timeline() const { return timeline_; }
 
 private:
-    struct Rates;
-    struct Piece;
     struct Solution;
     std::size_t piece_before(TimeUs time) const;
 

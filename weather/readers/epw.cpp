@@ -68,10 +68,11 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
                   "no time zone in the LOCATION line, taken as UTC");
     for (int i = 1; i < 8; ++i) lines.next();
 
+    std::vector<std::string_view> f;
     Lines again = lines;
     TypicalYear typical;
     while (const auto line = again.next()) {
-        const auto f = split(*line, ',', 3);
+        split(*line, ',', f, 3);
         if (f.size() < 2) continue;
         const auto year = to_integer(f[0]), month = to_integer(f[1]);
         if (year && month && *month >= 1 && *month <= 12)
@@ -85,7 +86,7 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
 
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) continue;
-        const auto f = split(*line, ',', 64);
+        split(*line, ',', f, 64);
         if (f.size() < 22) {
             rows.bad_row(
                 lines.number(), "",

@@ -11,8 +11,9 @@ void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions&)
                                  Field::Rain,      Field::AirTemp,  Field::RelHumidity,
                                  Field::Wind,      Field::Pressure};
     Lines lines(text);
+    std::vector<std::string_view> w;
     while (const auto line = lines.next()) {
-        const auto w = words(*line, 64);
+        words(*line, w, 64);
         if (w.empty()) continue;
         if (w.size() != 12) {
             rows.bad_row(lines.number(), "",

@@ -1,5 +1,5 @@
-// METAR and TAF bulletins: finds the reports in the lines (wrapped, with or without METAR and =),
-// takes one station, turns its reports into rows.
+// METAR and TAF bulletins: takes one station, dates its reports and forecasts, turns them into
+// rows.
 #include "weather/readers/metar.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
+#include "weather/readers/bulletin.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/station_regions.h"
 #include "weather/readers/text.h"
@@ -15,113 +16,6 @@
 namespace petrichor::weather {
 
 namespace {
-
-struct Bulletin {
-    std::vector<MetarReport> reports;
-    std::vector<TafForecast> forecasts;
-};
-
-bool is_code(std::string_view w)
-{
-    if (w.size() != 4 || w[0] < 'A' || w[0] > 'Z') return false;
-    return std::all_of(w.begin(), w.end(),
-                       [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
-}
-bool is_digits(std::string_view w)
-{
-    return !w.empty() &&
-           std::all_of(w.begin(), w.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-bool is_day_time(std::string_view w)
-{
-    return w.size() == 7 && w[6] == 'Z' && is_digits(w.substr(0, 6));
-}
-
-// Collects tokens into reports; a report ends at = or where the next begins.
-class Assembler {
-public:
-    Assembler(Bulletin& bulletin, RowCollector& rows) : bulletin_(bulletin), rows_(rows) {}
-
-    void line(std::string_view text, std::size_t number)
-    {
-        const auto w = words(text, 400);
-        for (std::size_t i = 0; i < w.size(); ++i) {
-            const auto t = w[i];
-            if (t == "METAR" || t == "SPECI" || t == "TAF") {
-                flush();
-                open(t == "TAF", number);
-                continue;
-            }
-            if (t.size() == 12 && is_digits(t)) {  // YYYYMMDDhhmm before the report
-                flush();
-                stamp_ = std::string(t);
-                continue;
-            }
-            const bool starts = is_code(t) && i + 1 < w.size() &&
-                                (is_day_time(w[i + 1]) || w[i + 1].substr(0, 3) == "NIL");
-            if (starts && !text_.empty() && !(taf_ && only_marks())) flush();
-            if (starts && !open_) open(false, number);
-            if (!open_) {
-                if (!is_heading(w)) continue;
-                break;
-            }
-            if (text_.size() > 4000) flush();
-            if (!text_.empty()) text_ += ' ';
-            text_ += t;
-            if (t.back() == '=') flush();
-        }
-    }
-    void flush()
-    {
-        if (open_ && !text_.empty()) finish();
-        text_.clear();
-        open_ = false;
-        taf_ = false;
-    }
-
-private:
-    bool only_marks() const { return text_ == "AMD" || text_ == "COR"; }
-    static bool is_heading(const std::vector<std::string_view>& w)
-    {
-        return w.size() == 3 && w[0].size() == 6;
-    }
-    void open(bool taf, std::size_t number)
-    {
-        open_ = true;
-        taf_ = taf;
-        line_ = number;
-        text_.clear();
-    }
-    void finish()
-    {
-        std::string_view text = text_;
-        if (text.substr(0, 4) == "COR ") text.remove_prefix(4);
-        if (taf_) {
-            if (auto taf = parse_taf(text)) {
-                taf->line = line_;
-                bulletin_.forecasts.push_back(std::move(*taf));
-                return;
-            }
-        } else if (auto report = parse_metar(text)) {
-            report->line = line_;
-            if (stamp_.size() == 12) {
-                report->year = *to_integer(std::string_view(stamp_).substr(0, 4));
-                report->month =
-                    static_cast<int>(*to_integer(std::string_view(stamp_).substr(4, 2)));
-                stamp_.clear();
-            }
-            bulletin_.reports.push_back(std::move(*report));
-            return;
-        }
-        rows_.bad_row(line_, "", "'" + shown(text) + "' is not a report");
-    }
-
-    Bulletin& bulletin_;
-    RowCollector& rows_;
-    std::string text_, stamp_;
-    std::size_t line_ = 0;
-    bool open_ = false, taf_ = false;
-};
 
 // Days of the month become dates: a day much smaller than the one before is in the next month.
 class Dates {
@@ -143,7 +37,6 @@ public:
         last_day_ = r.day;
         return us_from_civil({year_, month_, r.day, r.hour, r.minute, 0.0});
     }
-    std::int64_t month_begin() const { return days_from_civil(year_, month_, 1) * 86400000000LL; }
 
 private:
     long long year_;
@@ -187,74 +80,63 @@ void place_in_region(const std::string& station, RowCollector& rows)
                   std::string(region->name) + "; give latitude and longitude");
 }
 
-}  // namespace
-
-void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options)
+// The station asked for, else the one that reports most (the first of equals).
+std::string chosen_station(const Bulletin& bulletin, const std::string& asked, RowCollector& rows)
 {
-    Bulletin bulletin;
-    {
-        Assembler assembler(bulletin, rows);
-        Lines lines(text);
-        while (const auto line = lines.next()) {
-            std::string clean(*line);
-            for (char& c : clean) {
-                if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-            }
-            assembler.line(clean, lines.number());
-        }
-        assembler.flush();
-    }
-    // Which station: the one asked for, else the one that reports most (the first of equals).
     std::map<std::string, std::size_t> counts;
     for (const auto& r : bulletin.reports) counts[r.station] += r.nil ? 0 : 1;
     for (const auto& f : bulletin.forecasts) counts.emplace(f.station, 0);
-    std::string station = options.station;
-    for (char& c : station) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     std::string names;
     std::size_t listed = 0;
     for (const auto& [name, n] : counts) {
         if (listed++ < 40) names.append(names.empty() ? "" : ", ").append(name);
     }
-    if (station.empty()) {
-        std::size_t most = 0;
-        for (const auto& r : bulletin.reports) {
-            if (!r.nil && counts[r.station] > most) {
-                most = counts[r.station];
-                station = r.station;
-            }
-        }
-        if (station.empty() && !bulletin.forecasts.empty())
-            station = bulletin.forecasts.front().station;
-        if (counts.size() > 1)
-            rows.note(ReadNote::Kind::Info, 0, "station",
-                      "several stations, " + station + " is used; the file has " + names);
-    } else if (!counts.count(station)) {
+    std::string station = asked;
+    for (char& c : station) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    if (!station.empty()) {
+        if (counts.count(station)) return station;
         throw Error("weather: METAR: no report of station '" + shown(station) + "'",
                     "Choose one of: " + names + ".");
     }
-    rows.site().name = station;
-    if (std::isnan(options.site.latitude_deg) || std::isnan(options.site.longitude_deg)) {
-        place_in_region(station, rows);
+    std::size_t most = 0;
+    for (const auto& r : bulletin.reports) {
+        if (!r.nil && counts[r.station] > most) {
+            most = counts[r.station];
+            station = r.station;
+        }
     }
-    int year = options.year, month = options.month;
-    const bool dated = std::any_of(bulletin.reports.begin(), bulletin.reports.end(),
-                                   [](const MetarReport& r) { return r.year != 0; });
-    if (year == 0 || month < 1 || month > 12) {
-        year = 2020;
-        month = 1;
-        if (!dated)
-            rows.note(ReadNote::Kind::Time, 0, "time",
-                      "reports name only the day; placed in January 2020, give year and month to "
-                      "change that");
-    }
-    const double elevation = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
+    if (station.empty() && !bulletin.forecasts.empty())
+        station = bulletin.forecasts.front().station;
+    if (counts.size() > 1)
+        rows.note(ReadNote::Kind::Info, 0, "station",
+                  "several stations, " + station + " is used; the file has " + names);
+    return station;
+}
 
-    struct Timed {
-        std::int64_t us;
-        const MetarReport* report;
-    };
+struct Timed {
+    std::int64_t us;
+    const MetarReport* report;
+};
+
+void note_details(RowCollector& rows, const MetarReport& r)
+{
+    for (const std::string& odd : r.not_understood)
+        rows.note(ReadNote::Kind::Info, r.line, "group", "'" + odd + "' is not understood");
+    for (const RunwayState& runway : r.runways) {
+        std::string said = runway.runway == 88 ? "all runways: "
+                                               : "runway " + std::to_string(runway.runway) + ": ";
+        said += runway.cleared ? "cleared" : deposit_name(runway.deposit);
+        if (!std::isnan(runway.depth_mm))
+            said += ", " + std::to_string(static_cast<int>(runway.depth_mm)) + " mm";
+        rows.note(ReadNote::Kind::Info, r.line, "runway", said);
+    }
+}
+
+// The station's reports in order of time. Corrections repeat a time: the last one holds.
+std::vector<Timed> dated_reports(const Bulletin& bulletin, const std::string& station, Dates dates,
+                                 RowCollector& rows)
+{
     std::vector<Timed> timed;
-    Dates dates(year, month);
     for (const MetarReport& r : bulletin.reports) {
         if (r.station != station) continue;
         if (r.nil) {
@@ -268,21 +150,10 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
             continue;
         }
         timed.push_back({*us, &r});
-        for (const std::string& odd : r.not_understood)
-            rows.note(ReadNote::Kind::Info, r.line, "group", "'" + odd + "' is not understood");
-        for (const RunwayState& runway : r.runways) {
-            std::string said = runway.runway == 88
-                                   ? "all runways: "
-                                   : "runway " + std::to_string(runway.runway) + ": ";
-            said += runway.cleared ? "cleared" : deposit_name(runway.deposit);
-            if (!std::isnan(runway.depth_mm))
-                said += ", " + std::to_string(static_cast<int>(runway.depth_mm)) + " mm";
-            rows.note(ReadNote::Kind::Info, r.line, "runway", said);
-        }
+        note_details(rows, r);
     }
     std::stable_sort(timed.begin(), timed.end(),
                      [](const Timed& a, const Timed& b) { return a.us < b.us; });
-    // Corrections repeat a time: the last one holds.
     std::vector<Timed> kept;
     for (const Timed& t : timed) {
         if (!kept.empty() && kept.back().us == t.us) {
@@ -293,23 +164,33 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
             kept.push_back(t);
         }
     }
-    const bool amounts = std::any_of(kept.begin(), kept.end(), [](const Timed& t) {
-        return !std::isnan(t.report->hour_precip_mm);
-    });
+    return kept;
+}
+
+// Remark 6nnnn covers 6 h at 00, 06, 12 and 18 UTC and 3 h at the hours between.
+double hours_of_six(const MetarReport& r)
+{
+    const int hour = (r.hour * 60 + r.minute + 30) / 60;
+    return hour % 6 == 3 ? 3.0 : 6.0;
+}
+
+// `amounts`: the station measures precipitation; else rates come from present weather and hold
+// until the next report.
+void put_observed(RowCollector& rows, const std::vector<Timed>& kept, bool amounts,
+                  double elevation_m)
+{
     bool from_weather = false;
     for (const Timed& t : kept) {
         if (!rows.begin_row(t.us, t.report->line)) continue;
         const MetarReport& r = *t.report;
-        put_report(rows, r, elevation);
+        put_report(rows, r, elevation_m);
         if (!std::isnan(r.hour_precip_mm))
             rows.fell_before(Field::Precip, r.hour_precip_mm, 1.0);
         else if (amounts && rows.rows() > 1)
             rows.fell_before(Field::Precip, 0.0, 1.0);  // such stations report only what fell
         if (!std::isnan(r.six_hour_precip_mm))
-            rows.fell_before(Field::Precip, r.six_hour_precip_mm, 6.0);
+            rows.fell_before(Field::Precip, r.six_hour_precip_mm, hours_of_six(r));
         if (!amounts) {
-            // No measured amounts at this station: rates from present weather, until the next
-            // report.
             rows.set(Field::Rain, r.rain_mm_h / 3600.0);
             rows.set(Field::Snow, r.snow_mm_h / 3600.0);
             from_weather = from_weather || r.weather_seen;
@@ -320,39 +201,88 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
                   "rates from present weather: drizzle 0.1/0.3/0.8, rain 1/4.5/12, snow 0.5/1.5/3 "
                   "mm/h for light/moderate/heavy");
     }
+}
 
-    // A forecast goes on after the last report, hour by hour.
-    const TafForecast* taf = nullptr;
-    for (const auto& f : bulletin.forecasts) {
-        if (f.station == station) taf = &f;
-    }
-    if (!taf) return;
-    Dates taf_dates = dates;
-    MetarReport first_day;
-    first_day.day = static_cast<int>(taf->begin_hours / 24);
-    if (!taf_dates.of(first_day) || taf->end_hours - taf->begin_hours > 72) {
-        rows.bad_row(taf->line, "time", "the validity of the forecast is not possible");
-        return;
-    }
-    rows.note(ReadNote::Kind::Info, taf->line, "forecast",
-              std::to_string(taf->periods.size())
-                  .append(" prevailing periods used, ")
-                  .append(std::to_string(taf->passing))
-                  .append(" passing ones (TEMPO, PROB) not"));
-    const std::int64_t month_begin = taf_dates.month_begin();
-    const auto at = [&](std::int64_t hours) { return month_begin + (hours - 24) * 3600000000LL; };
-    for (std::int64_t h = taf->begin_hours; h < taf->end_hours; ++h) {
-        if (!kept.empty() && at(h) <= kept.back().us) continue;
-        const TafPeriod* now = &taf->periods.front();
-        for (const TafPeriod& p : taf->periods) {
-            if (p.from_hours <= h) now = &p;
+// Forecasts of the station that can be dated; later issues last, as they replace earlier ones.
+std::vector<TafForecast> placed_forecasts(const Bulletin& bulletin, const std::string& station,
+                                          const std::vector<Timed>& reports, Dates dates,
+                                          RowCollector& rows)
+{
+    std::vector<TafForecast> placed;
+    for (TafForecast taf : bulletin.forecasts) {
+        if (taf.station != station) continue;
+        if (taf.nil) {
+            rows.note(ReadNote::Kind::Info, taf.line, "forecast", "NIL forecast");
+            continue;
         }
-        if (!rows.begin_row(at(h), taf->line)) continue;
-        MetarReport r = now->weather;
-        for (const auto& [hour, t] : taf->temperatures_c) {
-            if (hour == h) r.temp_c = t;
+        // Near the last report; without one, in the month that was given.
+        MetarReport day;
+        day.day = taf.issued.day ? taf.issued.day : taf.begin.day;
+        day.year = taf.year;
+        day.month = taf.month;
+        const auto own = dates.of(day);
+        const bool follows = !reports.empty() && !taf.year;
+        if (!(follows || own) || !place_taf(taf, follows ? reports.back().us : *own)) {
+            rows.bad_row(taf.line, "time", "the validity of the forecast is not possible");
+            continue;
         }
-        put_report(rows, r, elevation);
+        placed.push_back(std::move(taf));
+    }
+    std::stable_sort(placed.begin(), placed.end(), [](const TafForecast& a, const TafForecast& b) {
+        return a.issued_us < b.issued_us;
+    });
+    return placed;
+}
+
+void note_forecast(RowCollector& rows, const TafForecast& taf, TafUse use)
+{
+    std::size_t counts[3] = {};
+    for (const TafGroup& group : taf.groups) ++counts[static_cast<std::size_t>(group.kind)];
+    std::string text = taf.cancelled ? "cancelled"
+                                     : "from " + iso_from_us(taf.begin_us) + " to " +
+                                           iso_from_us(taf.end_us) + ": ";
+    if (!taf.cancelled) {
+        text += std::to_string(counts[0] - 1) + " FM, " + std::to_string(counts[1]) + " BECMG, " +
+                std::to_string(counts[2]) + " TEMPO or PROB groups";
+        if (counts[2] && use == TafUse::Expected)
+            text += ", these by their share (TEMPO 0.5, PROB30 0.3, PROB40 0.4, PROB30 TEMPO 0.15)";
+        if (counts[2] && use == TafUse::Worst) text += ", the worst of all taken";
+        if (counts[2] && use == TafUse::Prevailing) text += ", these not used";
+    }
+    rows.note(ReadNote::Kind::Info, taf.line, "forecast", text);
+}
+
+// Forecasts go on after the last report. Each time belongs to the last issue that covers it.
+void put_forecasts(RowCollector& rows, const std::vector<TafForecast>& placed, TafUse use,
+                   const std::vector<Timed>& reports, bool amounts, double elevation_m)
+{
+    std::map<std::int64_t, const TafForecast*> times;
+    for (const TafForecast& taf : placed) {
+        note_forecast(rows, taf, use);
+        const auto begin = times.lower_bound(taf.begin_us);
+        if (taf.cancelled) {
+            times.erase(begin, times.upper_bound(taf.end_us));
+            continue;
+        }
+        times.erase(begin, times.lower_bound(taf.end_us));
+        for (const std::int64_t us : taf_times(taf)) {
+            // The end of this one may be inside an earlier forecast, which then goes on.
+            if (us < taf.end_us || !times.count(us)) times[us] = &taf;
+        }
+    }
+    for (auto at = times.begin(); at != times.end(); ++at) {
+        const TafForecast& taf = *at->second;
+        if (!reports.empty() && at->first <= reports.back().us) continue;
+        if (!rows.begin_row(at->first, taf.line)) continue;
+        const auto next = std::next(at);
+        const bool last = at->first >= taf.end_us;
+        MetarReport r = taf_weather(taf, last ? taf.end_us - 1 : at->first,
+                                    next == times.end() ? taf.end_us : next->first, use);
+        for (const auto& [us, celsius] : taf.temperatures_at_us_c) {
+            if (us == at->first) r.temp_c = celsius;
+        }
+        if (last) r.rain_mm_h = r.snow_mm_h = 0.0;  // nothing is known from here on
+        put_report(rows, r, elevation_m);
         if (amounts) {
             rows.set(Field::Precip, (r.rain_mm_h + r.snow_mm_h) / 3600.0);
         } else {
@@ -360,6 +290,38 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
             rows.set(Field::Snow, r.snow_mm_h / 3600.0);
         }
     }
+}
+
+}  // namespace
+
+void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options)
+{
+    const Bulletin bulletin = read_bulletin(text, rows);
+    const std::string station = chosen_station(bulletin, options.station, rows);
+    rows.site().name = station;
+    if (std::isnan(options.site.latitude_deg) || std::isnan(options.site.longitude_deg)) {
+        place_in_region(station, rows);
+    }
+    int year = options.year, month = options.month;
+    const auto has_year = [](const auto& r) { return r.year != 0; };
+    const bool dated = std::any_of(bulletin.reports.begin(), bulletin.reports.end(), has_year) ||
+                       std::any_of(bulletin.forecasts.begin(), bulletin.forecasts.end(), has_year);
+    if (year == 0 || month < 1 || month > 12) {
+        year = 2020;
+        month = 1;
+        if (!dated)
+            rows.note(ReadNote::Kind::Warning, 0, "time",
+                      "reports name only the day: placed in January 2020; give year and month");
+    }
+    const double elevation = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
+    const Dates dates(year, month);
+    const std::vector<Timed> kept = dated_reports(bulletin, station, dates, rows);
+    const bool amounts = std::any_of(kept.begin(), kept.end(), [](const Timed& t) {
+        return !std::isnan(t.report->hour_precip_mm);
+    });
+    put_observed(rows, kept, amounts, elevation);
+    put_forecasts(rows, placed_forecasts(bulletin, station, kept, dates, rows), options.taf, kept,
+                  amounts, elevation);
 }
 
 }  // namespace petrichor::weather

@@ -41,10 +41,11 @@ struct MetarReport {
     /// Rates from present weather, mm/h: drizzle 0.1/0.3/0.8, rain 1/4.5/12, snow 0.5/1.5/3,
     /// showers the same.
     double rain_mm_h = 0.0, snow_mm_h = 0.0;
-    bool weather_seen = false;             ///< a present weather group with precipitation was there
-    double hour_precip_mm = kMissing;      ///< remark Pnnnn
-    double six_hour_precip_mm = kMissing;  ///< remark 6nnnn
-    double snow_depth_m = kMissing;        ///< remark 4/sss
+    bool weather_seen = false;         ///< a present weather group with precipitation was there
+    double hour_precip_mm = kMissing;  ///< remark Pnnnn
+    double six_hour_precip_mm =
+        kMissing;                    ///< remark 6nnnn: of 6 h at 00, 06, 12, 18 UTC, else of 3 h
+    double snow_depth_m = kMissing;  ///< remark 4/sss
     std::vector<RunwayState> runways;
     std::vector<std::string> not_understood;  ///< groups of the body, at most 8
 };
@@ -52,22 +53,6 @@ struct MetarReport {
 /// Parses one report that begins at the station code, without METAR or SPECI. Never throws on odd
 /// groups: they are listed. Nothing when there is no station or time.
 std::optional<MetarReport> parse_metar(std::string_view text);
-
-/// A forecast: what prevails from each time on.
-struct TafPeriod {
-    std::int64_t from_hours = 0;  ///< day * 24 + hour of the month
-    MetarReport weather;
-};
-struct TafForecast {
-    std::string station;
-    std::int64_t begin_hours = 0, end_hours = 0;  ///< validity, day * 24 + hour
-    std::vector<TafPeriod> periods;
-    std::vector<std::pair<std::int64_t, double>> temperatures_c;  ///< TX and TN groups
-    std::size_t line = 0;
-    std::size_t passing = 0;  ///< TEMPO and PROB groups, not used
-};
-/// Parses a forecast that begins at the station code, without TAF.
-std::optional<TafForecast> parse_taf(std::string_view text);
 
 }  // namespace petrichor::weather
 

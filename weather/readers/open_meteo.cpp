@@ -204,12 +204,13 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
     std::vector<OpenMeteoColumn> columns;
     std::size_t width = 0, air_at = 0;
     bool surface = false;
+    std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) {
             if (width) break;  // the daily block
             continue;
         }
-        const auto f = split(*line, ',', 256);
+        split(*line, ',', f, 256);
         if (!width) {
             if (lower(f[0]) != "time") {
                 throw Error("weather: Open-Meteo CSV line " + std::to_string(lines.number()) +

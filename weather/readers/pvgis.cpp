@@ -97,10 +97,11 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
         for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse})
             rows.holds_after(f, sun_offset_h * 3600.0);
     }
+    std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty()) break;  // the footer explains the columns
-        const auto f = split(*line, ',', 64);
+        split(*line, ',', f, 64);
         CivilTime when;
         if (!parse_when(f[0], when)) {
             if (f.size() < names.size() / 2) break;  // a footer without an empty line before it

@@ -20,13 +20,14 @@ constexpr const char* kKinds =
 void refuse_binary(std::string_view text)
 {
     const auto count_odd = [](std::string_view part) {
-        std::size_t odd = 0;
-        for (const char c : part) {
-            const auto u = static_cast<unsigned char>(c);
-            if (u < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != 3 && c != 1)
-                ++odd;
-        }
-        return odd;
+        // Few control characters of any kind is the usual answer, and quickly counted.
+        const auto low = static_cast<std::size_t>(std::count_if(
+            part.begin(), part.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
+        if (low * 50 <= part.size()) return std::size_t{0};
+        return static_cast<std::size_t>(std::count_if(part.begin(), part.end(), [](char c) {
+            return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t' &&
+                   c != '\f' && c != 3 && c != 1;
+        }));
     };
     constexpr std::size_t kSample = 1 << 16;
     for (std::size_t i = 0; i < 16; ++i) {
@@ -186,6 +187,12 @@ WeatherFormat recognise_weather(std::string_view text)
     for (const auto line : head) {
         const std::string low = lower(line);
         if (starts_with(low, "#")) continue;
+        // A table with unnamed times: its header begins with a separator.
+        const auto next = std::find(head.begin(), head.end(), line) + 1;
+        if (next != head.end() && low.find_first_of(",;\t") == 0 &&
+            next->find_first_of("0123456789") == 0) {
+            return WeatherFormat::ForcingCsv;
+        }
         if ((low.find("time") != std::string::npos || low.find("date") != std::string::npos) &&
             low.find_first_of(",;\t") != std::string::npos) {
             return WeatherFormat::ForcingCsv;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "weather/forcing.h"
+#include "weather/readers/taf.h"
 
 namespace petrichor::weather {
 
@@ -27,10 +28,11 @@ enum class WeatherFormat {
 const char* format_name(WeatherFormat format);
 
 struct ReadOptions {
-    Site site{};                 ///< values that are given (not NaN) replace those of the file
-    bool heights_given = false;  ///< the site's sensor heights replace those of the file
-    std::string station{};       ///< METAR: which station; empty: the one with most reports
-    int year = 0, month = 0;     ///< METAR says only the day; 0: January 2020, with a note
+    Site site{};                    ///< values that are given (not NaN) replace those of the file
+    bool heights_given = false;     ///< the site's sensor heights replace those of the file
+    std::string station{};          ///< METAR: which station; empty: the one with most reports
+    int year = 0, month = 0;        ///< METAR says only the day; 0: January 2020, with a note
+    TafUse taf = TafUse::Expected;  ///< TAF: what to make of TEMPO and PROB groups
     std::size_t most_bytes = std::size_t{512} << 20;
     bool fill = true;  ///< run fill_forcing
     FillOptions filling{};

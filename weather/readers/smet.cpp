@@ -96,10 +96,11 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
     if (!(std::abs(zone_h) <= 14.0)) zone_h = 0.0;
     std::int64_t last = 0;
     bool have_last = false;
+    std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty() || t.front() == '#') continue;
-        const auto f = words(*line, 256);
+        words(*line, f, 256);
         if (f.size() != meaning.size()) {
             rows.bad_row(lines.number(), "",
                          "has " + std::to_string(f.size()) + " columns, fields names " +

@@ -1,40 +1,32 @@
 #include "weather/readers/text.h"
 
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+
+#include "weather/forcing.h"
 
 namespace petrichor::weather {
 
-std::optional<std::string_view> Lines::next()
+Lines::Lines(std::string_view text) : text_(text), newline_(text.find('\n'))
 {
-    if (done_ || (rest_.empty() && number_ > 0)) return std::nullopt;
-    if (rest_.empty()) {
-        done_ = true;
-        return std::nullopt;
-    }
-    std::size_t end = 0;
-    while (end < rest_.size() && rest_[end] != '\n' && rest_[end] != '\r') ++end;
-    ++number_;
-    if (end == rest_.size()) {
-        const auto line = rest_;
-        rest_ = {};
-        return line;
-    }
-    const auto line = rest_.substr(0, end);
-    const bool pair = rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
-    rest_.remove_prefix(end + (pair ? 2 : 1));
-    return line;
 }
 
-std::string_view trimmed(std::string_view text)
+std::optional<std::string_view> Lines::next()
 {
-    const auto blank = [](char c) {
-        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
-    };
-    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-    return text;
+    if (at_ >= text_.size()) return std::nullopt;
+    if (newline_ != std::string_view::npos && newline_ < at_) newline_ = text_.find('\n', at_);
+    ++number_;
+    auto line = text_.substr(at_, newline_ - at_);  // to the end when there is no \n
+    std::size_t end_length = 1;
+    if (const auto cr = line.find('\r'); cr != std::string_view::npos) {
+        end_length = at_ + cr + 1 == newline_ ? 2 : 1;
+        line = line.substr(0, cr);
+    }
+    at_ += line.size() + end_length;
+    return line;
 }
 
 std::string lower(std::string_view text)
@@ -54,52 +46,136 @@ std::string shown(std::string_view text)
     return out;
 }
 
-std::vector<std::string_view> split(std::string_view line, char separator, std::size_t most)
+namespace {
+
+// Where a character is, eight at a time; fields are short, so this beats a call of memchr.
+const char* find_near(const char* at, const char* end, char wanted)
 {
-    std::vector<std::string_view> fields;
-    std::size_t begin = 0;
-    bool quoted = false;
-    for (std::size_t i = 0; i <= line.size(); ++i) {
-        if (i < line.size() && line[i] == '"') quoted = !quoted;
-        if (i < line.size() && (quoted || line[i] != separator)) continue;
-        auto field = trimmed(line.substr(begin, i - begin));
-        if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+    constexpr std::uint64_t kOnes = 0x0101010101010101u, kTops = 0x8080808080808080u;
+    if constexpr (std::endian::native == std::endian::little) {
+        const std::uint64_t eight = kOnes * static_cast<unsigned char>(wanted);
+        for (; end - at >= 8; at += 8) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, at, 8);
+            word ^= eight;  // a byte that matches is now 0; the lowest such byte is found exactly
+            const std::uint64_t found = (word - kOnes) & ~word & kTops;
+            if (found) return at + std::countr_zero(found) / 8;
+        }
+    }
+    while (at < end && *at != wanted) ++at;
+    return at;
+}
+
+}  // namespace
+
+void split(std::string_view line, char separator, std::vector<std::string_view>& fields,
+           std::size_t most)
+{
+    fields.clear();
+    const char* const end = line.data() + line.size();
+    const bool quotes = line.find('"') != std::string_view::npos;
+    const char* at = line.data();
+    while (fields.size() < most) {
+        const char* const begin = at;
+        if (quotes) {
+            bool quoted = false;
+            for (; at < end && (*at != separator || quoted); ++at) quoted ^= *at == '"';
+        } else {
+            at = find_near(at, end, separator);
+        }
+        auto field = trimmed({begin, static_cast<std::size_t>(at - begin)});
+        if (quotes && field.size() >= 2 && field.front() == '"' && field.back() == '"') {
             field = trimmed(field.substr(1, field.size() - 2));
         }
         fields.push_back(field);
-        begin = i + 1;
-        if (fields.size() >= most) break;
+        if (at == end) break;
+        ++at;
     }
+}
+
+std::vector<std::string_view> split(std::string_view line, char separator, std::size_t most)
+{
+    std::vector<std::string_view> fields;
+    split(line, separator, fields, most);
     return fields;
+}
+
+void words(std::string_view line, std::vector<std::string_view>& fields, std::size_t most)
+{
+    const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+    fields.clear();
+    std::size_t i = 0;
+    while (i < line.size() && fields.size() < most) {
+        while (i < line.size() && blank(line[i])) ++i;
+        std::size_t end = i;
+        while (end < line.size() && !blank(line[end])) ++end;
+        if (end > i) fields.push_back(line.substr(i, end - i));
+        i = end;
+    }
 }
 
 std::vector<std::string_view> words(std::string_view line, std::size_t most)
 {
     std::vector<std::string_view> fields;
-    std::size_t i = 0;
-    while (i < line.size() && fields.size() < most) {
-        while (i < line.size() &&
-               (line[i] == ' ' || line[i] == '\t' || line[i] == '\r' || line[i] == '\n'))
-            ++i;
-        std::size_t end = i;
-        while (end < line.size() && line[end] != ' ' && line[end] != '\t' && line[end] != '\r' &&
-               line[end] != '\n')
-            ++end;
-        if (end > i) fields.push_back(line.substr(i, end - i));
-        i = end;
-    }
+    words(line, fields, most);
     return fields;
 }
 
+namespace {
+
+// A short decimal such as -12.5: its digits are a whole number below 2^53 and so is the power of
+// ten, thus one division rounds once and gives the very double that from_chars gives. Returns NaN
+// for anything else (exponents, 16 digits or more, no digit before or after the point).
+double short_decimal(const char* at, const char* end)
+{
+    constexpr double kPower[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
+                                 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
+    const bool minus = *at == '-';
+    at += minus;
+    const char* const begin = at;
+    std::int64_t digits = 0;
+    const auto take_digits = [&] {
+        for (; at < end; ++at) {
+            const unsigned digit = static_cast<unsigned char>(*at) - unsigned{'0'};
+            if (digit > 9) break;
+            digits = digits * 10 + digit;
+        }
+    };
+    if (end - begin > 16) return kMissing;
+    take_digits();
+    if (at == begin || (at == end && at - begin > 15)) return kMissing;
+    double value = static_cast<double>(digits);
+    if (at < end) {
+        const char* const point = at++;
+        if (*point != '.' || at == end) return kMissing;
+        take_digits();
+        if (at < end) return kMissing;
+        value = static_cast<double>(digits) / kPower[end - point - 1];
+    }
+    return minus ? -value : value;
+}
+
+// Apart, so that its many registers do not slow down the short ones.
+[[gnu::noinline]] double any_decimal(const char* at, const char* end)
+{
+    double value = 0.0;
+    const auto [stop, failed] = std::from_chars(at, end, value);
+    return failed == std::errc{} && stop == end && std::isfinite(value) ? value : kMissing;
+}
+
+}  // namespace
+
 std::optional<double> to_number(std::string_view text)
 {
-    text = trimmed(text);
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    if (text.empty()) return std::nullopt;
-    double value = 0.0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failed != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (at < end && is_blank(*at)) ++at;
+    while (at < end && is_blank(end[-1])) --end;
+    if (at < end && *at == '+') ++at;
+    if (at == end) return std::nullopt;
+    double value = short_decimal(at, end);
+    if (std::isnan(value)) value = any_decimal(at, end);
+    if (std::isnan(value)) return std::nullopt;
     return value;
 }
 

@@ -16,25 +16,39 @@ namespace petrichor::weather {
 /// Lines of a text with their 1-based numbers; accepts \n, \r\n and \r.
 class Lines {
 public:
-    explicit Lines(std::string_view text) : rest_(text) {}
+    explicit Lines(std::string_view text);
     /// The next line without its end, or nothing.
     std::optional<std::string_view> next();
     std::size_t number() const { return number_; }
 
 private:
-    std::string_view rest_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t newline_ = 0;  // the next \n at or after at_; found once, also in a file of \r
     std::size_t number_ = 0;
-    bool done_ = false;
 };
 
-std::string_view trimmed(std::string_view text);
+inline bool is_blank(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+inline std::string_view trimmed(std::string_view text)
+{
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
 std::string lower(std::string_view text);
 /// A piece of a file for a message: at most 40 printable characters.
 std::string shown(std::string_view text);
 /// Fields between separators; quotes protect separators and are removed. At most `most` fields.
 std::vector<std::string_view> split(std::string_view line, char separator, std::size_t most = 4096);
+/// The same into a vector that is used again for the next line: no allocation a line.
+void split(std::string_view line, char separator, std::vector<std::string_view>& fields,
+           std::size_t most = 4096);
 /// Fields between runs of blanks.
 std::vector<std::string_view> words(std::string_view line, std::size_t most = 4096);
+void words(std::string_view line, std::vector<std::string_view>& fields, std::size_t most = 4096);
 /// The whole text as a finite number (a leading + and surrounding blanks are fine), or nothing.
 std::optional<double> to_number(std::string_view text);
 std::optional<long long> to_integer(std::string_view text);

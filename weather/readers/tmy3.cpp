@@ -34,11 +34,16 @@ struct When {
 };
 bool parse_when(std::string_view date, std::string_view time, When& when)
 {
-    const auto d = split(date, '/', 4);
-    const auto t = split(time, ':', 3);
-    if (d.size() != 3 || t.size() < 2) return false;
-    const auto month = to_integer(d[0]), day = to_integer(d[1]), year = to_integer(d[2]);
-    const auto hour = to_integer(t[0]), minute = to_integer(t[1]);
+    const auto slash = date.find('/');
+    const auto second = slash == std::string_view::npos ? slash : date.find('/', slash + 1);
+    const auto colon = time.find(':');
+    if (second == std::string_view::npos || colon == std::string_view::npos) return false;
+    const auto month = to_integer(date.substr(0, slash)),
+               day = to_integer(date.substr(slash + 1, second - slash - 1)),
+               year = to_integer(date.substr(second + 1));
+    const auto after = time.substr(colon + 1);
+    const auto hour = to_integer(time.substr(0, colon)),
+               minute = to_integer(after.substr(0, after.find(':')));
     if (!month || !day || !year || !hour || !minute) return false;
     if (*month < 1 || *month > 12 || *day < 1 || *day > 31 || *hour < 0 || *hour > 24) return false;
     when = {*year, static_cast<int>(*month), static_cast<int>(*day), static_cast<int>(*hour),
@@ -72,19 +77,21 @@ void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
         if (name == "lprecip depth (mm)") depth_at = i;
         if (name == "lprecip quantity (hr)") hours_at = i;
     }
+    std::vector<std::string_view> f;
     Lines again = lines;
     TypicalYear typical;
     while (const auto line = again.next()) {
-        const auto f = split(*line, ',', 3);
+        split(*line, ',', f, 3);
         When when;
         if (f.size() >= 2 && parse_when(f[0], f[1], when)) typical.watch(when.year, when.month);
     }
     typical.decide(rows);
-    for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse}) rows.means_of_past(f);
+    for (const Field sun : {Field::Shortwave, Field::Direct, Field::Diffuse})
+        rows.means_of_past(sun);
 
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) continue;
-        const auto f = split(*line, ',', 256);
+        split(*line, ',', f, 256);
         When when;
         if (f.size() < 2 || !parse_when(f[0], f[1], when)) {
             rows.bad_row(lines.number(), "time",

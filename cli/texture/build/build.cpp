@@ -18,6 +18,7 @@
 #include "cli/texture/build/material.h"
 #include "cli/texture/build/sha256.h"
 #include "cli/texture/build/state.h"
+#include "cli/words.h"
 
 namespace petrichor::cli {
 
@@ -27,11 +28,16 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Part of every key: raise it when the bytes of an output change for the same input.
-constexpr int kEncoder = 1;
+constexpr int kEncoder = 2;
 
 std::string program()
 {
     return "petrichor " PETRICHOR_VERSION " encoder " + std::to_string(kEncoder);
+}
+
+BuildState::SetName set_name(const PlannedMaterial& material)
+{
+    return {material.name, join_words(material.recipe->engines)};
 }
 
 // Sources, options and program decide the outputs, and so the key.
@@ -56,7 +62,7 @@ ordered_json error_json(const texproc::RangeScore& range)
 std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& made,
                            BuildState& state, const fs::path& out)
 {
-    ordered_json entry{{"name", material.name}};
+    ordered_json entry{{"name", material.name}, {"engines", material.recipe->engines}};
     for (const MadeSource& source : made.sources) {
         const InputMap& map = material.files.inputs.at(source.role);
         entry["sources"].push_back({{"role", source.role},
@@ -159,7 +165,7 @@ private:
         std::string status = "up to date";
         try {
             const std::string key = key_of(material, state_);
-            if (options_.force || !state_.is_current(material.name, key)) {
+            if (options_.force || !state_.is_current(set_name(material), key)) {
                 waiting_.push_back({&material, key});
                 status = "to build";
             } else {
@@ -213,7 +219,7 @@ private:
             set.manifest = manifest_entry(material, made, state_, options_.out);
             result_.files += static_cast<int>(set.outputs.size());
             ++result_.built;
-            state_.remember(material.name, std::move(set));
+            state_.remember(set_name(material), std::move(set));
         } catch (const Error& error) {
             const std::lock_guard lock(mutex_);
             fail(material, error);
@@ -227,17 +233,17 @@ private:
 
     void finish()
     {
-        std::vector<std::string> names;
-        for (const PlannedMaterial& material : plan_) names.push_back(material.name);
+        std::vector<BuildState::SetName> names;
+        for (const PlannedMaterial& material : plan_) names.push_back(set_name(material));
         std::sort(result_.failures.begin(), result_.failures.end());
         if (result_.built == 0 && state_.sets().empty()) return;
-        state_.save(names);
+        const bool changed = state_.save(names);
         ordered_json manifest{{"program", program()}, {"sets", ordered_json::array()}};
         for (const auto& [name, set] : state_.sets()) {
             manifest["sets"].push_back(ordered_json::parse(set.manifest));
         }
         const fs::path file = options_.out / "manifest.json";
-        if (result_.built > 0 || !fs::exists(file)) write_text_file(file, manifest.dump(1) + "\n");
+        if (changed || !fs::exists(file)) write_text_file(file, manifest.dump(1) + "\n");
     }
 
     const std::vector<PlannedMaterial>& plan_;

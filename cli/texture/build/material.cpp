@@ -78,6 +78,29 @@ void turn_green(RawImage& normal)
     normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
 }
 
+Image with_alpha(const Image& color, const Image& alpha)
+{
+    Image to(color.width, color.height, 4, color.space);
+    for (std::size_t i = 0; i < alpha.pixels.size(); ++i) {
+        std::copy_n(&color.pixels[3 * i], 3, &to.pixels[4 * i]);
+        to.pixels[4 * i + 3] = alpha.pixels[i];
+    }
+    return to;
+}
+
+// What with_alpha() joined: the colour (from channel 0) or the alpha (3).
+Image part_of(const Image& joined, int first)
+{
+    const int channels = first == 0 ? 3 : 1;
+    Image to(joined.width, joined.height, channels, first == 0 ? joined.space : ColorSpace::Data);
+    const std::size_t step = static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; 4 * i < joined.pixels.size(); ++i) {
+        std::copy_n(&joined.pixels[4 * i + static_cast<std::size_t>(first)], step,
+                    &to.pixels[step * i]);
+    }
+    return to;
+}
+
 std::string percent(double share)
 {
     return std::to_string(std::lround(100.0 * share)) + " %";
@@ -127,6 +150,8 @@ private:
         return at == plan_.files.inputs.end() ? "the baked " + role : at->second.path.string();
     }
     bool wanted(const std::string& role) const;
+    bool has_cutout() const;
+    std::vector<Image> plain_chain(const std::string& role, ColorSpace space) const;
 
     const PlannedMaterial& plan_;
     const Recipe& recipe_;
@@ -320,21 +345,41 @@ std::vector<RawImage> Maps::levels(const std::string& role, const PlannedOutput&
     }
     if (last == 0) return levels;
     const bool rough = role == rough_role_, normal = role == "normal" && !rough_role_.empty();
-    std::vector<Image> chain;
     if (output.prefiltered && (rough || normal)) {
         for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k) {
             levels.push_back(coded((rough ? chains_.roughness : chains_.normal)[k]));
         }
         return levels;
     }
-    texproc::MipOptions options = recipe_.mips;
-    options.normals = role == "normal";
-    options.threads = threads_;
-    if (raw.channels != 4 || role != "albedo") options.alpha_cutoff = -1.0f;
-    chain = texproc::mip_chain(texproc::to_image(raw, space), options);
+    const std::vector<Image> chain = plain_chain(role, space);
     for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k)
         levels.push_back(coded(chain[k]));
     return levels;
+}
+
+// Colour and an opacity map of its own are filtered as the one image that they are.
+bool Maps::has_cutout() const
+{
+    const RawImage *albedo = find("albedo"), *opacity = find("opacity");
+    return albedo && opacity && albedo->channels == 3 && opacity->channels == 1 &&
+           albedo->width == opacity->width && albedo->height == opacity->height;
+}
+
+std::vector<Image> Maps::plain_chain(const std::string& role, ColorSpace space) const
+{
+    texproc::MipOptions options = recipe_.mips;
+    options.normals = role == "normal";
+    options.threads = threads_;
+    if (has_cutout() && (role == "opacity" || (role == "albedo" && space == ColorSpace::Linear))) {
+        const Image joined =
+            with_alpha(texproc::to_image(base_.at("albedo"), ColorSpace::Linear), data("opacity"));
+        std::vector<Image> chain = texproc::mip_chain(joined, options);
+        for (Image& level : chain) level = part_of(level, role == "opacity" ? 3 : 0);
+        return chain;
+    }
+    const RawImage& raw = base_.at(role);
+    if (raw.channels != 4 || role != "albedo") options.alpha_cutoff = -1.0f;
+    return texproc::mip_chain(texproc::to_image(raw, space), options);
 }
 
 // The level to start with: the largest whose sides are at most `size`.

@@ -133,13 +133,15 @@ void read_mips(const TomlValue& table, texproc::MipOptions& mips)
     static constexpr texproc::MipFilter kMeanings[] = {
         texproc::MipFilter::Box, texproc::MipFilter::Kaiser, texproc::MipFilter::Lanczos3,
         texproc::MipFilter::Mitchell};
-    for (const auto& [key, value] : table.entries({"filter", "wrap_u", "wrap_v", "alpha_cutoff"})) {
+    for (const auto& [key, value] :
+         table.entries({"filter", "wrap_u", "wrap_v", "alpha_cutoff", "alpha_weighted"})) {
         if (key == "filter") mips.filter = kMeanings[value.choice(kFilters)];
         if (key == "wrap_u" || key == "wrap_v") {
             const int edge = value.choice(kEdges);
             (key == "wrap_u" ? mips.wrap_u : mips.wrap_v) = edge == 0;
             (key == "wrap_u" ? mips.mirror_u : mips.mirror_v) = edge == 2;
         }
+        if (key == "alpha_weighted") mips.alpha_weighted = value.boolean();
         if (key == "alpha_cutoff") mips.alpha_cutoff = static_cast<float>(value.number(0.0, 1.0));
     }
 }
@@ -277,8 +279,9 @@ std::string options_text(const Recipe& recipe)
         "\nmips " + kFilters[static_cast<std::size_t>(m.filter)] + " wrap " +
         std::to_string(m.wrap_u) + std::to_string(m.wrap_v) + " mirror " +
         std::to_string(m.mirror_u) + std::to_string(m.mirror_v) + " cutoff " +
-        number_text(static_cast<double>(m.alpha_cutoff)) + "\nbake " + join_words(recipe.bake) +
-        " depth " + number_text(static_cast<double>(recipe.baking.depth)) + " reach " +
+        number_text(static_cast<double>(m.alpha_cutoff)) + (m.alpha_weighted ? "" : " alpha data") +
+        "\nbake " + join_words(recipe.bake) + " depth " +
+        number_text(static_cast<double>(recipe.baking.depth)) + " reach " +
         number_text(static_cast<double>(recipe.baking.reach)) + "\n";
     for (const OutputRule& output : recipe.outputs) text += options_text(output) + "\n";
     return text;

@@ -47,8 +47,8 @@ struct Recipe {
     std::string rule = "overlap";            ///< of the prefilter; "none" for plain mips
     bool quick = true;
     float design_light = 0.0f;
-    bool score = true;         ///< measure the lobe error for the manifest
-    texproc::MipOptions mips;  ///< filter, wrap, alpha_cutoff
+    bool score = true;                                 ///< measure the lobe error for the manifest
+    texproc::MipOptions mips{.alpha_weighted = true};  ///< filter, wrap, alpha_cutoff
     std::vector<std::string> bake{"porosity", "puddle",
                                   "cavity"};  ///< roles made where none is given
     texproc::BakeOptions baking;

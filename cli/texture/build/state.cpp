@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kFile = ".petrichor-build.json";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 std::optional<FileMark> mark_of(const fs::path& file)
 {
@@ -58,10 +58,10 @@ BuildState::BuildState(const fs::path& folder) : folder_(folder)
             files_[path] = {f.at(0).get<std::uint64_t>(), f.at(1).get<std::int64_t>(),
                             f.at(2).get<std::uint64_t>(), f.at(3).get<std::string>()};
         }
-        for (const auto& [name, s] : all.at("sets").items()) {
-            sets_[name] = {s.at("key").get<std::string>(),
-                           s.at("outputs").get<std::vector<std::string>>(),
-                           s.at("manifest").get<std::string>()};
+        for (const json& s : all.at("sets")) {
+            sets_[{s.at("material").get<std::string>(), s.at("engines").get<std::string>()}] = {
+                s.at("key").get<std::string>(), s.at("outputs").get<std::vector<std::string>>(),
+                s.at("manifest").get<std::string>()};
         }
     } catch (const json::exception&) {
         files_.clear();
@@ -84,9 +84,9 @@ std::string BuildState::hash_of(const fs::path& file)
     return known.sha256;
 }
 
-bool BuildState::is_current(const std::string& material, const std::string& key)
+bool BuildState::is_current(const SetName& name, const std::string& key)
 {
-    const auto set = sets_.find(material);
+    const auto set = sets_.find(name);
     if (set == sets_.end() || set->second.key != key) return false;
     for (const std::string& output : set->second.outputs) {
         const fs::path path = folder_ / output;
@@ -98,30 +98,43 @@ bool BuildState::is_current(const std::string& material, const std::string& key)
     return true;
 }
 
-void BuildState::remember(const std::string& material, BuiltSet set)
+void BuildState::remember(const SetName& name, BuiltSet set)
 {
     for (const std::string& output : set.outputs) hash_of(folder_ / output);
-    sets_[material] = std::move(set);
+    const std::set<std::string> mine(set.outputs.begin(), set.outputs.end());
+    std::erase_if(sets_, [&](const auto& other) {
+        const std::vector<std::string>& files = other.second.outputs;
+        return other.first != name &&
+               std::any_of(files.begin(), files.end(),
+                           [&](const std::string& file) { return mine.count(file) > 0; });
+    });
+    sets_[name] = std::move(set);
     changed_ = true;
 }
 
-void BuildState::save(const std::vector<std::string>& materials)
+bool BuildState::save(const std::vector<SetName>& names)
 {
-    const std::set<std::string> wanted(materials.begin(), materials.end());
-    for (auto at = sets_.begin(); at != sets_.end();) {
-        const bool keep = wanted.count(at->first) > 0;
-        changed_ = changed_ || !keep;
-        at = keep ? std::next(at) : sets_.erase(at);
-    }
-    if (!changed_) return;
-    json files = json::object(), sets = json::object();
+    const std::set<SetName> wanted(names.begin(), names.end());
+    std::set<std::string> engines;
+    for (const SetName& name : names) engines.insert(name.engines);
+    const std::size_t forgotten = std::erase_if(sets_, [&](const auto& set) {
+        return engines.count(set.first.engines) > 0 && wanted.count(set.first) == 0;
+    });
+    changed_ = changed_ || forgotten > 0;
+    if (!changed_) return false;
+    json files = json::object(), sets = json::array();
     for (const auto& [path, f] : files_) files[path] = {f.bytes, f.modified_ns, f.inode, f.sha256};
     for (const auto& [name, s] : sets_) {
-        sets[name] = {{"key", s.key}, {"outputs", s.outputs}, {"manifest", s.manifest}};
+        sets.push_back({{"material", name.material},
+                        {"engines", name.engines},
+                        {"key", s.key},
+                        {"outputs", s.outputs},
+                        {"manifest", s.manifest}});
     }
     write_text_file(folder_ / kFile,
                     json{{"format", kFormat}, {"files", files}, {"sets", sets}}.dump() + "\n");
     changed_ = false;
+    return true;
 }
 
 }  // namespace petrichor::cli

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_CLI_TEXTURE_BUILD_STATE_H
 #define PETRICHOR_CLI_TEXTURE_BUILD_STATE_H
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -33,19 +34,28 @@ public:
     /// Hash of a file: remembered while size, time and inode stay, else read. Throws Error.
     std::string hash_of(const std::filesystem::path& file);
 
+    /// A material as it was made for some engines: one folder may hold several of the same name.
+    struct SetName {
+        std::string material;
+        std::string engines;  ///< "unity-hdrp, godot"; empty: outputs of a recipe alone
+        auto operator<=>(const SetName&) const = default;
+    };
+
     /// Whether a material was built with this key and its outputs are still as they were written.
-    bool is_current(const std::string& material, const std::string& key);
+    bool is_current(const SetName& name, const std::string& key);
 
-    void remember(const std::string& material, BuiltSet set);
-    const std::map<std::string, BuiltSet>& sets() const { return sets_; }
+    /// Forgets sets that had a file of this one among their outputs: it is another file now.
+    void remember(const SetName& name, BuiltSet set);
+    const std::map<SetName, BuiltSet>& sets() const { return sets_; }
 
-    /// Writes it where something changed. `materials`: forget all others.
-    void save(const std::vector<std::string>& materials);
+    /// Writes it where something changed. Of the engines that `names` are for, all others are
+    /// forgotten. True when there was something to write.
+    bool save(const std::vector<SetName>& names);
 
 private:
     std::filesystem::path folder_;
     std::map<std::string, FileMark> files_;
-    std::map<std::string, BuiltSet> sets_;
+    std::map<SetName, BuiltSet> sets_;
     bool changed_ = false;
 };
 

@@ -17,6 +17,7 @@ constexpr std::size_t kBlock = 512 * 1024;  // bytes deflated as one; also the s
 constexpr std::size_t kBatch = 32 << 20;    // bytes filtered and deflated before they are handed on
 constexpr std::size_t kWindow =
     32 * 1024;  // what deflate may look back into, from the block before
+constexpr std::size_t kSample = 16 * 1024;  // bytes that stand for their block
 
 void put32(std::byte* to, std::uint32_t v)
 {
@@ -87,12 +88,13 @@ struct Block {
     std::size_t size = 0;
 };
 
-void deflate_block(Block& block, const std::uint8_t* data, std::size_t size,
-                   const std::uint8_t* before, std::size_t before_size, bool last, int level)
+// Raw deflate of `data`, which may point back into the `before_size` bytes in front of it.
+std::vector<std::byte> deflated(const std::uint8_t* data, std::size_t size, std::size_t before_size,
+                                bool last, int level, int strategy)
 {
     z_stream z{};
-    if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_FILTERED) != Z_OK) throw std::bad_alloc();
-    if (before_size) deflateSetDictionary(&z, before, static_cast<uInt>(before_size));
+    if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, strategy) != Z_OK) throw std::bad_alloc();
+    if (before_size) deflateSetDictionary(&z, data - before_size, static_cast<uInt>(before_size));
     const std::size_t most = deflateBound(&z, static_cast<uLong>(size)) + 16;
     const auto scratch = std::make_unique_for_overwrite<Bytef[]>(most);  // far more than is kept
     z.next_in = const_cast<Bytef*>(data);
@@ -102,16 +104,22 @@ void deflate_block(Block& block, const std::uint8_t* data, std::size_t size,
     const int result = deflate(&z, last ? Z_FINISH : Z_SYNC_FLUSH);
     const bool ok = z.avail_in == 0 && (last ? result == Z_STREAM_END : result == Z_OK);
     const auto* written = reinterpret_cast<const std::byte*>(scratch.get());
-    block.deflated.assign(written, written + (most - z.avail_out));
+    std::vector<std::byte> kept(written, written + (most - z.avail_out));
     deflateEnd(&z);
     if (!ok) throw std::runtime_error("png: deflate failed");
-    block.adler = adler32_z(1, data, size);
-    block.size = size;
+    return kept;
 }
 
-}  // namespace
-
-namespace {
+// Looking for repeats pays on patterns; on the fine grain of most scanned maps it takes twice the
+// time and finds nothing. A sample of the block tells.
+int best_strategy(const std::uint8_t* data, std::size_t size, int level)
+{
+    if (size < kWindow + kSample) return Z_FILTERED;
+    const std::uint8_t* end = data + size - kSample;
+    const std::size_t runs = deflated(end, kSample, 0, false, level, Z_RLE).size();
+    const std::size_t repeats = deflated(end, kSample, kWindow, false, level, Z_FILTERED).size();
+    return runs <= repeats ? Z_RLE : Z_FILTERED;
+}
 
 // Rows [first, end) filtered, and before them as many as deflate may look back into.
 Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int level)
@@ -139,10 +147,13 @@ Block encode_rows(const PngImage& image, std::size_t first, std::size_t end, int
     }
     const std::size_t skip = (first - start) * line;
     const std::size_t before = std::min(skip, kWindow);
+    const std::uint8_t* data = filtered.data() + skip;
+    const std::size_t size = filtered.size() - skip;
     Block block;
-    deflate_block(block, filtered.data() + skip, filtered.size() - skip,
-                  filtered.data() + skip - before, before,
-                  end == static_cast<std::size_t>(image.height), level);
+    block.deflated = deflated(data, size, before, end == static_cast<std::size_t>(image.height),
+                              level, best_strategy(data, size, level));
+    block.adler = adler32_z(1, data, size);
+    block.size = size;
     return block;
 }
 

@@ -1,8 +1,11 @@
 #include "texproc/prefilter/detail/cells.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "texproc/detail/portable_math.h"
 
@@ -35,121 +38,110 @@ float lobe_length(float alpha2)
     return (e + 1.0f) / (e - 1.0f) - 1.0f / sharpness;
 }
 
+namespace {
+
+constexpr std::size_t kTogether = 4;  // numbers in a step of the loops below: vectors
+
+// A call of memcpy would cost more than the few numbers of a small footprint.
+void copy(const float* from, std::size_t count, float* to)
+{
+    std::size_t i = 0;
+    for (; i + kTogether <= count; i += kTogether) {
+        std::memcpy(to + i, from + i, kTogether * sizeof(float));
+    }
+    for (; i < count; ++i) to[i] = from[i];
+}
+
+// Weighted sums over a footprint: of n_x, n_y, n_z, p, alpha^2.
+using Sums = std::array<double, 5>;
+
+void add_row(const std::array<const float*, 5>& values, const float* weight, std::size_t count,
+             Sums& sums)
+{
+    double lanes[5][kTogether] = {};
+    std::size_t i = 0;
+    for (; i + kTogether <= count; i += kTogether) {
+        for (std::size_t k = 0; k < 5; ++k) {
+            for (std::size_t l = 0; l < kTogether; ++l) {
+                lanes[k][l] +=
+                    static_cast<double>(weight[i + l]) * static_cast<double>(values[k][i + l]);
+            }
+        }
+    }
+    for (; i < count; ++i) {
+        for (std::size_t k = 0; k < 5; ++k) {
+            lanes[k][0] += static_cast<double>(weight[i]) * static_cast<double>(values[k][i]);
+        }
+    }
+    for (std::size_t k = 0; k < 5; ++k) {
+        sums[k] += (lanes[k][0] + lanes[k][2]) + (lanes[k][1] + lanes[k][3]);
+    }
+}
+
+}  // namespace
+
 void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Footprint& x,
             const Footprint& y, Cells& cells, Means& means)
 {
-    cells.resize(x.weights.size() * y.weights.size());
-    std::size_t to = 0;
-    double sx = 0, sy = 0, sz = 0, sp = 0, sa = 0;
+    const std::size_t width = x.weights.size();
+    const std::size_t at = static_cast<std::size_t>(x.first);
+    cells.resize(width * y.weights.size());
+    Sums sums{};
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
         const SurfaceRow& row = rows[static_cast<std::size_t>(y.first) + j - first_row];
-        for (std::size_t i = 0; i < x.weights.size(); ++i, ++to) {
-            const std::size_t at = static_cast<std::size_t>(x.first) + i;
-            const float w = x.weights[i] * y.weights[j];
-            const float p = row.p[at];
-            const float a2 = std::max((p * p) * (p * p), kMinAlpha2);
-            cells.nx[to] = row.nx[at];
-            cells.ny[to] = row.ny[at];
-            cells.nz[to] = row.nz[at];
-            cells.alpha2[to] = a2;
-            cells.weight[to] = w;
-            const double weight = static_cast<double>(w);
-            sx += weight * static_cast<double>(row.nx[at]);
-            sy += weight * static_cast<double>(row.ny[at]);
-            sz += weight * static_cast<double>(row.nz[at]);
-            sp += weight * static_cast<double>(p);
-            sa += weight * static_cast<double>(a2);
-        }
+        const std::size_t to = j * width;
+        float* weights = &cells.weight[to];
+        for (std::size_t i = 0; i < width; ++i) weights[i] = x.weights[i] * y.weights[j];
+        copy(&row.nx[at], width, &cells.nx[to]);
+        copy(&row.ny[at], width, &cells.ny[to]);
+        copy(&row.nz[at], width, &cells.nz[to]);
+        copy(&row.alpha2[at], width, &cells.alpha2[to]);
+        add_row({&row.nx[at], &row.ny[at], &row.nz[at], &row.p[at], &row.alpha2[at]}, weights,
+                width, sums);
     }
-    means = {static_cast<float>(sx),
-             static_cast<float>(sy),
-             static_cast<float>(sz),
-             static_cast<float>(sp),
-             static_cast<float>(sa),
-             0,
-             0,
-             0};
+    const auto mean = [&](std::size_t k) { return static_cast<float>(sums[k]); };
+    means = {mean(0), mean(1), mean(2), mean(3), mean(4), 0, 0, 0};
 }
 
 namespace {
 
-std::uint64_t mixed(std::uint64_t v)
-{
-    v ^= v >> 31;
-    v *= 0x9e3779b97f4a7c15ull;
-    v ^= v >> 29;
-    return v;
-}
-
-// The place of every cell in the grid of merge_round(); plain loops, which compilers vectorise.
-void find_places(const Cells& cells, float share, float ep, std::vector<std::int32_t>& places)
+// The place of every cell in the grid of merge_round(), as one number: edges are at least 0.001 and
+// 0.02, so that 11, 11 and 6 bits hold it. A plain loop, which compilers vectorise.
+void find_places(const Cells& cells, float share, float ep, std::vector<std::uint32_t>& places)
 {
     const std::size_t count = cells.nx.size();
-    places.resize(3 * count);
-    std::int32_t* gx = places.data();
-    std::int32_t* gy = gx + count;
-    std::int32_t* gp = gy + count;
+    places.resize(count);
     const float per_ep = 1.0f / ep;
     const float* nx = cells.nx.data();
     const float* ny = cells.ny.data();
     const float* alpha2 = cells.alpha2.data();
     for (std::size_t i = 0; i < count; ++i) {
         const float p = std::sqrt(std::sqrt(alpha2[i]));
-        gp[i] = static_cast<std::int32_t>(p * per_ep);
-        const float middle = (static_cast<float>(gp[i]) + 0.5f) * ep;
+        const std::int32_t gp = static_cast<std::int32_t>(p * per_ep);
+        const float middle = (static_cast<float>(gp) + 0.5f) * ep;
         const float edge = share * middle * middle;
         const float per_e = 1.0f / (edge > 0.001f ? edge : 0.001f);
-        gx[i] = static_cast<std::int32_t>((nx[i] + 1.0f) * per_e);
-        gy[i] = static_cast<std::int32_t>((ny[i] + 1.0f) * per_e);
+        const std::int32_t gx = static_cast<std::int32_t>((nx[i] + 1.0f) * per_e);
+        const std::int32_t gy = static_cast<std::int32_t>((ny[i] + 1.0f) * per_e);
+        places[i] = static_cast<std::uint32_t>(gx << 17 | gy << 6 | gp);
     }
 }
 
-// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what
-// narrow lobes must keep apart is nothing to wide ones. Cells keep the order of their first member,
-// so that the result does not depend on addresses.
-void merge_round(Cells& cells, float share, float ep)
+// Which cells share a place: numbers in the order of their first member.
+struct Slot {
+    std::uint32_t place;
+    std::int32_t number;  // -1: free
+};
+
+// A cell that grows: sums of weight times normal, alpha^2 and weight itself.
+struct Sum {
+    float nx, ny, nz, alpha2, weight;
+};
+
+// Sums of cells become their means; another plain loop.
+void to_means(Cells& cells)
 {
-    const std::size_t count = cells.nx.size();
-    std::size_t slots = 64;
-    while (slots < 2 * count) slots *= 2;
-    thread_local std::vector<std::uint64_t> keys;
-    thread_local std::vector<std::int32_t> owner, places;
-    find_places(cells, share, ep, places);
-    const std::int32_t* gx = places.data();
-    const std::int32_t* gy = gx + count;
-    const std::int32_t* gp = gy + count;
-    keys.resize(slots);
-    owner.assign(slots, -1);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint64_t key = (static_cast<std::uint64_t>(gx[i]) << 42) |
-                                  (static_cast<std::uint64_t>(gy[i]) << 16) |
-                                  static_cast<std::uint64_t>(gp[i]);
-        std::size_t slot = mixed(key) & (slots - 1);
-        while (owner[slot] >= 0 && keys[slot] != key) slot = (slot + 1) & (slots - 1);
-        const float w = cells.weight[i];
-        const float x = w * cells.nx[i], y = w * cells.ny[i], z = w * cells.nz[i];
-        const float a2 = w * cells.alpha2[i];
-        if (owner[slot] < 0) {
-            owner[slot] = static_cast<std::int32_t>(kept);
-            keys[slot] = key;
-            cells.nx[kept] = x;
-            cells.ny[kept] = y;
-            cells.nz[kept] = z;
-            cells.alpha2[kept] = a2;
-            cells.weight[kept] = w;
-            ++kept;
-        } else {
-            const std::size_t k = static_cast<std::size_t>(owner[slot]);
-            cells.nx[k] += x;
-            cells.ny[k] += y;
-            cells.nz[k] += z;
-            cells.alpha2[k] += a2;
-            cells.weight[k] += w;
-        }
-    }
-    cells.resize(kept);
-    for (std::size_t k = 0; k < kept; ++k) {
+    for (std::size_t k = 0; k < cells.nx.size(); ++k) {
         const float length = std::sqrt(cells.nx[k] * cells.nx[k] + cells.ny[k] * cells.ny[k] +
                                        cells.nz[k] * cells.nz[k]);
         const float scale = length > 0.0f ? 1.0f / length : 0.0f;
@@ -161,6 +153,52 @@ void merge_round(Cells& cells, float share, float ep)
         const float lost = 1.76f * std::max(0.0f, 1.0f - length / cells.weight[k]);
         cells.alpha2[k] = cells.alpha2[k] / cells.weight[k] + lost;
     }
+}
+
+// One round with grid edges of ep in p and, in the normals, of `share` of the alpha there: what
+// narrow lobes must keep apart is nothing to wide ones. Cells keep the order of their first member,
+// so that the result does not depend on addresses.
+void merge_round(Cells& cells, float share, float ep)
+{
+    thread_local std::vector<std::uint32_t> places;
+    thread_local std::vector<Slot> slots;
+    thread_local std::vector<Sum> sums;
+    const std::size_t count = cells.nx.size();
+    find_places(cells, share, ep, places);
+    std::size_t size = 64;
+    while (size < 2 * count) size *= 2;
+    const int shift = 32 - std::countr_zero(size);
+    slots.assign(size, {0, -1});
+    sums.resize(count);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t place = places[i];
+        std::size_t at = (place * 2654435769u) >> shift;
+        while (slots[at].number >= 0 && slots[at].place != place) at = (at + 1) & (size - 1);
+        const float w = cells.weight[i];
+        const Sum now{w * cells.nx[i], w * cells.ny[i], w * cells.nz[i], w * cells.alpha2[i], w};
+        if (slots[at].number < 0) {
+            slots[at] = {place, static_cast<std::int32_t>(kept)};
+            sums[kept++] = now;
+            continue;
+        }
+        Sum& sum = sums[static_cast<std::size_t>(slots[at].number)];
+        sum.nx += now.nx;
+        sum.ny += now.ny;
+        sum.nz += now.nz;
+        sum.alpha2 += now.alpha2;
+        sum.weight += now.weight;
+    }
+    cells.resize(kept);
+    for (std::size_t k = 0; k < kept; ++k) {
+        const Sum& s = sums[k];
+        cells.nx[k] = s.nx;
+        cells.ny[k] = s.ny;
+        cells.nz[k] = s.nz;
+        cells.alpha2[k] = s.alpha2;
+        cells.weight[k] = s.weight;
+    }
+    to_means(cells);
 }
 
 // Where Gaussian slopes of this spread would still fill more than twice `limit` cells of a grid:

@@ -222,6 +222,34 @@ float slope2(const Direction& normal, float x, float y, float z)
     return (sx * sx + sy * sy + sz * sz) / (c * c);
 }
 
+struct Spread {
+    float low, high;  // of the values
+    float whole;      // sum of the weights
+};
+
+// In lanes, which compilers make vectors of; count is a multiple of kLanes.
+Spread spread_of(const float* values, const float* weights, int count)
+{
+    float low[kLanes], high[kLanes], whole[kLanes] = {};
+    std::copy_n(values, kLanes, low);
+    std::copy_n(values, kLanes, high);
+    for (int i = 0; i < count; i += kLanes) {
+        for (int l = 0; l < kLanes; ++l) {
+            const float v = values[i + l];
+            low[l] = v < low[l] ? v : low[l];
+            high[l] = v > high[l] ? v : high[l];
+            whole[l] += weights[i + l];
+        }
+    }
+    Spread spread{low[0], high[0], 0.0f};
+    for (int l = 0; l < kLanes; ++l) {
+        spread.low = std::min(spread.low, low[l]);
+        spread.high = std::max(spread.high, high[l]);
+        spread.whole += whole[l];
+    }
+    return spread;
+}
+
 int padded(int count)
 {
     return (count + kLanes - 1) / kLanes * kLanes;
@@ -245,21 +273,17 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
     for (int i = 0; i < cells.count; ++i) {
         s[i] = cells.alpha2[i] + slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
     }
-    float low = 1e30f, high = 0.0f, whole = 0.0f;
-    for (int i = 0; i < cells.count; ++i) {
-        w[i] = cells.weight[i];
-        low = std::min(low, s[i]);
-        high = std::max(high, s[i]);
-        whole += w[i];
-    }
+    for (int i = 0; i < cells.count; ++i) w[i] = cells.weight[i];
     for (int i = cells.count; i < count; ++i) {
-        s[i] = 1.0f;
+        s[i] = s[0];
         w[i] = 0.0f;
     }
+    const Spread spread = spread_of(s, w, count);
+    float low = spread.low, high = spread.high;
     // Newton in log x on the share inside, kept between the bounds.
     float x = std::sqrt(low * high);
     for (int round = 0; round < 16 && high > low * 1.0005f; ++round) {
-        const float share = kernel.inside(s, w, count, x) / whole;
+        const float share = kernel.inside(s, w, count, x) / spread.whole;
         if (share < 0.5f) {
             low = x;
         } else {

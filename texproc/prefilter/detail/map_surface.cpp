@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "texproc/prefilter/detail/lobe_kernel.h"
+
 namespace petrichor::texproc::detail {
 
 namespace {
@@ -51,7 +53,7 @@ void plane_values(const Plane& plane, std::size_t first, std::size_t count, floa
 void fetch(const MapSurface& s, int y, SurfaceRow& row)
 {
     const std::size_t width = static_cast<std::size_t>(s.width);
-    for (auto* v : {&row.nx, &row.ny, &row.nz, &row.p}) v->resize(width);
+    for (auto* v : {&row.nx, &row.ny, &row.nz, &row.p, &row.alpha2}) v->resize(width);
     const std::size_t first = static_cast<std::size_t>(y) * width;
     plane_values(s.x, first, width, row.nx.data());
     plane_values(s.y, first, width, row.ny.data());
@@ -70,7 +72,9 @@ void fetch(const MapSurface& s, int y, SurfaceRow& row)
         row.nz[i] = fine ? nz / length : 1.0f;
         const float r = std::min(1.0f, std::max(0.0f, row.p[i]));
         const float p = s.smoothness ? 1.0f - r : r;
-        row.p[i] = s.alpha ? std::sqrt(p) : p;
+        const float perceptual = s.alpha ? std::sqrt(p) : p;
+        row.p[i] = perceptual;
+        row.alpha2[i] = std::max((perceptual * perceptual) * (perceptual * perceptual), kMinAlpha2);
     }
 }
 

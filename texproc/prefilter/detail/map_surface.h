@@ -27,9 +27,9 @@ struct MapSurface {
     bool green_down = false;
 };
 
-/// Unit normals, +y up, and perceptual roughness, one array each.
+/// Unit normals, +y up, perceptual roughness p and p^4 (at least kMinAlpha2), one array each.
 struct SurfaceRow {
-    std::vector<float> nx, ny, nz, p;
+    std::vector<float> nx, ny, nz, p, alpha2;
 };
 
 /// Decodes texels 0..width-1 of row y. A zero normal becomes straight up.

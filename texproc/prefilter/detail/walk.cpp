@@ -59,7 +59,7 @@ void means_row(const MapSurface& surface, const Footprint& rows,
         if (own_lobes) {
             length.resize(width);
             for (std::size_t i = 0; i < width; ++i) {
-                length[i] = lobe_length((row.p[i] * row.p[i]) * (row.p[i] * row.p[i]));
+                length[i] = lobe_length(row.alpha2[i]);
             }
         }
         for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -75,7 +75,7 @@ void means_row(const MapSurface& surface, const Footprint& rows,
                 s[1] += w * ny;
                 s[2] += w * nz;
                 s[3] += w * static_cast<double>(p);
-                s[4] += w * static_cast<double>(std::max((p * p) * (p * p), kMinAlpha2));
+                s[4] += w * static_cast<double>(row.alpha2[at]);
                 if (!own_lobes) continue;
                 const double lw = w * static_cast<double>(length[at]);
                 s[5] += lw * nx;
@@ -113,82 +113,195 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
     merge(cells, limit, 4 * limit);
 }
 
+// Grids over level 0.
+struct Level {
+    std::vector<Footprint> columns, rows;
+};
+
+class Walk {
+public:
+    Walk(const MapSurface& surface, const WalkOptions& options,
+         const std::function<void(const MipTexel&)>& visit)
+        : surface_(surface),
+          options_(options),
+          visit_(visit),
+          sizes_(level_sizes(surface.width, surface.height)),
+          levels_(sizes_.size()),
+          means_(sizes_.size())
+    {
+        for (std::size_t k = 1; k < sizes_.size(); ++k) {
+            levels_[k] = {footprints(surface.width, sizes_[k].width),
+                          footprints(surface.height, sizes_[k].height)};
+        }
+    }
+
+    void run()
+    {
+        const std::size_t direct =
+            options_.cells ? std::min(kDirectLevels, sizes_.size() - 1) : std::size_t{0};
+        if (direct > 0) gather_levels(direct);
+        for (std::size_t k = direct + 1; k < sizes_.size(); ++k) {
+            make_means(k);
+            if (options_.cells) {
+                join_level(k);
+            } else {
+                visit_means(k);
+            }
+            means_[k - 1] = Image();
+        }
+    }
+
+private:
+    std::size_t width(std::size_t k) const { return static_cast<std::size_t>(sizes_[k].width); }
+    std::size_t height(std::size_t k) const { return static_cast<std::size_t>(sizes_[k].height); }
+
+    bool skipped(std::size_t k, int x, int y) const
+    {
+        return options_.wanted && !options_.wanted(static_cast<int>(k), x, y);
+    }
+
+    void row_done(std::size_t k)
+    {
+        if (!options_.progress) return;
+        const std::size_t rows = done_ += std::size_t{1} << std::min<std::size_t>(k, 20);
+        options_.progress(std::min(1.0, static_cast<double>(rows) / (8.0 * surface_.height)));
+    }
+
+    void start_lists(std::size_t k, std::vector<Cells>& lists) const
+    {
+        lists.clear();
+        if (k + 1 < sizes_.size()) lists.resize(width(k) * height(k));
+    }
+
+    // Levels 1 to `last` together, strip after strip, so that every row of level 0 is decoded once
+    // for all of them, but for those that reach over the end of a strip.
+    void gather_levels(std::size_t last)
+    {
+        if (last + 1 < sizes_.size()) {
+            means_[last] = Image(sizes_[last].width, sizes_[last].height, kMeans, ColorSpace::Data);
+        }
+        start_lists(last, lists_);
+        // As high as a texel of the last level, less where there are few strips for the threads.
+        const int strip = std::clamp(surface_.height / 64, 2, 1 << kDirectLevels);
+        const int strips = (surface_.height + strip - 1) / strip;
+        parallel_for(static_cast<std::size_t>(strips), options_.threads, [&](std::size_t s) {
+            const int first = static_cast<int>(s) * strip;
+            gather_strip(last, first, std::min(surface_.height, first + strip));
+        });
+    }
+
+    // Every row of the levels whose area starts in rows [first, end) of level 0.
+    void gather_strip(std::size_t last, int first, int end)
+    {
+        std::vector<SurfaceRow> fetched;
+        for (std::size_t k = 1; k <= last; ++k) {
+            const std::vector<Footprint>& rows = levels_[k].rows;
+            auto row = std::lower_bound(rows.begin(), rows.end(), first,
+                                        [](const Footprint& f, int y) { return f.first < y; });
+            for (; row != rows.end() && row->first < end; ++row) {
+                const int below = row->first + static_cast<int>(row->weights.size());
+                while (first + static_cast<int>(fetched.size()) < below) {
+                    const int y = first + static_cast<int>(fetched.size());
+                    fetch(surface_, y, fetched.emplace_back());
+                }
+                gather_row(k, static_cast<int>(row - rows.begin()), k == last, fetched, first);
+                row_done(k);
+            }
+        }
+    }
+
+    void gather_row(std::size_t k, int y, bool keep, const std::vector<SurfaceRow>& fetched,
+                    int first)
+    {
+        thread_local Cells cells;
+        keep = keep && !lists_.empty();
+        for (int x = 0; x < sizes_[k].width; ++x) {
+            const bool skip = skipped(k, x, y);
+            if (skip && !keep) continue;
+            Means m;
+            gather(fetched, static_cast<std::size_t>(first),
+                   levels_[k].columns[static_cast<std::size_t>(x)],
+                   levels_[k].rows[static_cast<std::size_t>(y)], cells, m);
+            if (options_.own_lobes) add_own_lobes(cells, m);
+            merge(cells, cells_kept(k), 4 * cells_kept(k));
+            if (keep) {
+                store_means(means_[k], x, y, m);
+                lists_[static_cast<std::size_t>(y) * width(k) + static_cast<std::size_t>(x)] =
+                    cells;
+            }
+            if (!skip) visit_({static_cast<int>(k), x, y, m, &cells});
+        }
+    }
+
+    // The means of a level whose texels join whole texels of the one below come from there.
+    void make_means(std::size_t k)
+    {
+        const LevelSize size = sizes_[k], below = sizes_[k - 1];
+        const bool nested = k > 1 && 2 * size.width == below.width &&
+                            2 * size.height == below.height && surface_.width % below.width == 0 &&
+                            surface_.height % below.height == 0;
+        if (nested) {
+            means_[k] = area_reduced(means_[k - 1], size.width, size.height, options_.threads);
+            return;
+        }
+        means_[k] = Image(size.width, size.height, kMeans, ColorSpace::Data);
+        parallel_for(height(k), options_.threads, [&](std::size_t y) {
+            means_row(surface_, levels_[k].rows[y], levels_[k].columns, options_.own_lobes,
+                      static_cast<int>(y), means_[k]);
+        });
+    }
+
+    void visit_means(std::size_t k)
+    {
+        parallel_for(height(k), options_.threads, [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            for (int x = 0; x < sizes_[k].width; ++x) {
+                if (skipped(k, x, y)) continue;
+                visit_({static_cast<int>(k), x, y, load_means(means_[k], x, y), nullptr});
+            }
+            row_done(k);
+        });
+    }
+
+    void join_level(std::size_t k)
+    {
+        const LevelSize below = sizes_[k - 1];
+        const std::vector<Footprint> columns = footprints(below.width, sizes_[k].width);
+        const std::vector<Footprint> rows = footprints(below.height, sizes_[k].height);
+        std::vector<Cells> next;
+        start_lists(k, next);
+        parallel_for(height(k), options_.threads, [&](std::size_t row) {
+            thread_local Cells cells;
+            const int y = static_cast<int>(row);
+            for (int x = 0; x < sizes_[k].width; ++x) {
+                const bool skip = skipped(k, x, y);
+                if (skip && next.empty()) continue;
+                const std::size_t at = static_cast<std::size_t>(x);
+                join(lists_, below.width, columns[at], rows[row], cells_kept(k), cells);
+                if (!next.empty()) next[row * width(k) + at] = cells;
+                if (!skip) visit_({static_cast<int>(k), x, y, load_means(means_[k], x, y), &cells});
+            }
+            row_done(k);
+        });
+        lists_ = std::move(next);
+    }
+
+    const MapSurface& surface_;
+    const WalkOptions& options_;
+    const std::function<void(const MipTexel&)>& visit_;
+    std::vector<LevelSize> sizes_;
+    std::vector<Level> levels_;
+    std::vector<Image> means_;
+    std::vector<Cells> lists_;
+    std::atomic<std::size_t> done_{0};
+};
+
 }  // namespace
 
 void walk(const MapSurface& surface, const WalkOptions& options,
           const std::function<void(const MipTexel&)>& visit)
 {
-    const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
-    std::vector<Image> means(sizes.size());
-    std::vector<Cells> lists, next;
-    std::atomic<std::size_t> done{0};
-    const double rows_in_all = 2.0 * surface.height;  // level k counts for 2^k rows of level 0
-    for (std::size_t k = 1; k < sizes.size(); ++k) {
-        const auto [width, height] = sizes[k];
-        const std::vector<Footprint> columns = footprints(surface.width, width);
-        const std::vector<Footprint> rows = footprints(surface.height, height);
-        Image& level = means[k];
-        const bool direct = k <= kDirectLevels && options.cells;
-        // Only the next level that does not gather looks at means.
-        if (!direct || k == kDirectLevels) level = Image(width, height, kMeans, ColorSpace::Data);
-        const bool keep_lists = options.cells && k >= kDirectLevels && k + 1 < sizes.size();
-        if (keep_lists) {
-            next.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
-        }
-        // Means of levels whose texels join whole texels of the one below come from there.
-        const bool nested =
-            k > 1 && 2 * width == sizes[k - 1].width && 2 * height == sizes[k - 1].height &&
-            surface.width % sizes[k - 1].width == 0 && surface.height % sizes[k - 1].height == 0;
-        if (!direct && nested) level = area_reduced(means[k - 1], width, height, options.threads);
-        std::vector<Footprint> child_columns, child_rows;
-        if (options.cells && !direct) {
-            child_columns = footprints(sizes[k - 1].width, width);
-            child_rows = footprints(sizes[k - 1].height, height);
-        }
-        parallel_for(static_cast<std::size_t>(height), options.threads, [&](std::size_t j) {
-            const int y = static_cast<int>(j);
-            thread_local Cells cells;
-            std::vector<SurfaceRow> fetched;
-            const auto skipped = [&](int x) {
-                return options.wanted && !options.wanted(static_cast<int>(k), x, y);
-            };
-            if (direct) {
-                fetched.resize(rows[j].weights.size());
-                for (std::size_t r = 0; r < fetched.size(); ++r) {
-                    fetch(surface, rows[j].first + static_cast<int>(r), fetched[r]);
-                }
-            } else if (!nested) {
-                means_row(surface, rows[j], columns, options.own_lobes, y, level);
-            }
-            for (int x = 0; x < width; ++x) {
-                const std::size_t i = static_cast<std::size_t>(x);
-                Means m;
-                if (skipped(x) && !keep_lists) continue;
-                if (direct) {
-                    gather(fetched, static_cast<std::size_t>(rows[j].first), columns[i], rows[j],
-                           cells, m);
-                    if (options.own_lobes) add_own_lobes(cells, m);
-                    if (!level.empty()) store_means(level, x, y, m);
-                    merge(cells, cells_kept(k), 4 * cells_kept(k));
-                } else {
-                    m = load_means(level, x, y);
-                    if (options.cells) {
-                        join(lists, sizes[k - 1].width, child_columns[i], child_rows[j],
-                             cells_kept(k), cells);
-                    }
-                }
-                if (keep_lists) next[j * static_cast<std::size_t>(width) + i] = cells;
-                if (skipped(x)) continue;
-                visit({static_cast<int>(k), x, y, m, options.cells ? &cells : nullptr});
-            }
-            if (options.progress) {
-                const std::size_t so_far = done += std::size_t{1} << std::min<std::size_t>(k, 20);
-                options.progress(std::min(1.0, static_cast<double>(so_far) / rows_in_all / 4.0));
-            }
-        });
-        if (keep_lists) lists = std::move(next);
-        if (k >= 2) means[k - 1] = Image();
-    }
+    Walk(surface, options, visit).run();
 }
 
 }  // namespace petrichor::texproc::detail

@@ -1,0 +1,45 @@
+#ifndef PETRICHOR_CLI_SIMULATE_SIMULATE_OPTIONS_H
+#define PETRICHOR_CLI_SIMULATE_SIMULATE_OPTIONS_H
+
+#include <string>
+#include <vector>
+
+#include "cli/simulate/physical.h"
+#include "cli/simulate/terrain.h"
+
+namespace CLI {
+class App;
+}
+
+namespace petrichor::cli {
+
+/// The words of `petrichor simulate`, as given.
+struct SimulateOptions {
+    std::vector<std::string> inputs;
+    std::string model = "auto";  ///< auto, artist, physical
+    std::string mode = "exact";  ///< of the artist model: exact, stepped
+    std::string step, every;     ///< durations
+    std::string interpolation;   ///< of CSV keys: hold, linear, smooth
+    std::string params;          ///< a TOML file
+    std::string from, to;        ///< times
+    std::vector<std::string> outputs;
+    std::string plot = "auto";
+    std::string observed;  ///< a file
+    std::string checkpoint, resume;
+    bool json = false;
+    bool hash = false;
+    bool list = false;
+    bool fit_artist = false;
+    std::string height_map;
+    double height_range_m = 0.02;
+    TerrainOptions terrain;
+    std::vector<std::string> maps, map_times;
+    PhysicalRun physical;
+};
+
+/// Declares them on the command, in groups that a person reads in a minute, with examples below.
+void add_simulate_options(CLI::App& command, SimulateOptions& options);
+
+}  // namespace petrichor::cli
+
+#endif
