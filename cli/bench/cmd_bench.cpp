@@ -1,8 +1,10 @@
-// petrichor bench: how long a frame takes; petrichor bench weather: how long weather takes.
+// petrichor bench: how long a frame takes; bench weather, bench texture: how long those take.
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
 
 #include "cli/bench/render_bench.h"
+#include "cli/bench/texture_bench.h"
 #include "cli/bench/weather_bench.h"
 #include "cli/commands.h"
 
@@ -52,6 +54,34 @@ void add_weather(CLI::App& bench)
     });
 }
 
+void add_texture_bench(CLI::App& bench)
+{
+    auto o = std::make_shared<TextureBenchOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "texture", "Time prefilter, mips, pack and block compression beside other programs.");
+    command->add_option("--normal", o->normal, "normal map, 16-bit PNG (a generated wall)");
+    command->add_option("--roughness", o->roughness, "its roughness map");
+    command->add_option("--size", o->size, "of the generated wall")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    command->add_option("-r,--repeat", o->repeat, "runs of each row after one to warm up")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_flag("--full", o->full, "also prefilter in full quality, which takes a minute");
+    command->add_flag("--json", o->json, "report for programs");
+    command->footer(
+        "Example: petrichor bench texture --size 2048 --repeat 3\n"
+        "Each row is a whole program, its start, reading and writing included: median CPU time of "
+        "all its\n"
+        "threads and processes, and time by the clock. Programs that are not installed are named "
+        "with their\n"
+        "Debian package.");
+    command->callback([o] {
+        const std::vector<TextureBenchRow> rows = texture_rows(*o);
+        std::cout << (o->json ? to_json(rows) : to_text(rows));
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app)
@@ -59,7 +89,7 @@ void add_bench(CLI::App& app)
     auto o = std::make_shared<RenderBenchOptions>();
     CLI::App* command = app.add_subcommand("bench",
                                            "Time one frame: medians of CPU time, wall time and "
-                                           "each pass. `bench weather`: the weather.");
+                                           "each pass. `bench weather`, `bench texture`: those.");
     CLI::Option* scene = command->add_option("--scene", o->scene, "a .glb or .gltf file");
     command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels (1280x720)");
     command->add_option("-r,--repeat", o->repeat, "timed frames after one to warm up (5)")
@@ -79,10 +109,12 @@ void add_bench(CLI::App& app)
     command->footer(
         "Example: petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
         "         petrichor bench weather\n"
+        "         petrichor bench texture\n"
         "Without flags: no shadows, occlusion, sky light or anti-aliasing; tone mapped. The time "
         "runs from\n"
         "the call until the pixels can be read.");
     add_weather(*command);
+    add_texture_bench(*command);
     command->callback([o, command, scene] {
         if (!command->get_subcommands().empty()) return;
         if (scene->empty()) throw CLI::RequiredError("--scene");

@@ -78,7 +78,7 @@ constexpr const char* kStyle = R"css(
 *{box-sizing:border-box}
 body{margin:0;background:var(--ground);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;-webkit-text-size-adjust:100%}
 main{max-width:1080px;margin:0 auto;padding:16px}
-h1{font-size:1.35rem;line-height:1.25;margin:4px 0}
+h1{font-size:1.35rem;line-height:1.25;margin:4px 0;overflow-wrap:anywhere}
 .sub{color:var(--soft);margin:0 0 12px;overflow-wrap:anywhere}
 .card{background:var(--card);border-radius:12px;padding:12px;margin:0 0 14px;box-shadow:0 1px 2px rgba(0,0,0,.08)}
 .bar{position:sticky;top:0;z-index:2;background:var(--card);display:flex;gap:8px;align-items:center;justify-content:space-between;padding:4px 0 8px}

@@ -180,6 +180,14 @@ TEST(Simulate, RefusesEmptyWindowsAndTooManyRows)
     EXPECT_THROW(run_artist(five_parts(), run), Error);
 }
 
+TEST(Plot, TimesOfEventsAreShort)
+{
+    const SimulationTable table;
+    EXPECT_EQ(time_text(table, 20.841999999999999), "20.842 s");
+    EXPECT_EQ(time_text(table, 38.5), "38.5 s");
+    EXPECT_EQ(time_text(table, 12.0), "12 s");
+}
+
 TEST(Plot, TicksAreRoundAndInside)
 {
     EXPECT_EQ(axis_ticks(0, 1, 5, false),

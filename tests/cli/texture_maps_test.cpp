@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/cli/program.h"
 #include "texproc/generate/generate.h"
@@ -252,6 +253,30 @@ TEST(TextureTools, GeneratedSetsAreRecognisedByBuild)
         run({"texture", "build", "made", "--engine", "unity-hdrp", "-o", "out"}, place);
     EXPECT_EQ(built.exit_code, 0) << built.err;
     EXPECT_TRUE(fs::exists(place / "out/brick_MaskMap.dds"));
+}
+
+// Rows for every task, ours always timed, others timed or named as missing.
+TEST(TextureTools, BenchTimesOursBesideWhatIsInstalled)
+{
+    const Workplace place("bench_texture");
+    const Outcome bench =
+        run({"bench", "texture", "--size", "32", "--repeat", "1", "--json"}, place);
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    std::set<std::string> tasks;
+    const json report = json::parse(bench.out);
+    for (const json& row : report["rows"]) {
+        tasks.insert(row["task"].get<std::string>());
+        const std::string program = row["program"].get<std::string>();
+        if (program.starts_with("petrichor")) {
+            EXPECT_TRUE(row.contains("cpu_s")) << row.dump();
+        } else {
+            EXPECT_TRUE(row.contains("cpu_s") || row.contains("note")) << row.dump();
+        }
+    }
+    EXPECT_EQ(tasks, (std::set<std::string>{"bc5", "mips", "pack", "prefilter"}));
+    const Outcome lone = run({"bench", "texture", "--normal", "n.png"}, place);
+    EXPECT_EQ(lone.exit_code, 2);
+    EXPECT_THAT(lone.err, HasSubstr("belong together"));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Effort effort_at(int level, bool quick)
     const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
         // The finest levels hold most texels: there the cheapest of the fits and of a few alphas.
-        if (level <= 2) return {40, 0, 5, 0, 6, 8, false, 3, 16};
+        if (level <= 2) return {40, 0, 5, 0, level == 1 ? 0 : 6, 8, false, 3, 16};
         const int half = level >= 6 ? samples / 3 / 40 * 40 : std::max(80, samples / 2);
         if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
         return {half, half, 6, 3, 6, 20, false, 4, level <= 4 ? 64 : level <= 6 ? 160 : 256};
