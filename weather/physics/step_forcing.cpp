@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/lanes.h"
 #include "weather/physics/solar.h"
 
 namespace petrichor::weather::detail {
@@ -48,16 +49,19 @@ struct StepRows {
     bool between_rows;
 };
 
-Ramp ramp_over(const ForcingTable& table, Field field, const StepRows& at, double offset)
+Ramp ramp_by_integral(const ForcingTable& table, Field field, const StepRows& at, double offset)
 {
-    if (at.between_rows) {
-        const double* v = table[field].data() + at.first;
-        return {v[0] + offset, v[1] - v[0]};
-    }
     const double a = value_at(table, field, at.begin);
     const double b = value_at(table, field, at.end);
     const double mean = mean_over(table, field, at.first, at.begin, at.end);
     return {mean - 0.5 * (b - a) + offset, b - a};
+}
+PETRICHOR_INLINE Ramp ramp_over(const ForcingTable& table, Field field, const StepRows& at,
+                                double offset)
+{
+    if (!at.between_rows) return ramp_by_integral(table, field, at, offset);
+    const double* v = table[field].data() + at.first;
+    return {v[0] + offset, v[1] - v[0]};
 }
 
 double rate_over(const ForcingTable& table, Field field, const StepRows& at)

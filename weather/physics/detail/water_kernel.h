@@ -20,6 +20,7 @@ template <class Real>
 PETRICHOR_KERNEL Lowered<Real> lower_store(const Hypsometry& relief, Real& liquid, const Real& ice,
                                            const Real& evaporation_mm, const Real& infiltration_mm)
 {
+    if (!any(liquid > Real(0.0))) return {Real(0.0), Real(0.0)};
     const Real total = liquid + ice;
     const Real drop = evaporation_mm + infiltration_mm;
     const Real level = level_of(relief, total);
