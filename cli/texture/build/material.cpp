@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cli/texture/build/shipped.h"
 #include "cli/texture/build/write_levels.h"
 #include "cli/texture/files.h"
 #include "texproc/area.h"
@@ -121,7 +122,9 @@ public:
     const std::map<std::string, RawImage>& base() const { return base_; }
     const std::string& green() const { return green_; }
     std::vector<MadeSource> sources() const { return sources_; }
-    std::optional<texproc::Score> lobe_error() const { return score_; }
+    /// The lobe error of what engines read from the outputs.
+    std::optional<texproc::Score> lobe_error(const std::vector<MadeOutput>& made,
+                                             const std::filesystem::path& folder) const;
 
     /// All levels of one role in the numbers of a file, from `first` to `last`.
     std::vector<RawImage> levels(const std::string& role, const PlannedOutput& output,
@@ -161,7 +164,9 @@ private:
     std::string green_;
     texproc::Prefiltered chains_;  // levels 1.. of normal and of roughness or smoothness
     std::string rough_role_;       // "roughness" or "smoothness" where there is a chain
-    std::optional<texproc::Score> score_;
+    texproc::PrefilterOptions filtering_;
+    bool scored_ = false;
+    int bits_ = 8;
 };
 
 // Whether an output, a baked map or the prefilter looks at this input.
@@ -307,12 +312,36 @@ void Maps::prefilter()
     options.threads = threads_;
     chains_ = texproc::prefilter_raw(normal, rough, options);
     rough_role_ = role;
-    if (!recipe_.score) return;
-    texproc::Prefiltered shipped = chains_;
-    texproc::quantize(shipped, std::min(bits, 16));
-    if (!joint) shipped.normal.clear();
-    score_ = texproc::score(normal, rough, shipped, options,
-                            {.light = recipe_.design_light, .texels = 16, .threads = threads_});
+    filtering_ = options;
+    scored_ = recipe_.score;
+    bits_ = std::min(bits, 16);
+}
+
+std::optional<texproc::Score> Maps::lobe_error(const std::vector<MadeOutput>& made,
+                                               const std::filesystem::path& folder) const
+{
+    if (!scored_) return {};
+    const RawImage &normal = base_.at("normal"), &rough = base_.at(rough_role_);
+    const auto has = [&](const std::string& role) { return find(role) != nullptr; };
+    // The first outputs that hold them speak for all.
+    const auto shipped = [&](const std::string& role, int channels) {
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const PlannedOutput& output = plan_.outputs[i];
+            if (!output.prefiltered) continue;
+            std::vector<Image> levels =
+                shipped_levels(folder, output, made[i], role, channels, normal.width, has);
+            if (levels.size() > 1) return levels;
+        }
+        return std::vector<Image>();
+    };
+    texproc::Prefiltered read{shipped("normal", 3), shipped(rough_role_, 1), {}};
+    if (read.roughness.empty()) {  // files that are not read back: as their numbers are rounded
+        read = chains_;
+        texproc::quantize(read, bits_);
+    }
+    if (!filtering_.joint) read.normal.clear();
+    return texproc::score(normal, rough, read, filtering_,
+                          {.light = recipe_.design_light, .texels = 16, .threads = threads_});
 }
 
 void Maps::check_sizes(const PlannedOutput& output) const
@@ -434,10 +463,10 @@ MadeMaterial make_material(const PlannedMaterial& material, const std::filesyste
     MadeMaterial made;
     made.sources = maps.sources();
     made.green = maps.green();
-    made.lobe_error = maps.lobe_error();
     for (const PlannedOutput& output : material.outputs) {
         made.outputs.push_back(make_output(maps, output, folder, threads));
     }
+    made.lobe_error = maps.lobe_error(made.outputs, folder);
     return made;
 }
 
