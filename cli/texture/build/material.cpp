@@ -15,6 +15,7 @@
 #include "texproc/mips.h"
 #include "texproc/normal.h"
 #include "texproc/prefilter/prefilter.h"
+#include "texproc/prefilter/stored.h"
 
 namespace petrichor::cli {
 
@@ -79,6 +80,12 @@ void turn_green(RawImage& normal)
     normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
 }
 
+// These blocks hold numbers between 8-bit codes.
+bool between_codes(const OutputRule& rule)
+{
+    return rule.compression == "bc4" || rule.compression == "bc5";
+}
+
 Image with_alpha(const Image& color, const Image& alpha)
 {
     Image to(color.width, color.height, 4, color.space);
@@ -122,6 +129,10 @@ public:
     const std::map<std::string, RawImage>& base() const { return base_; }
     const std::string& green() const { return green_; }
     std::vector<MadeSource> sources() const { return sources_; }
+    /// For TextureWriteOptions::texel_weights of an output whose first level is `first`:
+    /// prefiltered normals alone in BC5; empty for others.
+    std::vector<Image> texel_weights(const PlannedOutput& output, std::size_t first) const;
+
     /// The lobe error of what engines read from the outputs.
     std::optional<texproc::Score> lobe_error(const std::vector<MadeOutput>& made,
                                              const std::filesystem::path& folder) const;
@@ -288,7 +299,7 @@ void Maps::prefilter()
         // Re-aimed normals are of use only where they are written with the roughness.
         joint = joint || std::count(output.roles.begin(), output.roles.end(), "normal") > 0;
         bits = std::max(bits, output.rule.bits);
-        all_eight = all_eight && output.rule.bits == 8;
+        all_eight = all_eight && output.rule.bits == 8 && !between_codes(output.rule);
     }
     if (!needed) return;
     const std::string role = find("roughness") ? "roughness" : "smoothness";
@@ -342,6 +353,16 @@ std::optional<texproc::Score> Maps::lobe_error(const std::vector<MadeOutput>& ma
     if (!filtering_.joint) read.normal.clear();
     return texproc::score(normal, rough, read, filtering_,
                           {.light = recipe_.design_light, .texels = 16, .threads = threads_});
+}
+
+std::vector<Image> Maps::texel_weights(const PlannedOutput& output, std::size_t first) const
+{
+    const bool normals = output.prefiltered && output.rule.compression == "bc5" &&
+                         output.roles == std::vector<std::string>{"normal"};
+    if (!normals || recipe_.rule != "overlap") return {};
+    std::vector<Image> weights = texproc::lobe_weights(chains_, filtering_).normal;
+    weights.erase(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(first));
+    return weights;
 }
 
 void Maps::check_sizes(const PlannedOutput& output) const
@@ -423,7 +444,7 @@ std::size_t first_level(const std::vector<texproc::LevelSize>& sizes, int size)
 PixelType working_type(const OutputRule& rule)
 {
     if (rule.format == "exr") return PixelType::F32;
-    return rule.bits == 16 ? PixelType::U16 : PixelType::U8;
+    return rule.bits == 16 || between_codes(rule) ? PixelType::U16 : PixelType::U8;
 }
 
 MadeOutput make_output(const Maps& maps, const PlannedOutput& output,
@@ -450,7 +471,8 @@ MadeOutput make_output(const Maps& maps, const PlannedOutput& output,
     made.width = packed.front().width;
     made.height = packed.front().height;
     made.levels = static_cast<int>(packed.size());
-    made.files = write_levels(folder, output.stem, output.rule, std::move(packed), threads);
+    made.files = write_levels(folder, output.stem, output.rule, std::move(packed),
+                              maps.texel_weights(output, first), threads);
     return made;
 }
 
