@@ -27,7 +27,7 @@ struct PhysicalParams {
     ExchangeParams exchange;
     PhaseParams phase;
     double step_s = 3600.0;    ///< 1..86400
-    double substep_s = 600.0;  ///< while water is about, or snow or ice is within 1 K of 0 C
+    double substep_s = 600.0;  ///< the finest: while a thin snow pack comes or goes
     double deep_temp_k =
         kMissing;                ///< of the ground far below; NaN: yearly mean of the air, fitted
     double sky_view = 1.0;       ///< share of the sky that is seen, 0..1

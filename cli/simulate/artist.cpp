@@ -152,13 +152,13 @@ std::vector<PlotPanel> artist_panels()
         {.title = "precipitation, 0..1",
          .forcing = true,
          .series =
-             {{.column = "rain", .label = "rain", .color = "#1d6fd1", .filled = true},
-              {.column = "snowfall", .label = "snowfall", .color = "#7a8aa8", .filled = true}},
+             {{.column = "rain", .label = "rain", .color = "#1d5fc1", .filled = true},
+              {.column = "snowfall", .label = "snowfall", .color = "#56b4e9", .filled = true}},
          .group = "weather"},
         {.title = "water, 0..1",
          .series = {{.column = "wetness", .label = "film", .color = "#0e9f8e"},
-                    {.column = "cracks", .label = "cracks", .color = "#9162d6"},
-                    {.column = "puddles", .label = "puddles", .color = "#3b6fe0"}},
+                    {.column = "cracks", .label = "cracks", .color = "#d55e00"},
+                    {.column = "puddles", .label = "puddles", .color = "#2456c4"}},
          .group = "water"},
         {.title = "snow and phase, 0..1",
          .series =

@@ -12,7 +12,7 @@
 #include "cli/folders.h"
 #include "cli/simulate/inputs.h"
 #include "cli/simulate/outputs.h"
-#include "cli/simulate/plot.h"
+#include "cli/simulate/panel_choice.h"
 #include "cli/simulate/simulations.h"
 
 namespace petrichor::cli {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "base/error.h"
+#include "cli/simulate/drawing.h"
 #include "texproc/files/io.h"
 #include "weather/mapping.h"
 #include "weather/readers/text.h"
@@ -124,6 +126,59 @@ double hillshade(const Terrain& t, double x, double y)
     return std::max(0.0, (0.35 * east + 0.35 * south + 0.87) / length);
 }
 
+// 1, 2 or 5 times a power of ten, at most the length.
+double round_length_m(double most_m)
+{
+    const double power = std::pow(10.0, std::floor(std::log10(most_m)));
+    for (const double digit : {5.0, 2.0}) {
+        if (digit * power <= most_m) return digit * power;
+    }
+    return power;
+}
+
+std::string length_text(double metres)
+{
+    char text[40];
+    std::snprintf(text, sizeof text, metres >= 1000.0 ? "%.3g km" : "%.3g m",
+                  metres >= 1000.0 ? metres / 1000.0 : metres);
+    return text;
+}
+
+// What the map shows, in two lines below it, with a bar of a round length at the right.
+Drawing caption(const Terrain& terrain, const GridMap& map, std::size_t width, std::size_t zoom)
+{
+    constexpr const char* kInk = "#1b2430";
+    double low_m = 1e9, high_m = -1e9, cover = 0.0, depth_m = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < terrain.cells(); ++i) {
+        if (!terrain.inside[i]) continue;
+        const double snow_m = weather::diagnostics(map.states[i]).snow_depth_m;
+        low_m = std::min(low_m, static_cast<double>(terrain.heights_m[i]));
+        high_m = std::max(high_m, static_cast<double>(terrain.heights_m[i]));
+        cover += std::tanh(snow_m / 0.1);
+        depth_m += snow_m;
+        ++count;
+    }
+    const double cells = static_cast<double>(std::max<std::size_t>(count, 1));
+    Drawing strip{.width = static_cast<double>(width), .height = 46.0, .shapes = {}};
+    std::string when = weather::iso_from_us(map.time_us).substr(0, 16);
+    when[10] = ' ';
+    char snow[120];
+    std::snprintf(snow, sizeof snow, "snow on %.0f %%, mean depth %.2f m; ground %.0f to %.0f m",
+                  100.0 * cover / cells, depth_m / cells, low_m, high_m);
+    strip.shapes.push_back(
+        DrawnText{{10, 19}, when + " UTC, north is up", kInk, 13.0, Anchor::Start, true});
+    strip.shapes.push_back(DrawnText{{10, 37}, snow, kInk, 12.0, Anchor::Start, false});
+    const double pixel_m = terrain.spacing_m / static_cast<double>(zoom);
+    const double bar_m = round_length_m(0.22 * strip.width * pixel_m);
+    const double right = strip.width - 12.0, left = right - bar_m / pixel_m;
+    strip.shapes.push_back(
+        DrawnLine{{{left, 10}, {left, 16}, {right, 16}, {right, 10}}, kInk, 1.5});
+    strip.shapes.push_back(
+        DrawnText{{right, 33}, length_text(bar_m), kInk, 12.0, Anchor::End, false});
+    return strip;
+}
+
 void write_preview(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map)
 {
     const std::size_t zoom = std::max<std::size_t>(1, (512 + terrain.width - 1) / terrain.width);
@@ -163,8 +218,10 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
             }
         }
     }
-    texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height), 3, rgb,
-                        {{"time_utc", weather::iso_from_us(map.time_us)}});
+    const Pixels words = to_pixels(caption(terrain, map, width, zoom), 1.0);
+    rgb.insert(rgb.end(), words.rgb.begin(), words.rgb.end());
+    texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height) + words.height, 3,
+                        rgb, {{"time_utc", weather::iso_from_us(map.time_us)}});
 }
 
 }  // namespace

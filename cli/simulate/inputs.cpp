@@ -92,9 +92,11 @@ InputKind kind_of_text(std::string_view text)
         if (words.empty() || words.front() == '#') continue;
         const std::string low = weather::lower(words);
         const auto has = [&](const char* word) { return low.find(word) != low.npos; };
-        return has("time_s") && !has("time_utc") && (has("temperature_c") || has("rainfall"))
-                   ? InputKind::Keys
-                   : InputKind::Weather;
+        const bool some = has("temperature_c") || has("rainfall");
+        // Both without any time are keys whose time column has another name: their reader says so.
+        const bool both = has("temperature_c") && has("rainfall") && !has("time") && !has("date");
+        return (has("time_s") && !has("time_utc") && some) || both ? InputKind::Keys
+                                                                   : InputKind::Weather;
     }
     return InputKind::Weather;
 }

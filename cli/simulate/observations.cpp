@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/words.h"
 #include "weather/readers/text.h"
 

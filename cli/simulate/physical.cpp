@@ -1,6 +1,7 @@
 #include "cli/simulate/physical.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -104,6 +105,19 @@ PlotPanel percentile_panel(const char* title, const std::string& name, const cha
             .group = group};
 }
 
+// FNV-1a over the bits of all numbers: percentiles have no state of a cell to hash.
+std::uint64_t hash_of_rows(const std::vector<std::vector<double>>& rows)
+{
+    std::uint64_t hash = 14695981039346656037u;
+    for (const auto& row : rows) {
+        for (const double number : row) {
+            auto bits = std::bit_cast<std::uint64_t>(number);
+            for (int i = 0; i < 8; ++i, bits >>= 8) hash = (hash ^ (bits & 0xffu)) * 1099511628211u;
+        }
+    }
+    return hash;
+}
+
 SimulationTable run_ensemble_table(const weather::ReadResult& read, const PhysicalRun& run,
                                    const weather::PhysicalParams& params, SimulationTable table)
 {
@@ -139,8 +153,9 @@ SimulationTable run_ensemble_table(const weather::ReadResult& read, const Physic
         percentile_panel("snow depth, m", "snow_depth_m", "#4a80bd", "snow"),
         percentile_panel("snow water equivalent, kg/m\u00b2", "swe_kg_m2", "#1f5f9e", "snow"),
         percentile_panel("film, kg/m\u00b2", "film_kg_m2", "#0e9f8e", "water"),
-        percentile_panel("puddles, kg/m\u00b2", "puddle_kg_m2", "#3b6fe0", "water"),
+        percentile_panel("puddles, kg/m\u00b2", "puddle_kg_m2", "#2456c4", "water"),
         percentile_panel("surface temperature, \u00b0C", "surface_temp_c", "#c8442e", "heat")};
+    table.state_hash = table.table_hash = hash_of_rows(table.rows);
     table.notes.push_back(
         "ensemble of " + std::to_string(run.members) + " members, seed " +
         std::to_string(run.seed) +

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "weather/mapping.h"
 #include "weather/physics/air.h"
 #include "weather/physics/constants.h"
@@ -167,22 +167,27 @@ std::vector<PlotPanel> physical_panels()
     return {
         free("air temperature, \u00b0C", "weather", {line("air_temp_c", "", "#c8442e")}, true),
         free("precipitation, mm/h", "weather",
-             {area("rain_kg_m2_s", "rain", "#1d6fd1", 3600.0),
-              area("snowfall_kg_m2_s", "snow", "#7a8aa8", 3600.0)},
+             {area("rain_kg_m2_s", "rain", "#1d5fc1", 3600.0),
+              area("snowfall_kg_m2_s", "snow", "#56b4e9", 3600.0)},
              true),
         free("radiation, W/m\u00b2", "heat",
              {line("sw_down_w_m2", "sun", "#e09c14"), line("lw_down_w_m2", "sky", "#8450b0")},
              true),
         free("snow depth, m", "snow", {area("snow_depth_m", "model", "#4a80bd")}),
         free("snow water equivalent, kg/m\u00b2", "snow", {line("swe_kg_m2", "model", "#1f5f9e")}),
-        unit("snow albedo", "albedo", {line("snow_albedo", "model", "#8a6d3b")}),
+        unit("snow albedo, 0..1", "albedo",
+             {{.column = "snow_albedo",
+               .label = "model",
+               .color = "#8a6d3b",
+               .only_where = "snow_depth_m",
+               .only_above = 0.001}}),
         free("surface temperature, \u00b0C", "heat", {line("surface_temp_c", "model", "#c8442e")}),
         free("water on the ground, kg/m\u00b2", "water",
-             {line("film_kg_m2", "film", "#0e9f8e"), line("crack_kg_m2", "cracks", "#9162d6"),
-              line("puddle_kg_m2", "puddles", "#3b6fe0"), line("ice_kg_m2", "ice", "#85929e")}),
+             {line("film_kg_m2", "film", "#0e9f8e"), line("crack_kg_m2", "cracks", "#d55e00"),
+              line("puddle_kg_m2", "puddles", "#2456c4"), line("ice_kg_m2", "ice", "#56b4e9")}),
         unit("water masks, 0..1", "masks",
-             {line("wetness", "wetness", "#0e9f8e"), line("cracks", "cracks", "#9162d6"),
-              line("puddles", "puddles", "#3b6fe0")}),
+             {line("wetness", "wetness", "#0e9f8e"), line("cracks", "cracks", "#d55e00"),
+              line("puddles", "puddles", "#2456c4")}),
         unit("snow masks, 0..1", "masks",
              {area("snow", "snow", "#4a80bd"), line("water_to_snow", "frozen", "#d97706")}),
     };

@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <functional>
 
-#include "base/error.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/time_axis.h"
-#include "cli/words.h"
 
 namespace petrichor::cli {
 namespace {
@@ -22,18 +21,6 @@ constexpr double kStateHeight = 180.0;
 constexpr double kBottom = 46.0;
 constexpr std::size_t kMostPoints = 3000;  // more rows than this are thinned
 constexpr std::size_t kMostEvents = 40;
-
-std::string number(double value, int decimals = 2)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    std::string trimmed = text;
-    if (trimmed.find('.') != trimmed.npos) {
-        while (trimmed.back() == '0') trimmed.pop_back();
-        if (trimmed.back() == '.') trimmed.pop_back();
-    }
-    return trimmed == "-0" ? "0" : trimmed;
-}
 
 constexpr const char* kInk = "#1b2430";
 constexpr const char* kSoft = "#51606f";
@@ -61,27 +48,46 @@ struct TimeAxis {
     }
 };
 
-// A curve as pixels can show it: of many rows in one place only the lowest and the highest.
-std::vector<DrawnPoint> curve_points(const SimulationTable& table, const TimeAxis& time,
-                                     const std::vector<double>& y)
+// A piece of a curve as pixels can show it: of many rows in one place only the lowest and the
+// highest.
+std::vector<DrawnPoint> thinned(const std::vector<DrawnPoint>& piece, std::size_t bucket)
 {
     std::vector<DrawnPoint> points;
-    const std::size_t count = y.size();
-    const std::size_t bucket =
-        count <= kMostPoints ? 1 : (2 * count + kMostPoints - 1) / kMostPoints;  // two points each
-    for (std::size_t begin = 0; begin < count; begin += bucket) {
-        const std::size_t end = std::min(begin + bucket, count);
-        const auto [low, high] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                     y.begin() + static_cast<std::ptrdiff_t>(end));
-        std::size_t first = static_cast<std::size_t>(low - y.begin()),
-                    second = static_cast<std::size_t>(high - y.begin());
+    for (std::size_t begin = 0; begin < piece.size(); begin += bucket) {
+        const auto at = piece.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto end =
+            piece.begin() + static_cast<std::ptrdiff_t>(std::min(begin + bucket, piece.size()));
+        auto [first, second] = std::minmax_element(
+            at, end, [](const DrawnPoint& a, const DrawnPoint& b) { return a.y < b.y; });
         if (first > second) std::swap(first, second);
-        points.push_back({time.x(table.rows[first][0]), y[first]});
-        if (second != first) points.push_back({time.x(table.rows[second][0]), y[second]});
+        points.push_back(*first);
+        if (second != first) points.push_back(*second);
     }
-    if (count > 0 && points.back().x < time.x(table.rows.back()[0]))
-        points.push_back({time.x(table.rows.back()[0]), y.back()});
+    if (!piece.empty() && points.back().x < piece.back().x) points.push_back(piece.back());
     return points;
+}
+
+// The pieces of a curve: between them there is nothing to show.
+std::vector<std::vector<DrawnPoint>> curve_pieces(const SimulationTable& table,
+                                                  const TimeAxis& time,
+                                                  const std::vector<double>& y)
+{
+    std::vector<std::vector<DrawnPoint>> pieces;
+    const std::size_t bucket =
+        y.size() <= kMostPoints ? 1 : (2 * y.size() + kMostPoints - 1) / kMostPoints;  // two points
+    std::vector<DrawnPoint> piece;
+    const auto close = [&] {
+        if (!piece.empty()) pieces.push_back(thinned(piece, bucket));
+        piece.clear();
+    };
+    for (std::size_t r = 0; r < y.size(); ++r) {
+        if (std::isnan(y[r]))
+            close();
+        else
+            piece.push_back({time.x(table.rows[r][0]), y[r]});
+    }
+    close();
+    return pieces;
 }
 
 // Title at the left with its score, legend at the right.
@@ -97,8 +103,8 @@ void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel
                         [&](const PlotSeries& s) { return s.column == score.column; });
         if (!here) continue;
         char text[120];
-        std::snprintf(text, sizeof text, "RMSE %.3g %s, bias %+.2g", score.rmse, score.unit.c_str(),
-                      score.bias);
+        std::snprintf(text, sizeof text, "RMSE %.3g%s, bias %+.2g%s", score.rmse,
+                      unit_text(score).c_str(), score.bias, unit_text(score).c_str());
         add_label(drawing, {title_end, top - 10}, Anchor::Start, text);
     }
     double legend_x = kWidth - kRight;
@@ -121,29 +127,29 @@ void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel
 void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series,
                 const TimeAxis& time, const std::function<double(double)>& y, double bottom)
 {
-    const auto heights = [&](const std::string& name) {
-        std::vector<double> values;
-        const std::size_t column = column_index(table, name);
-        if (column == table.columns.size()) return values;
-        for (const auto& row : table.rows) values.push_back(y(series.scale * row[column]));
-        return values;
+    const auto pieces = [&](const std::string& name) {
+        std::vector<double> values = series_values(table, series, name);
+        for (double& v : values) v = std::isnan(v) ? v : y(v);
+        return curve_pieces(table, time, values);
     };
     if (!series.band_low.empty()) {
-        DrawnArea band{curve_points(table, time, heights(series.band_low)), series.color, 0.25};
-        const auto upper = curve_points(table, time, heights(series.band_high));
-        band.points.insert(band.points.end(), upper.rbegin(), upper.rend());
-        if (!band.points.empty()) drawing.shapes.push_back(std::move(band));
+        const auto lower = pieces(series.band_low), upper = pieces(series.band_high);
+        for (std::size_t i = 0; i < std::min(lower.size(), upper.size()); ++i) {
+            DrawnArea band{lower[i], series.color, 0.25};
+            band.points.insert(band.points.end(), upper[i].rbegin(), upper[i].rend());
+            drawing.shapes.push_back(std::move(band));
+        }
     }
-    DrawnLine curve{curve_points(table, time, heights(series.column)), series.color,
-                    table.rows.size() > 1500 ? 1.3 : 2.0, false};
-    if (curve.points.empty()) return;
-    if (series.filled) {
-        DrawnArea area{curve.points, series.color, 0.22};
-        area.points.insert(area.points.begin(), {curve.points.front().x, bottom});
-        area.points.push_back({curve.points.back().x, bottom});
-        drawing.shapes.push_back(std::move(area));
+    for (const auto& points : pieces(series.column)) {
+        if (series.filled) {
+            DrawnArea area{points, series.color, 0.22};
+            area.points.insert(area.points.begin(), {points.front().x, bottom});
+            area.points.push_back({points.back().x, bottom});
+            drawing.shapes.push_back(std::move(area));
+        }
+        drawing.shapes.push_back(
+            DrawnLine{points, series.color, table.rows.size() > 1500 ? 1.3 : 2.0, false});
     }
-    drawing.shapes.push_back(std::move(curve));
 }
 
 void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
@@ -159,7 +165,8 @@ void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& 
     const auto ticks = axis_ticks(low, high, panel.forcing ? 4 : 5, false);
     for (double tick : ticks) {
         add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
-        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End, number(tick, decimals_of(ticks)));
+        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End,
+                  number_text(tick, decimals_of(ticks)));
     }
     for (const TimeTick& tick : time_ticks)
         add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
@@ -177,144 +184,6 @@ void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& 
         drawing.shapes.push_back(std::move(drawn));
     }
 }
-
-bool shows_something(const SimulationTable& table, const PlotPanel& panel)
-{
-    if (panel.forcing || !panel.dots.empty()) return true;
-    for (const PlotSeries& series : panel.series) {
-        const std::size_t column = column_index(table, series.column);
-        if (column == table.columns.size()) continue;
-        for (const auto& row : table.rows) {
-            if (std::abs(series.scale * row[column]) > 1e-6) return true;
-        }
-    }
-    return false;
-}
-
-}  // namespace
-
-std::size_t column_index(const SimulationTable& table, const std::string& name)
-{
-    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
-                                    table.columns.begin());
-}
-
-std::vector<std::size_t> rows_to_draw(const SimulationTable& table, std::size_t most)
-{
-    std::vector<std::size_t> rows;
-    const std::size_t count = table.rows.size();
-    const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
-    for (std::size_t r = 0; r < count; r += stride) rows.push_back(r);
-    if (count > 0 && rows.back() != count - 1) rows.push_back(count - 1);
-    return rows;
-}
-
-std::vector<double> axis_ticks(double low, double high, int most, bool time)
-{
-    const double span = high - low;
-    if (!(span > 0.0) || most < 1) return {low};
-    std::vector<double> steps;
-    for (int power = -6; power <= 12; ++power) {
-        for (double digit : {1.0, 2.0, 5.0}) steps.push_back(digit * std::pow(10.0, power));
-    }
-    if (time) {
-        std::erase_if(steps, [](double step) { return step >= 50.0; });
-        for (double step :
-             {60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0, 7200.0, 10800.0, 21600.0, 43200.0}) {
-            steps.push_back(step);
-        }
-        for (double days : {1., 2., 5., 10., 20., 50., 100., 200., 500., 1000., 5000., 20000.}) {
-            steps.push_back(86400.0 * days);
-        }
-    }
-    double step = steps.back();
-    for (double candidate : steps) {
-        if (span / candidate <= most) {
-            step = candidate;
-            break;
-        }
-    }
-    std::vector<double> ticks;
-    const double slack = 1e-9 * span;
-    for (double k = std::ceil((low - slack) / step); k * step <= high + slack; k += 1.0) {
-        ticks.push_back(k * step);
-    }
-    return ticks;
-}
-
-std::string time_label(double time_s, double spacing_s)
-{
-    if (time_s == 0.0) return "0";
-    if (spacing_s >= 86400.0) return number(time_s / 86400.0) + " d";
-    if (spacing_s >= 3600.0) return number(time_s / 3600.0) + " h";
-    if (spacing_s >= 60.0) return number(time_s / 60.0) + " min";
-    return number(time_s, 6) + " s";
-}
-
-std::pair<double, double> axis_range(const SimulationTable& table, const PlotPanel& panel)
-{
-    if (panel.low != panel.high) return {panel.low, panel.high};
-    double low = 0.0;
-    double high = 0.0;
-    const auto widen = [&](double value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    };
-    for (const PlotSeries& series : panel.series) {
-        for (const std::string& name : {series.column, series.band_low, series.band_high}) {
-            const std::size_t column = column_index(table, name);
-            if (column == table.columns.size()) continue;
-            for (const auto& row : table.rows) widen(series.scale * row[column]);
-        }
-    }
-    for (const PlotDots& dots : panel.dots) {
-        for (double value : dots.values) widen(value);
-    }
-    if (low == high) return {0.0, 1.0};
-    const auto ticks = axis_ticks(low, high, 4, false);
-    const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
-    return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9)};
-}
-
-int decimals_of(const std::vector<double>& ticks)
-{
-    if (ticks.size() < 2) return 2;
-    return std::clamp(static_cast<int>(std::ceil(-std::log10(ticks[1] - ticks[0]) - 1e-9)), 0, 9);
-}
-
-std::vector<PlotPanel> chosen_panels(const SimulationTable& table, const std::string& wish)
-{
-    std::vector<PlotPanel> chosen;
-    if (wish == "all") return table.panels;
-    if (wish == "auto") {
-        for (const PlotPanel& panel : table.panels) {
-            if (shows_something(table, panel)) chosen.push_back(panel);
-        }
-        return chosen;
-    }
-    std::vector<std::string> groups, asked;
-    for (const PlotPanel& panel : table.panels) {
-        if (!panel.group.empty() &&
-            std::find(groups.begin(), groups.end(), panel.group) == groups.end())
-            groups.push_back(panel.group);
-    }
-    for (std::size_t at = 0; at <= wish.size();) {
-        const std::size_t end = std::min(wish.find(',', at), wish.size());
-        asked.push_back(wish.substr(at, end - at));
-        at = end + 1;
-        if (std::find(groups.begin(), groups.end(), asked.back()) == groups.end()) {
-            throw Error("--plot: there is no \"" + asked.back() + "\"",
-                        "Use auto, all, or some of: " + join_words(groups) + ".");
-        }
-    }
-    for (const PlotPanel& panel : table.panels) {
-        const bool named = std::find(asked.begin(), asked.end(), panel.group) != asked.end();
-        if (named || panel.group == "weather") chosen.push_back(panel);
-    }
-    return chosen;
-}
-
-namespace {
 
 std::string subtitle(const SimulationTable& table)
 {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 
 namespace petrichor::cli {
 namespace {
@@ -32,9 +33,8 @@ std::string data_json(const SimulationTable& table)
             if (column == table.columns.size()) continue;
             const auto numbers = [&](const std::string& name) {
                 ordered_json out = ordered_json::array();
-                const std::size_t at = column_index(table, name);
-                for (std::size_t r : rows)
-                    out.push_back(short_number(line.scale * table.rows[r][at]));
+                const auto values = series_values(table, line, name);
+                for (std::size_t r : rows) out.push_back(short_number(values[r]));  // a gap: null
                 return out;
             };
             ordered_json entry{{"label", line.label},
@@ -78,7 +78,7 @@ constexpr const char* kStyle = R"css(
 *{box-sizing:border-box}
 body{margin:0;background:var(--ground);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;-webkit-text-size-adjust:100%}
 main{max-width:1080px;margin:0 auto;padding:16px}
-h1{font-size:1.35rem;line-height:1.25;margin:4px 0}
+h1{font-size:1.35rem;line-height:1.25;margin:4px 0;overflow-wrap:anywhere}
 .sub{color:var(--soft);margin:0 0 12px;overflow-wrap:anywhere}
 .card{background:var(--card);border-radius:12px;padding:12px;margin:0 0 14px;box-shadow:0 1px 2px rgba(0,0,0,.08)}
 .bar{position:sticky;top:0;z-index:2;background:var(--card);display:flex;gap:8px;align-items:center;justify-content:space-between;padding:4px 0 8px}
@@ -88,6 +88,7 @@ button{font:inherit;color:var(--ink);background:none;border:1px solid var(--grid
 button:hover{border-color:var(--accent)}
 .panel{margin:0 0 8px}
 .panel h2{font-size:.92rem;margin:0 0 2px}
+.panel h2 b{font-variant-numeric:tabular-nums;margin-left:8px}
 .legend{display:flex;flex-wrap:wrap;gap:2px 14px;font-size:.86rem;color:var(--soft);margin-bottom:2px}
 .legend span{white-space:nowrap}
 .legend i{display:inline-block;width:14px;height:4px;border-radius:2px;margin-right:6px;vertical-align:middle}
@@ -143,11 +144,12 @@ function nowText(t){if(S!==undefined){const d=dateOf(t);return d.getUTCFullYear(
  if(t1-t0<600)return t.toFixed(2)+" s";const d=Math.floor(t/86400),h=Math.floor(t/3600)%24,m=Math.floor(t/60)%60,s=Math.floor(t%60),z=v=>String(v).padStart(2,"0");
  return(d?d+" d ":"")+z(h)+":"+z(m)+":"+z(s)}
 function rowBefore(t){let a=0,b=N-1;while(a<b){const m=(a+b+1)>>1;T[m]<=t?a=m:b=m-1}return a}
-function valueAt(v,t){const i=rowBefore(t);if(i===N-1||t<=T[i])return v[i];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
+function valueAt(v,t){const i=rowBefore(t);if(i===N-1||t<=T[i]||v[i]===null||v[i+1]===null)return v[i];const u=(t-T[i])/(T[i+1]-T[i]);return v[i]+(v[i+1]-v[i])*u}
 const panels=D.panels.map((p,index)=>{const box=document.createElement("div");box.className="panel";
  const h=document.createElement("h2");h.textContent=p.title;box.append(h);
  const legend=document.createElement("div");legend.className="legend";box.append(legend);
  const reads=p.series.map(s=>{const e=document.createElement("span"),i=document.createElement("i"),b=document.createElement("b");
+  if(!s.label&&p.series.length===1&&!p.dots.length){legend.remove();h.append(" ",b);return b}
   i.style.background=s.color;e.append(i,(s.label?s.label+" ":""),b);legend.append(e);return b});
  for(const d of p.dots){const e=document.createElement("span"),i=document.createElement("i");i.className="dot";e.append(i,d.label+" ");legend.append(e)}
  const canvas=document.createElement("canvas");canvas.setAttribute("role","img");canvas.setAttribute("aria-label",p.title);box.append(canvas);charts.append(box);
@@ -155,7 +157,7 @@ const panels=D.panels.map((p,index)=>{const box=document.createElement("div");bo
 const LEFT=44,RIGHT=10;
 function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink"),dot=css("--dot");
  const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
- const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/78)));
+ const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/66)));
  for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:8,top=6,ratio=window.devicePixelRatio||1;
   canvas.style.height=h+foot+top+"px";canvas.width=Math.round(width*ratio);canvas.height=Math.round((h+foot+top)*ratio);
   const c=canvas.getContext("2d");c.scale(ratio,ratio);c.clearRect(0,0,width,h+foot+top);c.font="12px system-ui,'DejaVu Sans',sans-serif";
@@ -170,17 +172,17 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   const i0=rowBefore(from),i1=Math.min(N-1,rowBefore(to)+1);
   const crowd=i1-i0>1500?1.2:2;
   for(const s of p.series){if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
-   c.beginPath();for(let i=i0;i<=i1;i++){const X=x(T[i]),Y=y(s.values[i]);i===i0?c.moveTo(X,Y):c.lineTo(X,Y)}
+   c.beginPath();let pen=false;for(let i=i0;i<=i1;i++){const v=s.values[i];if(v===null){pen=false;continue}const X=x(T[i]),Y=y(v);pen?c.lineTo(X,Y):c.moveTo(X,Y);pen=true}
    c.strokeStyle=s.color;c.lineWidth=crowd;c.lineJoin="round";c.stroke();
-   if(s.filled){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
+   if(s.filled&&!s.values.includes(null)){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
   for(const d of p.dots){c.fillStyle=dot;for(let i=0;i<d.times.length;i++)if(d.times[i]>=from&&d.times[i]<=to){c.beginPath();c.arc(x(d.times[i]),y(d.values[i]),d.times.length>150&&to-from>.5*(t1-t0)?1.6:2.6,0,7);c.fill()}}
   c.restore();
   let lastX=-99;c.fillStyle=soft;c.textBaseline="top";
   D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+(last?4:foot));c.stroke();c.setLineDash([]);
    if(last&&X-lastX>14){lastX=X;c.fillText(String(i+1),X,top+h+6)}});
   if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
-   for(const s of p.series){c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
-  p.series.forEach((s,i)=>{reads[i].textContent=cursor===null?"":valueAt(s.values,cursor).toFixed(p.high-p.low>5?1:3)})}
+   for(const s of p.series){if(valueAt(s.values,cursor)===null)continue;c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
+  p.series.forEach((s,i)=>{const v=cursor===null?null:valueAt(s.values,cursor);reads[i].textContent=cursor===null?"":v===null?"\u2013":v.toFixed(p.high-p.low>5?1:3)})}
  $("now").textContent=cursor===null?"point to read values":nowText(cursor);drawn=true}
 let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
 function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}
@@ -243,12 +245,20 @@ std::string scores_table(const SimulationTable& table)
         "observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
     for (const Score& s : table.scores) {
         char cells[160];
-        std::snprintf(cells, sizeof cells, "<td>%.3g %s</td><td>%+.2g</td><td>%zu</td></tr>\n",
-                      s.rmse, s.unit.c_str(), s.bias, s.count);
+        std::snprintf(cells, sizeof cells, "<td>%.3g%s</td><td>%+.2g%s</td><td>%zu</td></tr>\n",
+                      s.rmse, unit_text(s).c_str(), s.bias, unit_text(s).c_str(), s.count);
         html += "<tr><td>" + escaped(spelt_out(s.column)) + " <small>" + escaped(s.how) +
                 "</small></td>" + cells;
     }
     return html + "</table>\n";
+}
+
+// The first and last time of a dated table.
+std::string period(const SimulationTable& table)
+{
+    if (!table.dated || table.rows.empty()) return "";
+    return time_text(table, table.rows.front()[0]) + " to " +
+           time_text(table, table.rows.back()[0]) + " UTC; ";
 }
 
 }  // namespace
@@ -268,9 +278,9 @@ std::string html_report(const SimulationTable& table)
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
            title + " - petrichor</title>\n<style>" + kStyle +
            "</style>\n</head>\n<body>\n<main>\n" + "<h1>" + title + "</h1>\n<p class=\"sub\">" +
-           escaped(table.model) + " model, " + escaped(table.mode) + "; state " +
-           hash_text(table.state_hash) + "</p>\n" + warnings + scores_table(table) + "<noscript>" +
-           svg_plot(table) + "</noscript>\n" +
+           escaped(table.model) + " model, " + escaped(table.mode) + "; " + period(table) +
+           "state " + hash_text(table.state_hash) + "</p>\n" + warnings + scores_table(table) +
+           "<noscript>" + svg_plot(table) + "</noscript>\n" +
            "<section class=\"card\"><div class=\"bar\"><span id=\"now\"></span><span>"
            "<button id=\"out\" aria-label=\"zoom out\">&minus;</button> "
            "<button id=\"in\" aria-label=\"zoom in\">+</button> "

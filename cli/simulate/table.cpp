@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/simulate/plot_axes.h"
 #include "weather/csv.h"
 #include "weather/readers/text.h"
 
@@ -56,7 +57,7 @@ std::string hash_text(std::uint64_t hash)
 
 std::string time_text(const SimulationTable& table, double time_s)
 {
-    if (!table.dated) return weather::number_17(std::round(time_s * 1e3) / 1e3) + " s";
+    if (!table.dated) return number_text(time_s, 3) + " s";
     const auto us = table.utc_start_us + static_cast<std::int64_t>(std::llround(time_s * 1e6));
     std::string text = weather::iso_from_us(us).substr(0, 16);
     text[10] = ' ';

@@ -16,6 +16,10 @@ struct PlotSeries {
     bool filled = false;                  ///< shaded down to the lower end of the axis
     double scale = 1.0;                   ///< from the unit of the column to that of the panel
     std::string band_low{}, band_high{};  ///< columns between which a band is shaded, or empty
+    /// A gap is left where this column is not above the number: without snow its albedo means
+    /// nothing. Empty: no gaps.
+    std::string only_where{};
+    double only_above = 0.0;
 };
 
 /// Dots of a plot: what was observed.

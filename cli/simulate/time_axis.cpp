@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "cli/simulate/grid_map.h"
-#include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/relief.h"
 #include "tests/cli/program.h"
 #include "texproc/files/io.h"
@@ -235,6 +235,7 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
     const auto brightness = [&](const char* file) {
         const Image image = texproc::read_image(work / file);
         EXPECT_GE(image.width, 512);
+        EXPECT_EQ(image.height, image.width + 46) << "a square, and two lines of words";
         double sum = 0;
         for (const float v : image.pixels) sum += static_cast<double>(v);
         return sum / static_cast<double>(image.pixels.size());

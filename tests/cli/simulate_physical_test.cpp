@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include "base/error.h"
+#include "cli/simulate/panel_choice.h"
 #include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/report.h"
 #include "weather/physics/stores.h"
 
@@ -138,6 +142,8 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
     run.threads = 3;
     const SimulationTable b = simulated(weather_csv(), run);
     EXPECT_EQ(a.rows, b.rows);
+    EXPECT_EQ(a.state_hash, b.state_hash);
+    EXPECT_NE(a.state_hash, 0u);
     const std::size_t low = at(a, "swe_kg_m2_p10"), middle = at(a, "swe_kg_m2_p50"),
                       high = at(a, "swe_kg_m2_p90");
     double widest = 0;
@@ -275,6 +281,36 @@ TEST(SimulatePhysical, PanelsAreChosen)
     EXPECT_THROW(chosen_panels(t, "masks,hail"), Error);
     for (auto& row : t.rows) row[at(t, "snow_depth_m")] = 0.0;
     EXPECT_EQ(titles("auto").find("snow depth"), std::string::npos) << "nothing to see";
+    EXPECT_EQ(titles("auto").find("snow albedo"), std::string::npos) << "no snow has none";
+}
+
+TEST(SimulatePhysical, AlbedoIsDrawnWhereThereIsSnow)
+{
+    SimulationTable t = simulated(weather_csv(), city());
+    const std::size_t depth = at(t, "snow_depth_m"), albedo = at(t, "snow_albedo");
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        t.rows[i][albedo] = 0.8;
+        t.rows[i][depth] = i % 10 < 5 ? 0.2 : 0.0;
+    }
+    const auto panels = chosen_panels(t, "all");
+    const auto panel = std::find_if(panels.begin(), panels.end(),
+                                    [](const PlotPanel& p) { return p.group == "albedo"; });
+    ASSERT_NE(panel, panels.end());
+    const auto values = series_values(t, panel->series.front(), "snow_albedo");
+    ASSERT_EQ(values.size(), t.rows.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(std::isnan(values[i]), t.rows[i][depth] == 0.0) << i;
+    t.panels = {*panel};
+    // A piece of line for each stretch of snow, in the plot and as nulls in the report.
+    const Drawing drawing = plot_of(t);
+    const auto pieces =
+        std::count_if(drawing.shapes.begin(), drawing.shapes.end(), [&](const DrawnShape& shape) {
+            const auto* line = std::get_if<DrawnLine>(&shape);
+            return line && line->color == panel->series.front().color && line->width < 3.0;
+        });
+    EXPECT_EQ(static_cast<std::size_t>(pieces), (t.rows.size() + 9) / 10);
+    EXPECT_NE(html_report(t).find(",null,null,null,null,null,"), std::string::npos);
+    EXPECT_EQ(html_report(t).find("nan"), std::string::npos);
 }
 
 TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)

@@ -13,6 +13,7 @@
 #include "base/output_file.h"
 #include "cli/simulate/artist.h"
 #include "cli/simulate/plot.h"
+#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/report.h"
 #include "weather/artist/csv.h"
 
@@ -177,6 +178,14 @@ TEST(Simulate, RefusesEmptyWindowsAndTooManyRows)
     run.from_s = 0.0;
     run.to_s = 1e9;
     EXPECT_THROW(run_artist(five_parts(), run), Error);
+}
+
+TEST(Plot, TimesOfEventsAreShort)
+{
+    const SimulationTable table;
+    EXPECT_EQ(time_text(table, 20.841999999999999), "20.842 s");
+    EXPECT_EQ(time_text(table, 38.5), "38.5 s");
+    EXPECT_EQ(time_text(table, 12.0), "12 s");
 }
 
 TEST(Plot, TicksAreRoundAndInside)

@@ -49,17 +49,21 @@ TEST(Report, LettersOfAStationTellDayFromNight)
     const std::string text =
         "KBOS 231754Z 24008KT 10SM FEW200 09/M04 A3032\n"
         "KBOS 240454Z 24006KT 10SM CLR 02/M04 A3033\n";
-    const auto r = read_weather(text);
+    const ReadOptions dated{.year = 2024, .month = 1};
+    const auto r = read_weather(text, dated);
     EXPECT_EQ(warnings(r.report), 1u) << to_text(r.report);
+    EXPECT_EQ(warnings(read_weather(text).report), 2u) << "the month is taken, too";
     EXPECT_NE(to_text(r.report).find("contiguous United States"), std::string::npos);
     EXPECT_GT(r.table[Field::Shortwave].front(), 100.0) << "near noon in Boston";
     EXPECT_EQ(r.table[Field::Shortwave].back(), 0.0);
-    ReadOptions placed;
+    ReadOptions placed = dated;
     placed.site.latitude_deg = 42.36;
     placed.site.longitude_deg = -71.01;
     EXPECT_EQ(warnings(read_weather(text, placed).report), 0u);
     // A station whose letters are not assigned is taken as before.
-    EXPECT_EQ(warnings(read_weather("XXXX 231754Z 24008KT 9999 FEW200 09/M04 Q1013\n").report), 0u);
+    EXPECT_EQ(
+        warnings(read_weather("XXXX 231754Z 24008KT 9999 FEW200 09/M04 Q1013\n", dated).report),
+        0u);
 }
 
 TEST(Report, PrecipitationWithoutAnAmountIsWarnedOf)
@@ -122,7 +126,7 @@ TEST(Report, PvgisIrradianceIsMovedToItsRow)
 
 TEST(Report, MetarStationsReportOnlyWhatFell)
 {
-    ReadOptions denver;
+    ReadOptions denver{.year = 2024, .month = 1};
     denver.site.latitude_deg = 39.83;
     denver.site.longitude_deg = -104.66;
     const auto r = read_weather(
@@ -148,7 +152,55 @@ TEST(Report, DecimalCommasAndBareNames)
     EXPECT_NEAR(r.table[Field::AirTemp][0], 274.65, 1e-9);
     EXPECT_NEAR(r.table[Field::AirTemp][1], 270.90, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][1] * 3600, 0.4, 1e-12);
-    EXPECT_NE(to_text(r.report).find("has no unit and is not used"), std::string::npos);
+    EXPECT_NE(
+        to_text(r.report).find("not used, as another column says the same quantity with a unit: "
+                               "precip (precip_mm is)"),
+        std::string::npos);
+}
+
+// Two columns of one quantity: the one that says its unit counts, and the other is named, in a
+// warning, as its content may differ.
+TEST(Report, AColumnThatIsPassedOverIsNamedInAWarning)
+{
+    for (const char* header :
+         {"time,air_temp_c,temperature,wind_m_s", "time,temperature,air_temp_c,wind_m_s"}) {
+        const bool first = std::string(header).find(",temperature") == 4;
+        const std::string rows = first ? "\n2024-01-01T00:00Z,41,5,2\n2024-01-01T01:00Z,43,6,2\n"
+                                       : "\n2024-01-01T00:00Z,5,41,2\n2024-01-01T01:00Z,6,43,2\n";
+        const auto r = read_weather(header + rows);
+        EXPECT_NEAR(r.table[Field::AirTemp][0], 278.15, 1e-9) << header;
+        const std::string text = to_text(r.report);
+        EXPECT_NE(text.find("warning line 1 columns: not used, as another column says the same "
+                            "quantity with a unit: temperature (air_temp_c is)"),
+                  std::string::npos)
+            << text;
+    }
+    EXPECT_THROW(read_weather("time,temperature,temp\n2024-01-01T00:00Z,5,6\n"), Error);
+    EXPECT_THROW(read_weather("time,air_temp_c,air_temp_k\n2024-01-01T00:00Z,5,278\n"), Error);
+}
+
+// Tables as programs write them: times without a name, seconds or milliseconds since 1970, and all
+// unknown columns in one line of the report.
+TEST(Report, TablesOfPrograms)
+{
+    const auto unnamed = read_weather(
+        ",temp,rh,mood,\n2024-01-01 00:00:00,5.2,80,7,\n2024-01-01 01:00:00,5.0,82,7,\n");
+    EXPECT_EQ(iso_from_us(unnamed.table.time_us[1]), "2024-01-01T01:00:00Z");
+    EXPECT_NE(to_text(unnamed.report).find("not known, not used: mood, a column without a name"),
+              std::string::npos)
+        << to_text(unnamed.report);
+    const auto seconds = read_weather("timestamp,air_temp_c\n1704067200,5.2\n1704070800,5.0\n");
+    EXPECT_EQ(iso_from_us(seconds.table.time_us[0]), "2024-01-01T00:00:00Z");
+    const auto millis = read_weather("timestamp,air_temp_c\n1704067200000,5\n1704070800000,5\n");
+    EXPECT_EQ(iso_from_us(millis.table.time_us[1]), "2024-01-01T01:00:00Z");
+    const auto digits = read_weather("time,air_temp_c\n2024010106,5\n2024010107,5\n");
+    EXPECT_EQ(iso_from_us(digits.table.time_us[0]), "2024-01-01T06:00:00Z");
+    try {
+        read_weather("time,temperature,rain\n0,5,0\n2,3,1\n5,-2,1\n");
+        FAIL() << "keys with the names of weather";
+    } catch (const Error& e) {
+        EXPECT_NE(e.fix().find("time_s,temperature_c,rainfall"), std::string::npos) << e.fix();
+    }
 }
 
 TEST(Join, FilesFollowEachOtherInTime)

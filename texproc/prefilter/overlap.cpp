@@ -29,14 +29,14 @@ struct Effort {
 
 Effort effort_at(int level, bool quick)
 {
-    static constexpr int kSamples[] = {80, 80, 120, 160, 240, 320, 960, 1280};
+    static constexpr int kSamples[] = {120, 120, 120, 160, 240, 320, 960, 1280};
     const int samples = level >= 9 ? 2560 : level >= 8 ? 1280 : kSamples[level];
     if (quick) {
-        // The finest levels hold most texels: there the cheapest of the fits, without a search.
-        if (level <= 2) return {40, 0, 0, 0, 0, 0, false, 3, 16};
-        const int half = std::max(80, samples / 2);
+        // The finest levels hold most texels: there the cheapest of the fits and of a few alphas.
+        if (level <= 2) return {40, 0, 5, 0, level == 1 ? 0 : 6, 8, false, 3, 16};
+        const int half = level >= 6 ? samples / 3 / 40 * 40 : std::max(80, samples / 2);
         if (level == 3) return {half, 0, 5, 3, 6, 12, false, 3, 24};
-        return {half, half, 6, 3, 6, 20, false, 4, level == 4 ? 64 : 1024};
+        return {half, half, 6, 3, 6, 20, false, 4, level <= 4 ? 64 : level <= 6 ? 160 : 256};
     }
     if (level <= 1) return {samples, 2 * samples, 5, 3, 8, 18, false, 4, 16};
     if (level == 2) return {samples, 2 * samples, 6, 3, 8, 24, false, 4, 64};
@@ -159,7 +159,7 @@ struct Search {
 };
 
 // The best alpha about the mean normal.
-Candidate best_rough(const Search& s, bool search_on)
+Candidate best_rough(const Search& s)
 {
     const Direction& n = s.plain.normal;
     Candidate rough = climb(s.cost, n, s.low2, s.high2, s.effort.ladder);
@@ -171,7 +171,6 @@ Candidate best_rough(const Search& s, bool search_on)
     }
     if (s.median.cost < rough.cost) rough = s.median;
     if (s.plain.cost <= rough.cost) rough = s.plain;
-    if (!search_on) return rough;
     const float rung =
         portable_log(s.high2 / s.low2) / static_cast<float>(std::max(1, s.effort.ladder - 1));
     return refine_line(s.cost, rough, 0.5f * rung, s.effort.line);
@@ -227,8 +226,7 @@ Candidate cheapest(const Search& s, const Candidate& rough, const Candidate& joi
 }
 
 // Starts, searches and guard. `second`: where the guard's samples go.
-Candidate searched(Search& s, const Whole& whole, float plain2, int level, std::uint32_t seed,
-                   Samples& second)
+Candidate searched(Search& s, const Whole& whole, float plain2, std::uint32_t seed, Samples& second)
 {
     const Direction& mean = s.plain.normal;
     const auto started = [&](const Direction& n, float alpha2) {
@@ -246,7 +244,7 @@ Candidate searched(Search& s, const Whole& whole, float plain2, int level, std::
     }
     const Candidate mode = s.cost.mode();
     s.mode = started(mode.normal.z < 0.05f ? mean : mode.normal, mode.alpha2);
-    const Candidate rough = best_rough(s, !s.options.joint || level > 2);
+    const Candidate rough = best_rough(s);
     const Candidate joint = s.options.joint ? best_joint(s, rough) : rough;
     if (s.effort.guard == 0) return cheapest(s, rough, joint);
     return guarded(LobeCost(s.cells, whole, s.effort.guard, 2 * seed + 1, second), s, rough, joint);
@@ -272,9 +270,9 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     }
 
     Effort effort = effort_at(level, options.quick);
-    if (level <= 5 && !options.quick && far_apart(cells, mean_normal, light2)) {
+    if (level <= 5 && far_apart(cells, mean_normal, light2)) {
         effort.samples *= 2;
-        effort.guard = std::max(effort.guard, effort.samples);
+        if (effort.guard > 0) effort.guard = std::max(effort.guard, effort.samples);
     }
     const float narrowest = *std::min_element(cells.alpha2.begin(), cells.alpha2.end());
     const auto unlit = [&](float a2) {
@@ -298,16 +296,17 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
     FittedLobe out = lobe(mean_normal, one);
     Candidate chosen{mean_normal, one + light2};
     if (!(one > 0.0f)) {
-        chosen = searched(s, whole, plain_alpha2 + light2, level, seed, second_samples);
+        chosen = searched(s, whole, plain_alpha2 + light2, seed, second_samples);
         out = lobe(chosen.normal, unlit(chosen.alpha2));
     }
 
     if (options.anisotropic) {
         const RobustFit robust = student_t(view, mean_normal, chosen.alpha2, 2, 8, true, kernel);
         const EllipticLobe found = fit_elliptic(s.cost, chosen, robust, 90).first;
-        // On fresh samples against the chosen lobe, as the guard does.
+        // On fresh samples against the chosen lobe, as the guard does; the mass of an ellipse is
+        // known to about a hundredth only.
         const LobeCost judge(view, whole, 2 * effort.samples, 2 * seed + 1, second_samples);
-        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 1e-4f) {
+        if (judge(found) < judge(chosen.normal, chosen.alpha2) - 0.01f) {
             out = {{found.nx, found.ny, found.nz},
                    chosen.alpha2,
                    true,
@@ -316,7 +315,8 @@ FittedLobe fit_overlap(const Cells& cells, const Means& means, int level, std::u
                    unlit(found.alpha2_y),
                    {}};
         }
-    } else if (coarse_codes(chosen.alpha2, options.stored)) {
+    }
+    if (!out.elliptic && coarse_codes(chosen.alpha2, options.stored)) {
         // Many codes compete: on more samples, and on others than the search has fitted.
         const LobeCost judge(view, whole, 2 * effort_at(level, false).samples, 2 * seed + 1,
                              second_samples);

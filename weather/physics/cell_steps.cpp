@@ -12,6 +12,8 @@ namespace petrichor::weather::detail {
 
 namespace {
 
+// The day's course of sun and air asks for this much, however long a step is.
+constexpr double kLongestPart_s = 3600.0;
 constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
 
 double year_angle(std::int64_t time_us, bool south)
@@ -156,6 +158,16 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
 
 namespace {
 
+HortonStep make_horton_step(const HortonParams& horton, double hours)
+{
+    HortonStep step;
+    step.hours = hours;
+    step.keep = exponential(-horton.decay_1_h * hours);
+    step.recover = exponential(-horton.recovery_1_h * hours);
+    step.depth_h = (1.0 - step.keep) / horton.decay_1_h;
+    return step;
+}
+
 PartConstants make_part_constants(const CellConstants& k, double dt_s)
 {
     const Surface& surface = k.surface;
@@ -166,9 +178,8 @@ PartConstants make_part_constants(const CellConstants& k, double dt_s)
     part.inverse_dt_1_s = 1.0 / dt_s;
     part.ground = make_ground_stack(surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k, dt_s);
     part.film = reservoir_constants(surface.film_rate_1_s, k.film_capacity, dt_s);
-    part.horton_keep = exponential(-horton.decay_1_h * hours);
-    part.horton_recover = exponential(-horton.recovery_1_h * hours);
-    part.horton_depth_h = (1.0 - part.horton_keep) / horton.decay_1_h;
+    part.horton = make_horton_step(horton, hours);
+    part.horton_turn = make_horton_step(horton, hours / kFillingTurns);
     part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);
     return part;
 }
@@ -179,8 +190,12 @@ StepConstants make_step_constants(const CellConstants& k, double dt_s, double su
 {
     StepConstants s;
     s.dt_s = dt_s;
-    s.parts = std::max(1, static_cast<int>(std::ceil(dt_s / substep_s - 1e-9)));
-    s.whole = make_part_constants(k, dt_s);
+    const auto parts_of = [&](double longest_s) {
+        return std::max(1, static_cast<int>(std::ceil(dt_s / longest_s - 1e-9)));
+    };
+    s.whole_parts = parts_of(kLongestPart_s);
+    s.parts = std::max(s.whole_parts, parts_of(substep_s));
+    s.whole = make_part_constants(k, dt_s / s.whole_parts);
     s.part = make_part_constants(k, dt_s / s.parts);
     s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
     s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));

@@ -41,45 +41,56 @@ double mean_over(const ForcingTable& table, Field field, std::size_t first, std:
     return sum / static_cast<double>(end - begin);
 }
 
-Ramp ramp_over(const ForcingTable& table, Field field, std::size_t first, std::int64_t begin,
-               std::int64_t end, double offset)
+// Where a step lies in its table. Usually it is the interval between two rows.
+struct StepRows {
+    std::size_t first;  // the last row at or before the beginning
+    std::int64_t begin, end;
+    bool between_rows;
+};
+
+Ramp ramp_over(const ForcingTable& table, Field field, const StepRows& at, double offset)
 {
-    // The usual case: the step is the interval between two rows.
-    const auto& t = table.time_us;
-    if (first + 1 < t.size() && t[first] == begin && t[first + 1] == end) {
-        const auto& v = table[field];
-        return {v[first] + offset, v[first + 1] - v[first]};
+    if (at.between_rows) {
+        const double* v = table[field].data() + at.first;
+        return {v[0] + offset, v[1] - v[0]};
     }
-    const double a = value_at(table, field, begin);
-    const double b = value_at(table, field, end);
-    const double mean = mean_over(table, field, first, begin, end);
+    const double a = value_at(table, field, at.begin);
+    const double b = value_at(table, field, at.end);
+    const double mean = mean_over(table, field, at.first, at.begin, at.end);
     return {mean - 0.5 * (b - a) + offset, b - a};
+}
+
+double rate_over(const ForcingTable& table, Field field, const StepRows& at)
+{
+    if (at.between_rows) return table[field][at.first];
+    return mean_over(table, field, at.first, at.begin, at.end);
 }
 
 // `first`: the last row at or before the beginning.
 StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin,
                       std::int64_t length, SunUse use)
 {
+    const auto& t = table.time_us;
     const std::int64_t end = begin + length;
+    const StepRows at{first, begin, end,
+                      first + 1 < t.size() && t[first] == begin && t[first + 1] == end};
     StepForcing step;
     step.begin_us = begin;
     step.dt_s = static_cast<double>(length) * 1e-6;
-    step.air_c = ramp_over(table, Field::AirTemp, first, begin, end, -kZeroCelsiusK);
-    step.rh_pct = ramp_over(table, Field::RelHumidity, first, begin, end, 0.0);
-    step.wind = ramp_over(table, Field::Wind, first, begin, end, 0.0);
-    step.pressure = ramp_over(table, Field::Pressure, first, begin, end, 0.0);
-    step.shortwave = ramp_over(table, Field::Shortwave, first, begin, end, 0.0);
-    step.longwave = ramp_over(table, Field::Longwave, first, begin, end, 0.0);
+    step.air_c = ramp_over(table, Field::AirTemp, at, -kZeroCelsiusK);
+    step.rh_pct = ramp_over(table, Field::RelHumidity, at, 0.0);
+    step.wind = ramp_over(table, Field::Wind, at, 0.0);
+    step.pressure = ramp_over(table, Field::Pressure, at, 0.0);
+    step.shortwave = ramp_over(table, Field::Shortwave, at, 0.0);
+    step.longwave = ramp_over(table, Field::Longwave, at, 0.0);
     if (table.has(Field::Rain) || table.has(Field::Snow)) {
-        const double rain =
-            table.has(Field::Rain) ? mean_over(table, Field::Rain, first, begin, end) : 0.0;
-        const double snow =
-            table.has(Field::Snow) ? mean_over(table, Field::Snow, first, begin, end) : 0.0;
+        const double rain = table.has(Field::Rain) ? rate_over(table, Field::Rain, at) : 0.0;
+        const double snow = table.has(Field::Snow) ? rate_over(table, Field::Snow, at) : 0.0;
         step.precip = rain + snow;
         step.snow_share = step.precip > 0.0 ? snow / step.precip : 0.0;
         step.phase_known = true;
     } else {
-        step.precip = mean_over(table, Field::Precip, first, begin, end);
+        step.precip = rate_over(table, Field::Precip, at);
     }
     // Where no sun shines its direction changes nothing.
     const bool lit = step.shortwave.start > 0.0 || step.shortwave.start + step.shortwave.rise > 0.0;

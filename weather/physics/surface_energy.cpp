@@ -9,7 +9,7 @@ namespace petrichor::weather {
 
 namespace {
 
-using Point = detail::SurfacePoint<double, bool>;
+using Point = detail::SurfacePoint<double, bool, detail::FixedShare<double>>;
 
 Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const ExchangeParams& exchange)
 {
@@ -25,7 +25,7 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.exchange = air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) * p.neutral * wind;
     p.richardson_k = kGravity_m_s2 * skin.wind_height_m / (f.air_temp_k * wind * wind);
     p.root_z = std::sqrt(skin.wind_height_m / skin.roughness_m);
-    p.beta = skin.wet_fraction;
+    p.wet.beta = skin.wet_fraction;
     p.most_vapour = 1e30;
     p.icy = skin.icy;
     p.latent_heat = skin.icy ? kLatentSublimation : kLatentVaporisation;
@@ -54,9 +54,13 @@ SurfaceFluxes surface_balance(const SurfaceForcing& forcing, const SurfaceSkin& 
 {
     const Point p = make_point(forcing, skin, exchange);
     const double surface_c = surface_temp_k - kZeroCelsiusK;
-    return named(detail::fluxes_at_middle(p, detail::surface_vapour(p, surface_c),
-                                          detail::exchange_at(p, exchange, surface_c)),
-                 surface_c);
+    const double exchanged = detail::exchange_at(p, exchange, surface_c);
+    detail::SurfaceVapour<double> vapour{};
+    detail::centre_vapour(vapour, p, surface_c);
+    const auto humidity = detail::humidity_at_middle(p, vapour);
+    detail::WetLine<detail::FixedShare<double>, double> wet{};
+    detail::lay_wet_line(p, humidity, exchanged, wet);
+    return named(detail::fluxes_with(p, humidity, wet, surface_c, exchanged), surface_c);
 }
 
 SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& skin,
@@ -64,7 +68,7 @@ SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& sk
 {
     const Point p = make_point(forcing, skin, exchange);
     const auto root = detail::surface_root(p, exchange, first_guess_k - kZeroCelsiusK);
-    return named(detail::fluxes_at(p, root.vapour, root.surface_c, root.exchange), root.surface_c);
+    return named(detail::fluxes_at(p, root), root.surface_c);
 }
 
 }  // namespace petrichor::weather

@@ -20,7 +20,34 @@ bool is_time_name(std::string_view name)
 {
     const std::string low = lower(name);
     return low == "time" || low == "time_utc" || low == "datetime" || low == "date" ||
-           low == "timestamp" || low == "date_time" || low == "time(utc)";
+           low == "timestamp" || low == "date_time" || low == "time(utc)" || low == "time (utc)" ||
+           low == "timestamp_utc" || low == "datetime_utc" || low == "valid_time" ||
+           low == "date time";
+}
+
+// A date and time, or seconds or milliseconds since 1970 as programs write them. Ten digits may be
+// 2024010106: when they begin with a year from 1900 to 2099 they are no count.
+std::optional<std::int64_t> time_of_cell(std::string_view text)
+{
+    if (const auto us = us_from_iso(text)) return us;
+    const auto count = to_integer(text);
+    const auto length = trimmed(text).size();
+    if (!count || *count < 0 || (length != 9 && length != 10 && length != 13)) return std::nullopt;
+    if (length == 13) return *count * 1000;
+    const long long year = *count / 1000000;
+    if (length == 10 && year >= 1900 && year <= 2099) {
+        return us_from_civil({year, static_cast<int>(*count / 10000 % 100),
+                              static_cast<int>(*count / 100 % 100), static_cast<int>(*count % 100),
+                              0, 0.0});
+    }
+    return *count * 1000000;
+}
+
+// Programs that write tables put the times first and often leave their name out.
+bool is_unnamed_time(std::string_view header, std::string_view row, char separator)
+{
+    const auto names = split(header, separator, 2), cells = split(row, separator, 2);
+    return names.front().empty() && time_of_cell(cells.front());
 }
 
 // Codes that data loggers and archives write for "no value"; none of them is a possible value of a
@@ -89,18 +116,24 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
         }
     }
     const auto names = split(header, separator, 256);
-    std::size_t time_at = names.size();
+    Lines below = lines;
+    std::size_t time_at =
+        is_unnamed_time(header, below.next().value_or(""), separator) ? 0 : names.size();
     std::vector<std::optional<ColumnMeaning>> meaning(names.size());
     std::size_t known = 0;
+    std::string unknown, bare_names;
+    const auto list = [](std::string& names_so_far, const std::string& name) {
+        names_so_far.append(names_so_far.empty() ? "" : ", ").append(name);
+    };
     for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i == time_at) continue;
         if (time_at == names.size() && is_time_name(names[i])) {
             time_at = i;
             continue;
         }
         meaning[i] = column_meaning(names[i]);
         if (!meaning[i]) {
-            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]),
-                      "this column is not known and not used");
+            list(unknown, names[i].empty() ? "a column without a name" : shown(names[i]));
             continue;
         }
         ++known;
@@ -113,15 +146,21 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
                             "Keep one of the two columns.");
             }
             const std::size_t bare = has_unit(names[i]) ? j : i;
-            rows.note(ReadNote::Kind::Info, lines.number(), shown(names[bare]),
-                      "has no unit and is not used: another column has the same quantity with one");
+            list(bare_names, shown(names[bare]) + " (" + shown(names[bare == i ? j : i]) + " is)");
             meaning[bare].reset();
             if (bare == i) break;
         }
     }
+    if (!unknown.empty())
+        rows.note(ReadNote::Kind::Info, lines.number(), "columns",
+                  "not known, not used: " + unknown);
+    if (!bare_names.empty())
+        rows.note(ReadNote::Kind::Warning, lines.number(), "columns",
+                  "not used, as another column says the same quantity with a unit: " + bare_names);
     if (time_at == names.size() || known == 0) {
         throw Error("weather: line " + std::to_string(lines.number()) + ": the header '" +
-                        shown(header) + "' has no time column or no known weather column",
+                        shown(header) + "' has no " +
+                        (time_at == names.size() ? "time column" : "known weather column"),
                     "Name the columns as in: "
                     "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2.");
     }
@@ -139,7 +178,7 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             if (!line) break;
             const auto f = split(*line, separator, 256);
             if (f.size() <= time_at) continue;
-            if (const auto us = us_from_iso(f[time_at])) first_times.push_back(*us);
+            if (const auto us = time_of_cell(f[time_at])) first_times.push_back(*us);
         }
         if (first_times.size() == 2 && first_times[1] > first_times[0])
             usual_us = first_times[1] - first_times[0];
@@ -151,6 +190,7 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
     const double seconds = static_cast<double>(usual_us) * 1e-6;
 
     std::map<std::string, std::size_t> missing_codes;
+    std::size_t plain_numbers = 0;  // where a time should be
     std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
@@ -162,8 +202,9 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
                              std::to_string(names.size()));
             continue;
         }
-        const auto us = us_from_iso(f[time_at]);
+        const auto us = time_of_cell(f[time_at]);
         if (!us) {
+            plain_numbers += to_number(f[time_at]).has_value();
             rows.bad_row(lines.number(), "time",
                          "'" + shown(f[time_at]) + "' is not a date and time as 2005-10-01T06:00");
             continue;
@@ -207,6 +248,13 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             rows.set(Field::Snow, precip * snow_share);
             rows.set(Field::Rain, precip * (1.0 - snow_share));
         }
+    }
+    if (rows.rows() == 0 && plain_numbers > 0) {
+        throw Error(
+            "weather: column '" + shown(names[time_at]) +
+                "' holds plain numbers, not dates and times",
+            "Give times as 2005-10-01T06:00; for keys of the artist model, name the columns "
+            "time_s,temperature_c,rainfall.");
     }
     for (const auto& [code, count] : missing_codes) {
         rows.note(ReadNote::Kind::Info, 0, "missing",

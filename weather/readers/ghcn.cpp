@@ -1,6 +1,7 @@
 // NOAA GHCN-daily: .dly (fixed columns, a line a month and element), CSV by year or station
 // (ID,YYYYMMDD,ELEMENT,VALUE) and the access CSV with a column an element. Tenths of C, of mm and
-// of m/s; snow depth in mm.
+// of m/s; snow depth in mm. A value with a quality flag has failed a check and is left out. A file
+// with a column an element whose temperatures have decimals was ordered in C and mm.
 //
 // A day becomes eight rows: temperature swings between its minimum at 6 and its maximum at 15
 // o'clock, the rest is spread evenly. Times are taken as UTC unless the site's longitude is given.
@@ -21,13 +22,15 @@ namespace {
 struct Day {
     double low_c = kMissing, high_c = kMissing, mean_c = kMissing, precip_mm = kMissing,
            wind_m_s = kMissing, depth_m = kMissing;
+    double total_mm = kMissing, total_days = kMissing;  ///< of several days that end with this one
     std::size_t line = 0;
 };
 using Days = std::map<std::int64_t, Day>;
 
 // One value of a day; what is not possible or given twice is noted.
+// `whole_units`: C, mm and m/s instead of their tenths.
 void put(RowCollector& rows, Day& day, std::size_t line, std::string_view element,
-         std::string_view text)
+         std::string_view text, bool whole_units = false)
 {
     struct Element {
         const char* name;
@@ -35,15 +38,17 @@ void put(RowCollector& rows, Day& day, std::size_t line, std::string_view elemen
         double scale, low, high;
     };
     constexpr Element kElements[] = {
-        {"TMIN", &Day::low_c, 0.1, -100, 65},  {"TMAX", &Day::high_c, 0.1, -100, 65},
-        {"TAVG", &Day::mean_c, 0.1, -100, 65}, {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
-        {"AWND", &Day::wind_m_s, 0.1, 0, 110}, {"SNWD", &Day::depth_m, 0.001, 0, 30}};
+        {"TMIN", &Day::low_c, 0.1, -100, 65},   {"TMAX", &Day::high_c, 0.1, -100, 65},
+        {"TAVG", &Day::mean_c, 0.1, -100, 65},  {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
+        {"AWND", &Day::wind_m_s, 0.1, 0, 110},  {"SNWD", &Day::depth_m, 0.001, 0, 30},
+        {"MDPR", &Day::total_mm, 0.1, 0, 5000}, {"DAPR", &Day::total_days, 1, 1, 100}};
     const auto known = std::find_if(std::begin(kElements), std::end(kElements),
                                     [&](const Element& e) { return element == e.name; });
     if (known == std::end(kElements) || trimmed(text).empty()) return;
     const auto number = to_number(text);
     if (number && *number == -9999.0) return;
-    const double value = number ? *number * known->scale : kMissing;
+    const bool tenths = known->scale == 0.1;
+    const double value = number ? *number * (tenths && whole_units ? 1.0 : known->scale) : kMissing;
     if (!(value >= known->low && value <= known->high)) {
         rows.note(ReadNote::Kind::OutOfRange, line, known->name,
                   std::string("'")
@@ -59,6 +64,51 @@ void put(RowCollector& rows, Day& day, std::size_t line, std::string_view elemen
 }
 
 constexpr std::size_t kMostDays = 400000;
+
+// "T,,N": measurement, quality and source flag. Any quality flag means that a check failed.
+bool failed_check_of(std::string_view attributes)
+{
+    const auto first = attributes.find(',');
+    if (first == std::string_view::npos) return false;
+    const auto rest = attributes.substr(first + 1);
+    return !trimmed(rest.substr(0, rest.find(','))).empty();
+}
+
+// A total of several days (MDPR over DAPR days) goes evenly to those of them without their own.
+void share_totals(RowCollector& rows, Days& days)
+{
+    constexpr std::int64_t kDay_us = 86400000000LL;
+    std::size_t shared = 0, unknown = 0;
+    std::vector<std::pair<std::int64_t, Day>> totals;
+    for (const auto& [us, day] : days) {
+        if (!std::isnan(day.total_mm)) totals.emplace_back(us, day);
+    }
+    for (const auto& [us, total] : totals) {
+        if (std::isnan(total.total_days)) {
+            ++unknown;
+            continue;
+        }
+        std::vector<std::int64_t> open;
+        for (int back = 0; back < static_cast<int>(total.total_days); ++back) {
+            const auto at = days.find(us - back * kDay_us);
+            if (at == days.end() || std::isnan(at->second.precip_mm))
+                open.push_back(us - back * kDay_us);
+        }
+        for (const std::int64_t day_us : open) {
+            Day& day = days[day_us];
+            if (day.line == 0) day.line = total.line;
+            day.precip_mm = total.total_mm / static_cast<double>(open.size());
+        }
+        shared += !open.empty();
+    }
+    if (shared)
+        rows.note(ReadNote::Kind::Info, 0, "MDPR",
+                  std::to_string(shared) + " totals of several days shared evenly among them");
+    if (unknown)
+        rows.note(ReadNote::Kind::Warning, 0, "MDPR",
+                  std::to_string(unknown) +
+                      " totals of several days without their number (DAPR), not used");
+}
 
 void read_fixed(std::string_view text, RowCollector& rows, Days& days)
 {
@@ -86,8 +136,37 @@ void read_fixed(std::string_view text, RowCollector& rows, Days& days)
     }
 }
 
+// Whether a table with a column an element is in whole C and mm: the archive's own tenths never
+// have decimals.
+//   throws  Error for the units of the other kind of order
+bool whole_units_of(std::string_view text)
+{
+    Lines lines(text);
+    const auto names = split(lines.next().value_or(""), ',', 256);
+    bool temperatures = false, amounts = false;
+    std::vector<std::string_view> f;
+    for (auto line = lines.next(); line && lines.number() < 4000; line = lines.next()) {
+        split(*line, ',', f, 256);
+        for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
+            const bool point = to_number(f[i]) && f[i].find('.') != std::string_view::npos;
+            if (names[i] == "TMAX" || names[i] == "TMIN" || names[i] == "TAVG")
+                temperatures = temperatures || point;
+            if (names[i] == "PRCP") amounts = amounts || point;
+        }
+    }
+    if (amounts && !temperatures) {
+        throw Error(
+            "weather: GHCN-daily: precipitation has decimals and temperatures have none: this "
+            "table "
+            "is in inches and Fahrenheit",
+            "Order it with metric units, or take the station's file from the archive.");
+    }
+    return temperatures;
+}
+
 void read_table(std::string_view text, RowCollector& rows, Days& days)
 {
+    bool whole_units = false;
     Lines lines(text);
     std::vector<std::string> names;
     std::string station;
@@ -98,6 +177,10 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
         split(*line, ',', f, 256);
         if (lines.number() == 1 && lower(*line).find("station") != std::string::npos) {
             for (const auto n : f) names.emplace_back(n);
+            whole_units = whole_units_of(text);
+            if (whole_units)
+                rows.note(ReadNote::Kind::Info, 1, "",
+                          "temperatures have decimals: taken as C, mm and m/s, not tenths");
             continue;
         }
         if (!names.empty()) {
@@ -116,8 +199,12 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
                 continue;
             }
             if (days.size() > kMostDays) continue;
-            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i)
-                put(rows, days[*us], lines.number(), names[i], f[i]);
+            for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
+                const bool flags = i + 1 < f.size() && i + 1 < names.size() &&
+                                   names[i + 1] == names[i] + "_ATTRIBUTES";
+                if (flags && failed_check_of(f[i + 1])) continue;
+                put(rows, days[*us], lines.number(), names[i], f[i], whole_units);
+            }
             continue;
         }
         const auto date = f.size() >= 4 && f[1].size() == 8 ? us_from_iso(f[1]) : std::nullopt;
@@ -150,6 +237,7 @@ void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOption
         read_fixed(text, rows, days);
     else
         read_table(text, rows, days);
+    share_totals(rows, days);
     const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg
                                                                     : options.site.longitude_deg;
     const double zone_h = std::isnan(longitude) ? 0.0 : std::round(longitude / 15.0);

@@ -11,30 +11,17 @@ namespace petrichor::weather {
 
 namespace {
 
-// Sky condition codes to a fraction; 9 is a hidden sky, 10 and more describe partial cover.
+// Sky condition codes (field 10 of the format's document) to a fraction: oktas, 9 a hidden sky,
+// then scattered, broken and overcast, each thin, plain and dark. 10, a partly hidden sky, does not
+// say how much.
 double cloud_of_code(long long code)
 {
     if (code >= 0 && code <= 8) return static_cast<double>(code) / 8.0;
-    switch (code) {
-        case 9:
-            return 1.0;
-        case 11:
-        case 12:
-            return 0.4;
-        case 13:
-        case 14:
-            return 0.19;
-        case 15:
-        case 16:
-            return 0.75;
-        case 17:
-        case 18:
-            return 0.9;
-        case 19:
-            return 1.0;
-        default:
-            return kMissing;
-    }
+    if (code == 9) return 1.0;
+    if (code >= 11 && code <= 13) return 0.44;
+    if (code >= 14 && code <= 16) return 0.75;
+    if (code >= 17 && code <= 19) return 1.0;
+    return kMissing;
 }
 
 }  // namespace
@@ -45,6 +32,7 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
     rows.note(ReadNote::Kind::Info, 0, "pressure",
               "given for sea level, brought to " + std::to_string(static_cast<int>(z)) +
                   " m; the file has no place, give latitude, longitude and elevation");
+    std::size_t traces = 0;
     Lines lines(text);
     std::vector<std::string_view> w;
     while (const auto line = lines.next()) {
@@ -100,13 +88,16 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
         else
             rows.set(Field::Cloud, cloud);
         if (v[10] == -9999 && v[11] == -9999) rows.missing(Field::Precip);
-        if (v[10] != -9999)
-            rows.fell_before(Field::Precip, v[10] == -1 ? 0.0 : static_cast<double>(v[10]) * 0.1,
-                             1.0);
-        if (v[11] != -9999)
-            rows.fell_before(Field::Precip, v[11] == -1 ? 0.0 : static_cast<double>(v[11]) * 0.1,
-                             6.0);
+        for (const auto& [amount, hours] : {std::pair{v[10], 1.0}, {v[11], 6.0}}) {
+            if (amount == -9999) continue;
+            traces += amount == -1;
+            rows.fell_before(Field::Precip, amount == -1 ? 0.0 : static_cast<double>(amount) * 0.1,
+                             hours);
+        }
     }
+    if (traces)
+        rows.note(ReadNote::Kind::Info, 0, "precip",
+                  std::to_string(traces) + " traces (-1), taken as 0");
 }
 
 }  // namespace petrichor::weather

@@ -310,9 +310,8 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
         year = 2020;
         month = 1;
         if (!dated)
-            rows.note(ReadNote::Kind::Time, 0, "time",
-                      "reports name only the day; placed in January 2020, give year and month to "
-                      "change that");
+            rows.note(ReadNote::Kind::Warning, 0, "time",
+                      "reports name only the day: placed in January 2020; give year and month");
     }
     const double elevation = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
     const Dates dates(year, month);

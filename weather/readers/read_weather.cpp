@@ -187,6 +187,12 @@ WeatherFormat recognise_weather(std::string_view text)
     for (const auto line : head) {
         const std::string low = lower(line);
         if (starts_with(low, "#")) continue;
+        // A table with unnamed times: its header begins with a separator.
+        const auto next = std::find(head.begin(), head.end(), line) + 1;
+        if (next != head.end() && low.find_first_of(",;\t") == 0 &&
+            next->find_first_of("0123456789") == 0) {
+            return WeatherFormat::ForcingCsv;
+        }
         if ((low.find("time") != std::string::npos || low.find("date") != std::string::npos) &&
             low.find_first_of(",;\t") != std::string::npos) {
             return WeatherFormat::ForcingCsv;

@@ -1,6 +1,8 @@
 // NOAA SURFRAD daily files: a name, a line with the place, then rows of 48 numbers: year, day of
 // year, month, day, hour, minute, decimal hour, zenith, then pairs of value and quality. -9999.9 is
-// missing; quality 0 is good. UTC.
+// missing; quality 0 is good,
+// anything else is impossible, doubtful or not there. A row a minute, before 2009 one every three.
+// UTC.
 #include <cmath>
 
 #include "weather/physics/constants.h"
@@ -29,7 +31,8 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
     };
     Lines lines(text);
     rows.site().name = std::string(trimmed(lines.next().value_or("")));
-    const auto place = words(lines.next().value_or(""), 8);
+    const auto place_line = lines.next().value_or("");
+    const auto place = words(place_line, 8);
     if (place.size() >= 3) {
         rows.site().latitude_deg = to_number(place[0]).value_or(kMissing);
         // All stations are in the west; older files give west as positive.
@@ -41,7 +44,8 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
     std::vector<std::string_view> w;
     while (const auto line = lines.next()) {
         words(*line, w, 96);
-        if (w.empty()) continue;
+        // Days that were put into one file keep their headings.
+        if (w.empty() || trimmed(*line) == rows.site().name || *line == place_line) continue;
         if (w.size() < 48) {
             rows.bad_row(lines.number(), "",
                          "has " + std::to_string(w.size()) + " columns, 48 are needed");

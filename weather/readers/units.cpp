@@ -46,6 +46,8 @@ constexpr Name kNames[] = {
     {"air_temp", Field::AirTemp, Quantity::Temperature},
     {"temperature_2m", Field::AirTemp, Quantity::Temperature},
     {"temperature", Field::AirTemp, Quantity::Temperature},
+    {"temp_air", Field::AirTemp, Quantity::Temperature},
+    {"temp", Field::AirTemp, Quantity::Temperature},
     {"relative_humidity_2m", Field::RelHumidity, Quantity::Percent},
     {"relativehumidity_2m", Field::RelHumidity, Quantity::Percent},
     {"relative_humidity", Field::RelHumidity, Quantity::Percent},

@@ -36,7 +36,11 @@ struct Aim {
     Codes codes;
     float off = 4.0f;
 };
-constexpr std::size_t kAims = 4;
+constexpr std::size_t kAims = 6;
+
+// Steps of roughness from the rounded code: a lobe that cannot be aimed is better wide enough to
+// reach where it should be, for the narrowest twice as wide and more.
+constexpr std::array<int, 10> kSteps{-1, 0, 1, 2, 3, 4, 6, 8, 11, 15};
 
 // The nearest storable directions: for every length that keeps z a code, x and y rounded.
 std::array<Aim, kAims> nearest(const Direction& normal, const StoredAs& as)
@@ -104,7 +108,6 @@ bool coarse_codes(float lit_alpha2, const StoredAs& as)
 Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2,
                      const Codes& plain, float light2, const StoredAs& as)
 {
-    constexpr int kSteps = 6;  // of roughness, from one below the rounded code to four above
     Codes best = plain;
     const auto lit = [&](const Codes& c) {
         return std::clamp(read_alpha2(c, as) + light2, kMinAlpha2, 1.0f);
@@ -113,18 +116,18 @@ Codes cheapest_codes(const LobeCost& cost, const Direction& normal, float alpha2
     const float towards_rough = (as.smoothness ? -1.0f : 1.0f) / top(as);
     for (const Aim& aim : nearest(normal, as)) {
         if (aim.off >= 4.0f) continue;
-        std::array<Codes, kSteps> tried;
-        std::array<float, kSteps> alpha2s, costs;
-        for (int k = 0; k < kSteps; ++k) {
-            Codes& c = tried[static_cast<std::size_t>(k)];
-            c = aim.codes;
-            const float at =
-                rounded(stored(alpha2, as), as) + towards_rough * static_cast<float>(k - 1);
-            c.rough = rounded(at, as);
-            alpha2s[static_cast<std::size_t>(k)] = lit(c);
+        std::array<Codes, kSteps.size()> tried;
+        std::array<float, kSteps.size()> alpha2s, costs;
+        for (std::size_t k = 0; k < kSteps.size(); ++k) {
+            tried[k] = aim.codes;
+            tried[k].rough = rounded(
+                rounded(stored(alpha2, as), as) + towards_rough * static_cast<float>(kSteps[k]),
+                as);
+            alpha2s[k] = lit(tried[k]);
         }
-        cost(read_normal(aim.codes, as), alpha2s.data(), kSteps, costs.data());
-        for (std::size_t k = 0; k < kSteps; ++k) {
+        cost(read_normal(aim.codes, as), alpha2s.data(), static_cast<int>(kSteps.size()),
+             costs.data());
+        for (std::size_t k = 0; k < kSteps.size(); ++k) {
             if (costs[k] < least - 1e-4f) {
                 least = costs[k];
                 best = tried[k];

@@ -16,11 +16,6 @@ Direction normalized(Direction d)
     return {d.x / length, d.y / length, d.z / length};
 }
 
-float dot(const Direction& a, const Direction& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 Frame frame_about(const Direction& n)
 {
     const float sign = n.z >= 0.0f ? 1.0f : -1.0f;

@@ -12,8 +12,11 @@ namespace petrichor::texproc::detail {
 struct Direction {
     float x = 0.0f, y = 0.0f, z = 1.0f;
 };
+inline float dot(const Direction& a, const Direction& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 Direction normalized(Direction d);
-float dot(const Direction& a, const Direction& b);
 
 /// Two directions that make a right-handed frame with n.
 struct Frame {

@@ -35,20 +35,27 @@ struct CellConstants {
 CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
                                   double deep_temp_k);
 
+// Horton's law over some hours.
+struct HortonStep {
+    double hours = 0.0;
+    double keep = 1.0, recover = 1.0;  // exp(-k hours) of wet and of dry ground
+    double depth_h = 0.0;              // (1 - keep) / k, hours
+};
+constexpr int kFillingTurns = 6;  // of filling and soaking at the same time
+
 // Factors that depend on the length of a substep.
 struct PartConstants {
     double dt_s = 0.0, inverse_dt_1_s = 0.0;
     GroundStack ground;
     ReservoirConstants film;
-    double horton_keep = 1.0, horton_recover = 1.0;  // exp(-k dt) of wet and of dry ground
-    double horton_depth_h = 0.0;                     // (1 - horton_keep) / k, hours
-    double sprayed = 0.0;                            // share of the film that traffic takes
+    HortonStep horton, horton_turn;  // over the substep, and over a turn of it
+    double sprayed = 0.0;            // share of the film that traffic takes
 };
 // Factors that depend on the length of the step.
 struct StepConstants {
     double dt_s = 0.0;
-    int parts = 1;  // substeps
-    PartConstants whole, part;
+    int whole_parts = 1, parts = 1;  // parts of the step at rest, and while much happens
+    PartConstants whole, part;       // their constants
     double albedo_cold = 1.0, albedo_melting = 1.0;  // ageing over the step
     double settling = 1.0;                           // exponential law
 };

@@ -107,16 +107,17 @@ PETRICHOR_INLINE Real logarithm(const Real& x)
     // ln m = 2 atanh(s), s = (m-1)/(m+1), |s| <= 0.1716; odd series to s^21.
     const Real s = (m - 1.0) / (m + 1.0);
     const Real z = s * s;
-    Real series = Real(1.0 / 21.0);
-    series = series * z + 1.0 / 19.0;
-    series = series * z + 1.0 / 17.0;
-    series = series * z + 1.0 / 15.0;
-    series = series * z + 1.0 / 13.0;
-    series = series * z + 1.0 / 11.0;
-    series = series * z + 1.0 / 9.0;
-    series = series * z + 1.0 / 7.0;
-    series = series * z + 1.0 / 5.0;
-    series = series * z + 1.0 / 3.0;
+    // In pairs, so that the multiplications overlap.
+    const Real z2 = z * z;
+    const Real z4 = z2 * z2;
+    const Real p01 = z * (1.0 / 5.0) + 1.0 / 3.0;
+    const Real p23 = z * (1.0 / 9.0) + 1.0 / 7.0;
+    const Real p45 = z * (1.0 / 13.0) + 1.0 / 11.0;
+    const Real p67 = z * (1.0 / 17.0) + 1.0 / 15.0;
+    const Real p89 = z * (1.0 / 21.0) + 1.0 / 19.0;
+    const Real p0123 = p23 * z2 + p01;
+    const Real p4567 = p67 * z2 + p45;
+    const Real series = (p89 * z4 + p4567) * z4 + p0123;
     const Real two_s = s * 2.0;
     return k * 0.693147180369123816490 +
            (two_s + (two_s * z * series + k * 1.90821492927058770002e-10));

@@ -42,6 +42,37 @@ PETRICHOR_KERNEL void add_snowfall(CellVars<Real>& c, const Real& mass, const Re
     c.snow_thickness[0] += mass / density;
 }
 
+// A layer that holds water stays at the melting point while the water freezes: its heat of fusion
+// counts as heat capacity over this range.
+constexpr double kFreezingRange_k = 0.1;
+template <class Real>
+PETRICHOR_INLINE Real heat_capacity_of(const Real& ice, const Real& liquid)
+{
+    return ice * kIceHeatCapacity +
+           liquid * (kWaterHeatCapacity + kLatentFusion / kFreezingRange_k);
+}
+
+// Water in a layer below the melting point, left by mixing, freezes as far as the cold goes.
+template <class Real>
+PETRICHOR_INLINE void freeze_within(CellVars<Real>& c)
+{
+    for (std::size_t i = 0; i < kSnowLayers; ++i) {
+        const auto both = (c.snow_liquid[i] > 0.0) & (c.snow_temp_c[i] < 0.0);
+        if (!any(both)) continue;
+        const Real capacity = c.snow_ice[i] * kIceHeatCapacity;
+        const Real frozen = select(
+            both, smaller(c.snow_liquid[i], capacity * c.snow_temp_c[i] * (-1.0 / kLatentFusion)),
+            Real(0.0));
+        c.snow_temp_c[i] = select(
+            both,
+            smaller(c.snow_temp_c[i] + frozen * kLatentFusion / larger(capacity, Real(1e-30)),
+                    Real(0.0)),
+            c.snow_temp_c[i]);
+        c.snow_ice[i] += frozen;
+        c.snow_liquid[i] = c.snow_liquid[i] - frozen;
+    }
+}
+
 template <class Real>
 struct SnowColumn {
     Real below[kSnowLayers], own[kSnowLayers], share_top[kSnowLayers], share_down[kSnowLayers];
@@ -59,8 +90,7 @@ PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resis
         column.share_top[i] = column.share_down[i] = Real(1.0);
         if (!any(c.snow_ice[i] > 0.0)) continue;
         const Real half = c.snow_thickness[i] * resistivity[i] * 0.5;
-        const Real storage =
-            (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) * per_dt;
+        const Real storage = heat_capacity_of(c.snow_ice[i], c.snow_liquid[i]) * per_dt;
         column.share_down[i] = 1.0 / (conductance * half + 1.0);
         const Real under = conductance * column.share_down[i];
         const Real total = under + storage;
@@ -97,21 +127,27 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real ice = c.snow_ice[i];
         if (!any(ice > zero)) continue;  // water runs through
+        // What the layer gained or lost beyond the melting point changes its phase from within.
+        const Real heat = heat_capacity_of(ice, c.snow_liquid[i]) * c.snow_temp_c[i];
+        const Real capacity = ice * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity;
+        // The reference counts the cold of the ice alone.
+        const Real usable = ice * kIceHeatCapacity / larger(capacity, Real(1e-30));
+        const Real refrozen =
+            smaller(c.snow_liquid[i], larger(heat * usable * (-1.0 / kLatentFusion), zero));
+        Real temp = smaller(heat * usable + refrozen * kLatentFusion, zero) /
+                    larger(ice * kIceHeatCapacity, Real(1e-30));
         const Real gone = smaller(ice, to_air);
         to_air = to_air - gone;
         Real left = ice - gone;
         const Real melted = smaller(left, to_melt);
         to_melt = to_melt - melted;
         left = left - melted;
-        // Heat above the melting point melts from within.
-        const Real capacity = left * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity;
-        const Real inside =
-            smaller(left, larger(capacity * c.snow_temp_c[i], zero) * (1.0 / kLatentFusion));
+        const Real inside = smaller(left, larger(heat, zero) * (1.0 / kLatentFusion));
         left = left - inside;
-        Real temp = smaller(c.snow_temp_c[i], zero);
         c.snow_thickness[i] =
             select(ice > zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))), zero);
-        Real liquid = c.snow_liquid[i] + melted + inside + flow;
+        left = left + refrozen;
+        Real liquid = c.snow_liquid[i] - refrozen + melted + inside + flow;
         c.total_melt += inside;
         // Water that meets cold snow freezes, as far as the cold content goes.
         const Real cold = left * kIceHeatCapacity;
@@ -172,6 +208,21 @@ PETRICHOR_KERNEL Real melt_base(CellVars<Real>& c, const Real& most, Real& flow)
         wanted = wanted - melted;
     }
     return most - wanted;
+}
+
+// Where the base of a pack would be above 0 C: melts it with the heat that the ground then gives,
+// and lowers the base's temperature by what that takes. Returns the water that leaves.
+template <class Real, class Mask>
+PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, double conductance,
+                                       double dt, Real& base_c)
+{
+    Real flow = 0.0;
+    const Real warmth = select(covered, larger(base_c, Real(0.0)), Real(0.0));
+    if (!any(warmth > 0.0)) return flow;
+    const Real melted = melt_base(c, warmth * (conductance * dt / kLatentFusion), flow);
+    base_c = base_c - melted * (kLatentFusion / (conductance * dt));
+    c.total_melt += melted;
+    return flow;
 }
 
 // Cuts the pack into layers of 0.1 and 0.2 m from the top; masses and heat go with the thickness.
@@ -240,23 +291,32 @@ PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
     }
 }
 
-// Ageing once a step: albedo, settling, layers; and the resistivity (1/k) of each layer for the
-// step.
+// Albedo after a step: decay of cold snow, faster for the share of the step with melt.
+template <class Real>
+PETRICHOR_INLINE void age_albedo(CellVars<Real>& c, const Real& melting, const CellConstants& k,
+                                 const StepConstants& s)
+{
+    const Real keep = melting * (s.albedo_melting - s.albedo_cold) + s.albedo_cold;
+    const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
+    c.snow_albedo =
+        select(pack > 0.0, (c.snow_albedo - k.snow.albedo_min) * keep + k.snow.albedo_min,
+               Real(k.snow.albedo_max));
+}
+
+constexpr double kBroken_kg_m3 = 350.0;
+
+// Ageing once a step: fresh albedo, settling, layers; and the resistivity (1/k) of each layer for
+// the step.
 template <class Real>
 PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Real& new_density,
                                const CellConstants& k, const StepConstants& s, double dt,
                                Real* resistivity)
 {
     const Real zero = 0.0;
-    const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
-    const auto melting = c.surface_temp_c > -1e-9;
-    const Real keep = select(melting, Real(s.albedo_melting), Real(s.albedo_cold));
-    Real albedo = (c.snow_albedo - k.snow.albedo_min) * keep + k.snow.albedo_min;
     if (any(snowfall > zero)) {
-        albedo += (k.snow.albedo_max - albedo) *
-                  (1.0 - exponential(snowfall * (-1.0 / k.snow.albedo_refresh_kg_m2)));
+        c.snow_albedo += (k.snow.albedo_max - c.snow_albedo) *
+                         (1.0 - exponential(snowfall * (-1.0 / k.snow.albedo_refresh_kg_m2)));
     }
-    c.snow_albedo = select(pack > zero, albedo, Real(k.snow.albedo_max));
 
     Real above = zero;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
@@ -270,9 +330,16 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
             const Real load = above + mass * 0.5;
             const Real weight =
                 load * (kGravity_m_s2 / 3.7e7) * exponential(cold * -0.081 - density * 0.018);
-            const Real breaking =
-                exponential(cold * (-1.0 / 23.8) - larger(density - 150.0, zero) * (1.0 / 21.7)) *
-                2.8e-6;
+            // Crystals of dense snow are broken: below a millionth an hour nothing is left to
+            // count.
+            const auto whole = density < kBroken_kg_m3;
+            Real breaking = zero;
+            if (any(whole)) {
+                const Real rate = exponential(cold * (-1.0 / 23.8) -
+                                              larger(density - 150.0, zero) * (1.0 / 21.7)) *
+                                  2.8e-6;
+                breaking = select(whole, rate, zero);
+            }
             denser = density * ((weight + breaking) * dt + 1.0);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
@@ -294,7 +361,7 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
         const Real density = select(
             there, (c.snow_ice[i] + c.snow_liquid[i]) / larger(c.snow_thickness[i], Real(1e-12)),
             new_density);
-        resistivity[i] = 1.0 / snow_conductivity_of(density);
+        resistivity[i] = snow_resistivity_of(density);
     }
 }
 

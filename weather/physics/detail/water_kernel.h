@@ -6,66 +6,10 @@
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"
 #include "weather/physics/detail/reservoir.h"
+#include "weather/physics/detail/wetness_kernel.h"
 #include "weather/physics/stores.h"
 
 namespace petrichor::weather::detail {
-
-template <class Real>
-PETRICHOR_INLINE Real level_of(const Hypsometry& relief, const Real& stored)
-{
-    if (relief.area_fraction.empty()) {
-        return smaller(square_root(larger(stored, Real(0.0)) * (2.0 * relief.depth_mm)),
-                       Real(relief.depth_mm));
-    }
-    return each(stored, [&](double v) { return water_level_mm(relief, v); });
-}
-template <class Real>
-PETRICHOR_INLINE Real volume_at(const Hypsometry& relief, const Real& level)
-{
-    if (relief.area_fraction.empty()) {
-        const Real h = clamped(level, Real(0.0), Real(relief.depth_mm));
-        return h * h * (0.5 / relief.depth_mm);
-    }
-    return each(level, [&](double h) { return stored_kg_m2(relief, h); });
-}
-template <class Real>
-PETRICHOR_INLINE Real area_at(const Hypsometry& relief, const Real& level)
-{
-    if (relief.area_fraction.empty()) return level * (1.0 / relief.depth_mm);
-    return each(level, [&](double h) { return wet_area(relief, h); });
-}
-
-template <class Real>
-struct WetSurface {
-    Real film_share, crack_area,
-        puddle_area;  // 0..1; cracks where no puddle is, film where neither
-    Real beta;        // wet share of the cell
-};
-
-// Under snow only the film's share is asked for: nothing evaporates there.
-template <class Real, class Mask>
-PETRICHOR_KERNEL WetSurface<Real> wet_surface(const CellVars<Real>& c, const CellConstants& k,
-                                              const Mask& bare)
-{
-    WetSurface<Real> w;
-    const Real all = (c.film + c.film_ice) + (c.crack + c.crack_ice) + (c.puddle + c.puddle_ice);
-    if (!any(all > 0.0)) {
-        w.film_share = w.crack_area = w.puddle_area = w.beta = Real(0.0);
-        return w;
-    }
-    w.film_share = smaller((c.film + c.film_ice) * k.inverse_film_capacity, Real(1.0));
-    if (!any(bare)) {
-        w.crack_area = w.puddle_area = w.beta = Real(0.0);
-        return w;
-    }
-    const Real crack = c.crack + c.crack_ice;
-    const Real puddle = c.puddle + c.puddle_ice;
-    w.crack_area = area_at(k.surface.cracks, level_of(k.surface.cracks, crack));
-    w.puddle_area = area_at(k.surface.puddles, level_of(k.surface.puddles, puddle));
-    w.beta = w.puddle_area +
-             (1.0 - w.puddle_area) * (w.crack_area + (1.0 - w.crack_area) * w.film_share);
-    return w;
-}
 
 // Lowers the water of one store by a depth; its wet area shrinks on the way, exactly (stores.h).
 template <class Real>
@@ -98,25 +42,134 @@ PETRICHOR_INLINE Real taken_from(Real& store, const Real& amount)
     return amount - moved;
 }
 
-// Horton's law, stepped: the depth wet ground takes up in a substep, and its capacity afterwards.
-template <class Real, class Mask>
-PETRICHOR_INLINE Real infiltration_depth(CellVars<Real>& c, const Mask& wet, const CellConstants& k,
-                                         const PartConstants& part)
+// Horton's law: the depth wet ground takes up over a time, and its capacity afterwards.
+template <class Real>
+PETRICHOR_INLINE Real infiltration_depth(const Real& capacity_mm_h, const HortonStep& step,
+                                         const CellConstants& k)
 {
-    const HortonParams& h = k.surface.infiltration;
-    const Real excess = c.infiltration_mm_h - h.last_mm_h;
-    const Real depth = excess * part.horton_depth_h + h.last_mm_h * (part.dt_s / 3600.0);
-    const Real dry = (c.infiltration_mm_h - h.first_mm_h) * part.horton_recover + h.first_mm_h;
-    c.infiltration_mm_h = select(wet, excess * part.horton_keep + h.last_mm_h, dry);
-    return select(wet, depth, Real(0.0));
+    const double last = k.surface.infiltration.last_mm_h;
+    return (capacity_mm_h - last) * step.depth_h + last * step.hours;
 }
 template <class Real>
-PETRICHOR_INLINE void recover_infiltration(CellVars<Real>& c, const CellConstants& k,
-                                           const PartConstants& part)
+PETRICHOR_INLINE Real decayed_capacity(const Real& capacity_mm_h, const HortonStep& step,
+                                       const CellConstants& k)
+{
+    const double last = k.surface.infiltration.last_mm_h;
+    return (capacity_mm_h - last) * step.keep + last;
+}
+template <class Real>
+PETRICHOR_INLINE Real recovered_capacity(const Real& capacity_mm_h, const HortonStep& step,
+                                         const CellConstants& k)
 {
     const double first = k.surface.infiltration.first_mm_h;
-    if (k.permeable)
-        c.infiltration_mm_h = (c.infiltration_mm_h - first) * part.horton_recover + first;
+    return (capacity_mm_h - first) * step.recover + first;
+}
+
+// Cracks and puddles over a substep, and where their water went.
+template <class Real>
+struct Hollows {
+    Real crack, puddle;
+    Real evaporated, infiltrated, overflow;
+};
+
+// A hollow takes what has room.
+template <class Real>
+PETRICHOR_INLINE void fill(Real& liquid, const Real& ice, double capacity, Real& flow)
+{
+    const Real room = larger(capacity - (liquid + ice), Real(0.0));
+    const Real filling = smaller(flow, room);
+    liquid += filling;
+    flow = flow - filling;
+}
+// What has room runs into the cracks, then into the puddles; the rest is left.
+template <class Real>
+PETRICHOR_INLINE void fill_hollows(Hollows<Real>& h, const CellVars<Real>& c, Real& flow,
+                                   const CellConstants& k)
+{
+    fill(h.crack, c.crack_ice, k.crack_capacity, flow);
+    fill(h.puddle, c.puddle_ice, k.puddle_capacity, flow);
+}
+// Water that comes first fills cracks and puddles, evaporation and infiltration lower them, and
+// water that goes on coming fills them again: while it rains a full hollow stays full.
+template <class Real>
+struct Inflow {
+    Real first, on;
+};
+template <class Real>
+PETRICHOR_KERNEL void fill_and_lower(Hollows<Real>& h, const CellVars<Real>& c,
+                                     const Inflow<Real>& flow, const Real& crack_drop,
+                                     const Real& puddle_drop, const Real& infiltration,
+                                     const CellConstants& k)
+{
+    Real first = flow.first, on = flow.on;
+    fill_hollows(h, c, first, k);
+    const auto cracks =
+        lower_store(k.surface.cracks, h.crack, c.crack_ice, crack_drop, infiltration);
+    const auto puddles =
+        lower_store(k.surface.puddles, h.puddle, c.puddle_ice, puddle_drop, infiltration);
+    h.evaporated += cracks.evaporated + puddles.evaporated;
+    h.infiltrated += cracks.infiltrated + puddles.infiltrated;
+    fill_hollows(h, c, on, k);
+    h.overflow += first + on;
+}
+// The same on ground that drinks, while its capacity decays: in turns.
+template <class Real>
+PETRICHOR_KERNEL void soak_and_fill(Hollows<Real>& h, const CellVars<Real>& c, const Real& flow,
+                                    const Real& crack_drop, const Real& puddle_drop,
+                                    const Real& first_capacity_mm_h, const CellConstants& k,
+                                    const PartConstants& part)
+{
+    constexpr double kShare = 1.0 / kFillingTurns;
+    Real capacity_mm_h = first_capacity_mm_h;
+    for (int i = 0; i < kFillingTurns; ++i) {
+        const Real depth = infiltration_depth(capacity_mm_h, part.horton_turn, k);
+        capacity_mm_h = decayed_capacity(capacity_mm_h, part.horton_turn, k);
+        const Real soaked = smaller(flow * kShare, depth);
+        h.infiltrated += soaked;
+        fill_and_lower(h, c, {Real(0.0), flow * kShare - soaked}, crack_drop * kShare,
+                       puddle_drop * kShare, depth, k);
+    }
+}
+
+// What runs off the film fills the hollows.
+//   lasts  it runs all the time, rather than at the beginning
+//   pores  wet share of the ground between them
+template <class Real, class Mask>
+PETRICHOR_INLINE Hollows<Real> hollows_after(CellVars<Real>& c, const Real& flow, const Mask& lasts,
+                                             const Real& crack_drop, const Real& puddle_drop,
+                                             const Real& pores, const CellConstants& k,
+                                             const PartConstants& part)
+{
+    const Real zero = 0.0;
+    Hollows<Real> h{c.crack, c.puddle, zero, zero, zero};
+    const auto holds = c.crack + c.puddle > zero;
+    const auto flows = flow > zero;
+    if (!k.permeable) {
+        if (any(holds | flows)) {
+            const Real first = select(lasts, zero, flow);
+            fill_and_lower(h, c, {first, flow - first}, crack_drop, puddle_drop, zero, k);
+        }
+        return h;
+    }
+    const Real capacity = c.infiltration_mm_h;
+    const Real decayed = decayed_capacity(capacity, part.horton, k);
+    const Real recovered = recovered_capacity(capacity, part.horton, k);
+    const Real wet = select(holds | flows, Real(1.0), pores);
+    c.infiltration_mm_h = recovered + (decayed - recovered) * wet;
+    // A flow that the ground can take to the end does not reach the hollows.
+    const auto fills = flow > decayed * part.horton.hours;
+    h.infiltrated = flow;
+    if (any(holds)) {
+        fill_and_lower(h, c, {zero, zero}, crack_drop, puddle_drop,
+                       infiltration_depth(capacity, part.horton, k), k);
+    }
+    if (!any(fills)) return h;
+    Hollows<Real> filling{c.crack, c.puddle, zero, zero, zero};
+    soak_and_fill(filling, c, flow, crack_drop, puddle_drop, capacity, k, part);
+    return {select(fills, filling.crack, h.crack), select(fills, filling.puddle, h.puddle),
+            select(fills, filling.evaporated, h.evaporated),
+            select(fills, filling.infiltrated, h.infiltrated),
+            select(fills, filling.overflow, h.overflow)};
 }
 
 // Ice on the ground: sublimation and frost, melting, freezing. `film_supply` is what the film
@@ -162,12 +215,27 @@ PETRICHOR_KERNEL void change_ice(CellVars<Real>& c, Real& film_supply, const Rea
     c.puddle_ice += before - c.puddle;
 }
 
+constexpr double kDry_kg_m2 = 1e-4;  // a tenth of a micrometre
+
+// A film that dries as an exponential would never be gone: the last of it leaves at once.
+template <class Real, class Mask>
+PETRICHOR_INLINE void dry_remnants(CellVars<Real>& c, const Mask& drying)
+{
+    const Real zero = 0.0;
+    const auto film = drying & (c.film < kDry_kg_m2);
+    const auto ice = drying & (c.film_ice < kDry_kg_m2);
+    c.total_evaporation += select(film, c.film, zero);
+    c.film = select(film, zero, c.film);
+    c.total_sublimation += select(ice, c.film_ice, zero);
+    c.film_ice = select(ice, zero, c.film_ice);
+}
+
 //   supply    rain, or what came out of the snow, kg/m2 of the substep
 //   vapour    leaving (> 0) or settling, bare ground only
 //   phase     melting (> 0) or freezing, bare ground only
 template <class Real, class Mask>
 PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour,
-                                 const Real& phase, const Mask& icy, const WetSurface<Real>& wet,
+                                 const Real& phase, const Mask& icy, const WetShares<Real>& wet,
                                  const CellConstants& k, const PartConstants& part)
 {
     const Real zero = 0.0;
@@ -175,10 +243,12 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
     const bool quiet = !any((supply > zero) | (liquid > zero) | (ice > zero) | (vapour < zero));
     if (quiet) {
-        recover_infiltration(c, k, part);
+        if (k.permeable)
+            c.infiltration_mm_h = recovered_capacity(c.infiltration_mm_h, part.horton, k);
         return;
     }
 
+    const Real film_before = c.film;
     const Real to_air = larger(vapour, zero);
     const Real settling = larger(vapour * -1.0, zero);
     Real film_supply = supply + select(icy, zero, settling);
@@ -188,14 +258,13 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
 
     // ---- film: supply, its share of the evaporation, drainage above its capacity
     const Real evaporation = select(icy, zero, to_air);
-    const Real per_wet = evaporation / larger(wet.beta, Real(1e-12));
-    const Real open = 1.0 - wet.puddle_area;
-    const Real film_wanted = per_wet * (open * (1.0 - wet.crack_area) * wet.film_share);
+    const Real per_wet = evaporation / larger(wet.all.mean, Real(1e-12));
+    const Real open = 1.0 - wet.puddle;
+    const Real film_wanted = per_wet * (open * (1.0 - wet.crack) * wet.film);
     const auto film =
         drain_reservoir(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, part.film);
     c.film = film.water;
     Real evaporated = film_wanted - film.shortfall;
-    Real flow = film.drained;
     if (part.sprayed > 0.0) {
         const Real sprayed = c.film * part.sprayed;
         c.film = c.film - sprayed;
@@ -203,42 +272,36 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     }
 
     // ---- infiltration on the way down, then cracks and puddles fill
-    Real infiltration = zero;
-    if (k.permeable)
-        infiltration = infiltration_depth(c, (supply > zero) | (liquid > zero), k, part);
-    Real soaked = smaller(flow, infiltration);
-    flow = flow - soaked;
-    if (any((flow > zero) | (c.crack > zero))) {
-        const Real room = larger(k.crack_capacity - (c.crack + c.crack_ice), zero);
-        const Real filling = smaller(flow, room);
-        c.crack += filling;
-        flow = flow - filling;
-        const auto cracks =
-            lower_store(k.surface.cracks, c.crack, c.crack_ice, per_wet * open, infiltration);
-        evaporated += cracks.evaporated;
-        soaked += cracks.infiltrated;
-    }
-    if (any((flow > zero) | (c.puddle > zero))) {
-        const Real room = larger(k.puddle_capacity - (c.puddle + c.puddle_ice), zero);
-        const Real filling = smaller(flow, room);
-        c.puddle += filling;
-        flow = flow - filling;
-        const auto puddles =
-            lower_store(k.surface.puddles, c.puddle, c.puddle_ice, per_wet, infiltration);
-        evaporated += puddles.evaporated;
-        soaked += puddles.infiltrated;
-    }
+    const Real pores =
+        (smaller(film_before, Real(k.film_capacity)) + smaller(c.film, Real(k.film_capacity))) *
+        (0.5 * k.inverse_film_capacity);
+    const auto hollows =
+        hollows_after(c, film.drained, supply > zero, per_wet * open, per_wet, pores, k, part);
+    c.crack = hollows.crack;
+    c.puddle = hollows.puddle;
+    evaporated += hollows.evaporated;
+    Real flow = hollows.overflow;
 
-    // ---- the wet area shrank during the substep; the energy is spent, so the water still goes
-    Real owed = evaporation - evaporated;
-    Real back = taken_from(c.film, larger(owed, zero));
-    back = taken_from(c.crack, back);
-    back = taken_from(c.puddle, back);
-    // A store lowered by more than the balance wanted (rounding only) gives nothing back.
-    evaporated += larger(owed, zero) - back;
+    // ---- what the balance spent energy on goes, no more and no less: the wet area may have shrunk
+    // or grown on the way
+    const Real owed = larger(evaporation - evaporated, zero);
+    Real back = larger(evaporated - evaporation, zero);
+    evaporated = evaporated - back;
+    if (any(back > zero)) {
+        fill(c.crack, c.crack_ice, k.crack_capacity, back);
+        fill(c.puddle, c.puddle_ice, k.puddle_capacity, back);
+        flow += back;
+    }
+    if (any(owed > zero)) {
+        Real left = taken_from(c.film, owed);
+        left = taken_from(c.crack, left);
+        left = taken_from(c.puddle, left);
+        evaporated += owed - left;
+    }
 
     c.total_evaporation += evaporated - select(icy, zero, settling);
-    c.total_infiltration += soaked;
+    dry_remnants(c, to_air > zero);
+    c.total_infiltration += hollows.infiltrated;
     c.total_drainage += flow;
 }
 

@@ -1,0 +1,50 @@
+// Made-up weather for tests of the physical model.
+#ifndef PETRICHOR_TESTS_WEATHER_MADE_UP_H
+#define PETRICHOR_TESTS_WEATHER_MADE_UP_H
+
+#include <cstdint>
+
+#include "weather/forcing.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/portable_math.h"
+
+namespace petrichor::weather::testing_weather {
+
+inline constexpr std::int64_t kHourUs = 3600000000LL;
+
+// A year of made-up weather that visits everything: frost, snow, rain on snow, freezing rain, melt,
+// dry heat.
+inline ForcingTable rough_year(std::size_t hours = 8760)
+{
+    ForcingTable t;
+    t.site.latitude_deg = 46;
+    t.site.longitude_deg = 8;
+    t.site.elevation_m = 600;
+    std::uint64_t state = 7;
+    const auto random = [&] {
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
+        return static_cast<double>(state >> 40) / static_cast<double>(1 << 24);
+    };
+    double wet = 0, spell = 0;
+    for (std::size_t i = 0; i < hours; ++i) {
+        const double h = static_cast<double>(i);
+        if (i % 12 == 0) {
+            wet = random() < 0.25 ? random() * 2e-3 : 0;
+            spell = 12 * (random() - 0.5);
+        }
+        t.time_us.push_back(1420070400LL * 1000000 + static_cast<std::int64_t>(i) * kHourUs);
+        t[Field::AirTemp].push_back(280 - 12 * detail::sine_cosine(2 * kPi * h / 8766).cos -
+                                    4 * detail::sine_cosine(2 * kPi * h / 24).cos + spell);
+        t[Field::RelHumidity].push_back(wet > 0 ? 95 : 60 + 30 * random());
+        t[Field::Wind].push_back(6 * random());
+        t[Field::Precip].push_back(wet);
+        t[Field::Cloud].push_back(wet > 0 ? 1 : random());
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    return t;
+}
+
+}  // namespace petrichor::weather::testing_weather
+
+#endif

@@ -1,0 +1,224 @@
+// fill_forcing: gaps, then humidity, pressure, cloud and radiation from what is there.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "weather/fill_precipitation.h"
+#include "weather/forcing.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/humidity.h"
+#include "weather/physics/longwave.h"
+#include "weather/physics/solar.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+std::size_t count_missing(const std::vector<double>& v)
+{
+    return static_cast<std::size_t>(
+        std::count_if(v.begin(), v.end(), [](double x) { return std::isnan(x); }));
+}
+
+// Bridges runs of NaN that are no longer than the limit; ends of the table repeat the nearest
+// value.
+void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOptions& options)
+{
+    auto& v = table[field];
+    if (v.empty()) return;
+    const bool rate = field_info(field).is_rate;
+    std::size_t short_gaps = 0, long_gaps = 0;
+    std::size_t i = 0;
+    while (i < v.size()) {
+        if (!std::isnan(v[i])) {
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        while (end < v.size() && std::isnan(v[end])) ++end;
+        if (rate) {
+            for (std::size_t k = i; k < end; ++k) v[k] = 0.0;
+            short_gaps += end - i;
+        } else if (i > 0 || end < v.size()) {
+            const std::size_t left = i > 0 ? i - 1 : end;
+            const std::size_t right = end < v.size() ? end : i - 1;
+            const std::int64_t span = table.time_us[right] - table.time_us[left];
+            const bool too_long = right > left && span > options.longest_gap_us;
+            if (!too_long || field == Field::AirTemp || field == Field::Wind ||
+                field == Field::Pressure) {
+                for (std::size_t k = i; k < end; ++k) {
+                    double x = 0.0;
+                    if (right > left) {
+                        x = static_cast<double>(table.time_us[k] - table.time_us[left]) /
+                            static_cast<double>(span);
+                    }
+                    v[k] = v[left] + (v[right] - v[left]) * x;
+                }
+                (too_long ? long_gaps : short_gaps) += end - i;
+            }
+        }
+        i = end;
+    }
+    note_filled(report, field_info(field).name, short_gaps,
+                rate ? "the file gives no amount, taken as 0" : "line between neighbours");
+    note_filled(report, field_info(field).name, long_gaps, "line across a long gap");
+}
+
+void fill_humidity(ForcingTable& table, ReadReport& report)
+{
+    auto& rh = table[Field::RelHumidity];
+    const auto& dew = table[Field::DewPoint];
+    rh.resize(table.rows(), kMissing);
+    std::size_t from_dew = 0, assumed = 0;
+    for (std::size_t i = 0; i < rh.size(); ++i) {
+        if (!std::isnan(rh[i])) continue;
+        if (!dew.empty() && !std::isnan(dew[i])) {
+            rh[i] = std::clamp(rel_humidity_of_dew_point_pct(table[Field::AirTemp][i], dew[i]), 1.0,
+                               100.0);
+            ++from_dew;
+        } else {
+            rh[i] = 70.0;
+            ++assumed;
+        }
+    }
+    note_filled(report, field_info(Field::RelHumidity).name, from_dew, "from the dew point");
+    note_filled(report, field_info(Field::RelHumidity).name, assumed, "assumed 70 %");
+}
+
+void fill_pressure(ForcingTable& table, ReadReport& report)
+{
+    auto& p = table[Field::Pressure];
+    p.resize(table.rows(), kMissing);
+    const double z = std::isnan(table.site.elevation_m) ? 0.0 : table.site.elevation_m;
+    const double standard = standard_pressure_pa(z);
+    std::size_t filled = 0;
+    for (double& v : p) {
+        if (!std::isnan(v)) continue;
+        v = standard;
+        ++filled;
+    }
+    char how[80];
+    std::snprintf(how, sizeof how, "standard pressure at %.0f m", z);
+    note_filled(report, field_info(Field::Pressure).name, filled, how);
+}
+
+// Cloud, then shortwave, then longwave: each from what is there.
+void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options)
+{
+    const std::size_t n = table.rows();
+    auto& cloud = table[Field::Cloud];
+    auto& sw = table[Field::Shortwave];
+    auto& lw = table[Field::Longwave];
+    cloud.resize(n, kMissing);
+    sw.resize(n, kMissing);
+    lw.resize(n, kMissing);
+    const bool place =
+        !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
+    const double latitude = place ? table.site.latitude_deg : 45.0;
+    const double longitude = place ? table.site.longitude_deg : 0.0;
+    std::size_t from_sun = 0, assumed = 0, made_sw = 0, made_lw = 0;
+    double last_cloud = kMissing;
+    for (std::size_t i = 0; i < n; ++i) {
+        double sine = 0.0;
+        if (std::isnan(cloud[i]) || std::isnan(sw[i])) {
+            sine = sun_direction(table.time_us[i], latitude, longitude).up;
+        }
+        if (std::isnan(cloud[i])) {
+            // A low sun tells little about clouds: keep what the day said.
+            if (!std::isnan(sw[i]) && sine > 0.17 && place) {
+                cloud[i] = cloud_fraction_of(sw[i], sine);
+                ++from_sun;
+            } else if (!std::isnan(last_cloud)) {
+                cloud[i] = last_cloud;
+                ++from_sun;
+            } else {
+                cloud[i] = options.default_cloud;
+                ++assumed;
+            }
+        }
+        last_cloud = cloud[i];
+        if (std::isnan(sw[i])) {
+            sw[i] = cloudy_sky_w_m2(sine, cloud[i]);
+            ++made_sw;
+        }
+        sw[i] = std::max(sw[i], 0.0);
+        if (std::isnan(lw[i])) {
+            const double t = table[Field::AirTemp][i];
+            lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]),
+                                           cloud[i]);
+            ++made_lw;
+        }
+    }
+    const std::string where = place ? "" : " at 45 N 0 E: the file gives no place";
+    note_filled(report, field_info(Field::Cloud).name, from_sun,
+                "from shortwave, kept through the night");
+    note_filled(report, field_info(Field::Cloud).name, assumed, "assumed");
+    note_filled(report, field_info(Field::Shortwave).name, made_sw,
+                "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where);
+    note_filled(report, field_info(Field::Longwave).name, made_lw, "air and cloud (Prata 1996)");
+}
+
+}  // namespace
+
+void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options)
+{
+    const std::size_t n = table.rows();
+    if (n == 0)
+        throw Error("weather: the table has no rows",
+                    "Give a file with at least one row of weather.");
+    for (std::size_t i = 1; i < n; ++i) {
+        if (table.time_us[i] <= table.time_us[i - 1]) {
+            throw Error(
+                "weather: times must increase, data row " + std::to_string(i + 1) + " does not",
+                "Sort the rows and remove duplicates.");
+        }
+    }
+    for (std::size_t f = 0; f < kFieldCount; ++f) {
+        auto& column = table.columns[f];
+        if (column.empty()) continue;
+        if (column.size() != n) {
+            throw Error(std::string("weather: column ") + field_info(static_cast<Field>(f)).name +
+                            " has " + std::to_string(column.size()) + " values for " +
+                            std::to_string(n) + " rows",
+                        "Make every column as long as time_us, or leave it empty.");
+        }
+        for (double& v : column) {
+            if (std::isinf(v)) v = kMissing;
+        }
+        // A column without one value says nothing.
+        if (count_missing(column) == n) column.clear();
+    }
+    if (!table.has(Field::AirTemp)) {
+        throw Error("weather: no air temperature in the file",
+                    "Give a file with air temperature in every row.");
+    }
+    bridge(table, report, Field::AirTemp, options);
+    bridge(table, report, Field::DewPoint, options);
+    bridge(table, report, Field::RelHumidity, options);
+    bridge(table, report, Field::Wind, options);
+    bridge(table, report, Field::Pressure, options);
+    bridge(table, report, Field::Cloud, options);
+    bridge(table, report, Field::Shortwave, options);
+    bridge(table, report, Field::Longwave, options);
+    const std::vector<bool> precip_known = known_precipitation(table);
+    bridge(table, report, Field::Rain, options);
+    bridge(table, report, Field::Snow, options);
+    if (!table.has(Field::Rain) && !table.has(Field::Snow))
+        bridge(table, report, Field::Precip, options);
+    if (!table.has(Field::Wind)) {
+        table[Field::Wind].assign(n, 2.0);
+        note_filled(report, field_info(Field::Wind).name, n, "no wind in the file, assumed 2 m/s");
+    }
+    for (double& rh : table[Field::RelHumidity]) rh = std::min(rh, 100.0);
+    fill_humidity(table, report);
+    fill_pressure(table, report);
+    fill_precipitation(table, report);
+    fill_radiation(table, report, options);
+    const bool estimate = options.missing_precip == MissingPrecip::Estimate &&
+                          !table.has(Field::Rain) && !table.has(Field::Snow);
+    if (estimate) estimate_precipitation(table, report, precip_known);
+    warn_of_dry_gaps(report, precip_known, estimate);
+}
+
+}  // namespace petrichor::weather

@@ -1,0 +1,152 @@
+// One substep of one cell, or of eight side by side: the surface point, its balance, and where the
+// heat and the water go.
+#ifndef PETRICHOR_WEATHER_DETAIL_SUBSTEP_KERNEL_H
+#define PETRICHOR_WEATHER_DETAIL_SUBSTEP_KERNEL_H
+
+#include "weather/physics/cell_state.h"
+#include "weather/physics/detail/cell_constants.h"
+#include "weather/physics/detail/cell_weather.h"
+#include "weather/physics/detail/ground_kernel.h"
+#include "weather/physics/detail/melting_kernel.h"
+#include "weather/physics/detail/snow_kernel.h"
+#include "weather/physics/detail/surface_kernel.h"
+#include "weather/physics/detail/water_kernel.h"
+#include "weather/physics/detail/wetness_kernel.h"
+
+namespace petrichor::weather::detail {
+
+// What a substep adds to the means of its step.
+template <class Real>
+struct StepSums {
+    Real shortwave = 0.0, longwave = 0.0, sensible = 0.0, latent = 0.0, ground = 0.0, melt = 0.0;
+    Real residual = 0.0, runoff = 0.0;
+    Real melting = 0.0;  // seconds at the melting point, receiving heat
+};
+
+// dt seconds with constant weather. `rain`, `snow` in kg m-2 s-1; `resistivity` (1 / conductivity)
+// of the snow layers.
+template <class Real>
+PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>& w,
+                                      const Real& rain, const Real& snow, const Real* resistivity,
+                                      const CellConstants& k, const PartConstants& part,
+                                      StepSums<Real>& sums)
+{
+    const Real zero = 0.0;
+    const double dt = part.dt_s;
+    const GroundStack& ground = part.ground;
+    const Real rain_mass = rain * dt;
+
+    // ---- snowfall, then the column below the surface as a conductance
+    if (any(snow > zero)) add_snowfall(c, snow * dt, w.air_c, w.wind, k);
+    freeze_within(c);
+    const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
+    const auto covered = pack > zero;
+    Real ground_equivalents[kGroundLayers];
+    const Real ground_seen =
+        ground_equivalent(ground, c.ground_temp_c, k.deep_temp_c, ground_equivalents);
+    Real conductance = ground.conductance_w_m2_k;
+    Real below_c = ground_seen;
+    SnowColumn<Real> column;
+    const bool any_snow = any(covered);
+    Real cover = zero;
+    if (any_snow) {
+        snow_equivalent(c, resistivity, dt, conductance, below_c, column);
+        const Real depth = c.snow_thickness[0] + c.snow_thickness[1] + c.snow_thickness[2];
+        cover = hyperbolic_tangent_positive(depth * k.inverse_cover_depth);
+    }
+
+    // ---- the surface point
+    const Real liquid = c.film + c.crack + c.puddle;
+    const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
+    const auto bare_icy = (ice > liquid) | ((liquid <= zero) & (c.surface_temp_c < zero));
+    const MaskOf<Real> icy = covered | bare_icy;
+
+    SurfacePoint<Real, MaskOf<Real>, Wetness<Real>> p;
+    Real soaking = zero;
+    if (k.permeable)
+        soaking = select(liquid + rain_mass > zero,
+                         infiltration_depth(c.infiltration_mm_h, part.horton, k), zero);
+    set_wetness(p.wet, c, rain_mass, soaking, covered, k, part);
+    const Real film_share = smaller(p.wet.film * k.inverse_film_capacity, Real(1.0));
+    const Real bare_albedo = film_share * (k.albedo_wet - k.albedo_dry) + k.albedo_dry;
+    const Real albedo = bare_albedo + cover * (c.snow_albedo - bare_albedo);
+    const Real emissivity = cover * (k.snow_emissivity - k.emissivity) + k.emissivity;
+    const Real absorbed_sw = (1.0 - albedo) * w.shortwave;
+    p.absorbed = absorbed_sw + emissivity * w.longwave;
+    p.emitting = emissivity * kStefanBoltzmann;
+    p.air_c = w.air_c;
+    p.q_air = w.q_air;
+    p.pressure = w.pressure;
+    p.neutral = Real(k.neutral_bare);
+    if (any_snow) {
+        const Real log_z0 = cover * (k.log_snow_roughness - k.log_roughness) + k.log_roughness;
+        p.neutral = kVonKarman * kVonKarman /
+                    ((k.log_wind_height - log_z0) * (k.log_temp_height_10 - log_z0));
+    }
+    p.exchange = w.density * p.neutral * w.wind;
+    p.richardson_k = w.per_air_wind2 * (kGravity_m_s2 * k.wind_height_m);
+    p.root_z = cover * (k.root_z_snow - k.root_z_bare) + k.root_z_bare;
+    p.icy = icy;
+    p.latent_heat = select(icy, Real(kLatentSublimation), Real(kLatentVaporisation));
+    p.rain_heat = rain * kWaterHeatCapacity;
+    p.conductance = conductance;
+    p.below_c = below_c;
+    // No more can leave than is there.
+    p.most_vapour =
+        select(covered, pack, select(bare_icy, ice, liquid + rain_mass)) * part.inverse_dt_1_s;
+
+    // ---- its temperature: three Newton steps, then the melting point if something changes phase
+    auto root = surface_root(p, k.exchange, c.surface_temp_c);
+    auto f = fluxes_at(p, root);
+    // The balance is that of the middle of the weather; until the end it still changes by this.
+    const Real later = (1.0 - albedo) * w.later_shortwave + emissivity * w.later_longwave +
+                       root.exchange * (kAirHeatCapacity * w.later_air_k +
+                                        p.latent_heat * root.wet.shares.all.end * w.later_q) -
+                       (f.sensible + f.latent) * w.later_wind;
+    PhaseStores<Real> stores;
+    stores.ice = select(covered, pack, ice);
+    stores.water = select(covered, zero, liquid + rain_mass);
+    stores.may_melt = covered | (ice > zero);
+    stores.may_freeze = stores.water > zero;
+    const PhaseChange<Real> change = change_phase(p, k.exchange, stores, later, dt, root, f);
+    const Real surface_c = root.surface_c;
+    c.surface_temp_c = end_temperature(stores, change, surface_c, later, f.slope);
+    const Real residual = f.balance - change.melt_flux;
+
+    // ---- new temperatures below
+    Real interface_c = surface_c;
+    if (any_snow) snow_temperatures(c, column, interface_c);
+
+    // ---- masses
+    const Real vapour_mass = f.vapour * dt;
+    const Real melt_mass = change.melt_flux * (dt / kLatentFusion);
+    Real to_film = rain_mass;
+    if (any_snow) {
+        Real runoff = snow_masses(c, select(covered, vapour_mass, zero),
+                                  select(covered, larger(melt_mass, zero), zero),
+                                  select(covered, rain_mass, zero), snow <= zero, k);
+        runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
+        to_film = select(covered, runoff, rain_mass);
+        c.total_sublimation += select(covered, vapour_mass, zero);
+        sums.runoff += select(covered, runoff, zero);
+    }
+    ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
+    c.total_melt += larger(melt_mass, zero);
+    move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
+               bare_icy, root.wet.shares, k, part);
+
+    sums.shortwave += absorbed_sw * dt;
+    sums.longwave += (f.net_radiation - absorbed_sw) * dt;
+    sums.sensible += f.sensible * dt;
+    sums.latent += f.latent * dt;
+    sums.ground += f.ground * dt;
+    sums.melt += change.melt_flux * dt;
+    sums.melting += change.melting * dt;
+    sums.residual += residual * dt;
+    c.energy_residual_squares += residual * residual * dt;
+    c.energy_seconds += Real(dt);
+}
+
+}  // namespace petrichor::weather::detail
+
+#endif

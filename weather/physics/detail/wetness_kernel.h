@@ -1,0 +1,214 @@
+// How much of a cell is wet while its water dries away: exact means over a step, so that one energy
+// balance serves an hour in which a film dries out.
+//
+//   film     share u = w / capacity of pore water evaporates: dw/dt = supply - e u, an exponential;
+//            above the capacity u = 1 until the excess has run off
+//   hollows  evaporation lowers the level by e dt, and the water lost is V(h) - V(h - e dt)
+#ifndef PETRICHOR_WEATHER_DETAIL_WETNESS_KERNEL_H
+#define PETRICHOR_WEATHER_DETAIL_WETNESS_KERNEL_H
+
+#include "weather/physics/cell_state.h"
+#include "weather/physics/detail/cell_constants.h"
+#include "weather/physics/detail/reservoir.h"
+#include "weather/physics/detail/surface_kernel.h"
+#include "weather/physics/stores.h"
+
+namespace petrichor::weather::detail {
+
+template <class Real>
+PETRICHOR_INLINE Real level_of(const Hypsometry& relief, const Real& stored)
+{
+    if (relief.area_fraction.empty()) {
+        return smaller(square_root(larger(stored, Real(0.0)) * (2.0 * relief.depth_mm)),
+                       Real(relief.depth_mm));
+    }
+    return each(stored, [&](double v) { return water_level_mm(relief, v); });
+}
+template <class Real>
+PETRICHOR_INLINE Real volume_at(const Hypsometry& relief, const Real& level)
+{
+    if (relief.area_fraction.empty()) {
+        const Real h = clamped(level, Real(0.0), Real(relief.depth_mm));
+        return h * h * (0.5 / relief.depth_mm);
+    }
+    return each(level, [&](double h) { return stored_kg_m2(relief, h); });
+}
+template <class Real>
+PETRICHOR_INLINE Real area_at(const Hypsometry& relief, const Real& level)
+{
+    if (relief.area_fraction.empty()) return level * (1.0 / relief.depth_mm);
+    return each(level, [&](double h) { return wet_area(relief, h); });
+}
+
+// The wet area of a hollow while its level falls.
+//   end  what a little more evaporation would add
+template <class Real>
+PETRICHOR_INLINE WetShare<Real> area_while_falling(const Hypsometry& relief, const Real& level,
+                                                   const Real& evaporation_mm,
+                                                   const Real& infiltration_mm)
+{
+    const double tiny = 1e-30;
+    const Real drop = evaporation_mm + infiltration_mm + tiny;
+    const Real inverse = 1.0 / drop;
+    const Real rest = larger(level - drop, Real(0.0));
+    WetShare<Real> area;
+    if (relief.area_fraction.empty()) {
+        area.end = rest * (1.0 / relief.depth_mm);
+        area.mean = (level + rest) * (0.5 / relief.depth_mm) * smaller(level * inverse, Real(1.0));
+    } else {
+        area.end = area_at(relief, rest);
+        area.mean =
+            select(drop > 1e-6,
+                   unit_clamped((volume_at(relief, level) - volume_at(relief, rest)) * inverse),
+                   area_at(relief, level));
+    }
+    area.end = area.mean + (area.end - area.mean) * ((evaporation_mm + tiny) * inverse);
+    return area;
+}
+
+// (1 - exp(-x)) / x and exp(-x) for x >= 0: the eighth power of 1 / (1 + y + y^2/2 + y^3/6), y =
+// x/8. Positive, monotone, below 1; within 1e-4 of the truth up to x = 1, 2e-3 anywhere.
+template <class Real>
+struct Decay {
+    Real mean, end;
+};
+template <class Real>
+PETRICHOR_INLINE Decay<Real> decay_of(const Real& x)
+{
+    const Real y = x * 0.125;
+    const Real half = y * (y * (1.0 / 6.0) + 0.5) + 1.0;
+    const Real r = 1.0 / (y * half + 1.0);
+    const Real r2 = r * r;
+    const Real r4 = r2 * r2;
+    return {r * half * ((r + 1.0) * (r2 + 1.0)) * ((r4 + 1.0) * 0.125), r4 * r4};
+}
+
+// The film's wet share over a step.
+//   film       liquid and ice
+//   potential  what evaporates where all of it is wet, kg/m2 of the step
+template <class Real>
+PETRICHOR_INLINE WetShare<Real> film_while_drying(const Real& film, const Real& liquid,
+                                                  const Real& supply, const Real& potential,
+                                                  const CellConstants& k,
+                                                  const ReservoirConstants& r)
+{
+    const Real zero = 0.0, one = 1.0;
+    const Real start = smaller(film * k.inverse_film_capacity, one);
+    // Until the excess has run off all is wet; `rest` is the share of the step after that.
+    Real rest = one;
+    const Real loss = potential - supply;
+    const auto excess = (liquid > k.film_capacity);
+    if (any(excess)) {
+        const Real net = larger(loss * (1.0 / r.dt_s), Real(1e-12));
+        const Real above = larger(liquid - k.film_capacity, zero);
+        const Real until = logarithm(above * r.rate_1_s / net + 1.0) * r.inverse_rate_s;
+        rest = select(excess, larger(1.0 - until * (1.0 / r.dt_s), zero), rest);
+    }
+    const auto decay = decay_of(potential * rest * k.inverse_film_capacity);
+    const Real added = supply * rest * k.inverse_film_capacity;
+    WetShare<Real> share;
+    share.end = start * decay.end + added * decay.mean;
+    share.mean = start * decay.mean;
+    if (any(supply > zero)) {
+        // The mean of what is added, and where supply wins: a line up to full.
+        share.mean += added * (1.0 - decay.mean) /
+                      larger(potential * rest * k.inverse_film_capacity, Real(1e-9));
+        const Real rise = (supply - potential * start) * k.inverse_film_capacity;
+        const Real reach = (1.0 - start) / larger(rise, Real(1e-30));
+        const auto fills = loss <= zero;
+        share.mean = select(
+            fills, select(reach < one, 1.0 - (1.0 - start) * reach * 0.5, start + rise * 0.5),
+            share.mean);
+        share.end = select(fills, start + rise, share.end);
+    }
+    share.mean = smaller(1.0 - rest + rest * share.mean, one);
+    share.end = smaller(share.end, one);
+    return share;
+}
+
+// Means over a step; where nothing is wet all are 0.
+template <class Real>
+struct WetShares {
+    Real film, crack, puddle;  // cracks where no puddle is, film where neither
+    WetShare<Real> all;        // of the cell
+};
+
+template <class Real, class Mask>
+PETRICHOR_INLINE WetShares<Real> chosen(const Mask& mask, const WetShares<Real>& a,
+                                        const WetShares<Real>& b)
+{
+    return {select(mask, a.film, b.film),
+            select(mask, a.crack, b.crack),
+            select(mask, a.puddle, b.puddle),
+            {select(mask, a.all.mean, b.all.mean), select(mask, a.all.end, b.all.end)}};
+}
+
+// What the shares of a step depend on.
+template <class Real>
+struct Wetness {
+    Real film, film_liquid, crack_level, puddle_level;
+    Real supply, infiltration;  // kg/m2 and mm of the step
+    MaskOf<Real> covered;       // by snow: all of it evaporates
+    bool any_water, any_hollow;
+    const CellConstants* k;
+    const PartConstants* part;
+
+    using Shares = WetShares<Real>;
+    PETRICHOR_INLINE void share(const Real& potential_rate, Shares& out) const
+    {
+        if (any_water) return share_of_water(potential_rate, out);
+        const Real zero = 0.0;
+        out.film = out.crack = out.puddle = zero;
+        out.all.mean = out.all.end = select(covered, Real(1.0), zero);
+    }
+    PETRICHOR_KERNEL void share_of_water(const Real& potential_rate, Shares& s) const
+    {
+        const Real zero = 0.0, one = 1.0;
+        const Real potential = larger(potential_rate * part->dt_s, zero);
+        WetShare<Real> crack{zero, zero}, puddle{zero, zero};
+        if (any_hollow) {
+            puddle = area_while_falling(k->surface.puddles, puddle_level, potential, infiltration);
+            crack = area_while_falling(k->surface.cracks, crack_level,
+                                       potential * (one - puddle.mean), infiltration);
+        }
+        const Real pores = (one - puddle.mean) * (one - crack.mean);
+        const auto pore =
+            film_while_drying(film, film_liquid, supply, potential * pores, *k, part->film);
+        s.film = pore.mean;
+        s.crack = crack.mean;
+        s.puddle = puddle.mean;
+        s.all.mean = puddle.mean + (one - puddle.mean) * crack.mean + pores * pore.mean;
+        s.all.end = puddle.end + (one - puddle.end) * (crack.end + (one - crack.end) * pore.end);
+        s.all.mean = select(covered, one, s.all.mean);
+        s.all.end = select(covered, one, s.all.end);
+    }
+};
+
+//   supply        rain of the step, kg/m2
+//   infiltration  depth that open ground takes up, mm
+template <class Real, class Mask>
+PETRICHOR_INLINE void set_wetness(Wetness<Real>& w, const CellVars<Real>& c, const Real& supply,
+                                  const Real& infiltration, const Mask& covered,
+                                  const CellConstants& k, const PartConstants& part)
+{
+    const Real zero = 0.0;
+    w.k = &k;
+    w.part = &part;
+    w.covered = covered;
+    w.film = c.film + c.film_ice;
+    w.film_liquid = c.film;
+    w.supply = supply;
+    w.infiltration = infiltration;
+    const Real crack = c.crack + c.crack_ice;
+    const Real puddle = c.puddle + c.puddle_ice;
+    w.any_hollow = any((crack + puddle > zero) & !covered);
+    w.any_water = w.any_hollow || any((w.film + supply > zero) & !covered);
+    if (w.any_hollow) {
+        w.crack_level = level_of(k.surface.cracks, crack);
+        w.puddle_level = level_of(k.surface.puddles, puddle);
+    }
+}
+
+}  // namespace petrichor::weather::detail
+
+#endif
