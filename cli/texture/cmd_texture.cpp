@@ -10,8 +10,8 @@ namespace petrichor::cli {
 
 void add_texture(CLI::App& app)
 {
-    CLI::App* texture =
-        app.add_subcommand("texture", "Prepare textures: build, prefilter, pack, mips, compare, ...");
+    CLI::App* texture = app.add_subcommand(
+        "texture", "Prepare textures: build, prefilter, pack, mips, compare, ...");
     texture->require_subcommand(1);
     // A file over a size limit is a write error like a full disk, with a message, not a sudden end.
     texture->preparse_callback([](std::size_t) { std::signal(SIGXFSZ, SIG_IGN); });

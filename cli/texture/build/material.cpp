@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cli/texture/build/shipped.h"
 #include "cli/texture/build/write_levels.h"
 #include "cli/texture/files.h"
 #include "texproc/area.h"
@@ -14,6 +15,7 @@
 #include "texproc/mips.h"
 #include "texproc/normal.h"
 #include "texproc/prefilter/prefilter.h"
+#include "texproc/prefilter/stored.h"
 
 namespace petrichor::cli {
 
@@ -78,6 +80,12 @@ void turn_green(RawImage& normal)
     normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
 }
 
+// These blocks hold numbers between 8-bit codes.
+bool between_codes(const OutputRule& rule)
+{
+    return rule.compression == "bc4" || rule.compression == "bc5";
+}
+
 Image with_alpha(const Image& color, const Image& alpha)
 {
     Image to(color.width, color.height, 4, color.space);
@@ -121,7 +129,13 @@ public:
     const std::map<std::string, RawImage>& base() const { return base_; }
     const std::string& green() const { return green_; }
     std::vector<MadeSource> sources() const { return sources_; }
-    std::optional<texproc::Score> lobe_error() const { return score_; }
+    /// For TextureWriteOptions::texel_weights of an output whose first level is `first`:
+    /// prefiltered normals alone in BC5; empty for others.
+    std::vector<Image> texel_weights(const PlannedOutput& output, std::size_t first) const;
+
+    /// The lobe error of what engines read from the outputs.
+    std::optional<texproc::Score> lobe_error(const std::vector<MadeOutput>& made,
+                                             const std::filesystem::path& folder) const;
 
     /// All levels of one role in the numbers of a file, from `first` to `last`.
     std::vector<RawImage> levels(const std::string& role, const PlannedOutput& output,
@@ -161,7 +175,9 @@ private:
     std::string green_;
     texproc::Prefiltered chains_;  // levels 1.. of normal and of roughness or smoothness
     std::string rough_role_;       // "roughness" or "smoothness" where there is a chain
-    std::optional<texproc::Score> score_;
+    texproc::PrefilterOptions filtering_;
+    bool scored_ = false;
+    int bits_ = 8;
 };
 
 // Whether an output, a baked map or the prefilter looks at this input.
@@ -283,7 +299,7 @@ void Maps::prefilter()
         // Re-aimed normals are of use only where they are written with the roughness.
         joint = joint || std::count(output.roles.begin(), output.roles.end(), "normal") > 0;
         bits = std::max(bits, output.rule.bits);
-        all_eight = all_eight && output.rule.bits == 8;
+        all_eight = all_eight && output.rule.bits == 8 && !between_codes(output.rule);
     }
     if (!needed) return;
     const std::string role = find("roughness") ? "roughness" : "smoothness";
@@ -307,12 +323,46 @@ void Maps::prefilter()
     options.threads = threads_;
     chains_ = texproc::prefilter_raw(normal, rough, options);
     rough_role_ = role;
-    if (!recipe_.score) return;
-    texproc::Prefiltered shipped = chains_;
-    texproc::quantize(shipped, std::min(bits, 16));
-    if (!joint) shipped.normal.clear();
-    score_ = texproc::score(normal, rough, shipped, options,
-                            {.light = recipe_.design_light, .texels = 16, .threads = threads_});
+    filtering_ = options;
+    scored_ = recipe_.score;
+    bits_ = std::min(bits, 16);
+}
+
+std::optional<texproc::Score> Maps::lobe_error(const std::vector<MadeOutput>& made,
+                                               const std::filesystem::path& folder) const
+{
+    if (!scored_) return {};
+    const RawImage &normal = base_.at("normal"), &rough = base_.at(rough_role_);
+    const auto has = [&](const std::string& role) { return find(role) != nullptr; };
+    // The first outputs that hold them speak for all.
+    const auto shipped = [&](const std::string& role, int channels) {
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const PlannedOutput& output = plan_.outputs[i];
+            if (!output.prefiltered) continue;
+            std::vector<Image> levels =
+                shipped_levels(folder, output, made[i], role, channels, normal.width, has);
+            if (levels.size() > 1) return levels;
+        }
+        return std::vector<Image>();
+    };
+    texproc::Prefiltered read{shipped("normal", 3), shipped(rough_role_, 1), {}};
+    if (read.roughness.empty()) {  // files that are not read back: as their numbers are rounded
+        read = chains_;
+        texproc::quantize(read, bits_);
+    }
+    if (!filtering_.joint) read.normal.clear();
+    return texproc::score(normal, rough, read, filtering_,
+                          {.light = recipe_.design_light, .texels = 16, .threads = threads_});
+}
+
+std::vector<Image> Maps::texel_weights(const PlannedOutput& output, std::size_t first) const
+{
+    const bool normals = output.prefiltered && output.rule.compression == "bc5" &&
+                         output.roles == std::vector<std::string>{"normal"};
+    if (!normals || recipe_.rule != "overlap") return {};
+    std::vector<Image> weights = texproc::lobe_weights(chains_, filtering_).normal;
+    weights.erase(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(first));
+    return weights;
 }
 
 void Maps::check_sizes(const PlannedOutput& output) const
@@ -394,7 +444,7 @@ std::size_t first_level(const std::vector<texproc::LevelSize>& sizes, int size)
 PixelType working_type(const OutputRule& rule)
 {
     if (rule.format == "exr") return PixelType::F32;
-    return rule.bits == 16 ? PixelType::U16 : PixelType::U8;
+    return rule.bits == 16 || between_codes(rule) ? PixelType::U16 : PixelType::U8;
 }
 
 MadeOutput make_output(const Maps& maps, const PlannedOutput& output,
@@ -421,7 +471,8 @@ MadeOutput make_output(const Maps& maps, const PlannedOutput& output,
     made.width = packed.front().width;
     made.height = packed.front().height;
     made.levels = static_cast<int>(packed.size());
-    made.files = write_levels(folder, output.stem, output.rule, std::move(packed), threads);
+    made.files = write_levels(folder, output.stem, output.rule, std::move(packed),
+                              maps.texel_weights(output, first), threads);
     return made;
 }
 
@@ -434,10 +485,10 @@ MadeMaterial make_material(const PlannedMaterial& material, const std::filesyste
     MadeMaterial made;
     made.sources = maps.sources();
     made.green = maps.green();
-    made.lobe_error = maps.lobe_error();
     for (const PlannedOutput& output : material.outputs) {
         made.outputs.push_back(make_output(maps, output, folder, threads));
     }
+    made.lobe_error = maps.lobe_error(made.outputs, folder);
     return made;
 }
 

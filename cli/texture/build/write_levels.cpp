@@ -23,7 +23,7 @@ RawImage as_exr(const RawImage& level, int bits)
 
 std::vector<std::string> write_levels(const std::filesystem::path& folder, const std::string& stem,
                                       const OutputRule& rule, std::vector<RawImage> levels,
-                                      int threads)
+                                      std::vector<Image> texel_weights, int threads)
 {
     if (rule.format == "exr") {
         for (RawImage& level : levels) level = as_exr(level, rule.bits);
@@ -39,6 +39,7 @@ std::vector<std::string> write_levels(const std::filesystem::path& folder, const
         if (rule.compression != "none") options.format = rule.compression;
         options.srgb = rule.srgb();
         options.threads = threads;
+        options.texel_weights = std::move(texel_weights);
         texproc::write_mip_chain(path, levels, options);
         return {file};
     }

@@ -10,11 +10,12 @@
 
 namespace petrichor::cli {
 
-/// Writes the levels of one output in the format of its rule: one file, or one a level. Returns the
-/// names relative to `folder`. Throws Error (disk full, read-only folder, ...).
+/// Writes the levels of one output in the format of its rule: one file, or one a level;
+/// texel_weights as in TextureWriteOptions, may be empty. Returns the names relative to `folder`.
+/// Throws Error (disk full, read-only folder, ...).
 std::vector<std::string> write_levels(const std::filesystem::path& folder, const std::string& stem,
                                       const OutputRule& rule, std::vector<texproc::RawImage> levels,
-                                      int threads);
+                                      std::vector<Image> texel_weights, int threads);
 
 }  // namespace petrichor::cli
 
