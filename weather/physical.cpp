@@ -33,6 +33,7 @@ void check_params(const PhysicalParams& p)
     require(p.sky_view >= 0.0 && p.sky_view <= 1.0, "sky_view", p.sky_view, "in 0..1");
     require(p.precip_factor >= 0.0 && p.precip_factor <= 100.0, "precip_factor", p.precip_factor,
             "in 0..100");
+    require(p.canopy_vai >= 0.0 && p.canopy_vai <= 20.0, "canopy_vai", p.canopy_vai, "in 0..20");
     require(std::isnan(p.deep_temp_k) || (p.deep_temp_k > 200.0 && p.deep_temp_k < 330.0),
             "deep_temp_k", p.deep_temp_k, "in 200..330");
     const SnowParams& s = p.snow;

@@ -75,7 +75,7 @@ std::uint64_t hash_of_ground(const std::vector<Surface>& surfaces, std::span<con
 std::uint64_t hash_of_model(const PhysicalParams& p)
 {
     Hash hash;
-    hash.add_all(p.step_s, p.substep_s, p.deep_temp_k, p.sky_view, p.precip_factor);
+    hash.add_all(p.step_s, p.substep_s, p.deep_temp_k, p.sky_view, p.precip_factor, p.canopy_vai);
     const SnowParams& s = p.snow;
     hash.add_all(s.max_layers, static_cast<int>(s.new_density), s.constant_density_kg_m3,
                  static_cast<int>(s.settling), s.albedo_max, s.albedo_min, s.albedo_cold_h,

@@ -219,6 +219,8 @@ weather::PhysicalParams physical_params(const PhysicalRun& run)
     if (run.puddles) params.surface.puddles = *run.puddles;
     params.phase.law = phase_named(run.phase);
     params.step_s = run.step_s;
+    params.sky_view = run.site.sky_view.value_or(params.sky_view);
+    params.canopy_vai = run.site.canopy_vai.value_or(params.canopy_vai);
     return params;
 }
 

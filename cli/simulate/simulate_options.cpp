@@ -87,6 +87,11 @@ void add_site(CLI::App& command, SimulateOptions& o)
     add(command, group, "--surface", "NAME", site.surface,
         "asphalt (default), concrete, paving_stones, cobblestone, brick, soil, sand,\ngravel, "
         "grass, roof_metal, roof_tile, wood, rock");
+    add(command, group, "--sky-view", "SHARE", site.sky_view,
+        "of the sky that is seen, 0..1 (default 1); houses and trees hide it");
+    add(command, group, "--canopy-vai", "M2", site.canopy_vai,
+        "leaves and branches above a m2 of ground (default 0, forests 1 to 4):\nthey catch snow "
+        "first");
     add(command, group, "--height-map", "IMAGE", o.height_map,
         "of the material, white is high: its own cracks and puddles");
     add(command, group, "--height-range-m", "M", o.height_range_m,

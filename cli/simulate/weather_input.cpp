@@ -62,8 +62,9 @@ SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
         const auto put = [](std::optional<double>& option, double number) {
             option = option.value_or(number);
         };
-        for (const auto& [k, v] : value.entries({"latitude", "longitude", "elevation_m",
-                                                 "temp_height_m", "wind_height_m", "surface"})) {
+        for (const auto& [k, v] :
+             value.entries({"latitude", "longitude", "elevation_m", "temp_height_m",
+                            "wind_height_m", "sky_view", "canopy_vai", "surface"})) {
             if (k == "latitude")
                 put(options.latitude_deg, v.number(-90.0, 90.0));
             else if (k == "longitude")
@@ -74,6 +75,10 @@ SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
                 put(options.temp_height_m, v.number(0.3, 200.0));
             else if (k == "wind_height_m")
                 put(options.wind_height_m, v.number(0.6, 500.0));
+            else if (k == "sky_view")
+                put(options.sky_view, v.number(0.0, 1.0));
+            else if (k == "canopy_vai")
+                put(options.canopy_vai, v.number(0.0, 20.0));
             else
                 options.surface = v.text();
         }

@@ -15,6 +15,7 @@ namespace petrichor::cli {
 /// from defaults.
 struct SiteOptions {
     std::optional<double> latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m;
+    std::optional<double> sky_view, canopy_vai;  ///< as in weather::PhysicalParams
     std::string surface = "asphalt";
     std::string station;                 ///< of a METAR file
     std::string month;                   ///< "2024-02": of METAR reports, which name only the day

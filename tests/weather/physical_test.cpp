@@ -217,6 +217,34 @@ TEST(Snow, FallsAndMeltsIntoTheStores)
     EXPECT_GT(gone.puddle + gone.crack + gone.total_drainage + gone.total_evaporation, 5);
 }
 
+// Branches catch snow, never more than they hold, and let it go within hours of a thaw; nothing is
+// lost between sky and ground.
+TEST(Snow, BranchesCatchItAndLetItGo)
+{
+    PhysicalParams open, forest;
+    forest.canopy_vai = 3.0;
+    const ForcingTable storm = steady(263, 95, 2, 0, 12.0 / 3600, 3);
+    const auto under = PhysicalTimeline(storm, forest).state_at(3 * kHourUs);
+    const auto beside = PhysicalTimeline(storm, open).state_at(3 * kHourUs);
+    EXPECT_GT(under.canopy_snow, 0.8 * 4.4 * 3.0);
+    EXPECT_LE(under.canopy_snow, 4.4 * 3.0);
+    EXPECT_NEAR(under.total_precip, 36.0, 1e-9);
+    EXPECT_NEAR(diagnostics(under).swe_kg_m2 + under.canopy_snow, diagnostics(beside).swe_kg_m2,
+                0.5);
+    EXPECT_LE(under.mass_residual_most, 1e-9);
+    EXPECT_EQ(beside.canopy_snow, 0.0);
+    // The next dry day in the frost they lose 1 - exp(-1/10), in a thaw nearly all.
+    const auto next = [&](double air_k) {
+        const PhysicalTimeline day(steady(air_k, 95, 2, 0, 0, 24), forest, under, 0);
+        const auto c = day.state_at(24 * kHourUs);
+        EXPECT_LE(c.mass_residual_most, 1e-9);
+        EXPECT_NEAR(mass_balance_kg_m2(c, under), 0.0, 1e-9);
+        return c.canopy_snow / under.canopy_snow;
+    };
+    EXPECT_NEAR(next(263), std::exp(-0.1), 1e-12);
+    EXPECT_NEAR(next(275), std::exp(-10.0), 1e-12);
+}
+
 // Under a thick pack the ground comes to rest: what it gives melts the base of the pack, which
 // stays at 0 C, and nothing melts above it in the frost.
 TEST(Snow, WarmGroundMeltsItFromBelow)
@@ -304,7 +332,7 @@ TEST(Physical, OneHashEverywhere)
 {
     const PhysicalTimeline run(rough_year(3000), meadow());
     EXPECT_EQ(hash_text(state_hash(run.series(run.begin_us(), run.end_us(), 24 * kHourUs))),
-              "797f2b45b193fded");
+              "4d95ec4350042fad");
 }
 
 TEST(Physical, ParametersOutOfRangeAreNamed)

@@ -12,7 +12,7 @@ namespace petrichor::weather {
 
 namespace {
 
-constexpr const char* kHeader = "petrichor-cell-1";
+constexpr const char* kHeader = "petrichor-cell-2";
 
 std::uint64_t fnv(std::uint64_t hash, const CellState& state)
 {
@@ -53,7 +53,7 @@ CellDiagnostics diagnostics(const CellState& c)
 double stored_mass_kg_m2(const CellState& c)
 {
     const CellDiagnostics d = diagnostics(c);
-    return d.swe_kg_m2 + d.surface_water_kg_m2 + d.surface_ice_kg_m2;
+    return d.swe_kg_m2 + d.surface_water_kg_m2 + d.surface_ice_kg_m2 + c.canopy_snow;
 }
 
 double mass_balance_kg_m2(const CellState& c, const CellState& initial)
@@ -109,7 +109,7 @@ CellState load_state(std::string_view text)
     };
     std::size_t at = std::strlen(kHeader);
     if (text.substr(0, at) != kHeader)
-        throw refuse("the text does not begin with petrichor-cell-1");
+        throw refuse("the text does not begin with petrichor-cell-2");
     double numbers[kCellNumbers + 1];
     for (double& number : numbers) {
         if (at + 17 > text.size() || text[at] != ' ') throw refuse("the text is cut short");

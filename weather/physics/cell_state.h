@@ -27,6 +27,7 @@ struct CellVars {
     Real ground_temp_c[kGroundLayers];
     Real film, crack, puddle;              ///< liquid
     Real film_ice, crack_ice, puddle_ice;  ///< frozen
+    Real canopy_snow;                      ///< on branches above the cell
     Real infiltration_mm_h;                ///< what wet ground would take up now
     Real frozen_fraction;                  ///< last known, for the renderer's water-to-snow
 

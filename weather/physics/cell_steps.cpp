@@ -6,6 +6,7 @@
 #include "weather/physical.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/block_kernel.h"
+#include "weather/physics/detail/canopy_kernel.h"
 #include "weather/physics/exchange.h"
 
 namespace petrichor::weather::detail {
@@ -152,6 +153,7 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.inverse_film_capacity = 1.0 / s.film_capacity_kg_m2;
     k.crack_capacity = s.cracks.capacity_kg_m2();
     k.puddle_capacity = s.puddles.capacity_kg_m2();
+    k.canopy_capacity = kCanopyHolds_kg_m2 * params.canopy_vai;
     k.permeable = s.infiltration.first_mm_h > 0.0;
     return k;
 }
@@ -199,6 +201,8 @@ StepConstants make_step_constants(const CellConstants& k, double dt_s, double su
     s.part = make_part_constants(k, dt_s / s.parts);
     s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
     s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));
+    s.unloading_cold = 1.0 - exponential(-dt_s / kUnloadingCold_s);
+    s.unloading_melting = 1.0 - exponential(-dt_s / kUnloadingMelting_s);
     s.settling = exponential(-dt_s / (200.0 * 3600.0));
     return s;
 }

@@ -1,6 +1,7 @@
 #include "weather/physics/snow_simple.h"
 
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/canopy_kernel.h"
 #include "weather/physics/detail/portable_math.h"
 
 namespace petrichor::weather {
@@ -37,15 +38,15 @@ double drift_threshold_m_s(double temp_k, bool wet_snow)
 double canopy_interception_kg_m2(double held_kg_m2, double snowfall_kg_m2,
                                  double vegetation_area_index)
 {
-    const double most = 4.4 * vegetation_area_index;
+    const double most = detail::kCanopyHolds_kg_m2 * vegetation_area_index;
     if (!(most > held_kg_m2)) return 0.0;
-    return (most - held_kg_m2) * (1.0 - detail::exponential(-snowfall_kg_m2 / most));
+    return detail::caught_by_canopy(held_kg_m2, snowfall_kg_m2, most);
 }
 
 double canopy_unloading_kg_m2(double held_kg_m2, double dt_s, bool melting)
 {
-    return held_kg_m2 *
-           (1.0 - detail::exponential(-dt_s / (melting ? 2.4 * 3600.0 : 240.0 * 3600.0)));
+    const double scale_s = melting ? detail::kUnloadingMelting_s : detail::kUnloadingCold_s;
+    return held_kg_m2 * (1.0 - detail::exponential(-dt_s / scale_s));
 }
 
 }  // namespace petrichor::weather

@@ -31,6 +31,7 @@ struct CellConstants {
     // water
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
     bool permeable = false;
+    double canopy_capacity = 0.0;  // 0: no canopy
 };
 CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
                                   double deep_temp_k);
@@ -56,8 +57,9 @@ struct StepConstants {
     double dt_s = 0.0;
     int whole_parts = 1, parts = 1;  // parts of the step at rest, and while much happens
     PartConstants whole, part;       // their constants
-    double albedo_cold = 1.0, albedo_melting = 1.0;  // ageing over the step
-    double settling = 1.0;                           // exponential law
+    double albedo_cold = 1.0, albedo_melting = 1.0;        // ageing over the step
+    double settling = 1.0;                                 // exponential law
+    double unloading_cold = 0.0, unloading_melting = 0.0;  // shares of what the canopy holds
 };
 StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s);
 

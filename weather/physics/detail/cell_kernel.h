@@ -1,6 +1,6 @@
 // One step of one cell, or of eight cells side by side: the physical model itself.
 //
-//   precipitation -> snow pack or film
+//   precipitation -> (canopy) -> snow pack or film
 //   surface energy balance, coupled implicitly to snow and ground below it
 //   melt, refreezing, percolation through the pack -> film
 //   film -> (infiltration) -> cracks -> (infiltration) -> puddles -> drainage, evaporation,
@@ -16,6 +16,7 @@
 #define PETRICHOR_WEATHER_DETAIL_CELL_KERNEL_H
 
 #include "weather/physics/cell_state.h"
+#include "weather/physics/detail/canopy_kernel.h"
 #include "weather/physics/detail/cell_constants.h"
 #include "weather/physics/detail/cell_weather.h"
 #include "weather/physics/detail/snow_kernel.h"
@@ -29,11 +30,16 @@ constexpr double kThinPack_kg_m2 = 30.0;
 constexpr double kNearMelting_k = 2.0;
 
 template <class Real>
-PETRICHOR_INLINE Real all_stores(const CellVars<Real>& c)
+PETRICHOR_INLINE Real surface_stores(const CellVars<Real>& c)
 {
     Real sum = 0.0;
     for (std::size_t i = 0; i < kSnowLayers; ++i) sum += c.snow_ice[i] + c.snow_liquid[i];
     return sum + (c.film + c.crack + c.puddle) + (c.film_ice + c.crack_ice + c.puddle_ice);
+}
+template <class Real>
+PETRICHOR_INLINE Real all_stores(const CellVars<Real>& c)
+{
+    return surface_stores(c) + c.canopy_snow;
 }
 
 // Frozen share of all water on the surface; where there is next to none, that of what is falling,
@@ -44,7 +50,7 @@ PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& prec
 {
     Real frozen = c.film_ice + c.crack_ice + c.puddle_ice;
     for (std::size_t i = 0; i < kSnowLayers; ++i) frozen += c.snow_ice[i];
-    const Real all = all_stores(c);
+    const Real all = surface_stores(c);
     const Real falling =
         select(precip > 0.0, snow / larger(precip, Real(1e-30)), c.frozen_fraction);
     c.frozen_fraction =
@@ -102,6 +108,13 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
         snow = precip * share;
         rain = precip - snow;
     }
+    const Real snow_above = snow;
+    if (k.canopy_capacity > 0.0) {
+        const Real mid_c = shift_of(place) + step.air_c.at(0.5);
+        snow = through_canopy(c.canopy_snow, snow * step.dt_s, mid_c, k.canopy_capacity,
+                              s.unloading_cold, s.unloading_melting) *
+               (1.0 / step.dt_s);
+    }
 
     // ---- slow changes of the pack, once a step
     const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
@@ -132,7 +145,7 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
 
     // ---- the books
     c.step_rain = rain * step.dt_s;
-    c.step_snow = snow * step.dt_s;
+    c.step_snow = snow_above * step.dt_s;
     c.total_precip += c.step_rain + c.step_snow;
     const Real out =
         (c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration) -
@@ -140,7 +153,7 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
     const Real residual = (all_stores(c) - before) - ((c.step_rain + c.step_snow) - out);
     c.mass_residual = residual;
     c.mass_residual_most = larger(c.mass_residual_most, larger(residual, residual * -1.0));
-    update_frozen_fraction(c, rain + snow, snow);
+    update_frozen_fraction(c, rain + snow_above, snow_above);
 }
 
 }  // namespace petrichor::weather::detail
