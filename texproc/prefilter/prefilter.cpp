@@ -78,6 +78,7 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
         chains.push_back(empty_chain(sizes, o));
         walking.cells |= filters.back().needs_cells();
         walking.own_lobes |= o.rule == "vmf";
+        if (o.rule == "overlap") walking.apart = kApart;
     }
     walking.threads = variants.front().threads;
     walking.progress = variants.front().progress;

@@ -80,9 +80,9 @@ TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, co
         for (std::size_t i = 0; i < part.nx.size(); ++i) {
             cells.add(part.nx[i], part.ny[i], part.nz[i], part.alpha2[i], w * part.weight[i]);
         }
-        if (cells.count() > 4 * kMostCells) merge(cells, 2 * kMostCells);
+        if (cells.count() > 4 * kMostCells) merge(cells, 2 * kMostCells, 2 * kMostCells);
     }
-    merge(cells, kMostCells);
+    merge(cells, kMostCells, kMostCells);
     const float light2 = options.light * options.light;
     for (float& a2 : cells.alpha2) a2 = std::clamp(a2 + light2, kMinAlpha2, 1.0f);
     const Direction mean = normalized({means.nx, means.ny, means.nz});

@@ -114,6 +114,7 @@ std::vector<Image> aim_roughness(const RawImage& normal, const RawImage& roughne
     const float light2 = options.design_light * options.design_light;
     WalkOptions walking;
     walking.cells = true;
+    walking.apart = kApart;
     walking.threads = options.threads;
     walking.progress = options.progress;
     // The finest levels hold most texels, and quick is quick.

@@ -243,6 +243,7 @@ void merge(Cells& cells, int limit, int most)
     }
     cells.resize(kept);
     const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
+    const bool large_steps = most == 0;
     most = std::max(limit, most);
     float share = std::max(0.2f, useful_edge(cells, limit) / widest);
     if (share > kFaithful) {
@@ -254,7 +255,8 @@ void merge(Cells& cells, int limit, int most)
         merge_round(cells, share, ep);
         // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
-        const float growth = std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
+        const float growth = large_steps ? std::clamp(0.95f * std::sqrt(over), 1.2f, 4.0f)
+                                         : std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
         share *= growth;
         ep *= std::sqrt(std::sqrt(growth));
     }

@@ -76,9 +76,9 @@ FittedLobe Filter::from_cells(const MipTexel& t) const
     thread_local Cells lit;
     const Cells* cells = t.cells;
     float narrowest = 1.0f;
-    for (const float a2 : cells->alpha2) narrowest = std::min(narrowest, a2);
     if (light2 > 0.0f) {
         lit = *cells;
+        for (const float a2 : lit.alpha2) narrowest = std::min(narrowest, a2);
         for (float& a2 : lit.alpha2) a2 += light2;
         cells = &lit;
     }

@@ -280,20 +280,22 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
     }
     const Spread spread = spread_of(s, w, count);
     float low = spread.low, high = spread.high;
-    // Newton in log x on the share inside, kept between the bounds.
+    // Newton in log x on the share inside, kept between the bounds: it doubles the digits.
     float x = std::sqrt(low * high);
     for (int round = 0; round < 16 && high > low * 1.0005f; ++round) {
-        const float share = kernel.inside(s, w, count, x) / spread.whole;
-        if (share < 0.5f) {
+        const Inside inside = kernel.inside(s, w, count, x);
+        const float over = inside.weight - 0.5f * spread.whole;
+        if (over < 0.0f) {
             low = x;
         } else {
             high = x;
         }
-        // d share / d log x lies between 0 and 1/4 and is near share (1 - share).
-        const float slope = std::max(0.05f, share * (1.0f - share));
-        float next = x * portable_exp((0.5f - share) / slope);
+        const float slope = std::max(0.01f * spread.whole, inside.slope);
+        // e^d, near enough: (2 + d) / (2 - d).
+        const float d = std::clamp(-over / slope, -1.5f, 1.5f);
+        float next = x * (2.0f + d) / (2.0f - d);
         if (!(next > low && next < high)) next = std::sqrt(low * high);
-        if (std::abs(next - x) < 2e-4f * x) return next;
+        if (std::abs(next - x) < 2e-3f * x) return next;
         x = next;
     }
     return x;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 
 #include "texproc/area.h"
 #include "texproc/detail/parallel.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kDirectLevels = 5;  // these gather level 0 themselves
 constexpr int kMeans = 8;
+constexpr int kTileWidth = 512;  // texels of level 0
 
 int cells_kept(std::size_t level)
 {
@@ -95,7 +97,7 @@ void means_row(const MapSurface& surface, const Footprint& rows,
 // The cells of a texel of level k from those of the level below: all that its area touches, each by
 // the share of it that is covered.
 void join(const std::vector<Cells>& below, int below_width, const Footprint& x, const Footprint& y,
-          int limit, Cells& cells)
+          int limit, int apart, Cells& cells)
 {
     cells.clear();
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
@@ -110,7 +112,7 @@ void join(const std::vector<Cells>& below, int below_width, const Footprint& x, 
             }
         }
     }
-    merge(cells, limit, 4 * limit);
+    merge(cells, limit, apart * limit);
 }
 
 // Grids over level 0.
@@ -190,32 +192,53 @@ private:
         });
     }
 
-    // Every row of the levels whose area starts in rows [first, end) of level 0.
+    // Every row of the levels whose area starts in rows [first, end) of level 0; tile after tile,
+    // so that what all levels look at stays near.
     void gather_strip(std::size_t last, int first, int end)
     {
-        std::vector<SurfaceRow> fetched;
+        struct Rows {
+            int begin, end;
+        };
+        std::vector<Rows> wanted(last + 1);
+        int below = end;
         for (std::size_t k = 1; k <= last; ++k) {
             const std::vector<Footprint>& rows = levels_[k].rows;
-            auto row = std::lower_bound(rows.begin(), rows.end(), first,
-                                        [](const Footprint& f, int y) { return f.first < y; });
-            for (; row != rows.end() && row->first < end; ++row) {
-                const int below = row->first + static_cast<int>(row->weights.size());
-                while (first + static_cast<int>(fetched.size()) < below) {
-                    const int y = first + static_cast<int>(fetched.size());
-                    fetch(surface_, y, fetched.emplace_back());
+            const auto start_of = [&](int y) {
+                const auto at =
+                    std::lower_bound(rows.begin(), rows.end(), y,
+                                     [](const Footprint& f, int line) { return f.first < line; });
+                return static_cast<int>(at - rows.begin());
+            };
+            wanted[k] = {start_of(first), start_of(end)};
+            if (wanted[k].begin == wanted[k].end) continue;
+            const Footprint& lowest = rows[static_cast<std::size_t>(wanted[k].end - 1)];
+            below = std::max(below, lowest.first + static_cast<int>(lowest.weights.size()));
+        }
+        std::vector<SurfaceRow> fetched(static_cast<std::size_t>(below - first));
+        for (int y = first; y < below; ++y) {
+            fetch(surface_, y, fetched[static_cast<std::size_t>(y - first)]);
+        }
+        const int tiles = std::max(1, surface_.width / kTileWidth);
+        for (int tile = 0; tile < tiles; ++tile) {
+            for (std::size_t k = 1; k <= last; ++k) {
+                const auto column = [&](int t) {
+                    return static_cast<int>(std::int64_t{sizes_[k].width} * t / tiles);
+                };
+                for (int y = wanted[k].begin; y < wanted[k].end; ++y) {
+                    gather_texels(k, y, column(tile), column(tile + 1), k == last, fetched, first);
+                    if (tile + 1 == tiles) row_done(k);
                 }
-                gather_row(k, static_cast<int>(row - rows.begin()), k == last, fetched, first);
-                row_done(k);
             }
         }
     }
 
-    void gather_row(std::size_t k, int y, bool keep, const std::vector<SurfaceRow>& fetched,
-                    int first)
+    // Texels [begin, end) of a row.
+    void gather_texels(std::size_t k, int y, int begin, int end, bool keep,
+                       const std::vector<SurfaceRow>& fetched, int first)
     {
         thread_local Cells cells;
         keep = keep && !lists_.empty();
-        for (int x = 0; x < sizes_[k].width; ++x) {
+        for (int x = begin; x < end; ++x) {
             const bool skip = skipped(k, x, y);
             if (skip && !keep) continue;
             Means m;
@@ -223,7 +246,7 @@ private:
                    levels_[k].columns[static_cast<std::size_t>(x)],
                    levels_[k].rows[static_cast<std::size_t>(y)], cells, m);
             if (options_.own_lobes) add_own_lobes(cells, m);
-            merge(cells, cells_kept(k), 4 * cells_kept(k));
+            merge(cells, cells_kept(k), options_.apart * cells_kept(k));
             if (keep) {
                 store_means(means_[k], x, y, m);
                 lists_[static_cast<std::size_t>(y) * width(k) + static_cast<std::size_t>(x)] =
@@ -277,7 +300,8 @@ private:
                 const bool skip = skipped(k, x, y);
                 if (skip && next.empty()) continue;
                 const std::size_t at = static_cast<std::size_t>(x);
-                join(lists_, below.width, columns[at], rows[row], cells_kept(k), cells);
+                join(lists_, below.width, columns[at], rows[row], cells_kept(k), options_.apart,
+                     cells);
                 if (!next.empty()) next[row * width(k) + at] = cells;
                 if (!skip) visit_({static_cast<int>(k), x, y, load_means(means_[k], x, y), &cells});
             }

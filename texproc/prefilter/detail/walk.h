@@ -15,9 +15,15 @@ struct MipTexel {
     const Cells* cells;
 };
 
+/// WalkOptions::apart of rules that fit lobes.
+inline constexpr int kApart = 4;
+
 struct WalkOptions {
-    bool cells = false;                                     ///< hand over the footprints
-    bool own_lobes = false;                                 ///< fill Means::vx.. (vMF)
+    bool cells = false;      ///< hand over the footprints
+    bool own_lobes = false;  ///< fill Means::vx.. (vMF)
+    /// So many times as long lists may be to keep narrow lobes apart; 0: coarser lists, soon
+    /// merged, for rules that look at the spread alone.
+    int apart = 0;
     std::function<bool(int level, int x, int y)> wanted{};  ///< visit only these; empty: all
     int threads = 0;
     std::function<void(double)> progress{};
