@@ -53,7 +53,7 @@ TEST(Physical, MassAndEnergyCloseOverAYear)
         EXPECT_GT(end.total_precip, 300) << name;
         EXPECT_GT(end.total_evaporation, 20) << name;
         EXPECT_GT(deepest, 0.1) << name;
-        EXPECT_GT(iciest, 0.02) << name;
+        EXPECT_GT(iciest, 0.05) << name;
         if (params.surface.infiltration.first_mm_h == 0)
             EXPECT_GT(wettest, 0.9 * params.surface.puddles.capacity_kg_m2()) << name;
         else
