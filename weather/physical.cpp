@@ -72,7 +72,7 @@ ForcingTable needed_columns(const ForcingTable& table)
     out.time_us = table.time_us;
     for (const Field f :
          {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
-          Field::Longwave, Field::Precip, Field::Rain, Field::Snow}) {
+          Field::Longwave, Field::NetShortwave, Field::Precip, Field::Rain, Field::Snow}) {
         out[f] = table[f];
     }
     return out;

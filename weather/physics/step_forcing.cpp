@@ -108,6 +108,10 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
         step.sun_up = sun.up;
         step.diffuse = diffuse_fraction(step.shortwave.at(0.5), sun.up, sun.extraterrestrial_w_m2);
     }
+    if (table.has(Field::NetShortwave)) {
+        step.shortwave = {rate_over(table, Field::NetShortwave, at), 0.0};
+        step.reflecting = 0.0;
+    }
     return step;
 }
 

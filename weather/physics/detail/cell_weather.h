@@ -61,6 +61,7 @@ struct CellWeather {
     // What still changes until the end of the substep.
     Real later_q, later_shortwave, later_longwave;
     double later_air_k, later_wind;  // wind: as a share
+    double reflecting;               // 0: shortwave is what the ground takes up
 };
 
 //   x      0..1, from the beginning to the end of the step
@@ -108,6 +109,7 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, cons
     w.later_wind = step.wind.rise * later / (step.wind.at(x) + 1.0);
     w.later_q = w.q_air * (day.curve.slope * w.later_air_k +
                            step.rh_pct.rise * later / (step.rh_pct.at(x) + 1.0));
+    w.reflecting = step.reflecting;
     w.later_shortwave = day.light * (step.shortwave.rise * later);
     w.later_longwave = place.sky_view * (step.longwave.rise * later);
     w.longwave = place.sky_view * (ratio2 * ratio2 * step.longwave.at(x) + place.longwave_offset) +

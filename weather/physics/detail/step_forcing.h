@@ -19,6 +19,7 @@ struct StepForcing {
     std::int64_t begin_us = 0;
     double dt_s = 0.0;
     Ramp air_c, rh_pct, wind, pressure, shortwave, longwave;
+    double reflecting = 1.0;  // 0 where shortwave is what the ground takes up, whatever its albedo
     double precip = 0.0;      // kg m-2 s-1, mean of the step
     double snow_share = 0.0;  // of it, by the file
     bool phase_known = false;

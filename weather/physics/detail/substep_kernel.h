@@ -71,7 +71,8 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const Real bare_albedo = film_share * (k.albedo_wet - k.albedo_dry) + k.albedo_dry;
     const Real albedo = bare_albedo + cover * (c.snow_albedo - bare_albedo);
     const Real emissivity = cover * (k.snow_emissivity - k.emissivity) + k.emissivity;
-    const Real absorbed_sw = (1.0 - albedo) * w.shortwave;
+    const Real taken_up = 1.0 - albedo * w.reflecting;
+    const Real absorbed_sw = taken_up * w.shortwave;
     p.absorbed = absorbed_sw + emissivity * w.longwave;
     p.emitting = emissivity * kStefanBoltzmann;
     p.air_c = w.air_c;
@@ -99,7 +100,7 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     auto root = surface_root(p, k.exchange, c.surface_temp_c);
     auto f = fluxes_at(p, root);
     // The balance is that of the middle of the weather; until the end it still changes by this.
-    const Real later = (1.0 - albedo) * w.later_shortwave + emissivity * w.later_longwave +
+    const Real later = taken_up * w.later_shortwave + emissivity * w.later_longwave +
                        root.exchange * (kAirHeatCapacity * w.later_air_k +
                                         p.latent_heat * root.wet.shares.all.end * w.later_q) -
                        (f.sensible + f.latent) * w.later_wind;
