@@ -134,7 +134,8 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     }
     if (!table.has(Field::AirTemp)) {
         throw Error("weather: no air temperature in the file",
-                    "Give a file with air temperature in every row.");
+                    "Give a file with air temperature in every row; in a CSV its column is called "
+                    "air_temp_c, air_temp_k or temperature (F).");
     }
     divide_for_the_sun(table, report);
     n = table.rows();

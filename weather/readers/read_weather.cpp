@@ -193,8 +193,9 @@ WeatherFormat recognise_weather(std::string_view text)
             next->find_first_of("0123456789") == 0) {
             return WeatherFormat::ForcingCsv;
         }
-        if ((low.find("time") != std::string::npos || low.find("date") != std::string::npos) &&
-            low.find_first_of(",;\t") != std::string::npos) {
+        const bool dated = low.find("time") != std::string::npos ||
+                           low.find("date") != std::string::npos || starts_with(low, "year");
+        if (dated && low.find_first_of(",;\t") != std::string::npos) {
             return WeatherFormat::ForcingCsv;
         }
         break;
