@@ -1,4 +1,4 @@
-#include "weather/fill_radiation.h"
+#include "weather/filling/fill_radiation.h"
 
 #include <algorithm>
 #include <array>

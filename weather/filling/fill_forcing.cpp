@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "weather/fill_precipitation.h"
-#include "weather/fill_radiation.h"
+#include "weather/filling/fill_precipitation.h"
+#include "weather/filling/fill_radiation.h"
 #include "weather/forcing.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/humidity.h"
