@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/report_lines.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -152,7 +153,9 @@ WeatherFormat recognise_weather(std::string_view text)
     const std::string top = lower(head.front());
     if (starts_with(top, "latitude,longitude,elevation") || starts_with(top, "\"latitude\","))
         return WeatherFormat::OpenMeteoCsv;
-    if (std::any_of(head.begin(), head.end(), looks_like_metar)) return WeatherFormat::Metar;
+    if (std::any_of(head.begin(), head.end(), looks_like_metar) ||
+        std::any_of(head.begin(), head.end(), is_ogimet_row) || ReportLines(text).is_table())
+        return WeatherFormat::Metar;
     if (head.front().size() >= 21 && head.front().find(',') == std::string_view::npos &&
         to_integer(head.front().substr(11, 4)) && to_integer(head.front().substr(15, 2)) &&
         !to_number(head.front().substr(0, 3))) {
