@@ -9,8 +9,8 @@ namespace petrichor::cli {
 /// say, z in the third where there is one, 1 elsewhere.
 Image lay_out_normals(const Image& normals, const texproc::PrefilterOptions& options, int channels);
 
-/// The same back: x y z of any layout, z rebuilt where the options say so. Throws Error that names
-/// the level when channels are missing.
+/// The same back: x y z of any layout, z rebuilt where the options say so or the level holds x and
+/// y only. Throws Error that names the level when channels are missing.
 Image read_out_normals(const Image& level, const texproc::PrefilterOptions& options, int number);
 
 }  // namespace petrichor::cli
