@@ -13,7 +13,8 @@ namespace petrichor::weather {
 namespace {
 
 constexpr const char* kKinds =
-    "EPW, TMY3 CSV, PVGIS CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, GHCN-daily, "
+    "EPW, TMY3 CSV, PVGIS CSV, NSRDB CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, "
+    "GHCN-daily, "
     "SURFRAD, 12-column "
     "FSM text, or CSV with a `time` column and units in its header";
 
@@ -125,6 +126,8 @@ const char* format_name(WeatherFormat format)
             return "GHCN-daily";
         case WeatherFormat::Surfrad:
             return "SURFRAD";
+        case WeatherFormat::Nsrdb:
+            return "NSRDB CSV";
     }
     return "unknown";
 }
@@ -139,6 +142,7 @@ WeatherFormat recognise_weather(std::string_view text)
     const auto first = trimmed(text.substr(0, 4096));
     if (starts_with(first, "{") || starts_with(first, "[")) return WeatherFormat::OpenMeteoJson;
     if (starts_with(first, "SMET")) return WeatherFormat::Smet;
+    if (starts_with(first, "Source,Location ID,")) return WeatherFormat::Nsrdb;
     if (starts_with(first, "LOCATION,")) return WeatherFormat::Epw;
     if (starts_with(first, "Latitude (decimal degrees)")) return WeatherFormat::Pvgis;
 
@@ -255,6 +259,9 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
             break;
         case WeatherFormat::Surfrad:
             read_surfrad(text, rows, options);
+            break;
+        case WeatherFormat::Nsrdb:
+            read_nsrdb(text, rows, options);
             break;
     }
     Site& site = rows.site();
