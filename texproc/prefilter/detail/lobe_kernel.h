@@ -30,8 +30,9 @@ struct SamplesView {
     float *hx, *hy, *hz;
     float* vh2;  ///< 2 (v.h): the light is l = vh2 h - v
     float* weight;
-    float* density;   ///< of the half-vector in the footprint: sum of w D (n.h)
-    float* radiance;  ///< of the footprint: sum of w f (n.l)
+    float* density;        ///< of the half-vector in the footprint: sum of w D (n.h)
+    float* radiance;       ///< of the footprint: sum of w f (n.l)
+    float *shared, *most;  ///< how overlaps() counts the sample, and how much light at most
 };
 
 /// Points of a rank-1 lattice, view after view, `per_view` at most of each; the second coordinate
@@ -80,11 +81,11 @@ struct LobeKernel {
                   const int* cell, const SamplesView& samples);
     /// Fills density and radiance of every sample.
     void (*shade)(const CellsView& cells, const SamplesView& samples);
-    /// Divides the weights by density and number, after shade().
+    /// Divides the weights by density and number, after shade(); fills shared and most.
     void (*weigh)(const SamplesView& samples);
     /// out[v * count + k], for lobes that share a normal: the sum over the samples of view v of
-    /// 2 weight min(radiance, lobe k) above the horizon and of -weight min(8 radiance, lobe k)
-    /// below it.
+    /// shared min(most, lobe k): 2 weight min(radiance, lobe k) above the horizon and
+    /// -weight min(8 radiance, lobe k) below it.
     void (*overlaps)(const SamplesView& samples, const Lobe& lobe, const float* alpha2s, int count,
                      float* out);
     /// out[v]: the same for one elliptic lobe.
@@ -99,8 +100,15 @@ struct LobeKernel {
     Inside (*inside)(const float* s, const float* weight, int count, float x);
 };
 
-/// The five views of the yardstick: 0 degrees; 45 at azimuth 20, 110; 70 at azimuth 65, 155.
-extern const float kViewDirections[kViews][3];
+/// The five views of the yardstick: 0 degrees; 45 at azimuth 20, 110; 70 at azimuth 65, 155. As
+/// unit vectors, rounded once here so that every build agrees.
+inline constexpr float kViewDirections[kViews][3] = {
+    {0.0f, 0.0f, 1.0f},
+    {0.66446302f, 0.24184476f, 0.70710678f},
+    {-0.24184476f, 0.66446302f, 0.70710678f},
+    {0.39713126f, 0.85165074f, 0.34202014f},
+    {-0.85165074f, 0.39713126f, 0.34202014f},
+};
 
 /// The kernel for this processor.
 const LobeKernel& lobe_kernel();

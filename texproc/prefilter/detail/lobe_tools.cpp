@@ -134,7 +134,7 @@ void Samples::resize(int per_view)
 {
     assert(per_view % kLanes == 0);
     per_view_ = per_view;
-    data_.resize(static_cast<std::size_t>(7 * kViews * per_view));
+    data_.resize(static_cast<std::size_t>(9 * kViews * per_view));
     cell_.resize(static_cast<std::size_t>(kViews * per_view));
 }
 
@@ -142,7 +142,8 @@ SamplesView Samples::view()
 {
     const std::size_t n = static_cast<std::size_t>(kViews * per_view_);
     float* d = data_.data();
-    return {per_view_, d, d + n, d + 2 * n, d + 3 * n, d + 4 * n, d + 5 * n, d + 6 * n};
+    return {per_view_, d,         d + n,     d + 2 * n, d + 3 * n,
+            d + 4 * n, d + 5 * n, d + 6 * n, d + 7 * n, d + 8 * n};
 }
 
 namespace {
