@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/normal_channels.h"
 #include "cli/words.h"
 #include "texproc/files/texture.h"
 #include "texproc/mips.h"
@@ -118,7 +119,8 @@ std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
 void run(const Arguments& a)
 {
     check(a);
-    const texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    if (a.normals && raw.channels == 3 && drops_z(a.format)) raw = unit_normals(raw, raw.type);
     const std::string extension = extension_of(a.out);
     const texproc::PixelType type = type_for(extension, a.bits, raw.type);
     const texproc::Rounding rounding =

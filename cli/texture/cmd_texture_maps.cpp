@@ -131,6 +131,8 @@ void run_normal(const NormalArguments& a)
         std::cout << "depth " << height.depth << " of the width\n";
         return;
     }
+    // Whoever reads two channels makes z from them.
+    if (a.to != "rgb" && a.to != "rxgb") texproc::renormalize(normal, 0.01f);
     texproc::write_image(a.out, texproc::to_layout(normal, texproc::normal_layout(a.to)),
                          {.bits = a.bits});
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "texproc/files/texture.h"
+#include "texproc/normal.h"
 
 namespace petrichor::cli {
 
@@ -46,6 +48,22 @@ Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, i
         }
     }
     return to;
+}
+
+texproc::RawImage unit_normals(const texproc::RawImage& normal, texproc::PixelType type)
+{
+    constexpr float kRounding = 0.01f;
+    Image xyz = texproc::to_image(normal, ColorSpace::Data);
+    if (xyz.channels > 3) xyz = texproc::from_layout(xyz, texproc::NormalLayout::Rgb);
+    texproc::renormalize(xyz, kRounding);
+    return texproc::to_raw(xyz, type);
+}
+
+bool drops_z(const std::string& format)
+{
+    if (format.empty()) return false;
+    const texproc::TextureFormat known = texproc::texture_format(format);
+    return known.block ? known.block == texproc::Block::Bc5 : known.channels == 2;
 }
 
 }  // namespace petrichor::cli

@@ -238,6 +238,65 @@ TEST(TextureTools, CompareAndInspectSpeakToMachines)
     EXPECT_GT(texproc::read_raw(place / "sheet.png").width, 400);
 }
 
+double largest_angle(const std::string& a, const std::string& b, const Workplace& place)
+{
+    const Outcome made = run({"texture", "compare", a, b, "--kind", "normal", "--json"}, place);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    if (made.exit_code != 0) return 180.0;
+    return json::parse(made.out)["angle_degrees"]["max"].get<double>();
+}
+
+// Many maps are shorter than 1 (JPEG, filters). z made from x and y alone would lean less.
+TEST(TextureTools, TwoChannelsKeepTheDirectionOfShortNormals)
+{
+    const Workplace place("texture_short_normals");
+    Image normal = texproc::generate_material(texproc::MaterialKind::Cobble, 32, 1, 1).normal;
+    texproc::write_image(place / "long.png", normal, {.bits = 16});
+    for (float& v : normal.pixels) v = 0.5f + 0.7f * (v - 0.5f);
+    texproc::write_image(place / "short.png", normal, {.bits = 16});
+    texproc::write_image(place / "rough.png", Image(32, 32, 1, ColorSpace::Data, 0.5f));
+    write_file(place / "r.toml",
+               "[inputs]\nnormal = \"short.png\"\nroughness = \"rough.png\"\n[[output]]\n"
+               "file = \"{name}_n\"\nchannels = [\"normal.r\", \"normal.g\"]\n"
+               "format = \"dds\"\ncompression = \"bc5\"\n");
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"build", "r.toml", "-o", "."},
+             {"prefilter", "--normal", "short.png", "--roughness", "rough.png", "-o", "p_r.dds",
+              "--normal-out", "p_n.dds", "--normal-format", "bc5"},
+             {"convert", "short.png", "-o", "c_n.dds", "--format", "bc5", "--mips", "--normals"},
+             {"normal", "short.png", "--to-layout", "ag", "-o", "ag.png"},
+             {"normal", "ag.png", "--from-layout", "ag", "-o", "back.png"}}) {
+        std::vector<std::string> all{"texture"};
+        all.insert(all.end(), command.begin(), command.end());
+        const Outcome made = run(all, place);
+        ASSERT_EQ(made.exit_code, 0) << command[0] << made.err;
+    }
+    for (const char* file : {"r_n.dds", "p_n.dds", "c_n.dds"}) {
+        EXPECT_LT(largest_angle("long.png", file, place), 6.0) << file;  // blocks
+    }
+    EXPECT_LT(largest_angle("long.png", "back.png", place), 0.1);
+}
+
+// Blocks that have an alpha of their own are off by a few codes of 255 where all of it was opaque.
+TEST(TextureTools, CompareIgnoresAnAlphaThatSaysNothing)
+{
+    const Workplace place("texture_idle_alpha");
+    Image color(16, 16, 3, ColorSpace::Data, 0.4f);
+    texproc::write_image(place / "rgb.png", color);
+    const auto with_alpha = [&](int code) {
+        Image rgba(16, 16, 4, ColorSpace::Data, 0.4f);
+        for (std::size_t i = 3; i < rgba.pixels.size(); i += 4) rgba.pixels[i] = 1.0f;
+        rgba.pixels[3 + 4 * 37] = static_cast<float>(code) / 255.0f;
+        texproc::write_image(place / "rgba.png", rgba);
+        return run({"texture", "compare", "rgb.png", "rgba.png"}, place);
+    };
+    EXPECT_EQ(with_alpha(255).exit_code, 0);
+    EXPECT_EQ(with_alpha(250).exit_code, 0);
+    const Outcome hole = with_alpha(249);
+    EXPECT_EQ(hole.exit_code, 2);
+    EXPECT_THAT(hole.err, HasSubstr("with 4 channels"));
+}
+
 TEST(TextureTools, GeneratedSetsAreRecognisedByBuild)
 {
     const Workplace place("texture_generate");

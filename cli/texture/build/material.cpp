@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/texture/build/prefiltered_maps.h"
 #include "cli/texture/build/write_levels.h"
+#include "cli/texture/normal_channels.h"
 #include "texproc/area.h"
 #include "texproc/mips.h"
 
@@ -63,6 +64,17 @@ PixelType working_type(const OutputRule& rule)
     // BC4 and BC5 hold numbers between 8-bit codes.
     const bool fine = rule.compression == "bc4" || rule.compression == "bc5";
     return rule.bits == 16 || fine ? PixelType::U16 : PixelType::U8;
+}
+
+// Readers make z from x and y.
+bool leaves_out_z(const OutputRule& rule)
+{
+    for (const std::string& text : rule.channels.channels) {
+        for (const texproc::PackSource& source : texproc::parse_pack_channel(text)) {
+            if (source.role == "normal" && source.channel == 2) return false;
+        }
+    }
+    return true;
 }
 
 // Makes the outputs of one material, one after the other.
@@ -159,9 +171,12 @@ std::vector<RawImage> Maker::levels(std::size_t number, const std::string& role,
     const bool integers = raw.type == PixelType::U8 || raw.type == PixelType::U16;
     std::vector<RawImage> levels;
     if (first == 0) {
-        // Codes stay codes; only floats, and colour on its way to floats, are computed.
+        // Codes stay codes; only floats, colour on its way to floats, and normals on their way to
+        // two channels are computed.
         const bool keep = integers && (type != PixelType::F32 || !color);
-        levels.push_back(keep ? raw : texproc::to_raw(texproc::to_image(raw, space), type));
+        levels.push_back(role == "normal" && leaves_out_z(rule) ? unit_normals(raw, type)
+                         : keep                                 ? raw
+                                : texproc::to_raw(texproc::to_image(raw, space), type));
     }
     if (last == 0) return levels;
     std::vector<Image> plain;
