@@ -69,11 +69,6 @@ struct SlopeSums {
     float w, x, y, xx, xy, yy;  ///< sums of w u, w u s, w u (s - c)(s - c)
 };
 
-/// With t = x / (x + s): the sum of w t, and its derivative by log x, that of w t (1 - t).
-struct Inside {
-    float weight, slope;
-};
-
 struct LobeKernel {
     /// Half-vectors from the lobes of the footprint: sample k from the cell cell[k]. Fills hx hy
     /// hz, vh2 and weight = +-4 (v.h).
@@ -96,8 +91,9 @@ struct LobeKernel {
     /// One round of reweighting about c with the inverse (i_xx, i_xy, i_yy) of A; see student_t().
     SlopeSums (*reweighted)(const SlopesView& s, float cx, float cy, float i_xx, float i_xy,
                             float i_yy);
-    /// How much of the footprint lies inside the radius sqrt(x).
-    Inside (*inside)(const float* s, const float* weight, int count, float x);
+    /// Radius of the median rule, see median_alpha2(). s, w: room for the cells, their number
+    /// rounded up to a multiple of kLanes.
+    float (*median)(const CellsView& cells, float nx, float ny, float nz, float* s, float* w);
 };
 
 /// The five views of the yardstick: 0 degrees; 45 at azimuth 20, 110; 70 at azimuth 65, 155. As

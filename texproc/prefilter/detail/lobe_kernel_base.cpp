@@ -3,7 +3,7 @@
 namespace petrichor::texproc::detail {
 
 const LobeKernel kLobeKernelBase{place,       shade,      weigh, overlaps, elliptic_overlap,
-                                 differences, reweighted, inside};
+                                 differences, reweighted, median};
 
 const LobeKernel& lobe_kernel()
 {
