@@ -276,7 +276,9 @@ void add_texture_inspect(CLI::App& texture)
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
     app->footer(
-        "Exit code 2 when a file cannot be read; the others are shown.\n\n"
+        "Exit code 2 when a file cannot be read; the others are shown. Files from anywhere may be "
+        "given:\n"
+        "each is decoded apart, with limits on memory, time and pixels.\n\n"
         "Example:\n  petrichor texture inspect wall_diff.png wall_nor_gl.png wall_rough.png "
         "--sheet wall.png");
     app->callback([a] { run(*a); });

@@ -52,10 +52,9 @@ Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, i
 
 texproc::RawImage unit_normals(const texproc::RawImage& normal, texproc::PixelType type)
 {
-    constexpr float kRounding = 0.01f;
     Image xyz = texproc::to_image(normal, ColorSpace::Data);
     if (xyz.channels > 3) xyz = texproc::from_layout(xyz, texproc::NormalLayout::Rgb);
-    texproc::renormalize(xyz, kRounding);
+    texproc::renormalize(xyz, kUnitRounding);
     return texproc::to_raw(xyz, type);
 }
 

@@ -20,6 +20,9 @@ Image read_out_normals(const Image& level, const texproc::PrefilterOptions& opti
 /// Texels that are of unit length keep their numbers.
 texproc::RawImage unit_normals(const texproc::RawImage& normal, texproc::PixelType type);
 
+/// Lengths so far from 1 are unit length, rounded to 8 bits.
+inline constexpr float kUnitRounding = 0.01f;
+
 /// True for texture formats that hold x and y only: bc5, rg8, ...
 bool drops_z(const std::string& format);
 

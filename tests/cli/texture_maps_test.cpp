@@ -3,8 +3,10 @@
 // were.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -275,6 +277,40 @@ TEST(TextureTools, TwoChannelsKeepTheDirectionOfShortNormals)
         EXPECT_LT(largest_angle("long.png", file, place), 6.0) << file;  // blocks
     }
     EXPECT_LT(largest_angle("long.png", "back.png", place), 0.1);
+}
+
+// Every damaged and every awkward file of the shared data in one command:
+//   petrichor texture inspect $(find bad formats -type f)
+TEST(TextureTools, InspectSurvivesEveryBadFile)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    const Workplace place("texture_bad_files");
+    std::vector<std::string> command{"texture", "inspect"};
+    for (const char* folder : {"bad", "formats"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(assets) / folder)) {
+            const bool scene = entry.path().string().find("/gltf") != std::string::npos;
+            if (entry.is_regular_file() && !scene) command.push_back(entry.path().string());
+        }
+    }
+    ASSERT_GT(command.size(), 300u);
+    const Outcome outcome = run(command, place);
+    EXPECT_EQ(outcome.exit_code, 2) << "some are damaged";
+    std::size_t pictures = 0, errors = 0;
+    for (std::size_t i = 2; i < command.size(); ++i) {
+        const bool shown = outcome.out.find(command[i] + ": ") != std::string::npos;
+        const bool refused = outcome.err.find(command[i]) != std::string::npos;
+        EXPECT_NE(shown, refused) << command[i];
+        pictures += shown;
+        errors += refused;
+    }
+    EXPECT_GE(pictures, 170u);
+    EXPECT_GE(errors, 120u);
+    struct rusage usage {};
+    ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &usage), 0);
+    EXPECT_LT(usage.ru_maxrss, 2l * 1024 * 1024) << "KiB";
+    std::printf("%zu files: %zu pictures, %zu errors, at most %ld MiB\n", command.size() - 2,
+                pictures, errors, usage.ru_maxrss / 1024);
 }
 
 // Blocks that have an alpha of their own are off by a few codes of 255 where all of it was opaque.
