@@ -61,6 +61,8 @@ void add_texture_bench(CLI::App& bench)
         "texture", "Time prefilter, mips, pack and block compression beside other programs.");
     command->add_option("--normal", o->normal, "normal map, 16-bit PNG (a generated wall)");
     command->add_option("--roughness", o->roughness, "its roughness map");
+    command->add_option("--color", o->color,
+                        "what is compressed as BC7 (the wall's colour, or the normal map)");
     command->add_option("--size", o->size, "of the generated wall")
         ->check(CLI::Range(16, 8192))
         ->capture_default_str();
@@ -73,9 +75,13 @@ void add_texture_bench(CLI::App& bench)
         "Example: petrichor bench texture --size 2048 --repeat 3\n"
         "Each row is a whole program, its start, reading and writing included: median CPU time of "
         "all its\n"
-        "threads and processes, and time by the clock. Programs that are not installed are named "
-        "with their\n"
-        "Debian package.");
+        "threads and processes, time by the clock, the memory of its largest process, and how near "
+        "to the\n"
+        "picture its blocks are. `kernel` is the filter alone beside what memory moves. Programs "
+        "that are not\n"
+        "installed are named with their Debian package. Goals at 4096 x 4096, in CPU seconds: "
+        "median 6,\n"
+        "overlap quick 30, full 120; pack 4 as PNG, 1 as DDS.");
     command->callback([o] {
         const std::vector<TextureBenchRow> rows = texture_rows(*o);
         std::cout << (o->json ? to_json(rows) : to_text(rows));

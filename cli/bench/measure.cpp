@@ -40,11 +40,13 @@ double median(std::vector<double> values)
 Cost median_of_costs(const std::vector<Cost>& costs)
 {
     std::vector<double> cpu, wall;
+    double peak_mib = 0.0;
     for (const Cost& cost : costs) {
         cpu.push_back(cost.cpu_ms);
         wall.push_back(cost.wall_ms);
+        peak_mib = std::max(peak_mib, cost.peak_mib);
     }
-    return {median(cpu), median(wall)};
+    return {median(cpu), median(wall), peak_mib};
 }
 
 Cost median_cost(int repeat, const std::function<void()>& work)

@@ -163,6 +163,7 @@ Cost time_once(const Rival& rival)
     });
     check_ending(rival, ending.status, error_output.get());
     cost.cpu_ms = milliseconds(ending.usage.ru_utime) + milliseconds(ending.usage.ru_stime);
+    cost.peak_mib = static_cast<double>(ending.usage.ru_maxrss) / 1024.0;
     return cost;
 }
 

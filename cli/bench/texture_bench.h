@@ -14,7 +14,8 @@ namespace petrichor::cli {
 struct TextureBenchOptions {
     std::filesystem::path petrichor;  ///< the program; empty: the one that runs
     std::string normal, roughness;    ///< maps of one size; empty: a generated wall
-    int size = 4096;                  ///< of the generated one
+    std::string color;  ///< what is compressed as colour; empty: the wall's, or normal
+    int size = 4096;    ///< of the generated one
     int repeat = 3;
     bool full = false;  ///< also the slow row: overlap in full quality
     bool json = false;
@@ -24,7 +25,10 @@ struct TextureBenchRow {
     std::string task;     ///< "prefilter", "mips", "pack", "bc5", "bc7"
     std::string program;  ///< "petrichor median", "maketx"
     std::optional<Cost> cost;
-    std::string note;  ///< why there is no cost: "missing: apt install libfilament-tools"
+    std::optional<double> psnr_db;  ///< of what was compressed
+    /// Why there is no cost ("missing: apt install libfilament-tools"), or what more there is to
+    /// say.
+    std::string note;
 };
 
 /// Medians of every row. Writes into a folder of its own, which it removes. Throws Error when the

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "cli/bench/measure.h"
 #include "cli/bench/sample_weather.h"
+#include "cli/bench/texture_bench.h"
 #include "cli/bench/weather_bench.h"
 #include "weather/readers/read_weather.h"
 
@@ -110,6 +111,13 @@ TEST(BenchRival, CountsTheWorkOfTheCommandAndItsChildren)
     EXPECT_GT(busy.cpu_ms, asleep.cpu_ms + 10.0);
 }
 
+TEST(BenchRival, KnowsTheMemoryOfItsLargestProcess)
+{
+    const Cost cost = time_rival({"dd", "dd if=/dev/zero of=/dev/null bs=64M count=1"}, 1);
+    EXPECT_GT(cost.peak_mib, 64.0);
+    EXPECT_LT(cost.peak_mib, 96.0);
+}
+
 TEST(BenchRival, IsTheFirstRow)
 {
     WeatherBenchOptions options = kQuick;
@@ -152,6 +160,24 @@ INSTANTIATE_TEST_SUITE_P(
                                  "failed with exit code 3: bad namelist"},
                     FailingRival{"killed", "kill -9 $$", "was ended by signal 9"}),
     [](const auto& test) { return test.param.name; });
+
+TEST(BenchTexture, TablesHaveWhatWasMeasuredAndWhatWasNot)
+{
+    const std::vector<TextureBenchRow> rows{
+        {"bc5", "petrichor", Cost{1500.0, 800.0, 120.0}, 44.25, ""},
+        {"prefilter", "petrichor median kernel", Cost{3000.0, 1600.0}, {}, "16.8 Mtexel"},
+        {"bc5", "nvcompress", {}, {}, "missing: apt install libnvtt-bin"}};
+    EXPECT_EQ(to_text(rows),
+              "task       program                    CPU s   wall s     MiB  PSNR dB\n"
+              "bc5        petrichor                   1.50     0.80     120    44.25\n"
+              "prefilter  petrichor median kernel     3.00     1.60                   16.8 Mtexel\n"
+              "bc5        nvcompress               missing: apt install libnvtt-bin\n");
+    const nlohmann::json json = nlohmann::json::parse(to_json(rows))["rows"];
+    EXPECT_EQ(json[0]["psnr_db"], 44.25);
+    EXPECT_EQ(json[0]["peak_mib"], 120.0);
+    EXPECT_FALSE(json[1].contains("peak_mib"));
+    EXPECT_FALSE(json[2].contains("cpu_s"));
+}
 
 TEST(BenchMedian, IsTheMiddle)
 {

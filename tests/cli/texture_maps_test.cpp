@@ -368,7 +368,7 @@ TEST(TextureTools, BenchTimesOursBesideWhatIsInstalled)
             EXPECT_TRUE(row.contains("cpu_s") || row.contains("note")) << row.dump();
         }
     }
-    EXPECT_EQ(tasks, (std::set<std::string>{"bc5", "mips", "pack", "prefilter"}));
+    EXPECT_EQ(tasks, (std::set<std::string>{"bc5", "bc7", "mips", "pack", "prefilter"}));
     const Outcome lone = run({"bench", "texture", "--normal", "n.png"}, place);
     EXPECT_EQ(lone.exit_code, 2);
     EXPECT_THAT(lone.err, HasSubstr("belong together"));

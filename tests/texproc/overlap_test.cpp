@@ -186,6 +186,32 @@ TEST(OverlapKernel, BothBuildsGiveTheSameBits)
     EXPECT_GT(x[0], 0.0f);
 }
 
+// One lobe goes another way through the samples than many; more cells and samples than one part.
+TEST(OverlapKernel, OneLobeAsAmongMany)
+{
+    Cells cells;
+    for (int i = 0; i < 150; ++i) {
+        const Direction n = normalized({gaussian(i, 1, 0), gaussian(i, 2, 0), 1.0f});
+        cells.add(n.x, n.y, n.z, 0.01f + 0.2f * uniform(i, 3, 0), 1.0f / 150.0f);
+    }
+    const float alpha2s[3] = {0.01f, 0.05f, 0.3f};
+    for (const LobeKernel* kernel : {&kLobeKernelBase, &lobe_kernel()}) {
+        for (const int total : {40, 120, 960}) {
+            for (const Lobe& lobe :
+                 {Lobe{0.0f, 0.1f, 0.995f, 0.0f}, Lobe{0.8f, 0.0f, 0.6f, 0.0f}}) {
+                Samples samples;
+                samples.draw(cells.view(), total, 5, *kernel);
+                float many[kViews * 3], one[kViews];
+                kernel->overlaps(samples.view(), lobe, alpha2s, 3, many);
+                for (int k = 0; k < 3; ++k) {
+                    kernel->overlaps(samples.view(), lobe, alpha2s + k, 1, one);
+                    for (int v = 0; v < kViews; ++v) EXPECT_EQ(one[v], many[v * 3 + k]);
+                }
+            }
+        }
+    }
+}
+
 TEST(OverlapRule, SameBytesForAnyThreadCountAndAnySize)
 {
     const Maps maps = make_maps(45, 70, [](int x, int y) {

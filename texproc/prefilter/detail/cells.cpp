@@ -18,6 +18,7 @@ void Cells::clear()
 
 void Cells::resize(std::size_t count)
 {
+    if (count == nx.size()) return;  // as for most footprints
     for (auto* v : {&nx, &ny, &nz, &alpha2, &weight}) v->resize(count);
 }
 
@@ -40,37 +41,87 @@ float lobe_length(float alpha2)
 
 namespace {
 
-constexpr std::size_t kTogether = 4;  // numbers in a step of the loops below: vectors
+// Four texels, and their terms in the exact sums.
+using Four = float __attribute__((vector_size(16)));
+using FourSums = double __attribute__((vector_size(32)));
 
-// A call of memcpy would cost more than the few numbers of a small footprint.
-void copy(const float* from, std::size_t count, float* to)
+Four load(const float* from)
 {
-    std::size_t i = 0;
-    for (; i + kTogether <= count; i += kTogether) {
-        std::memcpy(to + i, from + i, kTogether * sizeof(float));
-    }
-    for (; i < count; ++i) to[i] = from[i];
+    Four v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+void store(float* to, const Four& v)
+{
+    std::memcpy(to, &v, sizeof v);
 }
 
 // Weighted sums over a footprint: of n_x, n_y, n_z, p, alpha^2.
 using Sums = std::array<double, 5>;
 
-void add_row(const std::array<const float*, 5>& values, const float* weight, std::size_t count,
+// A row of texels to its place among the cells, and to the sums; x_weights has `count`.
+struct RowOfCells {
+    const float *nx, *ny, *nz, *p, *alpha2;  // from
+    float *to_nx, *to_ny, *to_nz, *to_alpha2, *to_weight;
+};
+
+// The row of a texel of level 1.
+void add_two(const RowOfCells& r, const float* x_weights, float y_weight, Sums& sums)
+{
+    const float w0 = x_weights[0] * y_weight, w1 = x_weights[1] * y_weight;
+    const auto pair = [](const float* from, float* to) {
+        to[0] = from[0];
+        to[1] = from[1];
+    };
+    pair(r.nx, r.to_nx);
+    pair(r.ny, r.to_ny);
+    pair(r.nz, r.to_nz);
+    pair(r.alpha2, r.to_alpha2);
+    r.to_weight[0] = w0;
+    r.to_weight[1] = w1;
+    const double d0 = static_cast<double>(w0), d1 = static_cast<double>(w1);
+    const auto sum = [&](const float* v) {
+        return d0 * static_cast<double>(v[0]) + d1 * static_cast<double>(v[1]);
+    };
+    sums[0] += sum(r.nx);
+    sums[1] += sum(r.ny);
+    sums[2] += sum(r.nz);
+    sums[3] += sum(r.p);
+    sums[4] += sum(r.alpha2);
+}
+
+void add_row(const RowOfCells& r, const float* x_weights, float y_weight, std::size_t count,
              Sums& sums)
 {
-    double lanes[5][kTogether] = {};
+    if (count == 2) return add_two(r, x_weights, y_weight, sums);
+    FourSums lanes[5] = {};
     std::size_t i = 0;
-    for (; i + kTogether <= count; i += kTogether) {
-        for (std::size_t k = 0; k < 5; ++k) {
-            for (std::size_t l = 0; l < kTogether; ++l) {
-                lanes[k][l] +=
-                    static_cast<double>(weight[i + l]) * static_cast<double>(values[k][i + l]);
-            }
-        }
+    for (; i + 4 <= count; i += 4) {
+        const Four weight = load(x_weights + i) * y_weight;
+        const Four nx = load(r.nx + i), ny = load(r.ny + i), nz = load(r.nz + i);
+        const Four p = load(r.p + i), alpha2 = load(r.alpha2 + i);
+        store(r.to_nx + i, nx);
+        store(r.to_ny + i, ny);
+        store(r.to_nz + i, nz);
+        store(r.to_alpha2 + i, alpha2);
+        store(r.to_weight + i, weight);
+        const FourSums w = __builtin_convertvector(weight, FourSums);
+        lanes[0] += w * __builtin_convertvector(nx, FourSums);
+        lanes[1] += w * __builtin_convertvector(ny, FourSums);
+        lanes[2] += w * __builtin_convertvector(nz, FourSums);
+        lanes[3] += w * __builtin_convertvector(p, FourSums);
+        lanes[4] += w * __builtin_convertvector(alpha2, FourSums);
     }
     for (; i < count; ++i) {
+        const float weight = x_weights[i] * y_weight;
+        r.to_nx[i] = r.nx[i];
+        r.to_ny[i] = r.ny[i];
+        r.to_nz[i] = r.nz[i];
+        r.to_alpha2[i] = r.alpha2[i];
+        r.to_weight[i] = weight;
+        const float* const values[5] = {r.nx, r.ny, r.nz, r.p, r.alpha2};
         for (std::size_t k = 0; k < 5; ++k) {
-            lanes[k][0] += static_cast<double>(weight[i]) * static_cast<double>(values[k][i]);
+            lanes[k][0] += static_cast<double>(weight) * static_cast<double>(values[k][i]);
         }
     }
     for (std::size_t k = 0; k < 5; ++k) {
@@ -90,14 +141,9 @@ void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Fo
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
         const SurfaceRow& row = rows[static_cast<std::size_t>(y.first) + j - first_row];
         const std::size_t to = j * width;
-        float* weights = &cells.weight[to];
-        for (std::size_t i = 0; i < width; ++i) weights[i] = x.weights[i] * y.weights[j];
-        copy(&row.nx[at], width, &cells.nx[to]);
-        copy(&row.ny[at], width, &cells.ny[to]);
-        copy(&row.nz[at], width, &cells.nz[to]);
-        copy(&row.alpha2[at], width, &cells.alpha2[to]);
-        add_row({&row.nx[at], &row.ny[at], &row.nz[at], &row.p[at], &row.alpha2[at]}, weights,
-                width, sums);
+        add_row({&row.nx[at], &row.ny[at], &row.nz[at], &row.p[at], &row.alpha2[at], &cells.nx[to],
+                 &cells.ny[to], &cells.nz[to], &cells.alpha2[to], &cells.weight[to]},
+                x.weights.data(), y.weights[j], width, sums);
     }
     const auto mean = [&](std::size_t k) { return static_cast<float>(sums[k]); };
     means = {mean(0), mean(1), mean(2), mean(3), mean(4), 0, 0, 0};
@@ -245,7 +291,7 @@ void merge(Cells& cells, int limit, int most)
     const float widest = std::sqrt(*std::max_element(cells.alpha2.begin(), cells.alpha2.end()));
     const bool large_steps = most == 0;
     most = std::max(limit, most);
-    float share = std::max(0.2f, useful_edge(cells, limit) / widest);
+    float share = std::max(large_steps ? 0.3f : 0.2f, useful_edge(cells, limit) / widest);
     if (share > kFaithful) {
         const float useful = cells.count() > most ? useful_edge(cells, most) / widest : 0.0f;
         share = std::max(kFaithful, useful);
@@ -253,10 +299,12 @@ void merge(Cells& cells, int limit, int most)
     float ep = 0.02f;
     while (cells.count() > limit && !(share > kFaithful && cells.count() <= most)) {
         merge_round(cells, share, ep);
-        // Far from the limit in larger steps, but not past it: cells that are lost blur the lobe.
+        // Far from the limit in larger steps, but not far past it: cells that are lost blur the
+        // lobe. Twice the edge leaves about half the cells of a real map.
         const float over = static_cast<float>(cells.count()) / static_cast<float>(limit);
-        const float growth = large_steps ? std::clamp(0.95f * std::sqrt(over), 1.2f, 4.0f)
-                                         : std::clamp(std::sqrt(std::sqrt(over)), 1.2f, 2.0f);
+        const float root = std::sqrt(over), fourth = std::sqrt(root);
+        const float growth = large_steps ? std::clamp(1.2f * root * fourth, 1.2f, 4.0f)
+                                         : std::clamp(fourth, 1.2f, 2.0f);
         share *= growth;
         ep *= std::sqrt(std::sqrt(growth));
     }

@@ -39,10 +39,10 @@ void gather(const std::vector<SurfaceRow>& rows, std::size_t first_row, const Fo
             const Footprint& y, Cells& cells, Means& means);
 
 /// Joins cells that share a place in a grid of (n_x, n_y, p) until at most `limit` are left; its
-/// edge is a growing share, from 0.2, of the alpha that lies there (at least 0.001), and 0.02 in p.
-/// Weight is conserved, and what normals differ within a cell is added to its alpha^2. Narrow lobes
-/// that lie apart, which that would blur into what they are not, are left apart up to `most`; 0:
-/// none, and in larger steps, which are sooner done and lose a little more.
+/// edge is a growing share, from 0.2 (0.3 in large steps), of the alpha that lies there (at least
+/// 0.001), and 0.02 in p. Weight is conserved, and what normals differ within a cell is added to
+/// its alpha^2. Narrow lobes that lie apart, which that would blur into what they are not, are left
+/// apart up to `most`; 0: none, and in larger steps, which are sooner done and lose a little more.
 void merge(Cells& cells, int limit, int most = 0);
 
 /// The mean resultant length of a lobe of this width (coth l - 1 / l, l = 2 / alpha^2).

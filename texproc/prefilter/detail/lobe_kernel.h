@@ -30,8 +30,9 @@ struct SamplesView {
     float *hx, *hy, *hz;
     float* vh2;  ///< 2 (v.h): the light is l = vh2 h - v
     float* weight;
-    float* density;   ///< of the half-vector in the footprint: sum of w D (n.h)
-    float* radiance;  ///< of the footprint: sum of w f (n.l)
+    float* density;        ///< of the half-vector in the footprint: sum of w D (n.h)
+    float* radiance;       ///< of the footprint: sum of w f (n.l)
+    float *shared, *most;  ///< how overlaps() counts the sample, and how much light at most
 };
 
 /// Points of a rank-1 lattice, view after view, `per_view` at most of each; the second coordinate
@@ -68,11 +69,6 @@ struct SlopeSums {
     float w, x, y, xx, xy, yy;  ///< sums of w u, w u s, w u (s - c)(s - c)
 };
 
-/// With t = x / (x + s): the sum of w t, and its derivative by log x, that of w t (1 - t).
-struct Inside {
-    float weight, slope;
-};
-
 struct LobeKernel {
     /// Half-vectors from the lobes of the footprint: sample k from the cell cell[k]. Fills hx hy
     /// hz, vh2 and weight = +-4 (v.h).
@@ -80,11 +76,11 @@ struct LobeKernel {
                   const int* cell, const SamplesView& samples);
     /// Fills density and radiance of every sample.
     void (*shade)(const CellsView& cells, const SamplesView& samples);
-    /// Divides the weights by density and number, after shade().
+    /// Divides the weights by density and number, after shade(); fills shared and most.
     void (*weigh)(const SamplesView& samples);
     /// out[v * count + k], for lobes that share a normal: the sum over the samples of view v of
-    /// 2 weight min(radiance, lobe k) above the horizon and of -weight min(8 radiance, lobe k)
-    /// below it.
+    /// shared min(most, lobe k): 2 weight min(radiance, lobe k) above the horizon and
+    /// -weight min(8 radiance, lobe k) below it.
     void (*overlaps)(const SamplesView& samples, const Lobe& lobe, const float* alpha2s, int count,
                      float* out);
     /// out[v]: the same for one elliptic lobe.
@@ -95,12 +91,20 @@ struct LobeKernel {
     /// One round of reweighting about c with the inverse (i_xx, i_xy, i_yy) of A; see student_t().
     SlopeSums (*reweighted)(const SlopesView& s, float cx, float cy, float i_xx, float i_xy,
                             float i_yy);
-    /// How much of the footprint lies inside the radius sqrt(x).
-    Inside (*inside)(const float* s, const float* weight, int count, float x);
+    /// Radius of the median rule, see median_alpha2(). s, w: room for the cells, their number
+    /// rounded up to a multiple of kLanes.
+    float (*median)(const CellsView& cells, float nx, float ny, float nz, float* s, float* w);
 };
 
-/// The five views of the yardstick: 0 degrees; 45 at azimuth 20, 110; 70 at azimuth 65, 155.
-extern const float kViewDirections[kViews][3];
+/// The five views of the yardstick: 0 degrees; 45 at azimuth 20, 110; 70 at azimuth 65, 155. As
+/// unit vectors, rounded once here so that every build agrees.
+inline constexpr float kViewDirections[kViews][3] = {
+    {0.0f, 0.0f, 1.0f},
+    {0.66446302f, 0.24184476f, 0.70710678f},
+    {-0.24184476f, 0.66446302f, 0.70710678f},
+    {0.39713126f, 0.85165074f, 0.34202014f},
+    {-0.85165074f, 0.39713126f, 0.34202014f},
+};
 
 /// The kernel for this processor.
 const LobeKernel& lobe_kernel();

@@ -3,6 +3,6 @@
 namespace petrichor::texproc::detail {
 
 const LobeKernel kLobeKernelAvx2{place,       shade,      weigh, overlaps, elliptic_overlap,
-                                 differences, reweighted, inside};
+                                 differences, reweighted, median};
 
 }  // namespace petrichor::texproc::detail

@@ -134,7 +134,7 @@ void Samples::resize(int per_view)
 {
     assert(per_view % kLanes == 0);
     per_view_ = per_view;
-    data_.resize(static_cast<std::size_t>(7 * kViews * per_view));
+    data_.resize(static_cast<std::size_t>(9 * kViews * per_view));
     cell_.resize(static_cast<std::size_t>(kViews * per_view));
 }
 
@@ -142,7 +142,8 @@ SamplesView Samples::view()
 {
     const std::size_t n = static_cast<std::size_t>(kViews * per_view_);
     float* d = data_.data();
-    return {per_view_, d, d + n, d + 2 * n, d + 3 * n, d + 4 * n, d + 5 * n, d + 6 * n};
+    return {per_view_, d,         d + n,     d + 2 * n, d + 3 * n,
+            d + 4 * n, d + 5 * n, d + 6 * n, d + 7 * n, d + 8 * n};
 }
 
 namespace {
@@ -222,34 +223,6 @@ float slope2(const Direction& normal, float x, float y, float z)
     return (sx * sx + sy * sy + sz * sz) / (c * c);
 }
 
-struct Spread {
-    float low, high;  // of the values
-    float whole;      // sum of the weights
-};
-
-// In lanes, which compilers make vectors of; count is a multiple of kLanes.
-Spread spread_of(const float* values, const float* weights, int count)
-{
-    float low[kLanes], high[kLanes], whole[kLanes] = {};
-    std::copy_n(values, kLanes, low);
-    std::copy_n(values, kLanes, high);
-    for (int i = 0; i < count; i += kLanes) {
-        for (int l = 0; l < kLanes; ++l) {
-            const float v = values[i + l];
-            low[l] = v < low[l] ? v : low[l];
-            high[l] = v > high[l] ? v : high[l];
-            whole[l] += weights[i + l];
-        }
-    }
-    Spread spread{low[0], high[0], 0.0f};
-    for (int l = 0; l < kLanes; ++l) {
-        spread.low = std::min(spread.low, low[l]);
-        spread.high = std::max(spread.high, high[l]);
-        spread.whole += whole[l];
-    }
-    return spread;
-}
-
 int padded(int count)
 {
     return (count + kLanes - 1) / kLanes * kLanes;
@@ -270,35 +243,7 @@ float median_alpha2(const CellsView& cells, const Direction& normal, const LobeK
         s = large.data();
         w = s + count;
     }
-    for (int i = 0; i < cells.count; ++i) {
-        s[i] = cells.alpha2[i] + slope2(normal, cells.nx[i], cells.ny[i], cells.nz[i]);
-    }
-    for (int i = 0; i < cells.count; ++i) w[i] = cells.weight[i];
-    for (int i = cells.count; i < count; ++i) {
-        s[i] = s[0];
-        w[i] = 0.0f;
-    }
-    const Spread spread = spread_of(s, w, count);
-    float low = spread.low, high = spread.high;
-    // Newton in log x on the share inside, kept between the bounds: it doubles the digits.
-    float x = std::sqrt(low * high);
-    for (int round = 0; round < 16 && high > low * 1.0005f; ++round) {
-        const Inside inside = kernel.inside(s, w, count, x);
-        const float over = inside.weight - 0.5f * spread.whole;
-        if (over < 0.0f) {
-            low = x;
-        } else {
-            high = x;
-        }
-        const float slope = std::max(0.01f * spread.whole, inside.slope);
-        // e^d, near enough: (2 + d) / (2 - d).
-        const float d = std::clamp(-over / slope, -1.5f, 1.5f);
-        float next = x * (2.0f + d) / (2.0f - d);
-        if (!(next > low && next < high)) next = std::sqrt(low * high);
-        if (std::abs(next - x) < 2e-3f * x) return next;
-        x = next;
-    }
-    return x;
+    return kernel.median(cells, normal.x, normal.y, normal.z, s, w);
 }
 
 float share_inside(const CellsView& cells, const Direction& normal, float light2, float alpha2)

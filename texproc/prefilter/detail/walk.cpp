@@ -214,7 +214,8 @@ private:
             const Footprint& lowest = rows[static_cast<std::size_t>(wanted[k].end - 1)];
             below = std::max(below, lowest.first + static_cast<int>(lowest.weights.size()));
         }
-        std::vector<SurfaceRow> fetched(static_cast<std::size_t>(below - first));
+        thread_local std::vector<SurfaceRow> fetched;  // the next strip needs as much
+        fetched.resize(std::max(fetched.size(), static_cast<std::size_t>(below - first)));
         for (int y = first; y < below; ++y) {
             fetch(surface_, y, fetched[static_cast<std::size_t>(y - first)]);
         }
