@@ -59,12 +59,30 @@ void report(const BuildResult& result, double seconds)
     for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
 }
 
+// Images in a folder that nothing is made of.
+void report_unnamed(const Arguments& a)
+{
+    constexpr std::size_t kShown = 20;
+    for (const fs::path& input : input_paths(a)) {
+        if (input.extension() == ".toml") continue;
+        const std::vector<fs::path> images = unnamed_images(input);
+        if (!images.empty()) std::cout << "passed over: the names do not say what these are\n";
+        for (std::size_t i = 0; i < std::min(images.size(), kShown); ++i)
+            std::cout << "  " << images[i].string() << "\n";
+        if (images.size() > kShown) std::cout << "  and " << images.size() - kShown << " more\n";
+    }
+}
+
 BuildResult build_once(const Arguments& a)
 {
     const auto start = std::chrono::steady_clock::now();
     const BuildResult result = build(plan_build(input_paths(a), a.choice), a.options);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    if (!a.options.dry_run) report(result, took.count());
+    if (a.options.dry_run) {
+        report_unnamed(a);
+    } else {
+        report(result, took.count());
+    }
     return result;
 }
 
@@ -138,7 +156,9 @@ void run(Arguments& a)
 constexpr const char* kFooter =
     "A folder: maps are recognised by their names (X_albedo, X_diff_2k, X_Color, X_normal, "
     "X_nor_gl,\n"
-    "X_NormalDX, X_rough, X_smoothness, X_height, X_Displacement, X_ao, X_arm, X_LuxSPEC, ...).\n"
+    "X_NormalDX, X_rough, X_smoothness, X_height, X_Displacement, X_ao, X_arm, X_LuxSPEC, T_X_BC, "
+    "...;\n"
+    "--dry-run shows what was made of them).\n"
     "What is up to date is not made again: OUT/.petrichor-build.json remembers sources, options "
     "and\n"
     "outputs by content. OUT/manifest.json says what every file is, with hashes and measured "

@@ -203,8 +203,19 @@ void run_unpack(const UnpackArguments& a)
 {
     level_name(a.out, 0);
     const std::size_t at = a.out.find('%');
-    for (const auto& [role, image] :
-         texproc::unpack(pack_preset_or_file(a.preset), texproc::read_raw(a.in))) {
+    const texproc::PackPreset preset = pack_preset_or_file(a.preset);
+    const texproc::RawImage packed = texproc::read_raw(a.in);
+    std::size_t needed = 0;  // channels up to the last one that holds a map
+    for (std::size_t c = 0; c < preset.channels.size(); ++c) {
+        if (!texproc::parse_pack_channel(preset.channels[c]).front().role.empty()) needed = c + 1;
+    }
+    if (static_cast<std::size_t>(packed.channels) < needed) {
+        throw Error("texture unpack: " + a.in +
+                        " has channels: " + std::to_string(packed.channels) + ", " + a.preset +
+                        " holds maps in the first " + std::to_string(needed),
+                    "Name the preset that it was packed with (pack --list).");
+    }
+    for (const auto& [role, image] : texproc::unpack(preset, packed)) {
         const std::string name = a.out.substr(0, at) + role + a.out.substr(a.out.find('d', at) + 1);
         texproc::write_raw(name, image);
         std::cout << name << "\n";

@@ -101,7 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
                     NameCase{"metal_plate_02_rough_4k", "metal_plate_02", "roughness= "},
                     NameCase{"ground037_nrm_rgh", "ground037", "normal=rgb roughness=a "},
                     NameCase{"WallBaseColor", "Wall", "albedo= "},
-                    NameCase{"albedo", "", "albedo= "}, NameCase{"preview", "", ""}));
+                    NameCase{"albedo", "", "albedo= "}, NameCase{"preview", "", ""},
+                    NameCase{"T_Old_Wall_BC", "Old_Wall", "albedo= "},
+                    NameCase{"T_Wall_N", "Wall", "normal= "}, NameCase{"Plan_N", "", ""},
+                    NameCase{"Mauer_grün_normal", "Mauer_grün", "normal= "},
+                    NameCase{"snow_water_Color", "snow_water", "albedo= "}));
 
 TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
 {
@@ -249,7 +253,8 @@ TEST(TextureBuild, AFullDiskLeavesTheOldFilesWhole)
     const Outcome outcome =
         run_petrichor({.arguments = command, .file_limit_bytes = 14000}, place.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("cannot write"));
+    EXPECT_THAT(outcome.err, HasSubstr("cannot write out/"));
+    EXPECT_EQ(outcome.err.find(".petrichor-"), std::string::npos) << "no folder of our own";
     EXPECT_EQ(contents(place / "out"), before);
 }
 
@@ -392,6 +397,22 @@ TEST(TextureBuild, WhatCannotBeFilledIsLeftOut)
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_TRUE(fs::exists(place / "out/Leaf_normal.png"));
     EXPECT_FALSE(fs::exists(place / "out/Leaf_baseColor.png"));
+}
+
+// People learn which images nothing was made of. Weather textures are no materials.
+TEST(TextureBuild, DryRunNamesWhatItPassesOver)
+{
+    const Workplace place("build-passed-over");
+    const Image grey(8, 8, 1, ColorSpace::Data, 0.5f);
+    for (const char* name : {"Wall_roughness", "IMG_0042", "ripple", "snow_water_bump"})
+        texproc::write_image(place / ("in/" + std::string(name) + ".png"), grey);
+    const Outcome dry = run({"texture", "build", "in", "--engine", "gltf", "--dry-run"}, place);
+    ASSERT_EQ(dry.exit_code, 0) << dry.err;
+    EXPECT_THAT(dry.out, HasSubstr("passed over"));
+    EXPECT_THAT(dry.out, HasSubstr("IMG_0042.png"));
+    EXPECT_THAT(dry.out, HasSubstr("Wall_occlusionRoughnessMetallic.png"));
+    EXPECT_THAT(dry.out, testing::Not(HasSubstr("ripple")));
+    EXPECT_THAT(dry.out, testing::Not(HasSubstr("snow_water")));
 }
 
 // URP reads occlusion from green, which a one-channel file does not have.

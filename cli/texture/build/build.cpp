@@ -123,6 +123,15 @@ private:
     fs::path path_;
 };
 
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
 // All files are whole by now: renaming them is all that is left.
 void publish(const fs::path& staging, const fs::path& out, const std::vector<std::string>& files)
 {
@@ -207,8 +216,8 @@ private:
     void make(std::size_t number, int threads)
     {
         const PlannedMaterial& material = *waiting_[number].material;
+        const Staging staging(options_.out, number);
         try {
-            const Staging staging(options_.out, number);
             const MadeMaterial made = make_material(material, staging.path(), threads);
             BuiltSet set{waiting_[number].key, {}, ""};
             for (const MadeOutput& output : made.outputs) {
@@ -221,8 +230,11 @@ private:
             ++result_.built;
             state_.remember(set_name(material), std::move(set));
         } catch (const Error& error) {
+            // People know the folder they named, not the one that files pass through.
             const std::lock_guard lock(mutex_);
-            fail(material, error);
+            fail(material,
+                 Error(replaced(error.what(), staging.path().string(), options_.out.string()),
+                       error.fix()));
         }
     }
 

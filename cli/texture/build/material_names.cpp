@@ -93,9 +93,11 @@ struct Word {
     std::size_t begin, end;
 };
 
+// Every byte of a letter beyond ASCII is one.
 bool is_letter_or_digit(char c)
 {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0;
+    const auto byte = static_cast<unsigned char>(c);
+    return byte >= 0x80 || std::isalnum(byte) != 0;
 }
 bool is_upper(char c)
 {
@@ -184,6 +186,58 @@ struct Group {
     std::map<std::string, std::vector<Candidate>> roles;
 };
 
+// Unreal's names, T_Wall_BC: the last word is a letter or two, which elsewhere may mean anything.
+NamedMaps named_as_in_unreal(const std::string& stem)
+{
+    static const std::map<std::string, std::string> kRoles{
+        {"d", "albedo"},    {"bc", "albedo"},   {"c", "albedo"}, {"n", "normal"},
+        {"r", "roughness"}, {"m", "metallic"},  {"h", "height"}, {"s", "specular"},
+        {"e", "emission"},  {"o", "occlusion"}, {"a", "opacity"}};
+    const std::vector<Word> words = words_of(stem);
+    if (words.size() < 3 || words.front().text != "t") return {};
+    const auto role = kRoles.find(words.back().text);
+    if (role == kRoles.end()) return {};
+    NamedMaps named;
+    named.material = trimmed(stem.substr(words[1].begin, words.back().begin - words[1].begin));
+    named.short_name = without_marks(named.material);
+    named.roles[role->second] = "";
+    return named;
+}
+
+// What `generate` makes for weather belongs to no material.
+bool is_weather_texture(const std::string& stem)
+{
+    return stem == "ripple" || stem == "snow_mask" || stem == "snow_water_bump";
+}
+
+// Every image below a folder, but for hidden ones and those made for weather.
+std::vector<fs::path> images_below(const fs::path& folder)
+{
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed)) {
+        throw Error("texture build: " + folder.string() + " is not a folder",
+                    "Name a folder with maps, or a recipe (.toml).");
+    }
+    fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied,
+                                          failed);
+    if (failed) {
+        throw Error(
+            "texture build: cannot read the folder " + folder.string() + ": " + failed.message(),
+            "Make it readable, or name another.");
+    }
+    std::vector<fs::path> images;
+    for (const fs::directory_entry& entry : walk) {
+        const fs::path& path = entry.path();
+        if (path.filename().string().front() == '.') {
+            if (entry.is_directory(failed)) walk.disable_recursion_pending();
+        } else if (is_image(path) && entry.is_regular_file(failed) &&
+                   !is_weather_texture(path.stem().string())) {
+            images.push_back(path);
+        }
+    }
+    return images;
+}
+
 }  // namespace
 
 InputMap parse_input_map(const std::string& text)
@@ -226,7 +280,7 @@ NamedMaps maps_named(const std::string& stem)
             }
         }
     }
-    if (!best) return {};
+    if (!best) return named_as_in_unreal(stem);
     NamedMaps named;
     const std::string before = trimmed(stem.substr(0, words[best_at].begin));
     const std::string after = trimmed(stem.substr(words[best_at + best->words.size() - 1].end));
@@ -243,25 +297,8 @@ NamedMaps maps_named(const std::string& stem)
 std::vector<MaterialFiles> find_materials(const fs::path& folder)
 {
     std::error_code failed;
-    if (!fs::is_directory(folder, failed)) {
-        throw Error("texture build: " + folder.string() + " is not a folder",
-                    "Name a folder with maps, or a recipe (.toml).");
-    }
     std::map<std::pair<fs::path, std::string>, Group> groups;  // folder and name
-    fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied,
-                                          failed);
-    if (failed) {
-        throw Error(
-            "texture build: cannot read the folder " + folder.string() + ": " + failed.message(),
-            "Make it readable, or name another.");
-    }
-    for (const fs::directory_entry& entry : walk) {
-        const fs::path& path = entry.path();
-        if (path.filename().string().front() == '.') {
-            if (entry.is_directory(failed)) walk.disable_recursion_pending();
-            continue;
-        }
-        if (!is_image(path) || !entry.is_regular_file(failed)) continue;
+    for (const fs::path& path : images_below(folder)) {
         const NamedMaps named = maps_named(path.stem().string());
         if (named.roles.empty()) continue;
         Group& group = groups[{path.parent_path(), named.material}];
@@ -301,6 +338,16 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
         found.push_back(std::move(material));
     }
     return found;
+}
+
+std::vector<fs::path> unnamed_images(const fs::path& folder)
+{
+    std::vector<fs::path> images = images_below(folder);
+    std::erase_if(images, [](const fs::path& path) {
+        return !maps_named(path.stem().string()).roles.empty();
+    });
+    std::sort(images.begin(), images.end());
+    return images;
 }
 
 }  // namespace petrichor::cli

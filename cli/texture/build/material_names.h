@@ -30,7 +30,7 @@ struct MaterialFiles {
 
 /// What the words of a file name say it holds: every role and its channels; empty when they say
 /// nothing. `wall_nor_gl_2k` is the normal map of `wall`, `Wall_LuxSPEC` its specular colour and
-/// smoothness, `wall_arm` three maps at once.
+/// smoothness, `wall_arm` three maps at once, `T_Wall_N` Unreal's.
 struct NamedMaps {
     std::string material;                      ///< the rest of the name
     std::string short_name;                    ///< the same without marks of resolution and format
@@ -43,6 +43,9 @@ NamedMaps maps_named(const std::string& stem);
 /// Haven, Lux and most tools give their maps. Throws Error when there is no such folder or nothing
 /// in it can be recognised.
 std::vector<MaterialFiles> find_materials(const std::filesystem::path& folder);
+
+/// Images below a folder whose names do not say what they hold, which find_materials() passes over.
+std::vector<std::filesystem::path> unnamed_images(const std::filesystem::path& folder);
 
 /// The roles that maps can have, for messages and completion.
 const std::vector<std::string>& map_roles();
