@@ -61,13 +61,14 @@ void flip_green(Image& normal)
     }
 }
 
-void renormalize(Image& normal)
+void renormalize(Image& normal, float tolerance)
 {
     check_normal(normal);
     for (std::size_t i = 0; i < normal.pixels.size(); i += 3) {
         float* c = &normal.pixels[i];
         const float x = 2.0f * c[0] - 1.0f, y = 2.0f * c[1] - 1.0f, z = 2.0f * c[2] - 1.0f;
         const float length = std::sqrt(x * x + y * y + z * z);
+        if (std::abs(length - 1.0f) < tolerance) continue;
         const bool fine = length > 0.01f;  // a zero in 8 bits is not exactly zero
         c[0] = fine ? 0.5f + 0.5f * (x / length) : 0.5f;
         c[1] = fine ? 0.5f + 0.5f * (y / length) : 0.5f;

@@ -12,8 +12,9 @@ namespace petrichor::texproc {
 
 void flip_green(Image& normal);
 
-/// Every texel to unit length; a zero vector becomes straight up.
-void renormalize(Image& normal);
+/// Every texel to unit length; a zero vector becomes straight up. Lengths within `tolerance` of 1
+/// stay: rounding to 8 bits alone moves them by up to 0.007.
+void renormalize(Image& normal, float tolerance = 0.0f);
 
 /// How two-channel layouts store x and y. Unpacking rebuilds z.
 enum class NormalLayout {

@@ -15,6 +15,7 @@ constexpr FieldInfo kInfo[kFieldCount] = {
     {"dew_point", "K", 143.15, 313.15, false}, {"wind_from", "deg", 0.0, 360.0, false},
     {"visibility", "m", 0.0, 1.0e6, false},    {"snow_depth", "m", 0.0, 30.0, false},
     {"direct", "W/m2", -15.0, 1500.0, false},  {"diffuse", "W/m2", -15.0, 1300.0, false},
+    {"sw_net", "W/m2", -15.0, 1600.0, true},
 };
 
 }  // namespace

@@ -18,22 +18,23 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 /// Columns of a forcing table, SI. "at" values hold at the time of the row and are linear between
 /// rows; "rate" values are means from this row to the next.
 enum class Field : std::uint8_t {
-    AirTemp,      ///< K, at
-    RelHumidity,  ///< percent over water, at
-    Wind,         ///< m/s, at
-    Pressure,     ///< Pa at the station, at
-    Shortwave,    ///< W/m2 on flat ground, at
-    Longwave,     ///< W/m2 from the sky, at
-    Cloud,        ///< fraction 0..1, at
-    Precip,       ///< kg m-2 s-1, all phases, rate
-    Rain,         ///< kg m-2 s-1, rate; only where the file separates phases
-    Snow,         ///< kg m-2 s-1, rate; likewise
-    DewPoint,     ///< K, at; only to derive humidity
-    WindFrom,     ///< degrees clockwise from north where the wind comes from, at
-    Visibility,   ///< m, at
-    SnowDepth,    ///< m, as observed, at; never used as input, only compared
-    Direct,       ///< W/m2 on a plane facing the sun, at
-    Diffuse,      ///< W/m2 on flat ground, at
+    AirTemp,       ///< K, at
+    RelHumidity,   ///< percent over water, at
+    Wind,          ///< m/s, at
+    Pressure,      ///< Pa at the station, at
+    Shortwave,     ///< W/m2 on flat ground, at
+    Longwave,      ///< W/m2 from the sky, at
+    Cloud,         ///< fraction 0..1, at
+    Precip,        ///< kg m-2 s-1, all phases, rate
+    Rain,          ///< kg m-2 s-1, rate; only where the file separates phases
+    Snow,          ///< kg m-2 s-1, rate; likewise
+    DewPoint,      ///< K, at; only to derive humidity
+    WindFrom,      ///< degrees clockwise from north where the wind comes from, at
+    Visibility,    ///< m, at
+    SnowDepth,     ///< m, as observed, at; never used as input, only compared
+    Direct,        ///< W/m2 on a plane facing the sun, at
+    Diffuse,       ///< W/m2 on flat ground, at
+    NetShortwave,  ///< W/m2 that the ground takes up, rate; only where a file has no Shortwave
     Count
 };
 inline constexpr std::size_t kFieldCount = static_cast<std::size_t>(Field::Count);
@@ -91,8 +92,10 @@ struct FillOptions {
 /// phases).
 ///
 /// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70
-/// %; pressure from the elevation; cloud from shortwave; shortwave from sun and cloud; longwave
-/// from humidity and cloud (Prata 1996). Every fill is added to the report.
+/// %; pressure from the elevation; cloud from shortwave, else from longwave; shortwave from sun and
+/// cloud; longwave from humidity and cloud (Prata 1996). Every fill is added to the report.
+/// Where the sun has to be made, rows further apart than an hour are divided into hours, so that
+/// noon is not missed; net shortwave keeps its mean and follows the made sun.
 ///
 /// Precipitation without an amount is 0 and warned of, or estimated: in rows with cloud of 0.95 or
 /// more, humidity of 85 % or more and visibility below 16 km (humidity of 92 % where that is

@@ -1,7 +1,9 @@
 #include "weather/physical.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
@@ -65,42 +67,51 @@ void check_params(const PhysicalParams& p)
 namespace {
 
 // Only the columns that the model reads.
-ForcingTable needed_columns(const ForcingTable& table)
+std::shared_ptr<const ForcingTable> needed_columns(const ForcingTable& table)
 {
-    ForcingTable out;
+    const auto copy = std::make_shared<ForcingTable>();
+    ForcingTable& out = *copy;
     out.site = table.site;
     out.time_us = table.time_us;
     for (const Field f :
          {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure, Field::Shortwave,
-          Field::Longwave, Field::Precip, Field::Rain, Field::Snow}) {
+          Field::Longwave, Field::NetShortwave, Field::Precip, Field::Rain, Field::Snow}) {
         out[f] = table[f];
     }
-    return out;
+    return copy;
 }
 
 }  // namespace
 
 struct PhysicalTimeline::Impl {
-    ForcingTable table;
+    std::shared_ptr<const ForcingTable> table;
     PhysicalParams params;
     detail::StepPlan plan;
     detail::CellConstants constants;
     detail::StepConstants step_constants;
     detail::StepConstants tail_constants;  // the last step may be shorter
     detail::CellPlace<double> place;
+    detail::AdvanceCell advance_cell = detail::fastest_advance_cell();
     std::size_t first_step = 0;          // where the checkpoints begin
     std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
 
-    detail::StepWalk walk_from(std::size_t step) const { return {table, plan, step, sun_use()}; }
+    detail::StepWalk walk_from(std::size_t step) const { return {*table, plan, step, sun_use()}; }
     detail::SunUse sun_use() const
     {
         return params.sky_view < 1.0 ? detail::SunUse::Direction : detail::SunUse::FlatOpenGround;
     }
-    void advance(CellState& cell, detail::StepWalk& walk) const
+    // Takes steps from .. to, which `walk` gives.
+    void advance(CellState& cell, detail::StepWalk& walk, std::size_t from, std::size_t to) const
     {
-        const auto step = walk.next();
-        const auto& s = step.dt_s == step_constants.dt_s ? step_constants : tail_constants;
-        detail::advance_cell(cell, step, place, constants, s);
+        std::array<detail::StepForcing, kCheckpointEvery> steps;
+        const std::size_t last = plan.count - 1;
+        for (std::size_t i = from; i < to;) {
+            const std::size_t end = i == last ? to : std::min({to, last, i + steps.size()});
+            for (std::size_t j = i; j < end; ++j) steps[j - i] = walk.next();
+            advance_cell(cell, place, steps.data(), end - i, constants,
+                         i == last ? tail_constants : step_constants);
+            i = end;
+        }
     }
     // Index of the step that holds a time within the run.
     std::size_t step_of(std::int64_t time_us) const
@@ -118,21 +129,21 @@ struct PhysicalTimeline::Impl {
         return first_step + point * kCheckpointEvery;
     }
 
-    void begin(const ForcingTable& source, const PhysicalParams& wanted)
+    void begin(std::shared_ptr<const ForcingTable> source, const PhysicalParams& wanted)
     {
         check_params(wanted);
-        if (source.rows() == 0 || !source.has(Field::Longwave) || !source.has(Field::Precip)) {
+        if (source->rows() == 0 || !source->has(Field::Longwave) || !source->has(Field::Precip)) {
             throw Error("physical model: the forcing table is not complete",
                         "Call fill_forcing on the table first.");
         }
-        table = needed_columns(source);
+        table = std::move(source);
         params = wanted;
         const double deep = std::isnan(params.deep_temp_k)
-                                ? kZeroCelsiusK + detail::yearly_wave(table).mean_c
+                                ? kZeroCelsiusK + detail::yearly_wave(*table).mean_c
                                 : params.deep_temp_k;
-        constants = detail::make_cell_constants(params, table.site, deep);
+        constants = detail::make_cell_constants(params, table->site, deep);
         place = detail::station_place(params.sky_view, params.precip_factor);
-        plan = detail::make_step_plan(table,
+        plan = detail::make_step_plan(*table,
                                       static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
         const auto seconds = [&](std::size_t step) {
             return static_cast<double>(plan.length_of(step)) * 1e-6;
@@ -146,9 +157,9 @@ struct PhysicalTimeline::Impl {
         first_step = from;
         checkpoints.reserve((plan.count - from) / kCheckpointEvery + 1);
         auto walk = walk_from(from);
-        for (std::size_t i = from; i < plan.count; ++i) {
-            if ((i - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
-            advance(cell, walk);
+        for (std::size_t i = from; i < plan.count; i += kCheckpointEvery) {
+            checkpoints.push_back(cell);
+            advance(cell, walk, i, std::min(i + kCheckpointEvery, plan.count));
         }
         if ((plan.count - from) % kCheckpointEvery == 0) checkpoints.push_back(cell);
     }
@@ -157,24 +168,30 @@ struct PhysicalTimeline::Impl {
     {
         const std::int64_t begin_us = plan.begin_of(i);
         const auto piece =
-            detail::make_step_forcing(table, begin_us, time_us - begin_us, sun_use());
-        detail::advance_cell(cell, piece, place, constants,
-                             detail::make_step_constants(constants, piece.dt_s, params.substep_s));
+            detail::make_step_forcing(*table, begin_us, time_us - begin_us, sun_use());
+        advance_cell(cell, place, &piece, 1, constants,
+                     detail::make_step_constants(constants, piece.dt_s, params.substep_s));
     }
 };
 
 PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params)
+    : PhysicalTimeline(needed_columns(table), params)
+{
+}
+
+PhysicalTimeline::PhysicalTimeline(std::shared_ptr<const ForcingTable> table,
+                                   const PhysicalParams& params)
     : impl_(std::make_unique<Impl>())
 {
-    impl_->begin(table, params);
-    impl_->run(detail::initial_cell(impl_->table, impl_->constants), 0);
+    impl_->begin(std::move(table), params);
+    impl_->run(detail::initial_cell(*impl_->table, impl_->constants), 0);
 }
 
 PhysicalTimeline::PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params,
                                    const CellState& state, std::int64_t at_us)
     : impl_(std::make_unique<Impl>())
 {
-    impl_->begin(table, params);
+    impl_->begin(needed_columns(table), params);
     const detail::StepPlan& plan = impl_->plan;
     const std::int64_t since = at_us - plan.begin_us;
     if (since < 0 || at_us > plan.end_us || (since % plan.length_us != 0 && at_us != plan.end_us)) {
@@ -214,7 +231,7 @@ CellState PhysicalTimeline::state_at(std::int64_t time_us) const
     CellState cell = impl_->checkpoints[point];
     const std::size_t from = impl_->step_of_checkpoint(point);
     auto walk = impl_->walk_from(from);
-    for (std::size_t i = from; i < target; ++i) impl_->advance(cell, walk);
+    impl_->advance(cell, walk, from, target);
     if (!whole && time_us > impl_->plan.begin_of(target))
         impl_->advance_partly(cell, target, time_us);
     return cell;
@@ -247,7 +264,8 @@ std::vector<CellState> PhysicalTimeline::series(std::int64_t from_us, std::int64
             cell = impl_->checkpoints[point];
             walk = impl_->walk_from(at);
         }
-        for (; at < target; ++at) impl_->advance(cell, walk);
+        impl_->advance(cell, walk, at, std::max(at, target));
+        at = std::max(at, target);
         out.push_back(cell);
         if (!whole && t > impl_->plan.begin_of(target))
             impl_->advance_partly(out.back(), target, t);

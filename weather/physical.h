@@ -48,6 +48,8 @@ class PhysicalTimeline {
 public:
     /// `table` must have been through fill_forcing. Throws Error for parameters out of range.
     PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params);
+    /// The same without a copy of the table, which must not change afterwards.
+    PhysicalTimeline(std::shared_ptr<const ForcingTable> table, const PhysicalParams& params);
     /// Continues from a state that save_state wrote; `at_us` must be a step of this timeline.
     PhysicalTimeline(const ForcingTable& table, const PhysicalParams& params,
                      const CellState& state, std::int64_t at_us);

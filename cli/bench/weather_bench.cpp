@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -98,16 +99,17 @@ Cost shared_out(Cost cost, int pieces)
 void add_cell_rows(const WeatherCase& one, int repeat, std::vector<BenchRow>& rows)
 {
     const weather::PhysicalParams params = meadow();
+    const auto table = std::make_shared<const ForcingTable>(one.table);
     rows.push_back({"degree_day_" + one.name, "1 cell, " + hours_text(one.table),
                     median_cost(repeat, [&] { sink = degree_day_run(one.table); })});
     rows.push_back({"cell_year_" + one.name, "1 cell, " + hours_text(one.table),
                     median_cost(repeat,
                                 [&] {
-                                    const weather::PhysicalTimeline run(one.table, params);
+                                    const weather::PhysicalTimeline run(table, params);
                                     sink = static_cast<double>(run.steps());
                                 }),
                     5.0});
-    const weather::PhysicalTimeline run(one.table, params);
+    const weather::PhysicalTimeline run(table, params);
     const std::int64_t length_us = run.end_us() - run.begin_us();
     std::int64_t n = 0;
     const Cost seeks = median_cost(repeat, [&] {

@@ -76,7 +76,9 @@ bool same_wrapping(const gpu::EncodedImage& a, const gpu::EncodedImage& b)
 
 void plan_material(gpu::Material& material, const gpu::Scene& scene, Planner& planner)
 {
-    TextureRecipe color{.kind = Kind::Color};
+    // What lies under holes must not show at their edges; an opaque material shows all of it.
+    TextureRecipe color{.kind = Kind::Color,
+                        .alpha_covers = material.alpha_mode != gpu::AlphaMode::Opaque};
     if (material.alpha_mode == gpu::AlphaMode::Mask && material.base_color.a > 0.0f) {
         color.alpha_cutoff = material.alpha_cutoff / material.base_color.a;
     }
@@ -209,7 +211,8 @@ gpu::Texture prepare(const gpu::Scene& scene, const TextureRecipe& recipe,
     texture.nearest = encoded.nearest;
     texproc::MipOptions mips{.wrap_u = encoded.wrap_u != gpu::Wrap::Clamp,
                              .wrap_v = encoded.wrap_v != gpu::Wrap::Clamp,
-                             .alpha_cutoff = recipe.alpha_cutoff};
+                             .alpha_cutoff = recipe.alpha_cutoff,
+                             .alpha_weighted = recipe.alpha_covers};
     std::vector<Image> levels;
     switch (recipe.kind) {
         case Kind::Color:

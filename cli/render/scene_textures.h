@@ -25,6 +25,7 @@ struct TextureRecipe {
     int image = 0;  ///< index into Scene::textures as loaded
     Kind kind = Kind::Color;
     float alpha_cutoff = -1.0f;     ///< Color of a MASK material: keep the coverage in small levels
+    bool alpha_covers = false;      ///< Color of a MASK or BLEND material: weighed by its alpha
     int normal_image = -1;          ///< Surface: the normal map whose lost detail becomes roughness
     float normal_scale = 1.0f;      ///< Surface: scale of that normal map
     float roughness_factor = 1.0f;  ///< Surface with a normal map: multiplied in here

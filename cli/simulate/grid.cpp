@@ -205,7 +205,7 @@ Plan plan_of(const weather::ForcingTable& table, const GridRun& run,
 // Moves the grid to its checkpoint; the table gets the rows before it. The checkpoint's own row,
 // and one that only ended the run before, come again if they are due.
 void resume(SimulationTable& table, weather::PhysicalGrid& grid,
-            const weather::GridIdentity& identity, const GridRun& run, const Plan& plan)
+            const weather::RunIdentity& identity, const GridRun& run, const Plan& plan)
 {
     const GridProgress before =
         load_progress(grid, identity, run.model.every_s, table.columns.size(), run.model.resume);

@@ -6,7 +6,7 @@
 
 namespace petrichor::cli {
 
-std::string save_progress(const weather::PhysicalGrid& grid, const weather::GridIdentity& identity,
+std::string save_progress(const weather::PhysicalGrid& grid, const weather::RunIdentity& identity,
                           const GridProgress& progress)
 {
     std::string bytes = weather::save_grid(grid, identity);
@@ -19,7 +19,7 @@ std::string save_progress(const weather::PhysicalGrid& grid, const weather::Grid
     return bytes;
 }
 
-GridProgress load_progress(weather::PhysicalGrid& grid, const weather::GridIdentity& identity,
+GridProgress load_progress(weather::PhysicalGrid& grid, const weather::RunIdentity& identity,
                            double every_s, std::size_t columns, std::string_view bytes)
 {
     bytes.remove_prefix(weather::load_grid(grid, identity, bytes));

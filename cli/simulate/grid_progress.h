@@ -17,12 +17,12 @@ struct GridProgress {
 };
 
 /// As bytes for a checkpoint file.
-std::string save_progress(const weather::PhysicalGrid& grid, const weather::GridIdentity& identity,
+std::string save_progress(const weather::PhysicalGrid& grid, const weather::RunIdentity& identity,
                           const GridProgress& progress);
 
 /// Puts the grid where the checkpoint was and returns the rows before it.
 ///   throws  Error as weather::load_grid, and for rows of another spacing or number of columns
-GridProgress load_progress(weather::PhysicalGrid& grid, const weather::GridIdentity& identity,
+GridProgress load_progress(weather::PhysicalGrid& grid, const weather::RunIdentity& identity,
                            double every_s, std::size_t columns, std::string_view bytes);
 
 }  // namespace petrichor::cli

@@ -11,6 +11,7 @@
 #include "cli/simulate/physical_table.h"
 #include "weather/artist/fit.h"
 #include "weather/ensemble.h"
+#include "weather/physical_checkpoint.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {
@@ -167,16 +168,9 @@ weather::PhysicalTimeline timeline_of(const weather::ReadResult& read, const Phy
                                       const weather::PhysicalParams& params)
 {
     if (run.resume.empty()) return {read.table, params};
-    // "<time in microseconds>\n<state>"
-    const auto end = run.resume.find('\n');
-    const auto at = end == std::string::npos
-                        ? std::nullopt
-                        : weather::to_integer(std::string_view(run.resume).substr(0, end));
-    if (!at)
-        throw Error("simulate: --resume: this is not a checkpoint of the physical model",
-                    "Give a file that --checkpoint wrote.");
-    return {read.table, params, weather::load_state(std::string_view(run.resume).substr(end + 1)),
-            *at};
+    const auto from =
+        weather::load_checkpoint(run.resume, weather::cell_identity(read.table, params));
+    return {read.table, params, from.state, from.at_us};
 }
 
 void fill_rows(SimulationTable& table, const weather::ReadResult& read,
@@ -266,7 +260,8 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
         const auto step_us = static_cast<std::int64_t>(std::llround(run.step_s * 1e6));
         const std::int64_t at =
             window.to_us == end_us ? end_us : origin + (window.to_us - origin) / step_us * step_us;
-        *run.checkpoint = std::to_string(at) + "\n" + weather::save_state(timeline.state_at(at));
+        *run.checkpoint = weather::save_checkpoint({at, timeline.state_at(at)},
+                                                   weather::cell_identity(read.table, params));
     }
     table.notes.push_back(books_of(timeline.state_at(window.to_us)));
     return table;

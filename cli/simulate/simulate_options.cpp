@@ -17,12 +17,13 @@ void add_input(CLI::App& command, SimulateOptions& o)
 {
     const char* group = "Input";
     command
-        .add_option("INPUT", o.inputs,
-                    "weather files of one place (the kind is found from the content: EPW, TMY3, "
-                    "PVGIS,\nOpen-Meteo, METAR/TAF, SMET, ISD-Lite, GHCN-daily, SURFRAD, FSM, CSV "
-                    "with units),\nor CSV keys of the artist model "
-                    "(time_s,temperature_c,rainfall; - is standard input),\nor a weather TOML, or "
-                    "a preset")
+        .add_option(
+            "INPUT", o.inputs,
+            "weather files of one place (the kind is found from the content: EPW, TMY3, "
+            "PVGIS,\nNSRDB, Open-Meteo, METAR/TAF, SMET, ISD-Lite, GHCN-daily, SURFRAD, FSM, CSV "
+            "with units),\nor CSV keys of the artist model "
+            "(time_s,temperature_c,rainfall; - is standard input),\nor a weather TOML, or "
+            "a preset")
         ->type_name("");
     command.add_flag("--list", o.list, "list the presets")->group(group);
     add(command, group, "--interp", "WORD", o.interpolation,

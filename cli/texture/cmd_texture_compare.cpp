@@ -13,6 +13,7 @@
 #include "cli/texture/files.h"
 #include "texproc/compare/inspect.h"
 #include "texproc/compare/metrics.h"
+#include "texproc/normal.h"
 #include "texproc/pack.h"
 
 namespace petrichor::cli {
@@ -79,6 +80,22 @@ void drop_idle_alpha(RawImage& image, const RawImage& other)
     image = std::move(rgb);
 }
 
+bool looks_normal(const RawImage& image)
+{
+    return image.channels >= 3 && texproc::inspect(image).meaning == texproc::Meaning::Normal;
+}
+
+// BC5 keeps x and y of a normal map: beside one with three channels, z is what a shader makes of
+// them.
+void rebuild_z(RawImage& image, const RawImage& other, const std::string& kind)
+{
+    const bool normal = kind == "normal" || (kind == "auto" && looks_normal(other));
+    if (image.channels != 2 || other.channels != 3 || !normal) return;
+    image = texproc::to_raw(
+        texproc::from_layout(texproc::to_image(image, ColorSpace::Data), texproc::NormalLayout::Rg),
+        texproc::PixelType::U16);
+}
+
 std::string number(double value)
 {
     char text[32];
@@ -91,6 +108,8 @@ void run(const Arguments& a)
     RawImage raw_a = read_map(a.a, a.reading), raw_b = read_map(a.b, a.reading);
     drop_idle_alpha(raw_a, raw_b);
     drop_idle_alpha(raw_b, raw_a);
+    rebuild_z(raw_a, raw_b, a.kind);
+    rebuild_z(raw_b, raw_a, a.kind);
     if (raw_a.width != raw_b.width || raw_a.height != raw_b.height ||
         raw_a.channels != raw_b.channels) {
         const auto shape = [](const std::string& name, const RawImage& i) {
@@ -100,9 +119,7 @@ void run(const Arguments& a)
         throw Error("texture compare: " + shape(a.a, raw_a) + ", " + shape(a.b, raw_b),
                     "Compare images of one size; FILE:r compares one channel.");
     }
-    const bool looks_normal =
-        raw_a.channels >= 3 && texproc::inspect(raw_a).meaning == texproc::Meaning::Normal;
-    const bool normals = a.kind == "normal" || (a.kind == "auto" && looks_normal);
+    const bool normals = a.kind == "normal" || (a.kind == "auto" && looks_normal(raw_a));
     const Image ia = normals ? texproc::to_image(raw_a, ColorSpace::Data) : codes_of(raw_a);
     const Image ib = normals ? texproc::to_image(raw_b, ColorSpace::Data) : codes_of(raw_b);
     const std::vector<double> db = texproc::psnr(ia, ib);

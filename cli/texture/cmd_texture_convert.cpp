@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/normal_channels.h"
 #include "cli/words.h"
 #include "texproc/files/texture.h"
 #include "texproc/mips.h"
@@ -25,8 +26,8 @@ struct Arguments {
     bool srgb = false, linear = false, mips = false, normals = false, dither = false;
     bool alpha_data = false;
     int bits = 0, jpeg_quality = 95, zstd = 0, threads = 0;
-    texproc::BlockQuality quality = texproc::BlockQuality::Normal;
-    texproc::MipFilter filter = texproc::MipFilter::Box;
+    std::string quality = "normal";
+    std::string filter = "box";
     texproc::ReadOptions reading;
 };
 
@@ -108,7 +109,7 @@ std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
     return texproc::mip_chain(image, {.wrap_u = a.wrap == "wrap",
                                       .wrap_v = a.wrap == "wrap",
                                       .normals = a.normals,
-                                      .filter = a.filter,
+                                      .filter = kFilters.at(a.filter),
                                       .mirror_u = a.wrap == "mirror",
                                       .mirror_v = a.wrap == "mirror",
                                       .alpha_weighted = !a.alpha_data,
@@ -118,7 +119,8 @@ std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
 void run(const Arguments& a)
 {
     check(a);
-    const texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    if (a.normals && raw.channels == 3 && drops_z(a.format)) raw = unit_normals(raw, raw.type);
     const std::string extension = extension_of(a.out);
     const texproc::PixelType type = type_for(extension, a.bits, raw.type);
     const texproc::Rounding rounding =
@@ -127,7 +129,7 @@ void run(const Arguments& a)
     const texproc::TextureWriteOptions writing{.format = a.format,
                                                .srgb = a.srgb,
                                                .dither = a.dither,
-                                               .quality = a.quality,
+                                               .quality = kQualities.at(a.quality),
                                                .zstd = a.zstd,
                                                .threads = a.threads};
     // Integers stay as they are; a change of type goes through linear light when they are colour.
@@ -168,16 +170,18 @@ void add_texture_convert(CLI::App& texture)
     app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
     app->add_flag("--linear", a->linear, "it is data (default)");
     app->add_flag("--mips", a->mips, "all levels down to 1 x 1 (dds, ktx2, exr)");
-    app->add_option("--filter", a->filter, "of the levels: box, kaiser, lanczos3, mitchell")
-        ->transform(CLI::CheckedTransformer(kFilters, CLI::ignore_case));
+    app->add_option("--filter", a->filter, "of the levels")
+        ->check(CLI::IsMember({"box", "kaiser", "lanczos3", "mitchell"}))
+        ->capture_default_str();
     app->add_option("--wrap", a->wrap, "past the edges: wrap, clamp, mirror")
         ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
         ->capture_default_str();
     app->add_flag("--alpha-data", a->alpha_data,
                   "--srgb --mips: alpha is no coverage; colour counts the same under all of it");
     app->add_flag("--normals", a->normals, "a normal map: levels are made unit length again");
-    app->add_option("--quality", a->quality, "of blocks: fast, normal, best")
-        ->transform(CLI::CheckedTransformer(kQualities, CLI::ignore_case));
+    app->add_option("--quality", a->quality, "of blocks")
+        ->check(CLI::IsMember({"fast", "normal", "best"}))
+        ->capture_default_str();
     app->add_option("--bits", a->bits, "8 or 16 (integers), 16 or 32 (exr); default: as the image")
         ->check(CLI::IsMember({8, 16, 32}));
     app->add_flag("--dither", a->dither, "to 8 bits by an ordered pattern in place of rounding");

@@ -114,8 +114,9 @@ nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw,
 void print(const std::string& file, const RawImage& raw, const ImageFacts& facts,
            const std::optional<texproc::MipTexture>& texture)
 {
-    std::printf("%s: %d x %d, %d channels, %s", file.c_str(), raw.width, raw.height, raw.channels,
-                name_of(raw.type));
+    const auto ending = [](int count) { return count == 1 ? "" : "s"; };
+    std::printf("%s: %d x %d, %d channel%s, %s", file.c_str(), raw.width, raw.height, raw.channels,
+                ending(raw.channels), name_of(raw.type));
     if (texture) {
         std::printf(", %s%s, %zu levels", name_of(texture->format).c_str(),
                     texture->srgb ? " sRGB" : "", texture->levels.size());
@@ -138,7 +139,7 @@ void print(const std::string& file, const RawImage& raw, const ImageFacts& facts
     for (const texproc::ChannelFacts& c : facts.channels) {
         std::printf("  %-11s %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-8.4f %-9.4f |%s|", c.name.c_str(),
                     c.low, c.p5, c.median, c.p95, c.high, c.mean, c.deviation, bars(c).c_str());
-        if (c.codes > 0) std::printf(" %d codes", c.codes);
+        if (c.codes > 0) std::printf(" %d code%s", c.codes, ending(c.codes));
         if (c.not_finite > 0) std::printf(" %zu NOT NUMBERS", c.not_finite);
         std::printf("\n");
     }
@@ -275,7 +276,9 @@ void add_texture_inspect(CLI::App& texture)
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
     app->footer(
-        "Exit code 2 when a file cannot be read; the others are shown.\n\n"
+        "Exit code 2 when a file cannot be read; the others are shown. Files from anywhere may be "
+        "given:\n"
+        "each is decoded apart, with limits on memory, time and pixels.\n\n"
         "Example:\n  petrichor texture inspect wall_diff.png wall_nor_gl.png wall_rough.png "
         "--sheet wall.png");
     app->callback([a] { run(*a); });

@@ -10,6 +10,7 @@
 #include "base/output_file.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/files.h"
+#include "cli/texture/normal_channels.h"
 #include "cli/texture/pack_file.h"
 #include "texproc/bake.h"
 #include "texproc/files/texture.h"
@@ -50,7 +51,7 @@ void check_same_size(const std::string& name_a, const Image& a, const std::strin
 }
 
 struct MipsArguments {
-    std::string in, out, format, wrap_u = "wrap", wrap_v = "wrap";
+    std::string in, out, format, filter = "box", wrap_u = "wrap", wrap_v = "wrap";
     bool color = false, alpha_data = false;
     int bits = 8;
     texproc::MipOptions options;
@@ -86,7 +87,10 @@ void run_mips(MipsArguments& a)
     a.options.mirror_u = a.wrap_u == "mirror";
     a.options.mirror_v = a.wrap_v == "mirror";
     a.options.alpha_weighted = !a.alpha_data;
-    const Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
+    a.options.filter = kFilters.at(a.filter);
+    Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
+    if (a.options.normals && image.channels == 3 && drops_z(a.format))
+        texproc::renormalize(image, kUnitRounding);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     write_mips(a, chain);
     std::cout << chain.size() << " levels\n";
@@ -131,6 +135,8 @@ void run_normal(const NormalArguments& a)
         std::cout << "depth " << height.depth << " of the width\n";
         return;
     }
+    // Whoever reads two channels makes z from them.
+    if (a.to != "rgb" && a.to != "rxgb") texproc::renormalize(normal, kUnitRounding);
     texproc::write_image(a.out, texproc::to_layout(normal, texproc::normal_layout(a.to)),
                          {.bits = a.bits});
 }
@@ -216,9 +222,9 @@ void add_texture_maps(CLI::App& texture)
         app->add_option("-o,--out", a->out, "level k: 'out_%d.png'; all in one: .dds, .ktx2, .exr")
             ->required();
         app->add_option("--format", a->format, "of .dds and .ktx2: bc1, bc7, rgba16f, ...");
-        app->add_option("--filter", a->options.filter,
-                        "box (exact area), kaiser, lanczos3, mitchell")
-            ->transform(CLI::CheckedTransformer(kFilters));
+        app->add_option("--filter", a->filter, "box: the mean over the exact area")
+            ->check(CLI::IsMember({"box", "kaiser", "lanczos3", "mitchell"}))
+            ->capture_default_str();
         for (const auto& [axis, value] :
              {std::pair{"--wrap-u", &a->wrap_u}, {"--wrap-v", &a->wrap_v}}) {
             app->add_option(axis, *value, "wrap, clamp or mirror")

@@ -82,8 +82,12 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
         for (std::size_t k = 1; k < chains.normal.size(); ++k) {
             chains.normal[k] = lay_out_normals(chains.normal[k], o, maps.normal.channels);
         }
+        const bool xyz = maps.normal.channels == 3 && o.normal_x == 0 && !o.rebuild_z;
         write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
-                    maps.normal, a.input.normal, chains.normal);
+                    xyz && drops_z(a.normal_format)
+                        ? unit_normals(maps.normal, texproc::PixelType::U16)
+                        : maps.normal,
+                    a.input.normal, chains.normal);
     }
     if (!a.anisotropy_out.empty()) {
         // Level 0 has none: along x, strength 0.

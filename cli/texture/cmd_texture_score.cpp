@@ -98,6 +98,7 @@ void run(Arguments& a)
         return;
     }
     if (!a.protocol.effort.empty()) {
+        a.protocol.best_ellipse = a.scoring.best_ellipse;
         run_score_protocol(a.protocol, a.input.reading, a.input.options.threads);
         return;
     }
@@ -175,6 +176,13 @@ void add_texture_score(CLI::App& texture)
                     "this seed (several with commas between)")
         ->delimiter(',')
         ->allow_extra_args(false);
+    app->add_option("--only", a->protocol.only,
+                    "for --protocol: only materials with one of these words in their names")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app->add_flag("--best-ellipse", a->scoring.best_ellipse,
+                  "also the best elliptic lobe of all, searched for at every texel: what no "
+                  "anisotropic output can beat (slow)");
     app->add_option("--csv", a->protocol.csv, "for --protocol: every level of every row");
     app->footer(
         "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in "
@@ -182,7 +190,9 @@ void add_texture_score(CLI::App& texture)
         "where there is little to gain, the excess over the best lobe.\n\nExample:\n"
         "  petrichor texture score --normal n.png --roughness r.png --chain 'r_%d.png' "
         "--normal-chain 'n_%d.png'\n"
-        "  petrichor texture score --protocol quick materials/Rock020 materials/Tiles036");
+        "  petrichor texture score --protocol quick materials/Rock020 materials/Tiles036\n"
+        "  petrichor texture score --protocol quick --fresh 1,2 --only corrugated,strokes,brushed "
+        "--best-ellipse");
     app->callback([a] { run(*a); });
 }
 

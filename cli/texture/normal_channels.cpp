@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "texproc/files/texture.h"
+#include "texproc/normal.h"
 
 namespace petrichor::cli {
 
@@ -24,7 +26,9 @@ Image lay_out_normals(const Image& normals, const texproc::PrefilterOptions& o, 
 
 Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, int number)
 {
-    const int needed = std::max({o.normal_x, o.normal_y, o.rebuild_z ? 0 : 2}) + 1;
+    // BC5 holds x and y whatever the layout of the map was.
+    const bool rebuild_z = o.rebuild_z || (level.channels == 2 && o.normal_x == 0);
+    const int needed = std::max({o.normal_x, o.normal_y, rebuild_z ? 0 : 2}) + 1;
     if (level.channels < needed) {
         throw Error("score: level " + std::to_string(number) + " of the normals has " +
                         std::to_string(level.channels) + " channels, " + std::to_string(needed) +
@@ -38,12 +42,27 @@ Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, i
             const float nx = 2.0f * cx - 1.0f, ny = 2.0f * cy - 1.0f;
             to.at(x, y, 0) = cx;
             to.at(x, y, 1) = cy;
-            to.at(x, y, 2) = o.rebuild_z
+            to.at(x, y, 2) = rebuild_z
                                  ? 0.5f + 0.5f * std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny))
                                  : level.at(x, y, 2);
         }
     }
     return to;
+}
+
+texproc::RawImage unit_normals(const texproc::RawImage& normal, texproc::PixelType type)
+{
+    Image xyz = texproc::to_image(normal, ColorSpace::Data);
+    if (xyz.channels > 3) xyz = texproc::from_layout(xyz, texproc::NormalLayout::Rgb);
+    texproc::renormalize(xyz, kUnitRounding);
+    return texproc::to_raw(xyz, type);
+}
+
+bool drops_z(const std::string& format)
+{
+    if (format.empty()) return false;
+    const texproc::TextureFormat known = texproc::texture_format(format);
+    return known.block ? known.block == texproc::Block::Bc5 : known.channels == 2;
 }
 
 }  // namespace petrichor::cli

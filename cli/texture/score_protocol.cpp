@@ -53,6 +53,16 @@ void add_patchwork(std::vector<texproc::ScoredMaps>& materials)
     }
 }
 
+void keep_only(const std::vector<std::string>& words, std::vector<texproc::ScoredMaps>& materials)
+{
+    if (words.empty()) return;
+    std::erase_if(materials, [&](const texproc::ScoredMaps& maps) {
+        return std::none_of(words.begin(), words.end(), [&](const std::string& word) {
+            return glob_matches("*" + word + "*", maps.name);
+        });
+    });
+}
+
 std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
 {
     std::vector<texproc::Variant> all = texproc::protocol_variants(request.bits), kept;
@@ -89,14 +99,17 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
             materials.push_back(std::move(maps));
         }
     }
+    keep_only(request.only, materials);
     if (materials.empty()) {
-        throw Error("score: there is nothing to score",
-                    "Name roughness maps or folders of materials, or leave --no-hard out.");
+        throw Error(
+            "score: there is nothing to score",
+            "Name roughness maps or folders of materials, or leave --no-hard or --only out.");
     }
     texproc::ProtocolOptions options;
     if (request.effort == "quick") options = texproc::quick_protocol();
     if (request.seeds > 0) options.seeds = request.seeds;
     options.threads = threads;
+    options.best_ellipse = request.best_ellipse;
     options.progress = [](const std::string& what) { std::cerr << "score: " << what << "\n"; };
     const std::vector<texproc::ProtocolRow> rows =
         texproc::run_protocol(materials, variants, options);

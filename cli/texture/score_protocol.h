@@ -20,6 +20,8 @@ struct ProtocolRequest {
     bool puddles = true;               ///< each set with a height map also after rain
     bool patchwork = false;            ///< each set also in patches with the next one
     std::vector<std::uint32_t> fresh;  ///< seeds of sets of materials that no rule was chosen on
+    std::vector<std::string> only;     ///< materials whose names hold one of these; empty: all
+    bool best_ellipse = false;         ///< rows for the best elliptic lobes there are
     std::string csv;                   ///< every level of every row
 };
 

@@ -103,6 +103,31 @@ TEST(PrepareTextures, LostBumpsBecomeRoughness)
     EXPECT_NEAR(static_cast<int>(textures[1].mips[3][0]), 128, 1);
 }
 
+// A leaf: bright green where it is, black where it is not.
+TEST(PrepareTextures, HolesDoNotDarkenTheColourOfALeaf)
+{
+    const auto mid_green = [](gpu::AlphaMode mode) {
+        std::vector<std::uint8_t> pixels;
+        for (int i = 0; i < 64; ++i) {
+            const bool leaf = (i + i / 8) % 2 == 0;
+            for (const int v : {0, leaf ? 200 : 0, 0, leaf ? 255 : 0}) {
+                pixels.push_back(static_cast<std::uint8_t>(v));
+            }
+        }
+        gpu::Scene scene;
+        scene.textures.emplace_back();
+        scene.textures[0].name = "leaf.png";
+        scene.textures[0].bytes = texproc::encode_png8(8, 8, 4, pixels);
+        scene.materials.emplace_back();
+        scene.materials[0].alpha_mode = mode;
+        scene.materials[0].base_color_texture.texture = 0;
+        return static_cast<int>(prepare_textures(scene)[0].mips[1][1]);
+    };
+    EXPECT_EQ(mid_green(gpu::AlphaMode::Mask), 200);
+    EXPECT_EQ(mid_green(gpu::AlphaMode::Blend), 200);
+    EXPECT_NEAR(mid_green(gpu::AlphaMode::Opaque), 146, 2) << "half of the light, whatever alpha";
+}
+
 TEST(PrepareTextures, SameBytesForAnyThreadCountAndLargeOnesAreReduced)
 {
     gpu::Scene one = scene_with_maps();

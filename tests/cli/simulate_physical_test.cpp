@@ -109,6 +109,12 @@ TEST(SimulatePhysical, WindowsAndCheckpointsGiveTheSameRows)
         EXPECT_EQ(tail.rows[i][film], whole.rows[i + 100][film]);
         EXPECT_EQ(tail.rows[i][depth], whole.rows[i + 100][depth]);
     }
+    PhysicalRun other = rest;
+    other.step_s = 1800;
+    EXPECT_THROW(simulated(csv, other), Error);
+    std::string colder = csv;
+    colder.replace(colder.find(",9,95,"), 6, ",8,95,");
+    EXPECT_THROW(simulated(colder, rest), Error);
     rest.resume = "nonsense";
     EXPECT_THROW(simulated(csv, rest), Error);
 }

@@ -376,6 +376,75 @@ TEST(TextureBuild, TheManifestKeepsAnEntryForEachEngine)
               (std::set<std::string>{"Brick01 gltf", "Brick01 unity-urp", "wet/soil gltf"}));
 }
 
+// An output that a map is missing for is left out by name; the others are made.
+TEST(TextureBuild, WhatCannotBeFilledIsLeftOut)
+{
+    const Workplace place("build-left-out");
+    texproc::write_image(place / "in/Leaf_opacity.png", Image(8, 8, 1, ColorSpace::Data, 0.5f));
+    texproc::write_image(place / "in/Leaf_normal.png", Image(8, 8, 3, ColorSpace::Data, 0.5f));
+    const std::vector<std::string> command{"texture", "build", "in", "--engine",
+                                           "gltf",    "-o",    "out"};
+    std::vector<std::string> dry = command;
+    dry.push_back("--dry-run");
+    EXPECT_THAT(run(dry, place).out,
+                HasSubstr("left out    Leaf_baseColor.png: there is no albedo"));
+    const Outcome made = run(command, place);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_TRUE(fs::exists(place / "out/Leaf_normal.png"));
+    EXPECT_FALSE(fs::exists(place / "out/Leaf_baseColor.png"));
+}
+
+// URP reads occlusion from green, which a one-channel file does not have.
+TEST(TextureBuild, OcclusionForUrpIsGreen)
+{
+    const Workplace place("build-urp");
+    texproc::write_image(place / "in/Wall_ao.png", Image(8, 8, 1, ColorSpace::Data, 0.8f));
+    ASSERT_EQ(
+        run({"texture", "build", "in", "--engine", "unity-urp", "-o", "out"}, place).exit_code, 0);
+    const texproc::RawImage file = texproc::read_raw(place / "out/Wall_Occlusion.dds");
+    ASSERT_GE(file.channels, 3);
+    EXPECT_NEAR(static_cast<int>(file.bytes[1]), 204, 1);
+}
+
+// Blocks turn the normals a little; the roughness beside them is chosen for what came out, and what
+// ships is not worse than a rule that chooses nothing for the blocks.
+TEST(TextureBuild, RoughnessIsAimedAtTheNormalsInTheFile)
+{
+    const Workplace place("build-aimed");
+    const texproc::MaterialMaps metal =
+        texproc::generate_material(texproc::MaterialKind::MetalPlate, 128, 3, 1);
+    texproc::write_image(place / "metal_normal.png", metal.normal);
+    texproc::write_image(place / "metal_roughness.png", metal.roughness);
+    const auto built = [&](const std::string& name, const std::string& normals) {
+        write_file(place / (name + ".toml"),
+                   "[inputs]\nnormal = \"metal_normal.png\"\nroughness = "
+                   "\"metal_roughness.png\"\n[[output]]\nfile = \"{name}_n\"\nchannels = "
+                   "[\"normal.r\", \"normal.g\"]\n" +
+                       normals +
+                       "[[output]]\nfile = \"{name}_r\"\nchannels = [\"roughness\"]\n"
+                       "format = \"dds\"\ncompression = \"bc4\"\n");
+        return [&, name](const std::string& rule) {
+            const Outcome made = run({"texture", "build", name + ".toml", "--rule", rule,
+                                      "--quality", "full", "-o", name + rule},
+                                     place);
+            EXPECT_EQ(made.exit_code, 0) << made.err;
+            return json::parse(read_file(place / (name + rule) / "manifest.json"))["sets"][0];
+        };
+    };
+    const auto blocks = built("blocks", "format = \"dds\"\ncompression = \"bc5\"\n");
+    const json ours = blocks("overlap"), median = blocks("median");
+    for (const char* range : {"levels_1_to_5", "levels_6_up"}) {
+        EXPECT_LE(ours["lobe_error"][range]["shipped"].get<double>(),
+                  median["lobe_error"][range]["shipped"].get<double>() + 0.005)
+            << range;
+    }
+    built("exact", "format = \"exr\"\nbits = 32\n")("overlap");
+    EXPECT_NE(read_file(place / "blocksoverlap/blocks_r.dds"),
+              read_file(place / "exactoverlap/exact_r.dds"));
+    EXPECT_EQ(read_file(place / "blocksmedian/blocks_r.dds").size(),
+              read_file(place / "exactoverlap/exact_r.dds").size());
+}
+
 // A leaf, green where its own opacity map says so and black elsewhere.
 TEST(TextureBuild, AnOpacityMapKeepsBlackOutOfTheLevels)
 {

@@ -3,8 +3,10 @@
 // were.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -238,6 +240,99 @@ TEST(TextureTools, CompareAndInspectSpeakToMachines)
     EXPECT_GT(texproc::read_raw(place / "sheet.png").width, 400);
 }
 
+double largest_angle(const std::string& a, const std::string& b, const Workplace& place)
+{
+    const Outcome made = run({"texture", "compare", a, b, "--kind", "normal", "--json"}, place);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    if (made.exit_code != 0) return 180.0;
+    return json::parse(made.out)["angle_degrees"]["max"].get<double>();
+}
+
+// Many maps are shorter than 1 (JPEG, filters). z made from x and y alone would lean less.
+TEST(TextureTools, TwoChannelsKeepTheDirectionOfShortNormals)
+{
+    const Workplace place("texture_short_normals");
+    Image normal = texproc::generate_material(texproc::MaterialKind::Cobble, 32, 1, 1).normal;
+    texproc::write_image(place / "long.png", normal, {.bits = 16});
+    for (float& v : normal.pixels) v = 0.5f + 0.7f * (v - 0.5f);
+    texproc::write_image(place / "short.png", normal, {.bits = 16});
+    texproc::write_image(place / "rough.png", Image(32, 32, 1, ColorSpace::Data, 0.5f));
+    write_file(place / "r.toml",
+               "[inputs]\nnormal = \"short.png\"\nroughness = \"rough.png\"\n[[output]]\n"
+               "file = \"{name}_n\"\nchannels = [\"normal.r\", \"normal.g\"]\n"
+               "format = \"dds\"\ncompression = \"bc5\"\n");
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"build", "r.toml", "-o", "."},
+             {"prefilter", "--normal", "short.png", "--roughness", "rough.png", "-o", "p_r.dds",
+              "--normal-out", "p_n.dds", "--normal-format", "bc5"},
+             {"convert", "short.png", "-o", "c_n.dds", "--format", "bc5", "--mips", "--normals"},
+             {"normal", "short.png", "--to-layout", "ag", "-o", "ag.png"},
+             {"normal", "ag.png", "--from-layout", "ag", "-o", "back.png"}}) {
+        std::vector<std::string> all{"texture"};
+        all.insert(all.end(), command.begin(), command.end());
+        const Outcome made = run(all, place);
+        ASSERT_EQ(made.exit_code, 0) << command[0] << made.err;
+    }
+    for (const char* file : {"r_n.dds", "p_n.dds", "c_n.dds"}) {
+        EXPECT_LT(largest_angle("long.png", file, place), 6.0) << file;  // blocks
+    }
+    EXPECT_LT(largest_angle("long.png", "back.png", place), 0.1);
+}
+
+// Every damaged and every awkward file of the shared data in one command:
+//   petrichor texture inspect $(find bad formats -type f)
+TEST(TextureTools, InspectSurvivesEveryBadFile)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    const Workplace place("texture_bad_files");
+    std::vector<std::string> command{"texture", "inspect"};
+    for (const char* folder : {"bad", "formats"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(assets) / folder)) {
+            const bool scene = entry.path().string().find("/gltf") != std::string::npos;
+            if (entry.is_regular_file() && !scene) command.push_back(entry.path().string());
+        }
+    }
+    ASSERT_GT(command.size(), 300u);
+    const Outcome outcome = run(command, place);
+    EXPECT_EQ(outcome.exit_code, 2) << "some are damaged";
+    std::size_t pictures = 0, errors = 0;
+    for (std::size_t i = 2; i < command.size(); ++i) {
+        const bool shown = outcome.out.find(command[i] + ": ") != std::string::npos;
+        const bool refused = outcome.err.find(command[i]) != std::string::npos;
+        EXPECT_NE(shown, refused) << command[i];
+        pictures += shown;
+        errors += refused;
+    }
+    EXPECT_GE(pictures, 170u);
+    EXPECT_GE(errors, 120u);
+    struct rusage usage {};
+    ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &usage), 0);
+    EXPECT_LT(usage.ru_maxrss, 2l * 1024 * 1024) << "KiB";
+    std::printf("%zu files: %zu pictures, %zu errors, at most %ld MiB\n", command.size() - 2,
+                pictures, errors, usage.ru_maxrss / 1024);
+}
+
+// Blocks that have an alpha of their own are off by a few codes of 255 where all of it was opaque.
+TEST(TextureTools, CompareIgnoresAnAlphaThatSaysNothing)
+{
+    const Workplace place("texture_idle_alpha");
+    Image color(16, 16, 3, ColorSpace::Data, 0.4f);
+    texproc::write_image(place / "rgb.png", color);
+    const auto with_alpha = [&](int code) {
+        Image rgba(16, 16, 4, ColorSpace::Data, 0.4f);
+        for (std::size_t i = 3; i < rgba.pixels.size(); i += 4) rgba.pixels[i] = 1.0f;
+        rgba.pixels[3 + 4 * 37] = static_cast<float>(code) / 255.0f;
+        texproc::write_image(place / "rgba.png", rgba);
+        return run({"texture", "compare", "rgb.png", "rgba.png"}, place);
+    };
+    EXPECT_EQ(with_alpha(255).exit_code, 0);
+    EXPECT_EQ(with_alpha(250).exit_code, 0);
+    const Outcome hole = with_alpha(249);
+    EXPECT_EQ(hole.exit_code, 2);
+    EXPECT_THAT(hole.err, HasSubstr("with 4 channels"));
+}
+
 TEST(TextureTools, GeneratedSetsAreRecognisedByBuild)
 {
     const Workplace place("texture_generate");
@@ -273,7 +368,7 @@ TEST(TextureTools, BenchTimesOursBesideWhatIsInstalled)
             EXPECT_TRUE(row.contains("cpu_s") || row.contains("note")) << row.dump();
         }
     }
-    EXPECT_EQ(tasks, (std::set<std::string>{"bc5", "mips", "pack", "prefilter"}));
+    EXPECT_EQ(tasks, (std::set<std::string>{"bc5", "bc7", "mips", "pack", "prefilter"}));
     const Outcome lone = run({"bench", "texture", "--normal", "n.png"}, place);
     EXPECT_EQ(lone.exit_code, 2);
     EXPECT_THAT(lone.err, HasSubstr("belong together"));

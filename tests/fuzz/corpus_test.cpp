@@ -44,7 +44,7 @@ TEST(ReadersCorpus, HoldsEveryKindOfFile)
         } catch (const Error&) {  // files that were found by the fuzzer need not be recognised
         }
     }
-    for (int i = 0; i <= static_cast<int>(WeatherFormat::Surfrad); ++i) {
+    for (int i = 0; i <= static_cast<int>(WeatherFormat::Nsrdb); ++i) {
         EXPECT_TRUE(kinds.count(format_name(static_cast<WeatherFormat>(i))))
             << format_name(static_cast<WeatherFormat>(i));
     }

@@ -133,6 +133,9 @@ TEST(IsdLite, SixHourTotalsFillWhatTheHoursLeaveOpen)
 
 // ---- GHCN-daily
 
+// A day is read as eight rows; without shortwave they are divided into hours.
+constexpr std::size_t kHours = 3;
+
 TEST(Ghcn, FixedColumnsAndTables)
 {
     std::string dly;
@@ -156,15 +159,15 @@ TEST(Ghcn, FixedColumnsAndTables)
     const auto r = read_weather(
         dly, {.site = {.latitude_deg = 40, .longitude_deg = -105, .elevation_m = 1600}});
     EXPECT_EQ(r.report.format, "GHCN-daily");
-    EXPECT_EQ(r.table.rows(), 24u);
-    EXPECT_NEAR(r.table[Field::AirTemp][2], 268.15, 1e-9);  // 06 local
-    EXPECT_NEAR(r.table[Field::AirTemp][5], 278.15, 1e-9);  // 15 local
-    EXPECT_NEAR(r.table[Field::Precip][9] * 86400, 12.3, 1e-9);
+    EXPECT_EQ(r.table.rows(), 24 * kHours);
+    EXPECT_NEAR(r.table[Field::AirTemp][2 * kHours], 268.15, 1e-9);  // 06 local
+    EXPECT_NEAR(r.table[Field::AirTemp][5 * kHours], 278.15, 1e-9);  // 15 local
+    EXPECT_NEAR(r.table[Field::Precip][9 * kHours] * 86400, 12.3, 1e-9);
     const auto t = read_weather(
         "USC00012345,20200101,TMAX,50,,,7,\nUSC00012345,20200101,TMIN,-50,,,7,\nUSC00012345,"
         "20200101,PRCP,20,,,7,\n");
     EXPECT_EQ(t.report.format, "GHCN-daily");
-    EXPECT_EQ(t.table.rows(), 8u);
+    EXPECT_EQ(t.table.rows(), 8 * kHours);
     expect_complete(t.table);
 }
 
@@ -193,13 +196,13 @@ TEST(Ghcn, FlagsTracesAndUnits)
                          dly_line("WT01", {{1, "  E"}}),
                      kPlace);
     // The second day's maximum failed a check: it swings no higher than its minimum.
-    EXPECT_EQ(r.table.rows(), 24u);
-    EXPECT_NEAR(r.table[Field::AirTemp][5 - 0], 273.15 - 2.2, 1e-9);
-    EXPECT_NEAR(r.table[Field::AirTemp][8 + 5], 273.15 - 9.0, 1e-9);
+    EXPECT_EQ(r.table.rows(), 24 * kHours);
+    EXPECT_NEAR(r.table[Field::AirTemp][5 * kHours], 273.15 - 2.2, 1e-9);
+    EXPECT_NEAR(r.table[Field::AirTemp][13 * kHours], 273.15 - 9.0, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][0], 0.0, 1e-15);
-    EXPECT_NEAR(r.table[Field::Precip][8] * 86400.0, 25.4, 1e-9);
+    EXPECT_NEAR(r.table[Field::Precip][8 * kHours] * 86400.0, 25.4, 1e-9);
     EXPECT_NEAR(r.table[Field::SnowDepth][0], 1.22, 1e-9);
-    EXPECT_TRUE(std::isnan(r.table[Field::SnowDepth][8]));
+    EXPECT_TRUE(std::isnan(r.table[Field::SnowDepth][8 * kHours]));
 }
 
 TEST(Ghcn, TotalsOfSeveralDaysAreShared)
@@ -215,7 +218,7 @@ TEST(Ghcn, TotalsOfSeveralDaysAreShared)
         kPlace);
     EXPECT_NEAR(r.table[Field::Precip][0] * 86400.0, 2.0, 1e-9);
     for (const std::size_t day : {1u, 2u, 3u})
-        EXPECT_NEAR(r.table[Field::Precip][day * 8] * 86400.0, 10.0, 1e-9) << day;
+        EXPECT_NEAR(r.table[Field::Precip][day * 8 * kHours] * 86400.0, 10.0, 1e-9) << day;
     EXPECT_TRUE(says(r.report, "1 totals of several days shared"));
     const auto unknown =
         read_weather(temperatures + dly_line("MDPR", {{-9999, "   "}, {300, "   "}}), kPlace);
@@ -234,8 +237,9 @@ TEST(Ghcn, AccessTablesHonourTheirFlags)
                                 "\" 9990\",\",X,E\",\"  -31\",\",,E\",\" -142\",\",,E\"\n");
     EXPECT_NEAR(r.table.site.elevation_m, 1560.0, 1e-9);
     EXPECT_NEAR(r.table[Field::Precip][0] * 86400.0, 31.2, 1e-9);
-    EXPECT_NEAR(r.table[Field::Precip][8], 0.0, 1e-15);  // failed its check: as if not given
-    EXPECT_NEAR(r.table[Field::AirTemp][2], 273.15 - 10.5, 1e-9);
+    EXPECT_NEAR(r.table[Field::Precip][8 * kHours], 0.0,
+                1e-15);  // failed its check: as if not given
+    EXPECT_NEAR(r.table[Field::AirTemp][2 * kHours], 273.15 - 10.5, 1e-9);
 }
 
 TEST(Ghcn, OrderedTablesInOtherUnits)
@@ -244,7 +248,7 @@ TEST(Ghcn, OrderedTablesInOtherUnits)
     const auto metric =
         read_weather(head + "USW1,2021-01-14,3.1,-2.0,-10.5\nUSW1,2021-01-15,0.0,1.5,-4.2\n");
     EXPECT_NEAR(metric.table[Field::Precip][0] * 86400.0, 3.1, 1e-9);
-    EXPECT_NEAR(metric.table[Field::AirTemp][2], 273.15 - 10.5, 1e-9);
+    EXPECT_NEAR(metric.table[Field::AirTemp][2 * kHours], 273.15 - 10.5, 1e-9);
     EXPECT_TRUE(says(metric.report, "taken as C, mm and m/s"));
     try {
         read_weather(head + "USW1,2021-01-14,0.12,28,13\nUSW1,2021-01-15,0.00,35,24\n");

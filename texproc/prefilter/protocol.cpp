@@ -65,7 +65,11 @@ void add_share(Score& sum, const Score& one, double share)
 {
     if (sum.levels.empty()) {
         sum = one;
-        for (LevelScore& l : sum.levels) l = {l.level, 0, 0, 0, 0, 0};
+        for (LevelScore& l : sum.levels) {
+            LevelScore none;
+            none.level = l.level;
+            l = none;
+        }
     }
     for (std::size_t i = 0; i < sum.levels.size(); ++i) {
         LevelScore& to = sum.levels[i];
@@ -75,6 +79,19 @@ void add_share(Score& sum, const Score& one, double share)
         to.tested += share * from.tested;
         to.energy += share * from.energy;
         to.spread += share * from.spread;
+        to.reached += share * from.reached;
+        to.ellipse += share * from.ellipse;
+    }
+}
+
+// The best ellipses as if they were rules.
+void add_ellipses(std::vector<ProtocolRow>& rows)
+{
+    for (const auto& [name, error] : {std::pair("best ellipse, found", &LevelScore::reached),
+                                      std::pair("best ellipse, bound", &LevelScore::ellipse)}) {
+        rows.push_back(rows.back());
+        rows.back().variant = name;
+        for (LevelScore& l : rows.back().score.levels) l.tested = l.*error;
     }
 }
 
@@ -143,13 +160,15 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                                            .texels = options.texels,
                                            .points = options.points,
                                            .seed = static_cast<std::uint32_t>(seed),
-                                           .threads = options.threads};
+                                           .threads = options.threads,
+                                           .best_ellipse = options.best_ellipse};
                 const std::vector<Score> scores = score_all(
                     maps.normal, maps.roughness, chains_at(maps, fitting, scoring), {}, scoring);
                 for (std::size_t i = 0; i < scores.size(); ++i) {
                     add_share(rows[first + i].score, scores[i], 1.0 / options.seeds);
                 }
             }
+            if (options.best_ellipse && !fitting.empty()) add_ellipses(rows);
         }
     }
     return rows;

@@ -29,6 +29,9 @@ struct ProtocolOptions {
     int points = 1024;
     std::vector<float> lights{0.0f, 0.1f};
     int threads = 0;
+    /// Also rows for the best elliptic lobes (ScoreOptions::best_ellipse): "best ellipse, found" on
+    /// other points, and "best ellipse, bound".
+    bool best_ellipse = false;
     std::function<void(const std::string&)> progress{};  ///< what is being scored
 };
 /// One seed, 24 texels, 512 points.

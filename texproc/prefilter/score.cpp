@@ -10,6 +10,7 @@
 #include "texproc/detail/input.h"
 #include "texproc/detail/parallel.h"
 #include "texproc/prefilter/detail/cells.h"
+#include "texproc/prefilter/detail/elliptic_oracle.h"
 #include "texproc/prefilter/detail/yardstick.h"
 
 namespace petrichor::texproc {
@@ -55,9 +56,27 @@ EllipticLobe stored_lobe(const Prefiltered& chain, std::size_t k, int x, int y,
 }
 
 struct TexelErrors {
-    double plain = 0.0, best = 0.0;
+    double plain = 0.0, best = 0.0, reached = 0.0, ellipse = 0.0;
     std::vector<Measure> tested;
 };
+
+// The best ellipse on the points of the score, and the one that is best on twice as many others.
+void add_ellipses(const Cells& cells, const Direction& mean, const std::vector<float>& widths,
+                  int points, Random& random, Samples& samples, TexelErrors& errors)
+{
+    const auto narrowest = static_cast<double>(std::sqrt(widths.front()));
+    const std::array<double, kViews> mass = reference_mass(samples);
+    const auto error_of = [&](const EllipticLobe& lobe) {
+        return measure(samples, mass, lobe).error;
+    };
+    Samples others;
+    place_points(cells, mean, widths, 2 * points, random, others);
+    errors.reached =
+        error_of(best_elliptic(others, reference_mass(others), cells, mean, narrowest));
+    errors.ellipse = std::min({error_of(best_elliptic(samples, mass, cells, mean, narrowest)),
+                               errors.best, errors.plain});
+    for (const Measure& m : errors.tested) errors.ellipse = std::min(errors.ellipse, m.error);
+}
 
 TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, const Footprint& rows,
                          std::size_t level, int x, int y, const std::vector<Prefiltered>& chains,
@@ -100,13 +119,16 @@ TexelErrors texel_errors(const MapSurface& surface, const Footprint& columns, co
     Random random{(static_cast<std::uint64_t>(options.seed) << 40) ^ (level << 34) ^
                   (static_cast<std::uint64_t>(y) << 17) ^ static_cast<std::uint64_t>(x)};
     Samples samples;
-    place_points(cells, mean, widths_between(narrow2, wide2), options.points, random, samples);
+    const std::vector<float> widths = widths_between(narrow2, wide2);
+    place_points(cells, mean, widths, options.points, random, samples);
     const std::array<double, kViews> mass = reference_mass(samples);
     TexelErrors errors;
     errors.plain = measure(samples, mass, round_lobe(mean, plain2)).error;
     errors.best =
         best_error(samples, mass, mean, errors.plain, static_cast<double>(std::sqrt(narrow2)));
     for (const EllipticLobe& lobe : lobes) errors.tested.push_back(measure(samples, mass, lobe));
+    if (options.best_ellipse)
+        add_ellipses(cells, mean, widths, options.points, random, samples, errors);
     return errors;
 }
 
@@ -199,12 +221,15 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
                              rows[static_cast<std::size_t>(y)], k, x, y, chains, input, options);
         });
         for (std::size_t c = 0; c < chains.size(); ++c) {
-            LevelScore level{static_cast<int>(k), 0, 0, 0, 0, 0};
+            LevelScore level;
+            level.level = static_cast<int>(k);
             double square = 0.0;
             const double n = static_cast<double>(errors.size());
             for (const TexelErrors& e : errors) {
                 level.plain += e.plain / n;
                 level.best += e.best / n;
+                level.reached += e.reached / n;
+                level.ellipse += e.ellipse / n;
                 level.tested += e.tested[c].error / n;
                 level.energy += e.tested[c].energy / n;
                 const double d = e.tested[c].error - e.best;
@@ -238,7 +263,9 @@ void quantize(Prefiltered& chain, int bits)
 
 std::string to_text(const Score& s)
 {
-    std::string text = "level   plain    best    this     gap  energy\n";
+    const bool ellipse = !s.levels.empty() && s.levels.front().ellipse > 0.0;
+    std::string text = "level   plain    best    this     gap  energy";
+    text += ellipse ? "   best ellipse: found, bound\n" : "\n";
     char line[160];
     const auto gap = [](double plain, double best, double tested) {
         char t[32];
@@ -250,9 +277,15 @@ std::string to_text(const Score& s)
         return std::string(t);
     };
     for (const LevelScore& l : s.levels) {
-        std::snprintf(line, sizeof line, "%5d  %6.3f  %6.3f  %6.3f  %8s  %+.3f\n", l.level, l.plain,
+        std::snprintf(line, sizeof line, "%5d  %6.3f  %6.3f  %6.3f  %8s  %+.3f", l.level, l.plain,
                       l.best, l.tested, gap(l.plain, l.best, l.tested).c_str(), l.energy);
         text += line;
+        if (ellipse) {
+            std::snprintf(line, sizeof line, "   %8s  %8s", gap(l.plain, l.best, l.reached).c_str(),
+                          gap(l.plain, l.best, l.ellipse).c_str());
+            text += line;
+        }
+        text += "\n";
     }
     const std::pair<const char*, RangeScore> ranges[] = {{"1-5", s.fine()}, {"6+", s.coarse()}};
     for (const auto& [name, r] : ranges) {

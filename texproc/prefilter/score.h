@@ -27,6 +27,8 @@ struct ScoreOptions {
     std::uint32_t seed = 1;
     int threads = 0;
     int max_level = 99;
+    /// Also the best elliptic lobe, searched all over: what no anisotropic output can beat. Slow.
+    bool best_ellipse = false;
 };
 
 /// Errors of one level, means over its texels.
@@ -37,6 +39,9 @@ struct LevelScore {
     double tested = 0.0;  ///< E of the chain
     double energy = 0.0;  ///< light of the tested lobe / light of the reference, - 1
     double spread = 0.0;  ///< standard error of (tested - best) over the texels
+    /// With best_ellipse. reached: E of the ellipse that is best on other points; ellipse: of the
+    /// one that is best on the very points of the score, below which no lobe can come.
+    double reached = 0.0, ellipse = 0.0;
 };
 
 /// Means over a range of levels, each level of equal weight.

@@ -121,7 +121,7 @@ std::vector<Image> aim_roughness(const RawImage& normal, const RawImage& roughne
     if (options.quick) walking.wanted = [](int level, int, int) { return level > 2; };
     walk(surface, walking, [&](const MipTexel& t) {
         thread_local Cells lit;
-        thread_local Samples storage;
+        thread_local Samples storage, fresh;
         const std::size_t k = static_cast<std::size_t>(t.level);
         lit = *t.cells;
         merge(lit, t.level < 5 ? 128 : 1024, lit.count());
@@ -129,10 +129,18 @@ std::vector<Image> aim_roughness(const RawImage& normal, const RawImage& roughne
         const float* c = &stored.normal[k].pixels[stored.normal[k].index(t.x, t.y, 0)];
         const Direction n = read_normal({{c[0], c[1], c[2]}, 0.0f}, as);
         const std::uint32_t seed = static_cast<std::uint32_t>(t.level * 7919 + t.y * 104729 + t.x);
-        const LobeCost cost(lit.view(), whole_of(lit.view(), t.means), samples_at(t.level), seed,
-                            storage);
+        const Whole whole = whole_of(lit.view(), t.means);
+        const int samples = samples_at(t.level);
         float& number = aim[k].at(t.x, t.y, 0);
-        number = cheapest_number(cost, n, number, light2, as);
+        const float found = cheapest_number(LobeCost(lit.view(), whole, samples, 2 * seed, storage),
+                                            n, number, light2, as);
+        if (found == number) return;
+        // The best of nine on few samples is partly luck: others must agree.
+        const LobeCost judge(lit.view(), whole, 2 * samples, 2 * seed + 1, fresh);
+        const auto cost_of = [&](float v) {
+            return judge(n, std::clamp(read_alpha2({{}, v}, as) + light2, kMinAlpha2, 1.0f));
+        };
+        if (cost_of(found) < cost_of(number)) number = found;
     });
     return aim;
 }

@@ -25,10 +25,10 @@ double year_angle(std::int64_t time_us, bool south)
 
 }  // namespace
 
-void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place,
-                  const CellConstants& k, const StepConstants& s)
+void advance_cell_plain(CellState& cell, const CellPlace<double>& place, const StepForcing* steps,
+                        std::size_t count, const CellConstants& k, const StepConstants& s)
 {
-    advance_step(cell, step, place, k, s);
+    advance_steps(cell, steps, count, place, k, s);
 }
 
 void advance_block_16(CellBlock& block, const PlaceBlock& place, const StepForcing* steps,
@@ -44,6 +44,11 @@ bool machine_has_wide_registers()
 #else
     return false;
 #endif
+}
+
+AdvanceCell fastest_advance_cell()
+{
+    return machine_has_wide_registers() ? advance_cell_wide : advance_cell_plain;
 }
 
 AdvanceBlock fastest_advance_block()

@@ -15,24 +15,25 @@ GroundStack make_ground_stack(double conductivity, double heat_capacity, double 
     double y = 0.0;
     for (std::size_t i = kGroundLayers; i-- > 0;) {
         const double half = 0.5 * kGroundThickness_m[i] / conductivity;
+        // How much of the node its lower interface feels, and how much of the upper one the node.
+        double share_down = 0.0;
         if (i + 1 == kGroundLayers) {
-            stack.share_down[i] = 0.0;
             y = 1.0 / half;  // straight to the fixed temperature
         } else {
-            stack.share_down[i] = 1.0 / (1.0 + y * half);
-            y = y * stack.share_down[i];
+            share_down = 1.0 / (1.0 + y * half);
+            y = y * share_down;
+            stack.weight_above[i + 1] *= share_down;
         }
         const double storage = heat_capacity * kGroundThickness_m[i] / dt_s;
         const double total = y + storage;
         stack.weight_below[i] = y / total;
         stack.weight_own[i] = storage / total;
-        stack.share_top[i] = 1.0 / (1.0 + total * half);
-        y = total * stack.share_top[i];
-        stack.through_top[i] = stack.share_top[i] * stack.share_down[i];
-        stack.through_own[i] = stack.share_down[i] - stack.through_top[i];
-        stack.through_below[i] = 1.0 - stack.share_down[i];
+        stack.weight_above[i] = 1.0 / (1.0 + total * half);
+        y = total * stack.weight_above[i];
         stack.half_resistance_top = half;
     }
+    for (std::size_t i = 0; i < kGroundLayers; ++i)
+        stack.weight_equivalent[i] = 1.0 - stack.weight_above[i];
     stack.conductance_w_m2_k = y;
     return stack;
 }

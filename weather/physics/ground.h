@@ -23,13 +23,9 @@ struct GroundStack {
     double half_resistance_top = 0.0;  ///< m2 K / W, from the surface to the first node
     std::array<double, kGroundLayers> weight_below{};  ///< of the equivalent temperature from below
     std::array<double, kGroundLayers> weight_own{};    ///< of the layer's own old temperature
-    std::array<double, kGroundLayers>
-        share_top{};  ///< how much of the upper interface a node feels
-    std::array<double, kGroundLayers>
-        share_down{};  ///< how much of the node its lower interface feels
-    /// A lower interface as the mean of the upper one, the layer's equivalent temperature and the
-    /// next layer's.
-    std::array<double, kGroundLayers> through_top{}, through_own{}, through_below{};
+    /// A node's new temperature is a mean of the one above it (the surface, for the first) and its
+    /// own equivalent temperature.
+    std::array<double, kGroundLayers> weight_above{}, weight_equivalent{};
 };
 
 /// Factors for a step of dt seconds; conductivity W m-1 K-1, capacity J m-3 K-1, all > 0.

@@ -21,4 +21,11 @@ double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_frac
     return emissivity * kStefanBoltzmann * (temp_k * temp_k) * (temp_k * temp_k);
 }
 
+double cloud_of_longwave(double temp_k, double vapour_pa, double longwave_w_m2)
+{
+    const double clear = longwave_from_sky_w_m2(temp_k, vapour_pa, 0.0);
+    const double cloud = (longwave_w_m2 / clear - 1.0) / 0.22;
+    return cloud > 0.0 ? detail::smaller(detail::power(cloud, 1.0 / 2.75), 1.0) : 0.0;
+}
+
 }  // namespace petrichor::weather

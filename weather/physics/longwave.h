@@ -10,6 +10,8 @@ double clear_sky_emissivity(double temp_k, double vapour_pa);
 /// most 1.
 ///   cloud_fraction  0..1
 double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction);
+/// The inverse: cloud fraction 0..1 from measured longwave; 0 at or below the clear sky.
+double cloud_of_longwave(double temp_k, double vapour_pa, double longwave_w_m2);
 
 }  // namespace petrichor::weather
 

@@ -108,6 +108,11 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
         step.sun_up = sun.up;
         step.diffuse = diffuse_fraction(step.shortwave.at(0.5), sun.up, sun.extraterrestrial_w_m2);
     }
+    if (table.has(Field::NetShortwave)) {
+        step.shortwave = {rate_over(table, Field::NetShortwave, at), 0.0};
+        step.reflecting = 0.0;
+    }
+    step.middle = moment_of(step, 0.5, 1.0);
     return step;
 }
 
@@ -120,6 +125,28 @@ std::size_t row_before(const ForcingTable& table, std::int64_t time_us)
 }
 
 }  // namespace
+
+StationMoment moment_of(const StepForcing& step, double x, double until)
+{
+    StationMoment m;
+    const double later = until - x;
+    m.air_c = step.air_c.at(x);
+    m.from_middle_k = m.air_c - step.air_c.at(0.5);
+    m.rh_share = 0.01 * step.rh_pct.at(x);
+    m.wind = step.wind.at(x);
+    m.pressure = step.pressure.at(x);
+    m.shortwave = larger(step.shortwave.at(x), 0.0);
+    const double air_k = m.air_c + kZeroCelsiusK;
+    const double squared = air_k * air_k;
+    m.sky_w_m2_k4 = step.longwave.at(x) / (squared * squared);
+    m.reflecting = step.reflecting;
+    m.later_air_k = step.air_c.rise * later;
+    m.later_wind = step.wind.rise * later / (m.wind + 1.0);
+    m.later_rh = step.rh_pct.rise * later / (step.rh_pct.at(x) + 1.0);
+    m.later_shortwave = step.shortwave.rise * later;
+    m.later_longwave = step.longwave.rise * later;
+    return m;
+}
 
 StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length,
                               SunUse sun)

@@ -57,7 +57,7 @@ SurfaceFluxes surface_balance(const SurfaceForcing& forcing, const SurfaceSkin& 
     const double exchanged = detail::exchange_at(p, exchange, surface_c);
     detail::SurfaceVapour<double> vapour{};
     detail::centre_vapour(vapour, p, surface_c);
-    const auto humidity = detail::humidity_at_middle(p, vapour);
+    const auto humidity = detail::humidity_at_middle(vapour);
     detail::WetLine<detail::FixedShare<double>, double> wet{};
     detail::lay_wet_line(p, humidity, exchanged, wet);
     return named(detail::fluxes_with(p, humidity, wet, surface_c, exchanged), surface_c);
@@ -67,7 +67,8 @@ SurfaceFluxes solve_surface(const SurfaceForcing& forcing, const SurfaceSkin& sk
                             const ExchangeParams& exchange, double first_guess_k)
 {
     const Point p = make_point(forcing, skin, exchange);
-    const auto root = detail::surface_root(p, exchange, first_guess_k - kZeroCelsiusK);
+    detail::SurfaceRoot<double, detail::FixedShare<double>> root{};
+    detail::surface_root(p, exchange, first_guess_k - kZeroCelsiusK, root);
     return named(detail::fluxes_at(p, root), root.surface_c);
 }
 

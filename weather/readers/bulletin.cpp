@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "weather/readers/metar_groups.h"
+#include "weather/readers/report_lines.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -56,6 +57,11 @@ public:
             if (t.back() == '=') flush();
         }
     }
+    void stamp(const std::string& digits)
+    {
+        flush();
+        stamp_ = digits;
+    }
     void flush()
     {
         if (open_ && !text_.empty()) finish();
@@ -77,11 +83,21 @@ private:
         line_ = number;
         text_.clear();
     }
-    void take_stamp(long long& year, int& month)
+    // The stamp may be in local time: around the turn of a month the report's own day decides.
+    void take_stamp(long long& year, int& month, int day)
     {
         if (stamp_.size() != 12) return;
-        year = *to_integer(std::string_view(stamp_).substr(0, 4));
-        month = static_cast<int>(*to_integer(std::string_view(stamp_).substr(4, 2)));
+        const std::string_view stamp = stamp_;
+        year = *to_integer(stamp.substr(0, 4));
+        month = static_cast<int>(*to_integer(stamp.substr(4, 2)));
+        const int ahead = day - static_cast<int>(*to_integer(stamp.substr(6, 2)));
+        if (ahead < -20) {
+            month = month % 12 + 1;
+            year += month == 1;
+        } else if (ahead > 20) {
+            month = (month + 10) % 12 + 1;
+            year -= month == 12;
+        }
         stamp_.clear();
     }
     void finish()
@@ -91,13 +107,14 @@ private:
         if (taf_) {
             if (auto taf = parse_taf(text)) {
                 taf->line = line_;
-                take_stamp(taf->year, taf->month);
+                take_stamp(taf->year, taf->month,
+                           taf->issued.day ? taf->issued.day : taf->begin.day);
                 bulletin_.forecasts.push_back(std::move(*taf));
                 return;
             }
         } else if (auto report = parse_metar(text)) {
             report->line = line_;
-            take_stamp(report->year, report->month);
+            take_stamp(report->year, report->month, report->day);
             bulletin_.reports.push_back(std::move(*report));
             return;
         }
@@ -117,13 +134,17 @@ Bulletin read_bulletin(std::string_view text, RowCollector& rows)
 {
     Bulletin bulletin;
     Assembler assembler(bulletin, rows);
+    const ReportLines wrapping(text.substr(0, 1 << 16));
     Lines lines(text);
     while (const auto line = lines.next()) {
-        std::string clean(*line);
+        const DatedText part = wrapping.of(*line);
+        if (!part.stamp.empty()) assembler.stamp(part.stamp);
+        std::string clean(part.text);
         for (char& c : clean) {
             if (static_cast<unsigned char>(c) < 0x20) c = ' ';
         }
         assembler.line(clean, lines.number());
+        if (part.whole) assembler.flush();
     }
     assembler.flush();
     return bulletin;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/humidity.h"
+#include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
@@ -15,40 +16,6 @@
 namespace petrichor::weather {
 
 namespace {
-
-bool is_time_name(std::string_view name)
-{
-    const std::string low = lower(name);
-    return low == "time" || low == "time_utc" || low == "datetime" || low == "date" ||
-           low == "timestamp" || low == "date_time" || low == "time(utc)" || low == "time (utc)" ||
-           low == "timestamp_utc" || low == "datetime_utc" || low == "valid_time" ||
-           low == "date time";
-}
-
-// A date and time, or seconds or milliseconds since 1970 as programs write them. Ten digits may be
-// 2024010106: when they begin with a year from 1900 to 2099 they are no count.
-std::optional<std::int64_t> time_of_cell(std::string_view text)
-{
-    if (const auto us = us_from_iso(text)) return us;
-    const auto count = to_integer(text);
-    const auto length = trimmed(text).size();
-    if (!count || *count < 0 || (length != 9 && length != 10 && length != 13)) return std::nullopt;
-    if (length == 13) return *count * 1000;
-    const long long year = *count / 1000000;
-    if (length == 10 && year >= 1900 && year <= 2099) {
-        return us_from_civil({year, static_cast<int>(*count / 10000 % 100),
-                              static_cast<int>(*count / 100 % 100), static_cast<int>(*count % 100),
-                              0, 0.0});
-    }
-    return *count * 1000000;
-}
-
-// Programs that write tables put the times first and often leave their name out.
-bool is_unnamed_time(std::string_view header, std::string_view row, char separator)
-{
-    const auto names = split(header, separator, 2), cells = split(row, separator, 2);
-    return names.front().empty() && time_of_cell(cells.front());
-}
 
 // Codes that data loggers and archives write for "no value"; none of them is a possible value of a
 // column here.
@@ -94,18 +61,22 @@ std::optional<double> cell_number(std::string_view text, char separator)
     return to_number(point);
 }
 
-}  // namespace
+// The line of names, and what its columns mean.
+struct Header {
+    std::size_t line = 0;
+    char separator = ',';
+    std::vector<std::string_view> names;
+    CsvTimes times;
+    std::vector<std::optional<ColumnMeaning>> meaning;
+};
 
-void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+void add_to_list(std::string& list, const std::string& name)
 {
-    Lines lines(text);
-    std::string_view header;
-    while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty() || t.front() == '#') continue;
-        header = *line;
-        break;
-    }
+    list.append(list.empty() ? "" : ", ").append(name);
+}
+
+char separator_of(std::string_view header)
+{
     char separator = ',';
     std::ptrdiff_t most = 0;
     for (const char c : {',', ';', '\t'}) {
@@ -115,143 +86,184 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
             separator = c;
         }
     }
-    const auto names = split(header, separator, 256);
-    Lines below = lines;
-    std::size_t time_at =
-        is_unnamed_time(header, below.next().value_or(""), separator) ? 0 : names.size();
-    std::vector<std::optional<ColumnMeaning>> meaning(names.size());
-    std::size_t known = 0;
-    std::string unknown, bare_names;
-    const auto list = [](std::string& names_so_far, const std::string& name) {
-        names_so_far.append(names_so_far.empty() ? "" : ", ").append(name);
-    };
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i == time_at) continue;
-        if (time_at == names.size() && is_time_name(names[i])) {
-            time_at = i;
-            continue;
-        }
-        meaning[i] = column_meaning(names[i]);
-        if (!meaning[i]) {
-            list(unknown, names[i].empty() ? "a column without a name" : shown(names[i]));
-            continue;
-        }
-        ++known;
-        for (std::size_t j = 0; j < i; ++j) {
-            if (!meaning[j] || !same_field(*meaning[i], *meaning[j])) continue;
-            // "rain_kg_m2_s" beside a bare "rain": the one that says its unit counts.
-            if (has_unit(names[i]) == has_unit(names[j])) {
-                throw Error("weather: columns '" + shown(names[j]) + "' and '" + shown(names[i]) +
-                                "' mean the same quantity",
-                            "Keep one of the two columns.");
-            }
-            const std::size_t bare = has_unit(names[i]) ? j : i;
-            list(bare_names, shown(names[bare]) + " (" + shown(names[bare == i ? j : i]) + " is)");
-            meaning[bare].reset();
-            if (bare == i) break;
-        }
-    }
-    if (!unknown.empty())
-        rows.note(ReadNote::Kind::Info, lines.number(), "columns",
-                  "not known, not used: " + unknown);
-    if (!bare_names.empty())
-        rows.note(ReadNote::Kind::Warning, lines.number(), "columns",
-                  "not used, as another column says the same quantity with a unit: " + bare_names);
-    if (time_at == names.size() || known == 0) {
-        throw Error("weather: line " + std::to_string(lines.number()) + ": the header '" +
-                        shown(header) + "' has no " +
-                        (time_at == names.size() ? "time column" : "known weather column"),
-                    "Name the columns as in: "
-                    "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2.");
-    }
+    return separator;
+}
 
-    // Amounts per interval belong to the time from this row to the next.
-    std::int64_t usual_us = 3600000000LL;
-    bool amounts = false;
-    for (const auto& m : meaning) amounts = amounts || (m && m->amount);
-    if (amounts) {
-        // The step is that of the first two rows with a time.
-        Lines look = lines;
-        std::vector<std::int64_t> first_times;
-        while (first_times.size() < 2) {
-            const auto line = look.next();
-            if (!line) break;
-            const auto f = split(*line, separator, 256);
-            if (f.size() <= time_at) continue;
-            if (const auto us = time_of_cell(f[time_at])) first_times.push_back(*us);
+// "rain_kg_m2_s" beside a bare "rain": the one that says its unit counts. Adds to the list of bare
+// names when column `i` is, or makes, one of two.
+//   throws  Error when both or none of two columns of one quantity say their unit
+void drop_bare_twin(Header& h, std::size_t i, std::string& bare_names)
+{
+    for (std::size_t j = 0; j < i && h.meaning[i]; ++j) {
+        if (!h.meaning[j] || !same_field(*h.meaning[i], *h.meaning[j])) continue;
+        if (has_unit(h.names[i]) == has_unit(h.names[j])) {
+            throw Error("weather: columns '" + shown(h.names[j]) + "' and '" + shown(h.names[i]) +
+                            "' mean the same quantity",
+                        "Keep one of the two columns.");
         }
-        if (first_times.size() == 2 && first_times[1] > first_times[0])
-            usual_us = first_times[1] - first_times[0];
-        rows.note(ReadNote::Kind::Info, 0, "precip",
-                  std::string("amounts are for the interval that begins at their row, ")
-                      .append(std::to_string(usual_us / 1000000))
-                      .append(" s"));
+        const std::size_t bare = has_unit(h.names[i]) ? j : i;
+        const std::size_t better = bare == i ? j : i;
+        add_to_list(bare_names, shown(h.names[bare]) + " (" + shown(h.names[better]) + " is)");
+        h.meaning[bare].reset();
     }
-    const double seconds = static_cast<double>(usual_us) * 1e-6;
+}
 
-    std::map<std::string, std::size_t> missing_codes;
-    std::size_t plain_numbers = 0;  // where a time should be
-    std::vector<std::string_view> f;
+// Leaves `lines` below the header.
+//   throws  Error without times or a known column
+Header read_header(Lines& lines, RowCollector& rows)
+{
+    Header h;
+    std::string_view text;
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty() || t.front() == '#') continue;
-        split(*line, separator, f, 256);
-        if (f.size() != names.size()) {
+        text = *line;
+        break;
+    }
+    h.line = lines.number();
+    h.separator = separator_of(text);
+    h.names = split(text, h.separator, 256);
+    Lines below = lines;
+    h.times = find_csv_times(h.names, split(below.next().value_or(""), h.separator, 256));
+    h.meaning.resize(h.names.size());
+    bool any = false;
+    std::string unknown, bare_names;
+    for (std::size_t i = 0; i < h.names.size(); ++i) {
+        if (h.times.uses(i)) continue;
+        h.meaning[i] = column_meaning(h.names[i]);
+        any = any || h.meaning[i];
+        if (!h.meaning[i])
+            add_to_list(unknown,
+                        h.names[i].empty() ? "a column without a name" : shown(h.names[i]));
+        drop_bare_twin(h, i, bare_names);
+    }
+    if (!unknown.empty())
+        rows.note(ReadNote::Kind::Info, h.line, "columns", "not known, not used: " + unknown);
+    if (!bare_names.empty())
+        rows.note(ReadNote::Kind::Warning, h.line, "columns",
+                  "not used, as another column says the same quantity with a unit: " + bare_names);
+    if (!h.times.found() || !any) {
+        throw Error("weather: line " + std::to_string(h.line) + ": the header '" + shown(text) +
+                        "' has no " + (h.times.found() ? "known weather column" : "time column"),
+                    "Name the columns as in: "
+                    "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2; the time "
+                    "may also be date,time or date,hour or year,month,day,hour.");
+    }
+    return h;
+}
+
+// Seconds that an amount of precipitation stands for: those between the first two rows with a time.
+double seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
+{
+    std::int64_t usual_us = 3600000000LL;
+    const bool amounts = std::any_of(h.meaning.begin(), h.meaning.end(),
+                                     [](const auto& m) { return m && m->amount; });
+    if (!amounts) return static_cast<double>(usual_us) * 1e-6;
+    std::vector<std::int64_t> first_times;
+    while (first_times.size() < 2) {
+        const auto line = lines.next();
+        if (!line) break;
+        const auto cells = split(*line, h.separator, 256);
+        if (cells.size() != h.names.size()) continue;
+        if (const auto us = h.times.time_of(cells)) first_times.push_back(*us);
+    }
+    if (first_times.size() == 2 && first_times[1] > first_times[0])
+        usual_us = first_times[1] - first_times[0];
+    rows.note(ReadNote::Kind::Info, 0, "precip",
+              std::string("amounts are for the interval that begins at their row, ")
+                  .append(std::to_string(usual_us / 1000000))
+                  .append(" s"));
+    return static_cast<double>(usual_us) * 1e-6;
+}
+
+// Values of a row that only together make a field.
+struct Parts {
+    double snow_share = kMissing, vapour_pa = kMissing, air_k = kMissing, precip = kMissing;
+};
+
+void set_from_parts(RowCollector& rows, const Parts& p)
+{
+    if (!std::isnan(p.vapour_pa) && p.air_k > 173.15 && p.air_k < 333.15) {
+        rows.set(Field::RelHumidity,
+                 std::min(100.0 * p.vapour_pa / saturation_pressure_water_pa(p.air_k), 100.0));
+    }
+    if (p.snow_share >= 0.0 && p.snow_share <= 1.0 && !std::isnan(p.precip)) {
+        rows.set(Field::Snow, p.precip * p.snow_share);
+        rows.set(Field::Rain, p.precip * (1.0 - p.snow_share));
+    }
+}
+
+using MissingCodes = std::map<std::string, std::size_t>;
+
+void read_cell(std::string_view text, const ColumnMeaning& m, char separator, double amount_s,
+               RowCollector& rows, Parts& parts, MissingCodes& missing_codes)
+{
+    const bool field = is_field(m);
+    if (is_missing_word(text)) {
+        if (field) rows.missing(m.field);
+        const std::string code(trimmed(text));
+        ++missing_codes[code.empty() ? "an empty cell" : "'" + shown(code) + "'"];
+        return;
+    }
+    const auto value = cell_number(text, separator);
+    if (!value) {
+        if (field) rows.unreadable(m.field, text);
+    } else if (m.percent_snow) {
+        parts.snow_share = *value;
+    } else if (m.vapour_pressure) {
+        parts.vapour_pa = *value;
+    } else {
+        double si = *value * m.scale + m.offset;
+        if (m.amount) si /= amount_s;
+        if (m.field == Field::AirTemp) parts.air_k = si;
+        if (m.field == Field::Precip) parts.precip = si;
+        rows.set(m.field, si);
+    }
+}
+
+}  // namespace
+
+void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+{
+    Lines lines(text);
+    const Header h = read_header(lines, rows);
+    const double amount_s = seconds_of_amounts(h, lines, rows);
+
+    MissingCodes missing_codes;
+    std::size_t plain_numbers = 0;  // where a time should be
+    std::vector<std::string_view> cells;
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        split(*line, h.separator, cells, 256);
+        if (cells.size() != h.names.size()) {
             rows.bad_row(lines.number(), "",
-                         "has " + std::to_string(f.size()) + " columns, the header has " +
-                             std::to_string(names.size()));
+                         "has " + std::to_string(cells.size()) + " columns, the header has " +
+                             std::to_string(h.names.size()));
             continue;
         }
-        const auto us = time_of_cell(f[time_at]);
+        const auto us = h.times.time_of(cells);
         if (!us) {
-            plain_numbers += to_number(f[time_at]).has_value();
+            const std::string found = h.times.shown_cells(cells);
+            plain_numbers += to_number(found).has_value();
+            const bool two_dates = std::count(found.begin(), found.end(), '/') == 2;
             rows.bad_row(lines.number(), "time",
-                         "'" + shown(f[time_at]) + "' is not a date and time as 2005-10-01T06:00");
+                         "'" + found + "' is not a date and time as 2005-10-01T06:00" +
+                             (two_dates ? " (month and day may be either way round)" : ""));
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
-        double snow_share = kMissing, vapour = kMissing, air_k = kMissing, precip = kMissing;
-        for (std::size_t i = 0; i < f.size(); ++i) {
-            if (!meaning[i]) continue;
-            const ColumnMeaning& m = *meaning[i];
-            const bool field = is_field(m);
-            if (is_missing_word(f[i])) {
-                if (field) rows.missing(m.field);
-                const std::string code(trimmed(f[i]));
-                ++missing_codes[code.empty() ? "an empty cell" : "'" + shown(code) + "'"];
-                continue;
-            }
-            const auto value = cell_number(f[i], separator);
-            if (!value) {
-                if (field) rows.unreadable(m.field, f[i]);
-                continue;
-            }
-            if (m.percent_snow) {
-                snow_share = *value;
-                continue;
-            }
-            if (m.vapour_pressure) {
-                vapour = *value;
-                continue;
-            }
-            double si = *value * m.scale + m.offset;
-            if (m.amount) si /= seconds;
-            if (m.field == Field::AirTemp) air_k = si;
-            if (m.field == Field::Precip) precip = si;
-            rows.set(m.field, si);
+        Parts parts;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (h.meaning[i])
+                read_cell(cells[i], *h.meaning[i], h.separator, amount_s, rows, parts,
+                          missing_codes);
         }
-        if (!std::isnan(vapour) && air_k > 173.15 && air_k < 333.15) {
-            rows.set(Field::RelHumidity,
-                     std::min(100.0 * vapour / saturation_pressure_water_pa(air_k), 100.0));
-        }
-        if (snow_share >= 0.0 && snow_share <= 1.0 && !std::isnan(precip)) {
-            rows.set(Field::Snow, precip * snow_share);
-            rows.set(Field::Rain, precip * (1.0 - snow_share));
-        }
+        set_from_parts(rows, parts);
     }
-    if (rows.rows() == 0 && plain_numbers > 0) {
+    if (rows.rows() == 0 && plain_numbers > 0 && h.times.stamp != CsvTimes::kNone) {
         throw Error(
-            "weather: column '" + shown(names[time_at]) +
+            "weather: column '" + shown(h.names[h.times.stamp]) +
                 "' holds plain numbers, not dates and times",
             "Give times as 2005-10-01T06:00; for keys of the artist model, name the columns "
             "time_s,temperature_c,rainfall.");

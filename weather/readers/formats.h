@@ -21,6 +21,7 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
 void read_smet(std::string_view text, RowCollector& rows, const ReadOptions& options);
 void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions& options);
 void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options);
+void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOptions& options);
 void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions& options);
 
 /// Months of a typical year come from different years; they are placed in one year without a leap

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/report_lines.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -12,7 +13,8 @@ namespace petrichor::weather {
 namespace {
 
 constexpr const char* kKinds =
-    "EPW, TMY3 CSV, PVGIS CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, GHCN-daily, "
+    "EPW, TMY3 CSV, PVGIS CSV, NSRDB CSV, Open-Meteo JSON or CSV, METAR/TAF, SMET, ISD-Lite, "
+    "GHCN-daily, "
     "SURFRAD, 12-column "
     "FSM text, or CSV with a `time` column and units in its header";
 
@@ -124,6 +126,8 @@ const char* format_name(WeatherFormat format)
             return "GHCN-daily";
         case WeatherFormat::Surfrad:
             return "SURFRAD";
+        case WeatherFormat::Nsrdb:
+            return "NSRDB CSV";
     }
     return "unknown";
 }
@@ -138,6 +142,7 @@ WeatherFormat recognise_weather(std::string_view text)
     const auto first = trimmed(text.substr(0, 4096));
     if (starts_with(first, "{") || starts_with(first, "[")) return WeatherFormat::OpenMeteoJson;
     if (starts_with(first, "SMET")) return WeatherFormat::Smet;
+    if (starts_with(first, "Source,Location ID,")) return WeatherFormat::Nsrdb;
     if (starts_with(first, "LOCATION,")) return WeatherFormat::Epw;
     if (starts_with(first, "Latitude (decimal degrees)")) return WeatherFormat::Pvgis;
 
@@ -152,7 +157,9 @@ WeatherFormat recognise_weather(std::string_view text)
     const std::string top = lower(head.front());
     if (starts_with(top, "latitude,longitude,elevation") || starts_with(top, "\"latitude\","))
         return WeatherFormat::OpenMeteoCsv;
-    if (std::any_of(head.begin(), head.end(), looks_like_metar)) return WeatherFormat::Metar;
+    if (std::any_of(head.begin(), head.end(), looks_like_metar) ||
+        std::any_of(head.begin(), head.end(), is_ogimet_row) || ReportLines(text).is_table())
+        return WeatherFormat::Metar;
     if (head.front().size() >= 21 && head.front().find(',') == std::string_view::npos &&
         to_integer(head.front().substr(11, 4)) && to_integer(head.front().substr(15, 2)) &&
         !to_number(head.front().substr(0, 3))) {
@@ -193,8 +200,9 @@ WeatherFormat recognise_weather(std::string_view text)
             next->find_first_of("0123456789") == 0) {
             return WeatherFormat::ForcingCsv;
         }
-        if ((low.find("time") != std::string::npos || low.find("date") != std::string::npos) &&
-            low.find_first_of(",;\t") != std::string::npos) {
+        const bool dated = low.find("time") != std::string::npos ||
+                           low.find("date") != std::string::npos || starts_with(low, "year");
+        if (dated && low.find_first_of(",;\t") != std::string::npos) {
             return WeatherFormat::ForcingCsv;
         }
         break;
@@ -251,6 +259,9 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
             break;
         case WeatherFormat::Surfrad:
             read_surfrad(text, rows, options);
+            break;
+        case WeatherFormat::Nsrdb:
+            read_nsrdb(text, rows, options);
             break;
     }
     Site& site = rows.site();

@@ -24,6 +24,7 @@ enum class WeatherFormat {
     IsdLite,    ///< NOAA
     GhcnDaily,  ///< NOAA, .dly or by-station CSV
     Surfrad,    ///< NOAA
+    Nsrdb,      ///< NREL, also its typical years
 };
 const char* format_name(WeatherFormat format);
 

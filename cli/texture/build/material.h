@@ -7,14 +7,11 @@
 #include <vector>
 
 #include "cli/texture/build/plan.h"
+#include "cli/texture/build/source_maps.h"
 #include "texproc/prefilter/score.h"
 
 namespace petrichor::cli {
 
-struct MadeSource {
-    std::string role;
-    int width = 0, height = 0, channels = 0, bits = 0;
-};
 struct MadeOutput {
     std::vector<std::string> files;  ///< relative to the folder; one, or one a level
     int width = 0, height = 0, levels = 0;

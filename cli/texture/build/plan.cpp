@@ -29,25 +29,45 @@ bool can_bake(const std::string& role, const MaterialFiles& files, const Recipe&
     return given("height");
 }
 
-// The outputs of a rule for a material, or none when no map of it is there.
-std::optional<PlannedOutput> planned(const OutputRule& rule, const PlannedMaterial& material)
+// The roles that the channels of a rule take from a material; `missing` is the first one that a
+// channel cannot do without, or the first one of all when every channel is a constant.
+struct Roles {
+    std::vector<std::string> taken;
+    std::string missing;
+};
+Roles roles_of(const OutputRule& rule, const PlannedMaterial& material)
+{
+    Roles roles;
+    std::string first;
+    for (const std::string& text : rule.channels.channels) {
+        const texproc::PackChannel sources = texproc::parse_pack_channel(text);
+        const auto used =
+            std::find_if(sources.begin(), sources.end(), [&](const texproc::PackSource& s) {
+                return s.role.empty() || material.files.inputs.count(s.role) > 0 ||
+                       can_bake(s.role, material.files, *material.recipe);
+            });
+        if (first.empty()) first = sources.front().role;
+        if (used == sources.end()) {
+            if (roles.missing.empty()) roles.missing = sources.front().role;
+        } else if (!used->role.empty() && !contains(roles.taken, used->role)) {
+            roles.taken.push_back(used->role);
+        }
+    }
+    if (roles.taken.empty()) roles.missing = first;
+    return roles;
+}
+
+// The output of a rule for a material whose maps are there.
+PlannedOutput planned(const OutputRule& rule, const PlannedMaterial& material,
+                      std::vector<std::string> roles)
 {
     PlannedOutput out;
     out.rule = rule;
+    out.roles = std::move(roles);
     std::string name = rule.file;
     name.replace(name.find("{name}"), 6, material.files.name);
     out.stem = (fs::path(rule.folder) / material.files.folder / name).generic_string();
     const Recipe& recipe = *material.recipe;
-    for (const std::string& text : rule.channels.channels) {
-        for (const texproc::PackSource& source : texproc::parse_pack_channel(text)) {
-            if (source.role.empty()) break;
-            const bool there = material.files.inputs.count(source.role) > 0;
-            if (!there && !can_bake(source.role, material.files, recipe)) continue;
-            if (!contains(out.roles, source.role)) out.roles.push_back(source.role);
-            break;
-        }
-    }
-    if (out.roles.empty()) return std::nullopt;
     const auto& inputs = material.files.inputs;
     const bool pair =
         inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"));
@@ -81,16 +101,17 @@ PlannedMaterial plan_material(const MaterialFiles& files,
     material.name = (files.folder / files.name).generic_string();
     check_files(material);
     for (const OutputRule& rule : recipe->outputs) {
-        if (auto output = planned(rule, material)) {
-            for (const std::string& role : output->roles) {
-                if (!files.inputs.count(role) && !contains(material.baked, role)) {
-                    material.baked.push_back(role);
-                }
-            }
-            material.outputs.push_back(*std::move(output));
-        } else {
-            material.left_out.push_back(rule.file + "." + rule.format);
+        const Roles roles = roles_of(rule, material);
+        const PlannedOutput output = planned(rule, material, roles.taken);
+        if (!roles.missing.empty()) {
+            material.left_out.push_back(output.file() + ": there is no " + roles.missing);
+            continue;
         }
+        for (const std::string& role : roles.taken) {
+            if (!files.inputs.count(role) && !contains(material.baked, role))
+                material.baked.push_back(role);
+        }
+        material.outputs.push_back(output);
     }
     return material;
 }
@@ -211,8 +232,7 @@ std::string to_text(const PlannedMaterial& material)
             text += std::string("       ") + "RGBA"[c] + " = " + rule.channels.channels[c] + "\n";
         }
     }
-    for (const std::string& file : material.left_out)
-        text += "  left out    " + file + ": its maps are not there\n";
+    for (const std::string& file : material.left_out) text += "  left out    " + file + "\n";
     return text;
 }
 

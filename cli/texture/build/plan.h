@@ -25,8 +25,9 @@ struct PlannedMaterial {
     MaterialFiles files;
     std::shared_ptr<const Recipe> recipe;
     std::vector<PlannedOutput> outputs;
-    std::vector<std::string> left_out;  ///< outputs whose maps are not there
-    std::vector<std::string> baked;     ///< roles made from other maps
+    std::vector<std::string>
+        left_out;                    ///< outputs whose maps are not there: "FILE: there is no ROLE"
+    std::vector<std::string> baked;  ///< roles made from other maps
 };
 
 /// What the command line says over the recipes.

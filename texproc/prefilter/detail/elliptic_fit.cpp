@@ -8,11 +8,8 @@
 
 namespace petrichor::texproc::detail {
 
-namespace {
-
-// x: lean along both axes, log alpha^2 of both, and the turn from the axis (cosine, sine).
-EllipticLobe elliptic(const Frame& frame, const std::array<float, 2>& axis,
-                      const std::array<float, 5>& x)
+EllipticLobe elliptic_lobe(const Frame& frame, const std::array<float, 2>& axis,
+                           const std::array<float, 5>& x)
 {
     const Direction n = leaned(frame, x[0], x[1]);
     const Frame about = frame_about(n);
@@ -33,8 +30,6 @@ EllipticLobe elliptic(const Frame& frame, const std::array<float, 2>& axis,
             clamped(x[2]),
             clamped(x[3])};
 }
-
-}  // namespace
 
 std::pair<EllipticLobe, float> fit_elliptic(const LobeCost& cost, const Candidate& from,
                                             const RobustFit& robust, int budget)
@@ -60,12 +55,12 @@ std::pair<EllipticLobe, float> fit_elliptic(const LobeCost& cost, const Candidat
     for (const auto& [normal, start] : starts) {
         const Frame frame = frame_about(normal);
         const auto f = [&](const std::array<float, 5>& x) {
-            const EllipticLobe e = elliptic(frame, axis, x);
+            const EllipticLobe e = elliptic_lobe(frame, axis, x);
             return e.nz < 0.05f ? 2.0f : cost(e);
         };
         const auto [x, value] =
             simplex<5>(start, f(start), {lean, lean, 0.4f, -0.4f, 0.3f}, budget, 2e-4f, f);
-        if (value < best.second) best = {elliptic(frame, axis, x), value};
+        if (value < best.second) best = {elliptic_lobe(frame, axis, x), value};
     }
     return best;
 }

@@ -21,7 +21,7 @@ PETRICHOR_INLINE void advance_block(CellBlock& block, const PlaceBlock& place_bl
     CellPlace<Real> place;
     std::memcpy(static_cast<void*>(&c), &block, sizeof block);
     std::memcpy(static_cast<void*>(&place), &place_block, sizeof place_block);
-    for (std::size_t i = 0; i < count; ++i) advance_step(c, steps[i], place, k, s);
+    advance_steps(c, steps, count, place, k, s);
     std::memcpy(static_cast<void*>(&block), &c, sizeof block);
 }
 

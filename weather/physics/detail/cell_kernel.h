@@ -28,6 +28,7 @@ namespace petrichor::weather::detail {
 // A pack that can melt away within hours, kg/m2, and how near to melting it is.
 constexpr double kThinPack_kg_m2 = 30.0;
 constexpr double kNearMelting_k = 2.0;
+constexpr double kUnusedDensity_kg_m3 = 100.0;  // of snow that does not come
 
 template <class Real>
 PETRICHOR_INLINE Real surface_stores(const CellVars<Real>& c)
@@ -36,23 +37,18 @@ PETRICHOR_INLINE Real surface_stores(const CellVars<Real>& c)
     for (std::size_t i = 0; i < kSnowLayers; ++i) sum += c.snow_ice[i] + c.snow_liquid[i];
     return sum + (c.film + c.crack + c.puddle) + (c.film_ice + c.crack_ice + c.puddle_ice);
 }
-template <class Real>
-PETRICHOR_INLINE Real all_stores(const CellVars<Real>& c)
-{
-    return surface_stores(c) + c.canopy_snow;
-}
-
 // Frozen share of all water on the surface; where there is next to none, that of what is falling,
 // else what it was.
+//   all  water on the surface
 template <class Real>
-PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& precip,
+PETRICHOR_INLINE void update_frozen_fraction(CellVars<Real>& c, const Real& all, const Real& precip,
                                              const Real& snow)
 {
     Real frozen = c.film_ice + c.crack_ice + c.puddle_ice;
     for (std::size_t i = 0; i < kSnowLayers; ++i) frozen += c.snow_ice[i];
-    const Real all = surface_stores(c);
-    const Real falling =
-        select(precip > 0.0, snow / larger(precip, Real(1e-30)), c.frozen_fraction);
+    Real falling = c.frozen_fraction;
+    const auto falls = precip > 0.0;
+    if (any(falls)) falling = select(falls, snow / larger(precip, Real(1e-30)), falling);
     c.frozen_fraction =
         unit_clamped(select(all < 0.01, falling, frozen / larger(all, Real(1e-30))));
 }
@@ -65,23 +61,24 @@ PETRICHOR_KERNEL void advance_parts(CellVars<Real>& c, const StepForcing& step,
                                     const CellConstants& k, const StepConstants& s,
                                     const PartConstants& part, int parts)
 {
-    StepSums<Real> sums;
-    const StepWeather<Real> day = weather_of(step, place);
+    const Real zero = 0.0;
+    StepWeather<Real> day;
+    weather_of(step, place, day);
+    for (Real* mean : {&c.flux_shortwave, &c.flux_longwave, &c.flux_sensible, &c.flux_latent,
+                       &c.flux_ground, &c.flux_melt, &c.flux_residual, &c.step_runoff})
+        *mean = zero;
+    Real melting = zero;
+    const double share = 1.0 / parts;
+    CellWeather<Real> w;
     for (int i = 0; i < parts; ++i) {
-        const double x = (i + 0.5) / parts;
-        const auto w = weather_at(day, step, place, x, (i + 1.0) / parts, k.least_wind);
-        advance_substep(c, w, rain, snow, resistivity, k, part, sums);
+        if (parts == 1)
+            weather_at(day, step.middle, place, k.least_wind, w);
+        else
+            weather_at(day, moment_of(step, (i + 0.5) / parts, (i + 1.0) / parts), place,
+                       k.least_wind, w);
+        melting += advance_substep(c, w, rain, snow, resistivity, k, part, share);
     }
-    const double inverse = 1.0 / step.dt_s;
-    c.flux_shortwave = sums.shortwave * inverse;
-    c.flux_longwave = sums.longwave * inverse;
-    c.flux_sensible = sums.sensible * inverse;
-    c.flux_latent = sums.latent * inverse;
-    c.flux_ground = sums.ground * inverse;
-    c.flux_melt = sums.melt * inverse;
-    c.flux_residual = sums.residual * inverse;
-    c.step_runoff = sums.runoff;
-    age_albedo(c, sums.melting * inverse, k, s);
+    age_albedo(c, melting, k, s);
 }
 
 template <class Real, class Mask>
@@ -92,15 +89,27 @@ PETRICHOR_KERNEL void blend(CellVars<Real>& c, const CellVars<Real>& other, cons
     for (std::size_t i = 0; i < kCellNumbers; ++i) to[i] = select(take, from[i], to[i]);
 }
 
+// Water of a cell: what it holds, and what has left it.
+template <class Real>
+struct Books {
+    Real on_surface, held, left;
+};
+template <class Real>
+PETRICHOR_INLINE void read_books(const CellVars<Real>& c, Books<Real>& books)
+{
+    books.on_surface = surface_stores(c);
+    books.held = books.on_surface + c.canopy_snow;
+    books.left =
+        (c.total_evaporation + c.total_sublimation) + (c.total_drainage + c.total_infiltration);
+}
+
+//   books  of the cell before the step, and then after it
 template <class Real>
 PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
                                    const CellPlace<Real>& place, const CellConstants& k,
-                                   const StepConstants& s)
+                                   const StepConstants& s, Books<Real>& books)
 {
     const Real zero = 0.0;
-    const Real before = all_stores(c);
-    const Real out_before =
-        c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration;
     Real rain = zero, snow = zero;
     if (step.precip > 0.0) {
         const Real share = snow_share_at(step, place, k.phase);
@@ -120,10 +129,13 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
     const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
     Real resistivity[kSnowLayers] = {zero, zero, zero};
     if (any(pack > zero) || any(snow > zero)) {
-        const Real mid_c = shift_of(place) + step.air_c.at(0.5);
-        const Real mid_wind = larger(place.wind_factor * step.wind.at(0.5), Real(k.least_wind));
-        age_snow(c, snow * step.dt_s, new_snow_density_of(k, mid_c, mid_wind), k, s, step.dt_s,
-                 resistivity);
+        Real new_density = kUnusedDensity_kg_m3;
+        if (any(snow > zero)) {
+            const Real mid_c = shift_of(place) + step.air_c.at(0.5);
+            const Real mid_wind = larger(place.wind_factor * step.wind.at(0.5), Real(k.least_wind));
+            new_density = select(snow > zero, new_snow_density_of(k, mid_c, mid_wind), new_density);
+        }
+        age_snow(c, snow * step.dt_s, new_density, k, s, step.dt_s, resistivity);
     }
 
     // ---- fast changes, in substeps where a thin pack comes or goes
@@ -144,16 +156,27 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
     }
 
     // ---- the books
+    const Books<Real> before = books;
+    read_books(c, books);
     c.step_rain = rain * step.dt_s;
     c.step_snow = snow_above * step.dt_s;
-    c.total_precip += c.step_rain + c.step_snow;
-    const Real out =
-        (c.total_evaporation + c.total_sublimation + c.total_drainage + c.total_infiltration) -
-        out_before;
-    const Real residual = (all_stores(c) - before) - ((c.step_rain + c.step_snow) - out);
+    const Real fallen = c.step_rain + c.step_snow;
+    c.total_precip += fallen;
+    const Real residual = (books.held - before.held) - (fallen - (books.left - before.left));
     c.mass_residual = residual;
     c.mass_residual_most = larger(c.mass_residual_most, larger(residual, residual * -1.0));
-    update_frozen_fraction(c, rain + snow_above, snow_above);
+    update_frozen_fraction(c, books.on_surface, rain + snow_above, snow_above);
+}
+
+// Steps of equal length, one after the other.
+template <class Real>
+PETRICHOR_INLINE void advance_steps(CellVars<Real>& c, const StepForcing* steps, std::size_t count,
+                                    const CellPlace<Real>& place, const CellConstants& k,
+                                    const StepConstants& s)
+{
+    Books<Real> books;
+    read_books(c, books);
+    for (std::size_t i = 0; i < count; ++i) advance_step(c, steps[i], place, k, s, books);
 }
 
 }  // namespace petrichor::weather::detail

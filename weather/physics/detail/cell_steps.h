@@ -6,9 +6,17 @@
 
 namespace petrichor::weather::detail {
 
-/// One cell, one step.
-void advance_cell(CellState& cell, const StepForcing& step, const CellPlace<double>& place,
-                  const CellConstants& k, const StepConstants& s);
+/// One cell through some steps of equal length.
+using AdvanceCell = void (*)(CellState& cell, const CellPlace<double>& place,
+                             const StepForcing* steps, std::size_t count, const CellConstants& k,
+                             const StepConstants& s);
+/// The fastest version this machine can run; all versions give the same bits.
+AdvanceCell fastest_advance_cell();
+/// For any machine, and with the instructions of AVX2, for tests.
+void advance_cell_plain(CellState&, const CellPlace<double>&, const StepForcing*, std::size_t,
+                        const CellConstants&, const StepConstants&);
+void advance_cell_wide(CellState&, const CellPlace<double>&, const StepForcing*, std::size_t,
+                       const CellConstants&, const StepConstants&);
 
 /// Eight cells: every number of CellVars eight times, side by side.
 struct alignas(64) CellBlock {

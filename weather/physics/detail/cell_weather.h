@@ -27,6 +27,7 @@ struct StepWeather {
     Real shift_k;                 // air here over air at the station
     Real light;                   // shortwave here over shortwave on flat open ground
     SaturationCurve<Real> curve;  // of the air, about the middle of the step
+    Real saturation_pa;           // there
 };
 template <class Real>
 PETRICHOR_INLINE Real shift_of(const CellPlace<Real>& place)
@@ -34,11 +35,12 @@ PETRICHOR_INLINE Real shift_of(const CellPlace<Real>& place)
     return place.air_offset_k - place.height_difference_m * kLapseRate_k_m;
 }
 template <class Real>
-PETRICHOR_INLINE StepWeather<Real> weather_of(const StepForcing& step, const CellPlace<Real>& place)
+PETRICHOR_INLINE void weather_of(const StepForcing& step, const CellPlace<Real>& place,
+                                 StepWeather<Real>& w)
 {
-    StepWeather<Real> w;
     w.shift_k = shift_of(place);
-    w.curve = water_curve(w.shift_k + step.air_c.at(0.5));
+    w.saturation_pa = centre_curve(w.curve, Real(kWaterA), Real(kWaterB), Real(kWaterScale_pa),
+                                   w.shift_k + step.middle.air_c);
     // Sun on a slope: the direct beam by its angle, the rest by the share of the sky; hidden sky
     // gives back a fifth. On flat open ground this is exactly 1, wherever the sun is.
     Real light = place.sky_view + (1.0 - place.sky_view) * 0.2;
@@ -50,7 +52,6 @@ PETRICHOR_INLINE StepWeather<Real> weather_of(const StepForcing& step, const Cel
         light += (facing / step.sun_up - place.sky_view) * (1.0 - step.diffuse);
     }
     w.light = light * place.shortwave_factor;
-    return w;
 }
 
 // The weather at one instant at the cell.
@@ -61,28 +62,24 @@ struct CellWeather {
     // What still changes until the end of the substep.
     Real later_q, later_shortwave, later_longwave;
     double later_air_k, later_wind;  // wind: as a share
+    double reflecting;               // 0: shortwave is what the ground takes up
 };
 
-//   x      0..1, from the beginning to the end of the step
-//   until  the end of the substep, of which x is the middle
 template <class Real>
-PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, const StepForcing& step,
-                                              const CellPlace<Real>& place, double x, double until,
-                                              double least_wind)
+PETRICHOR_INLINE void weather_at(const StepWeather<Real>& day, const StationMoment& m,
+                                 const CellPlace<Real>& place, double least_wind,
+                                 CellWeather<Real>& w)
 {
-    CellWeather<Real> w;
-    const double station_c = step.air_c.at(x);
-    w.air_c = day.shift_k + station_c;
-    w.pressure = place.pressure_factor * step.pressure.at(x);
-    w.wind = larger(place.wind_factor * step.wind.at(x), Real(least_wind));
+    w.air_c = day.shift_k + m.air_c;
+    w.pressure = place.pressure_factor * m.pressure;
+    w.wind = larger(place.wind_factor * m.wind, Real(least_wind));
     // How far the air is from the middle of the step is the same everywhere.
-    const double from_middle = station_c - step.air_c.at(0.5);
-    Real saturation = day.curve.pressure_pa;
-    if (from_middle > kCurveReach_k || from_middle < -kCurveReach_k)
+    Real saturation = day.saturation_pa;
+    if (m.from_middle_k > kCurveReach_k || m.from_middle_k < -kCurveReach_k)
         saturation = saturation_water_pa(w.air_c);
-    else if (from_middle != 0.0)
-        saturation = point_of(day.curve, w.air_c).pressure_pa;
-    const Real vapour = saturation * (0.01 * step.rh_pct.at(x));
+    else if (m.from_middle_k != 0.0)
+        saturation += saturation * point_of(day.curve, w.air_c).growth;
+    const Real vapour = saturation * m.rh_share;
 
     // q = 0.622 e / D with D = P - 0.378 e, density = P / (R T (1 + 0.608 q)) and 1 / (T U^2): one
     // division.
@@ -97,22 +94,17 @@ PETRICHOR_INLINE CellWeather<Real> weather_at(const StepWeather<Real>& day, cons
     w.density = w.pressure * dry * dry_wind2 * (1.0 / kAirGasConstant);
     w.per_air_wind2 = dry * moist * inverse;
 
-    w.shortwave = day.light * larger(step.shortwave.at(x), 0.0);
-    // The sky keeps its emissivity when the air is colder or warmer; hidden sky radiates like the
-    // air.
-    const Real ratio = air_k * (1.0 / (station_c + kZeroCelsiusK));
-    const Real ratio2 = ratio * ratio;
+    // Hidden sky radiates like the air.
     const Real squared = air_k * air_k;
-    const double later = until - x;
-    w.later_air_k = step.air_c.rise * later;
-    w.later_wind = step.wind.rise * later / (step.wind.at(x) + 1.0);
-    w.later_q = w.q_air * (day.curve.slope * w.later_air_k +
-                           step.rh_pct.rise * later / (step.rh_pct.at(x) + 1.0));
-    w.later_shortwave = day.light * (step.shortwave.rise * later);
-    w.later_longwave = place.sky_view * (step.longwave.rise * later);
-    w.longwave = place.sky_view * (ratio2 * ratio2 * step.longwave.at(x) + place.longwave_offset) +
-                 (1.0 - place.sky_view) * (squared * squared * kStefanBoltzmann);
-    return w;
+    const Real emitted = place.sky_view * m.sky_w_m2_k4 + (1.0 - place.sky_view) * kStefanBoltzmann;
+    w.longwave = squared * squared * emitted + place.sky_view * place.longwave_offset;
+    w.shortwave = day.light * m.shortwave;
+    w.reflecting = m.reflecting;
+    w.later_air_k = m.later_air_k;
+    w.later_wind = m.later_wind;
+    w.later_q = w.q_air * (day.curve.slope * m.later_air_k + m.later_rh);
+    w.later_shortwave = day.light * m.later_shortwave;
+    w.later_longwave = place.sky_view * m.later_longwave;
 }
 
 // Snow share of the step's precipitation at the cell.

@@ -90,11 +90,12 @@ PETRICHOR_INLINE Real snow_conductivity_of(const Real& density)
 {
     return power(density * (1.0 / kIceDensity), 1.88) * 2.22;
 }
-// Its inverse, without the division.
+// Its inverse, without the division, for the kernel.
 template <class Real>
 PETRICHOR_INLINE Real snow_resistivity_of(const Real& density)
 {
-    return power(density * (1.0 / kIceDensity), -1.88) * (1.0 / 2.22);
+    const Real share = clamped(density, Real(1.0), Real(2000.0)) * (1.0 / kIceDensity);
+    return power_short(share, -1.88) * (1.0 / 2.22);
 }
 
 }  // namespace petrichor::weather::detail

@@ -21,20 +21,14 @@ PETRICHOR_INLINE Real ground_equivalent(const GroundStack& stack, const Real* te
 }
 
 // New node temperatures from that of the surface. Every line is a weighted mean: nothing can grow.
-// The next interface comes straight from the last one, so that the layers do not wait for each
-// other's temperatures.
 template <class Real>
 PETRICHOR_INLINE void ground_update(const GroundStack& stack, const Real& surface,
                                     const Real* equivalent, Real* temp)
 {
-    Real interface = surface;
+    Real above = surface;
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
-        temp[i] = equivalent[i] + (interface - equivalent[i]) * stack.share_top[i];
-        if (i + 1 < kGroundLayers) {
-            const Real rest =
-                equivalent[i] * stack.through_own[i] + equivalent[i + 1] * stack.through_below[i];
-            interface = interface * stack.through_top[i] + rest;
-        }
+        above = equivalent[i] * stack.weight_equivalent[i] + above * stack.weight_above[i];
+        temp[i] = above;
     }
 }
 

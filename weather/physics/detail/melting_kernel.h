@@ -25,32 +25,31 @@ struct PhaseChange {
 };
 
 //   later  what the balance still gains from the middle of the step to its end, W/m2
-// `root` and its fluxes `f` move to the melting point, or to what is left after the last ice or
-// water has changed.
+// `root` moves to the melting point, or to what is left after the last ice or water has changed.
 template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE PhaseChange<Real> change_phase(const SurfacePoint<Real, Mask, Wetness>& p,
                                                 const ExchangeParams& params,
                                                 const PhaseStores<Real>& stores, const Real& later,
-                                                double dt_s, SurfaceRoot<Real, Wetness>& root,
-                                                PointFluxes<Real>& f)
+                                                double dt_s, SurfaceRoot<Real, Wetness>& root)
 {
     const Real zero = 0.0;
     PhaseChange<Real> change;
     const Real reach = larger(larger(later, -later), Real(1e-9));
-    const Real reach_c = reach / f.slope;
-    const auto pinned = (stores.may_melt & (root.surface_c > -reach_c)) |
-                        (stores.may_freeze & (root.surface_c < reach_c));
+    // |T| < reach / slope, without the division
+    const Real pull = root.surface_c * root.slope;
+    const auto pinned = (stores.may_melt & (pull > -reach)) | (stores.may_freeze & (pull < reach));
     if (!any(pinned)) return change;
 
-    auto held = root;
+    SurfaceRoot<Real, Wetness> held;
     held.exchange = exchange_at(p, params, zero);
-    held.vapour = vapour_at_melting_point(root.vapour, p);
-    const auto humidity = humidity_at_middle(p, held.vapour);
+    centre_at_melting_point(held.vapour, p);
+    const auto humidity = humidity_at_middle(held.vapour);
     lay_wet_line(p, humidity, held.exchange, held.wet);
-    const auto f0 = fluxes_with(p, humidity, held.wet, zero, held.exchange);
+    const auto f0 = balance_with(p, humidity, held.wet, zero, held.exchange);
 
     const Real above = clamped(f0.balance + reach, zero, reach * 2.0);
-    const Real melting = larger(f0.balance, above * above * (0.25 / reach));
+    const Real share = above * (0.5 / reach);
+    const Real melting = larger(f0.balance, above * share * 0.5);
     const Real lost = larger(f0.vapour, zero) * dt_s;
     const Real most = larger(stores.ice - select(p.icy, lost, zero), zero) * (kLatentFusion / dt_s);
     const Real least =
@@ -59,23 +58,22 @@ PETRICHOR_INLINE PhaseChange<Real> change_phase(const SurfacePoint<Real, Mask, W
                                     select(stores.may_freeze, f0.balance - melting, zero),
                                 least, most);
     change.melt_flux = select(pinned, wanted, zero);
-    change.melting =
-        select(pinned & stores.may_melt, smaller(above * (0.5 / reach), Real(1.0)), zero);
+    change.melting = select(pinned & stores.may_melt, smaller(share, Real(1.0)), zero);
 
     // What the change of phase leaves over warms or cools the surface.
     held.surface_c = zero;
     const auto partly = pinned & ((wanted > f0.balance) | (wanted < f0.balance));
     if (any(partly)) {
-        held.surface_c = select(partly, (f0.balance - wanted) / f0.slope, zero);
+        held.surface_c = select(partly, (f0.balance - wanted) / root.slope, zero);
         for (int i = 0; i < 2; ++i) {
             follow(held.vapour, p, held.surface_c);
-            const auto g = fluxes_at(p, held);
+            const auto g = balance_with(p, humidity_at(held.vapour, held.surface_c), held.wet,
+                                        held.surface_c, held.exchange);
             held.surface_c = select(partly, held.surface_c + (g.balance - wanted) / g.slope, zero);
         }
         follow(held.vapour, p, held.surface_c);
     }
-    root = chosen(pinned, held, root);
-    f = fluxes_at(p, root);
+    take(pinned, held, root);
     return change;
 }
 

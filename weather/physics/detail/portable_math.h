@@ -95,6 +95,23 @@ PETRICHOR_INLINE Real exponential(const Real& x_in)
     return series * power_of_two(magic);
 }
 
+/// e^x to 3e-10 relative, for -700 < x < 700 and for laws that are not known better.
+template <class Real>
+PETRICHOR_INLINE Real exponential_short(const Real& x)
+{
+    const Real magic = x * 1.4426950408889634074 + kRoundMagic;
+    const Real k = magic - kRoundMagic;
+    const Real r = x - k * 0.69314718055994530942;
+    const Real r2 = r * r;
+    const Real p01 = r + 1.0;
+    const Real p23 = r * (1.0 / 6.0) + 0.5;
+    const Real p45 = r * (1.0 / 120.0) + (1.0 / 24.0);
+    const Real p67 = r * (1.0 / 5040.0) + (1.0 / 720.0);
+    const Real r4 = r2 * r2;
+    const Real p45678 = r4 * (1.0 / 40320.0) + (p67 * r2 + p45);
+    return (p45678 * r4 + (p23 * r2 + p01)) * power_of_two(magic);
+}
+
 /// ln x for positive normal x.
 template <class Real>
 PETRICHOR_INLINE Real logarithm(const Real& x)
@@ -128,6 +145,30 @@ template <class Real>
 PETRICHOR_INLINE Real power(const Real& x, double y)
 {
     return exponential(logarithm(x) * y);
+}
+
+/// ln x to 2e-11, for positive normal x.
+template <class Real>
+PETRICHOR_INLINE Real logarithm_short(const Real& x)
+{
+    Real m = mantissa_of(x);
+    Real k = exponent_of(x);
+    const auto high = m > 1.41421356237309504880;
+    m = select(high, m * 0.5, m);
+    k = select(high, k + 1.0, k);
+    const Real s = (m - 1.0) / (m + 1.0);
+    const Real z = s * s;
+    const Real z2 = z * z;
+    const Real p01 = z * (2.0 / 3.0) + 2.0;
+    const Real p23 = z * (2.0 / 7.0) + 2.0 / 5.0;
+    const Real p45 = z * (2.0 / 11.0) + 2.0 / 9.0;
+    return k * 0.69314718055994530942 + s * ((p45 * z2 + p23) * z2 + p01);
+}
+/// x^y to 1e-9 relative, for positive x and small |y|.
+template <class Real>
+PETRICHOR_INLINE Real power_short(const Real& x, double y)
+{
+    return exponential_short(logarithm_short(x) * y);
 }
 
 template <class Real>

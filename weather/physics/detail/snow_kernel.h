@@ -56,6 +56,7 @@ PETRICHOR_INLINE Real heat_capacity_of(const Real& ice, const Real& liquid)
 template <class Real>
 PETRICHOR_INLINE void freeze_within(CellVars<Real>& c)
 {
+    if (!any(c.snow_liquid[0] + c.snow_liquid[1] + c.snow_liquid[2] > 0.0)) return;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const auto both = (c.snow_liquid[i] > 0.0) & (c.snow_temp_c[i] < 0.0);
         if (!any(both)) continue;
@@ -78,28 +79,33 @@ struct SnowColumn {
     Real below[kSnowLayers], own[kSnowLayers], share_top[kSnowLayers], share_down[kSnowLayers];
 };
 
-// Adds the pack on top of the ground's conductance and equivalent temperature (ground.h).
+// Adds the pack on top of the ground's conductance and equivalent temperature (ground.h), which are
+// G and B below a layer of half resistance h and storage S:
+//   share_down = 1 / a           a = 1 + G h
+//   own        = (G B + S a T) / n   n = G + S a
+//   share_top  = a / b           b = a + n h
+//   conductance= n / b
 template <class Real>
-PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resistivity, double dt,
-                                      Real& conductance, Real& equivalent_c,
+PETRICHOR_KERNEL void snow_equivalent(const CellVars<Real>& c, const Real* resistivity,
+                                      double per_dt_1_s, Real& conductance, Real& equivalent_c,
                                       SnowColumn<Real>& column)
 {
-    const double per_dt = 1.0 / dt;
     for (std::size_t i = kSnowLayers; i-- > 0;) {
-        column.below[i] = column.own[i] = equivalent_c;
-        column.share_top[i] = column.share_down[i] = Real(1.0);
-        if (!any(c.snow_ice[i] > 0.0)) continue;
+        column.below[i] = equivalent_c;
+        const auto there = c.snow_ice[i] > 0.0;
+        if (!any(there)) continue;
         const Real half = c.snow_thickness[i] * resistivity[i] * 0.5;
-        const Real storage = heat_capacity_of(c.snow_ice[i], c.snow_liquid[i]) * per_dt;
-        column.share_down[i] = 1.0 / (conductance * half + 1.0);
-        const Real under = conductance * column.share_down[i];
-        const Real total = under + storage;
-        equivalent_c =
-            select(storage > 0.0, (under * equivalent_c + storage * c.snow_temp_c[i]) / total,
-                   equivalent_c);
-        column.own[i] = equivalent_c;
-        column.share_top[i] = 1.0 / (total * half + 1.0);
-        conductance = total * column.share_top[i];
+        const Real storage = heat_capacity_of(c.snow_ice[i], c.snow_liquid[i]) * per_dt_1_s;
+        const Real a = conductance * half + 1.0;
+        const Real held = storage * a;
+        const Real n = conductance + held;
+        const Real inverse_b = 1.0 / (n * half + a);
+        const Real inverse_an = 1.0 / (a * n);
+        column.share_down[i] = n * inverse_an;
+        column.share_top[i] = a * inverse_b;
+        column.own[i] = (conductance * equivalent_c + held * c.snow_temp_c[i]) * (a * inverse_an);
+        equivalent_c = select(there, column.own[i], equivalent_c);
+        conductance = select(there, n * inverse_b, conductance);
     }
 }
 
@@ -109,9 +115,12 @@ PETRICHOR_INLINE void snow_temperatures(CellVars<Real>& c, const SnowColumn<Real
                                         Real& interface_c)
 {
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
+        const auto there = c.snow_ice[i] > 0.0;
+        if (!any(there)) continue;
         const Real node = column.own[i] + (interface_c - column.own[i]) * column.share_top[i];
-        c.snow_temp_c[i] = select(c.snow_ice[i] > 0.0, node, Real(0.0));
-        interface_c = column.below[i] + (node - column.below[i]) * column.share_down[i];
+        const Real under = column.below[i] + (node - column.below[i]) * column.share_down[i];
+        c.snow_temp_c[i] = select(there, node, c.snow_temp_c[i]);
+        interface_c = select(there, under, interface_c);
     }
 }
 
@@ -126,16 +135,23 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
     Real flow = rain;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real ice = c.snow_ice[i];
-        if (!any(ice > zero)) continue;  // water runs through
+        const auto there = ice > zero;
+        // Water runs through a layer that is not there; a cold and dry one stays as it is.
+        const auto wet = c.snow_liquid[i] + flow + to_melt + to_air > zero;
+        if (!any(there & (wet | (c.snow_temp_c[i] > zero)))) continue;
         // What the layer gained or lost beyond the melting point changes its phase from within.
         const Real heat = heat_capacity_of(ice, c.snow_liquid[i]) * c.snow_temp_c[i];
-        const Real capacity = ice * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity;
+        const Real own = ice * kIceHeatCapacity;
+        const Real capacity = own + c.snow_liquid[i] * kWaterHeatCapacity;
         // The reference counts the cold of the ice alone.
-        const Real usable = ice * kIceHeatCapacity / larger(capacity, Real(1e-30));
+        const Real per_all = 1.0 / larger(own * capacity, Real(1e-30));
+        const Real per_own = capacity * per_all;
+        const Real usable = heat * (own * own * per_all);
         const Real refrozen =
-            smaller(c.snow_liquid[i], larger(heat * usable * (-1.0 / kLatentFusion), zero));
-        Real temp = smaller(heat * usable + refrozen * kLatentFusion, zero) /
-                    larger(ice * kIceHeatCapacity, Real(1e-30));
+            smaller(c.snow_liquid[i], larger(usable * (-1.0 / kLatentFusion), zero));
+        const auto holds = c.snow_liquid[i] > zero;
+        Real temp = select(holds, smaller(usable + refrozen * kLatentFusion, zero) * per_own,
+                           smaller(c.snow_temp_c[i], zero));
         const Real gone = smaller(ice, to_air);
         to_air = to_air - gone;
         Real left = ice - gone;
@@ -145,23 +161,28 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
         const Real inside = smaller(left, larger(heat, zero) * (1.0 / kLatentFusion));
         left = left - inside;
         c.snow_thickness[i] =
-            select(ice > zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))), zero);
+            select(left < ice, c.snow_thickness[i] * (left * (kIceHeatCapacity * per_own)),
+                   c.snow_thickness[i]);
         left = left + refrozen;
         Real liquid = c.snow_liquid[i] - refrozen + melted + inside + flow;
         c.total_melt += inside;
         // Water that meets cold snow freezes, as far as the cold content goes.
         const Real cold = left * kIceHeatCapacity;
         const Real frozen = smaller(liquid, cold * temp * (-1.0 / kLatentFusion));
-        temp = smaller(temp + frozen * kLatentFusion / larger(cold, Real(1e-30)), zero);
-        left = left + frozen;
-        liquid = liquid - frozen;
+        const auto freezes = frozen > zero;
+        if (any(freezes)) {
+            const Real warmed = temp + frozen * kLatentFusion / larger(cold, Real(1e-30));
+            temp = select(freezes, smaller(warmed, zero), temp);
+            left = left + frozen;
+            liquid = liquid - frozen;
+        }
         const Real held = larger((c.snow_thickness[i] - left * (1.0 / kIceDensity)) *
                                      (1000.0 * k.snow.irreducible_water),
                                  zero);
-        flow = larger(liquid - held, zero);
-        c.snow_liquid[i] = liquid - flow;
+        flow = select(there, larger(liquid - held, zero), flow);
+        c.snow_liquid[i] = select(there, liquid - flow, zero);
         c.snow_ice[i] = left;
-        c.snow_temp_c[i] = temp;
+        c.snow_temp_c[i] = select(left > zero, temp, zero);
     }
     // Frost grows on top, as dense as what it grows on.
     const Real frost = larger(vapour * -1.0, zero);
@@ -202,6 +223,7 @@ PETRICHOR_KERNEL Real melt_base(CellVars<Real>& c, const Real& most, Real& flow)
         const auto gone = left <= zero;
         flow += melted + select(gone, c.snow_liquid[i], zero);
         c.snow_liquid[i] = select(gone, zero, c.snow_liquid[i]);
+        c.snow_temp_c[i] = select(gone, zero, c.snow_temp_c[i]);
         c.snow_thickness[i] =
             select(gone, zero, c.snow_thickness[i] * (left / larger(ice, Real(1e-30))));
         c.snow_ice[i] = left;
@@ -225,12 +247,14 @@ PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, d
     return flow;
 }
 
-// Cuts the pack into layers of 0.1 and 0.2 m from the top; masses and heat go with the thickness.
-template <class Real>
-PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
+// Cuts the pack into layers of 0.1 and 0.2 m from the top where `cut` says so; masses and heat go
+// with the thickness.
+//   inverse  1 / thickness of the layers as they are; anything finite for a layer that is not there
+template <class Real, class Mask>
+PETRICHOR_KERNEL void relayer(CellVars<Real>& c, const Real& depth, const Real* inverse,
+                              const Mask& cut, int most_layers)
 {
     const Real zero = 0.0;
-    const Real depth = c.snow_thickness[0] + c.snow_thickness[1] + c.snow_thickness[2];
     Real fresh[kSnowLayers] = {depth, zero, zero};
     if (most_layers > 1) {
         fresh[0] = select(depth > 0.2, Real(0.1), depth);
@@ -239,37 +263,26 @@ PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
         if (most_layers > 2) fresh[1] = select(rest > 0.4, Real(0.2), rest);
         fresh[2] = rest - fresh[1];
     }
+    // Of each old layer, what lies above the first and above the second of the new boundaries.
+    const Real first = fresh[0], second = fresh[0] + fresh[1];
     Real ice[kSnowLayers] = {zero, zero, zero};
     Real liquid[kSnowLayers] = {zero, zero, zero};
     Real heat[kSnowLayers] = {zero, zero, zero};
-    Real old_top = zero;
+    Real top = zero;
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
-        const Real old_bottom = old_top + c.snow_thickness[i];
-        const Real inverse =
-            select(c.snow_thickness[i] > 0.0, 1.0 / larger(c.snow_thickness[i], Real(1e-30)), zero);
+        const Real above_first = unit_clamped((first - top) * inverse[i]);
+        const Real above_second = unit_clamped((second - top) * inverse[i]);
+        const Real shares[kSnowLayers] = {above_first, above_second - above_first,
+                                          1.0 - above_second};
         const Real layer_heat =
             (c.snow_ice[i] * kIceHeatCapacity + c.snow_liquid[i] * kWaterHeatCapacity) *
             c.snow_temp_c[i];
-        Real top = zero;
-        Real ice_left = c.snow_ice[i], liquid_left = c.snow_liquid[i], heat_left = layer_heat;
         for (std::size_t j = 0; j < kSnowLayers; ++j) {
-            const Real bottom = top + fresh[j];
-            const Real overlap = larger(smaller(old_bottom, bottom) - larger(old_top, top), zero);
-            // The last layer takes what is left, so that nothing is lost to rounding.
-            const bool last = j + 1 == kSnowLayers;
-            const Real share = smaller(overlap * inverse, Real(1.0));
-            const Real di = last ? ice_left : smaller(c.snow_ice[i] * share, ice_left);
-            const Real dl = last ? liquid_left : smaller(c.snow_liquid[i] * share, liquid_left);
-            const Real dh = last ? heat_left : layer_heat * share;
-            ice_left = ice_left - di;
-            liquid_left = liquid_left - dl;
-            heat_left = heat_left - dh;
-            ice[j] += di;
-            liquid[j] += dl;
-            heat[j] += dh;
-            top = bottom;
+            ice[j] += c.snow_ice[i] * shares[j];
+            liquid[j] += c.snow_liquid[i] * shares[j];
+            heat[j] += layer_heat * shares[j];
         }
-        old_top = old_bottom;
+        top += c.snow_thickness[i];
     }
     for (std::size_t j = kSnowLayers; j-- > 0;) {
         // A sliver of rounding joins the layer above.
@@ -284,10 +297,10 @@ PETRICHOR_KERNEL void relayer(CellVars<Real>& c, int most_layers)
             fresh[j] = select(sliver, zero, fresh[j]);
         }
         const Real capacity = ice[j] * kIceHeatCapacity + liquid[j] * kWaterHeatCapacity;
-        c.snow_ice[j] = ice[j];
-        c.snow_liquid[j] = liquid[j];
-        c.snow_thickness[j] = fresh[j];
-        c.snow_temp_c[j] = select(capacity > 0.0, heat[j] / larger(capacity, Real(1e-30)), zero);
+        c.snow_ice[j] = select(cut, ice[j], c.snow_ice[j]);
+        c.snow_liquid[j] = select(cut, liquid[j], c.snow_liquid[j]);
+        c.snow_thickness[j] = select(cut, fresh[j], c.snow_thickness[j]);
+        c.snow_temp_c[j] = select(cut, heat[j] / larger(capacity, Real(1e-30)), c.snow_temp_c[j]);
     }
 }
 
@@ -304,6 +317,27 @@ PETRICHOR_INLINE void age_albedo(CellVars<Real>& c, const Real& melting, const C
 }
 
 constexpr double kBroken_kg_m3 = 350.0;
+constexpr double kDensest_kg_m3 = 850.0;  // nothing settles beyond this
+
+// Anderson 1976: by which factor a layer becomes denser within dt seconds.
+//   load  on its middle, kg/m2
+template <class Real>
+PETRICHOR_INLINE Real settling_growth(const Real& density, const Real& load, const Real& temp_c,
+                                      double dt)
+{
+    const Real weight =
+        load * (kGravity_m_s2 / 3.7e7) * exponential(temp_c * 0.081 - density * 0.018);
+    // Crystals of dense snow are broken: below a millionth an hour nothing is left to count.
+    const auto whole = density < kBroken_kg_m3;
+    Real breaking = 0.0;
+    if (any(whole)) {
+        const Real rate =
+            exponential(temp_c * (1.0 / 23.8) - larger(density - 150.0, Real(0.0)) * (1.0 / 21.7)) *
+            2.8e-6;
+        breaking = select(whole, rate, breaking);
+    }
+    return (weight + breaking) * dt + 1.0;
+}
 
 // Ageing once a step: fresh albedo, settling, layers; and the resistivity (1/k) of each layer for
 // the step.
@@ -319,38 +353,28 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
     }
 
     Real above = zero;
+    Real inverse[kSnowLayers] = {Real(1e12), Real(1e12), Real(1e12)};  // 1 / thickness
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const Real mass = c.snow_ice[i] + c.snow_liquid[i];
-        const auto there = c.snow_thickness[i] > zero;
-        if (!any(there)) continue;
-        const Real density = mass / larger(c.snow_thickness[i], Real(1e-12));
-        Real denser = density;
+        if (!any(c.snow_thickness[i] > zero)) continue;
+        const Real per_thickness = 1.0 / larger(c.snow_thickness[i], Real(1e-12));
+        const Real density = smaller(mass * per_thickness, Real(1000.0));
+        Real growth;
         if (k.snow.settling == Settling::Overburden) {
-            const Real cold = c.snow_temp_c[i] * -1.0;
-            const Real load = above + mass * 0.5;
-            const Real weight =
-                load * (kGravity_m_s2 / 3.7e7) * exponential(cold * -0.081 - density * 0.018);
-            // Crystals of dense snow are broken: below a millionth an hour nothing is left to
-            // count.
-            const auto whole = density < kBroken_kg_m3;
-            Real breaking = zero;
-            if (any(whole)) {
-                const Real rate = exponential(cold * (-1.0 / 23.8) -
-                                              larger(density - 150.0, zero) * (1.0 / 21.7)) *
-                                  2.8e-6;
-                breaking = select(whole, rate, zero);
-            }
-            denser = density * ((weight + breaking) * dt + 1.0);
+            growth = settling_growth(density, above + mass * 0.5, c.snow_temp_c[i], dt);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
-            denser = select(density < limit, limit + (density - limit) * s.settling, density);
+            const Real denser = limit + (density - limit) * s.settling;
+            growth = select(density < limit, denser / larger(density, Real(1e-12)), Real(1.0));
         }
-        denser = larger(smaller(denser, Real(850.0)), density);
-        c.snow_thickness[i] = select(there, mass / larger(denser, Real(1e-12)), zero);
+        growth = select(density * growth < kDensest_kg_m3, growth, Real(1.0));
+        c.snow_thickness[i] = c.snow_thickness[i] / growth;
+        inverse[i] = per_thickness * growth;
         above = above + mass;
     }
     const Real depth = c.snow_thickness[0] + c.snow_thickness[1] + c.snow_thickness[2];
-    if (any(depth > 0.2) || any(c.snow_thickness[1] > zero)) relayer(c, k.snow.max_layers);
+    const auto cut = (depth > 0.2) | (c.snow_thickness[1] > zero);
+    if (any(cut)) relayer(c, depth, inverse, cut, k.snow.max_layers);
 
     for (std::size_t i = 0; i < kSnowLayers; ++i) {
         const auto there = c.snow_thickness[i] > zero;

@@ -15,16 +15,31 @@ struct Ramp {
     __attribute__((always_inline)) double at(double x) const { return start + rise * x; }
 };
 
+// The station's weather at one instant, in the form that every cell asks for.
+struct StationMoment {
+    double air_c, from_middle_k;  // from the middle of the step
+    double rh_share, wind, pressure, shortwave;
+    double reflecting;   // as of the step
+    double sky_w_m2_k4;  // longwave / T^4: the sky keeps its emissivity over warmer or colder air
+    // What still changes until the end of the substep; wind and humidity as shares.
+    double later_air_k, later_wind, later_rh, later_shortwave, later_longwave;
+};
+
 struct StepForcing {
     std::int64_t begin_us = 0;
     double dt_s = 0.0;
     Ramp air_c, rh_pct, wind, pressure, shortwave, longwave;
+    double reflecting = 1.0;  // 0 where shortwave is what the ground takes up, whatever its albedo
+    StationMoment middle;     // until the end of the step
     double precip = 0.0;      // kg m-2 s-1, mean of the step
     double snow_share = 0.0;  // of it, by the file
     bool phase_known = false;
     double sun_east = 0.0, sun_north = 0.0, sun_up = 0.0;  // at the middle
     double diffuse = 1.0;                                  // share of shortwave
 };
+
+/// The moment x of a step, 0..1, the middle of a substep that lasts until `until`.
+StationMoment moment_of(const StepForcing& step, double x, double until);
 
 /// Where the sun stands matters for slopes and under a narrow sky only; it is the dearest part of a
 /// step.
@@ -47,7 +62,7 @@ struct StepPlan {
 };
 StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us);
 
-/// Makes the steps of a plan one after the other: 176 bytes each are quicker made again than kept.
+/// Makes the steps of a plan one after the other: 272 bytes each are quicker made again than kept.
 class StepWalk {
 public:
     StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun);

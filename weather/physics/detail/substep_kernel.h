@@ -15,21 +15,14 @@
 
 namespace petrichor::weather::detail {
 
-// What a substep adds to the means of its step.
+// dt seconds with constant weather, `share` of the step, whose means it adds to. `rain`, `snow` in
+// kg m-2 s-1; `resistivity` (1 / conductivity) of the snow layers. Returns the share of the step at
+// the melting point, receiving heat.
 template <class Real>
-struct StepSums {
-    Real shortwave = 0.0, longwave = 0.0, sensible = 0.0, latent = 0.0, ground = 0.0, melt = 0.0;
-    Real residual = 0.0, runoff = 0.0;
-    Real melting = 0.0;  // seconds at the melting point, receiving heat
-};
-
-// dt seconds with constant weather. `rain`, `snow` in kg m-2 s-1; `resistivity` (1 / conductivity)
-// of the snow layers.
-template <class Real>
-PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>& w,
+PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>& w,
                                       const Real& rain, const Real& snow, const Real* resistivity,
                                       const CellConstants& k, const PartConstants& part,
-                                      StepSums<Real>& sums)
+                                      double share)
 {
     const Real zero = 0.0;
     const double dt = part.dt_s;
@@ -50,7 +43,7 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const bool any_snow = any(covered);
     Real cover = zero;
     if (any_snow) {
-        snow_equivalent(c, resistivity, dt, conductance, below_c, column);
+        snow_equivalent(c, resistivity, part.inverse_dt_1_s, conductance, below_c, column);
         const Real depth = c.snow_thickness[0] + c.snow_thickness[1] + c.snow_thickness[2];
         cover = hyperbolic_tangent_positive(depth * k.inverse_cover_depth);
     }
@@ -71,7 +64,8 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const Real bare_albedo = film_share * (k.albedo_wet - k.albedo_dry) + k.albedo_dry;
     const Real albedo = bare_albedo + cover * (c.snow_albedo - bare_albedo);
     const Real emissivity = cover * (k.snow_emissivity - k.emissivity) + k.emissivity;
-    const Real absorbed_sw = (1.0 - albedo) * w.shortwave;
+    const Real taken_up = 1.0 - albedo * w.reflecting;
+    const Real absorbed_sw = taken_up * w.shortwave;
     p.absorbed = absorbed_sw + emissivity * w.longwave;
     p.emitting = emissivity * kStefanBoltzmann;
     p.air_c = w.air_c;
@@ -96,19 +90,20 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
         select(covered, pack, select(bare_icy, ice, liquid + rain_mass)) * part.inverse_dt_1_s;
 
     // ---- its temperature: three Newton steps, then the melting point if something changes phase
-    auto root = surface_root(p, k.exchange, c.surface_temp_c);
-    auto f = fluxes_at(p, root);
+    SurfaceRoot<Real, Wetness<Real>> root;
+    surface_root(p, k.exchange, c.surface_temp_c, root);
     // The balance is that of the middle of the weather; until the end it still changes by this.
-    const Real later = (1.0 - albedo) * w.later_shortwave + emissivity * w.later_longwave +
+    const Real later = taken_up * w.later_shortwave + emissivity * w.later_longwave +
                        root.exchange * (kAirHeatCapacity * w.later_air_k +
                                         p.latent_heat * root.wet.shares.all.end * w.later_q) -
-                       (f.sensible + f.latent) * w.later_wind;
+                       root.turbulent * w.later_wind;
     PhaseStores<Real> stores;
     stores.ice = select(covered, pack, ice);
     stores.water = select(covered, zero, liquid + rain_mass);
     stores.may_melt = covered | (ice > zero);
     stores.may_freeze = stores.water > zero;
-    const PhaseChange<Real> change = change_phase(p, k.exchange, stores, later, dt, root, f);
+    const PhaseChange<Real> change = change_phase(p, k.exchange, stores, later, dt, root);
+    const auto f = fluxes_at(p, root);
     const Real surface_c = root.surface_c;
     c.surface_temp_c = end_temperature(stores, change, surface_c, later, f.slope);
     const Real residual = f.balance - change.melt_flux;
@@ -128,23 +123,23 @@ PETRICHOR_KERNEL void advance_substep(CellVars<Real>& c, const CellWeather<Real>
         runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
-        sums.runoff += select(covered, runoff, zero);
+        c.step_runoff += select(covered, runoff, zero);
     }
     ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
     c.total_melt += larger(melt_mass, zero);
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
                bare_icy, root.wet.shares, k, part);
 
-    sums.shortwave += absorbed_sw * dt;
-    sums.longwave += (f.net_radiation - absorbed_sw) * dt;
-    sums.sensible += f.sensible * dt;
-    sums.latent += f.latent * dt;
-    sums.ground += f.ground * dt;
-    sums.melt += change.melt_flux * dt;
-    sums.melting += change.melting * dt;
-    sums.residual += residual * dt;
+    c.flux_shortwave += absorbed_sw * share;
+    c.flux_longwave += (f.net_radiation - absorbed_sw) * share;
+    c.flux_sensible += f.sensible * share;
+    c.flux_latent += f.latent * share;
+    c.flux_ground += f.ground * share;
+    c.flux_melt += change.melt_flux * share;
+    c.flux_residual += residual * share;
     c.energy_residual_squares += residual * residual * dt;
     c.energy_seconds += Real(dt);
+    return change.melting * share;
 }
 
 }  // namespace petrichor::weather::detail

@@ -20,10 +20,10 @@ struct FixedShares {
     WetShare<Real> all;
 };
 template <class Real, class Mask>
-PETRICHOR_INLINE FixedShares<Real> chosen(const Mask& mask, const FixedShares<Real>& a,
-                                          const FixedShares<Real>& b)
+PETRICHOR_INLINE void take(const Mask& mask, const FixedShares<Real>& from, FixedShares<Real>& to)
 {
-    return {{select(mask, a.all.mean, b.all.mean), select(mask, a.all.end, b.all.end)}};
+    to.all.mean = select(mask, from.all.mean, to.all.mean);
+    to.all.end = select(mask, from.all.end, to.all.end);
 }
 template <class Real>
 struct FixedShare {
@@ -34,17 +34,15 @@ struct FixedShare {
         out.all.mean = out.all.end = beta;
     }
 };
-// What evaporates as a line through one evaluation of the shares, at `potential_rate`.
+// What evaporates as a line through one evaluation of the shares.
 template <class Wetness, class Real>
 struct WetLine {
     typename Wetness::Shares shares;
-    Real potential_rate;
+    Real offset;  // kg m-2 s-1: mean share and slope of the line differ
 
     PETRICHOR_INLINE Real vapour(const Real& potential) const
     {
-        const Real line =
-            shares.all.mean * potential_rate + shares.all.end * (potential - potential_rate);
-        return smaller(line, potential);
+        return smaller(shares.all.end * potential + offset, potential);
     }
 };
 
@@ -74,40 +72,40 @@ template <class Real>
 struct PointFluxes {
     Real net_radiation, sensible, latent, vapour, ground, rain_heat, balance, slope;
 };
+// What Newton's method asks for: F and -dF/dTs, and what F holds of the air.
+template <class Real>
+struct PointBalance {
+    Real balance, slope, vapour;
+    Real turbulent, turbulent_slope;  // sensible and latent heat
+};
 
-// Saturation humidity of the surface near a temperature.
+// Saturation humidity of the surface near a temperature: at the middle of the curve, and the curve.
 template <class Real>
 struct SurfaceVapour {
     SaturationCurve<Real> curve;
-    Real dry;  // 1 / (P - 0.378 e) at the middle of the curve
+    Real q;
 };
-template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE void centre_dry(SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask, Wetness>& p)
-{
-    v.dry = 1.0 / (p.pressure - v.curve.pressure_pa * (1.0 - kWaterToAirMass));
-}
 template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE void centre_vapour(SurfaceVapour<Real>& v,
                                     const SurfacePoint<Real, Mask, Wetness>& p,
                                     const Real& surface_c)
 {
-    v.curve.a = select(p.icy, Real(kIceA), Real(kWaterA));
-    v.curve.b = select(p.icy, Real(kIceB), Real(kWaterB));
-    v.curve.scale = select(p.icy, Real(kIceScale_pa), Real(kWaterScale_pa));
-    centre_curve(v.curve, surface_c);
-    centre_dry(v, p);
+    const Real a = select(p.icy, Real(kIceA), Real(kWaterA));
+    const Real b = select(p.icy, Real(kIceB), Real(kWaterB));
+    const Real scale = select(p.icy, Real(kIceScale_pa), Real(kWaterScale_pa));
+    const Real vapour_pa = centre_curve(v.curve, a, b, scale, surface_c);
+    v.q = specific_humidity_of(vapour_pa, p.pressure);
 }
+// Takes `from` where the mask says so. In place: copies of structs of lanes cost more than the
+// arithmetic.
 template <class Real, class Mask>
-PETRICHOR_INLINE SurfaceVapour<Real> chosen(const Mask& mask, const SurfaceVapour<Real>& a,
-                                            const SurfaceVapour<Real>& b)
+PETRICHOR_INLINE void take(const Mask& mask, const SurfaceVapour<Real>& from,
+                           SurfaceVapour<Real>& v)
 {
-    SurfaceVapour<Real> v = b;
-    v.curve.middle_c = select(mask, a.curve.middle_c, b.curve.middle_c);
-    v.curve.inverse = select(mask, a.curve.inverse, b.curve.inverse);
-    v.curve.pressure_pa = select(mask, a.curve.pressure_pa, b.curve.pressure_pa);
-    v.curve.slope = select(mask, a.curve.slope, b.curve.slope);
-    v.dry = select(mask, a.dry, b.dry);
-    return v;
+    v.curve.middle_c = select(mask, from.curve.middle_c, v.curve.middle_c);
+    v.curve.inverse = select(mask, from.curve.inverse, v.curve.inverse);
+    v.curve.slope = select(mask, from.curve.slope, v.curve.slope);
+    v.q = select(mask, from.q, v.q);
 }
 // Expands again where a temperature is out of the curve's reach.
 template <class Real, class Mask, class Wetness>
@@ -115,25 +113,21 @@ PETRICHOR_INLINE void follow(SurfaceVapour<Real>& v, const SurfacePoint<Real, Ma
                              const Real& surface_c)
 {
     const Real step = surface_c - v.curve.middle_c;
-    const auto far = (step > kCurveReach_k) | (step < -kCurveReach_k);
+    const auto far = step * step > kCurveReach_k * kCurveReach_k;
     if (!any(far)) return;
-    SurfaceVapour<Real> fresh = v;
-    centre_curve(fresh.curve, surface_c);
-    centre_dry(fresh, p);
-    v = chosen(far, fresh, v);
+    SurfaceVapour<Real> fresh;
+    centre_vapour(fresh, p, surface_c);
+    take(far, fresh, v);
 }
 // At the melting point no exponential is needed: e is the constant of its law.
 template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceVapour<Real> vapour_at_melting_point(
-    const SurfaceVapour<Real>& v, const SurfacePoint<Real, Mask, Wetness>& p)
+PETRICHOR_INLINE void centre_at_melting_point(SurfaceVapour<Real>& v,
+                                              const SurfacePoint<Real, Mask, Wetness>& p)
 {
-    SurfaceVapour<Real> at_zero = v;
-    at_zero.curve.middle_c = Real(0.0);
-    at_zero.curve.inverse = select(p.icy, Real(1.0 / kIceB), Real(1.0 / kWaterB));
-    at_zero.curve.pressure_pa = v.curve.scale;
-    at_zero.curve.slope = select(p.icy, Real(kIceA / kIceB), Real(kWaterA / kWaterB));
-    centre_dry(at_zero, p);
-    return at_zero;
+    v.curve.middle_c = Real(0.0);
+    v.curve.inverse = select(p.icy, Real(1.0 / kIceB), Real(1.0 / kWaterB));
+    v.curve.slope = select(p.icy, Real(kIceA / kIceB), Real(kWaterA / kWaterB));
+    v.q = specific_humidity_of(select(p.icy, Real(kIceScale_pa), Real(kWaterScale_pa)), p.pressure);
 }
 
 // rho CH U with the stability of a surface temperature.
@@ -155,32 +149,28 @@ template <class Real>
 struct SurfaceHumidity {
     Real q, dq;
 };
-//   dry  1 / (P - 0.378 e)
+constexpr double kQPerDry = (1.0 - kWaterToAirMass) / kWaterToAirMass;
+// dq/dT = q P / (P - 0.378 e) d(ln e)/dT, and P / (P - 0.378 e) = 1 + q 0.378 / 0.622
 template <class Real>
-PETRICHOR_INLINE SurfaceHumidity<Real> humidity_of(const Real& pressure, const Real& vapour_pa,
-                                                   const Real& vapour_slope, const Real& dry)
+PETRICHOR_INLINE SurfaceHumidity<Real> humidity_with(const Real& q, const Real& slope)
 {
-    // dq/dT = q P / (P - 0.378 e) * d(ln e)/dT
-    const Real q = vapour_pa * kWaterToAirMass * dry;
-    return {q, q * pressure * dry * vapour_slope};
+    return {q, q * slope * (q * kQPerDry + 1.0)};
 }
 // At the middle of the curve.
-template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceHumidity<Real> humidity_at_middle(
-    const SurfacePoint<Real, Mask, Wetness>& p, const SurfaceVapour<Real>& v)
+template <class Real>
+PETRICHOR_INLINE SurfaceHumidity<Real> humidity_at_middle(const SurfaceVapour<Real>& v)
 {
-    return humidity_of(p.pressure, v.curve.pressure_pa, v.curve.slope, v.dry);
+    return humidity_with(v.q, v.curve.slope);
 }
 // At a temperature within reach of the curve.
-template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceHumidity<Real> humidity_at(const SurfacePoint<Real, Mask, Wetness>& p,
-                                                   const SurfaceVapour<Real>& v,
+template <class Real>
+PETRICHOR_INLINE SurfaceHumidity<Real> humidity_at(const SurfaceVapour<Real>& v,
                                                    const Real& surface_c)
 {
     const SaturationPoint<Real> s = point_of(v.curve, surface_c);
-    // 1 / (P - 0.378 e) from its value at the middle; h is at most a few thousandths.
-    const Real h = v.curve.pressure_pa * s.growth * v.dry * (1.0 - kWaterToAirMass);
-    return humidity_of(p.pressure, s.pressure_pa, s.slope, v.dry * ((h + 1.0) * (h * h + 1.0)));
+    // (P - 0.378 e0) / (P - 0.378 e) = 1 / (1 - h); h is at most a few hundredths.
+    const Real h = s.growth * (v.q * kQPerDry);
+    return humidity_with((v.q * s.growth + v.q) * ((h + 1.0) * (h * h + 1.0)), s.slope);
 }
 
 // Structs of lanes go by reference: copying them costs more than the arithmetic.
@@ -189,11 +179,61 @@ PETRICHOR_INLINE void lay_wet_line(const SurfacePoint<Real, Mask, Wetness>& p,
                                    const SurfaceHumidity<Real>& at, const Real& exchange,
                                    WetLine<Wetness, Real>& line)
 {
-    line.potential_rate = exchange * (at.q - p.q_air);
-    p.wet.share(line.potential_rate, line.shares);
+    const Real potential_rate = exchange * (at.q - p.q_air);
+    p.wet.share(potential_rate, line.shares);
+    line.offset = (line.shares.all.mean - line.shares.all.end) * potential_rate;
+}
+
+// What leaves as vapour, and how much more a little more potential would add.
+template <class Real>
+struct VapourRate {
+    Real rate, gain;
+};
+template <class Real, class Mask, class Wetness>
+PETRICHOR_INLINE VapourRate<Real> vapour_with(const SurfacePoint<Real, Mask, Wetness>& p,
+                                              const Real& q, const WetLine<Wetness, Real>& wet,
+                                              const Real& exchange)
+{
+    // Dew and frost settle on dry ground too: only a loss is scaled by the wet fraction.
+    const auto dew = q < p.q_air;
+    const Real potential = exchange * (q - p.q_air);
+    const Real wanted = select(dew, potential, wet.vapour(potential));
+    const auto limited = wanted > p.most_vapour;
+    return {select(limited, p.most_vapour, wanted),
+            select(limited, Real(0.0), select(dew, Real(1.0), wet.shares.all.end))};
+}
+
+// A slope with which no step of Newton's is longer than 20 K: in calm air a cold surface in strong
+// sun would be thrown beyond boiling.
+template <class Real>
+PETRICHOR_INLINE Real at_most_20_k(const Real& slope, const Real& balance)
+{
+    return larger(slope, larger(balance, -balance) * (1.0 / kLongestStep_k));
 }
 
 // F and -dF/dTs at a surface temperature, with a given exchange.
+template <class Real, class Mask, class Wetness>
+PETRICHOR_INLINE PointBalance<Real> balance_with(const SurfacePoint<Real, Mask, Wetness>& p,
+                                                 const SurfaceHumidity<Real>& at,
+                                                 const WetLine<Wetness, Real>& wet,
+                                                 const Real& surface_c, const Real& exchange)
+{
+    const Real surface_k = surface_c + kZeroCelsiusK;
+    const Real emitted = p.emitting * (surface_k * surface_k * surface_k);
+    const Real heat = exchange * kAirHeatCapacity;
+    const auto vapour = vapour_with(p, at.q, wet, exchange);
+    PointBalance<Real> f;
+    f.vapour = vapour.rate;
+    f.turbulent = heat * (surface_c - p.air_c) + p.latent_heat * vapour.rate;
+    f.balance = (p.absorbed - emitted * surface_k) - f.turbulent -
+                p.conductance * (surface_c - p.below_c) + p.rain_heat * (p.air_c - surface_c);
+    f.turbulent_slope = heat + p.latent_heat * exchange * (vapour.gain * at.dq);
+    f.slope =
+        at_most_20_k(emitted * 4.0 + f.turbulent_slope + (p.conductance + p.rain_heat), f.balance);
+    return f;
+}
+
+// The same F, flux by flux.
 template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask, Wetness>& p,
                                                const SurfaceHumidity<Real>& at,
@@ -201,28 +241,20 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask, We
                                                const Real& surface_c, const Real& exchange)
 {
     const Real surface_k = surface_c + kZeroCelsiusK;
-    const Real cubed = surface_k * surface_k * surface_k;
-    // Dew and frost settle on dry ground too: only a loss is scaled by the wet fraction.
-    const auto dew = at.q < p.q_air;
+    const Real emitted = p.emitting * (surface_k * surface_k * surface_k);
+    const Real heat = exchange * kAirHeatCapacity;
+    const auto vapour = vapour_with(p, at.q, wet, exchange);
     PointFluxes<Real> f;
-    f.net_radiation = p.absorbed - p.emitting * cubed * surface_k;
-    f.sensible = exchange * kAirHeatCapacity * (surface_c - p.air_c);
-    const Real potential = exchange * (at.q - p.q_air);
-    const Real wanted = select(dew, potential, wet.vapour(potential));
-    const auto limited = wanted > p.most_vapour;
-    f.vapour = select(limited, p.most_vapour, wanted);
+    f.net_radiation = p.absorbed - emitted * surface_k;
+    f.sensible = heat * (surface_c - p.air_c);
+    f.vapour = vapour.rate;
     f.latent = p.latent_heat * f.vapour;
     f.ground = p.conductance * (surface_c - p.below_c);
     f.rain_heat = p.rain_heat * (p.air_c - surface_c);
     f.balance = f.net_radiation - f.sensible - f.latent - f.ground + f.rain_heat;
-    f.slope =
-        p.emitting * cubed * 4.0 + exchange * kAirHeatCapacity +
-        select(limited, Real(0.0),
-               p.latent_heat * select(dew, Real(1.0), wet.shares.all.end) * exchange * at.dq) +
-        p.conductance + p.rain_heat;
-    // No step of Newton's is longer than 20 K: in calm air a cold surface in strong sun would be
-    // thrown beyond boiling.
-    f.slope = larger(f.slope, larger(f.balance, -f.balance) * (1.0 / kLongestStep_k));
+    f.slope = at_most_20_k(emitted * 4.0 + heat + p.latent_heat * exchange * (vapour.gain * at.dq) +
+                               (p.conductance + p.rain_heat),
+                           f.balance);
     return f;
 }
 
@@ -231,47 +263,54 @@ PETRICHOR_INLINE PointFluxes<Real> fluxes_with(const SurfacePoint<Real, Mask, We
 template <class Real, class Wetness>
 struct SurfaceRoot {
     Real surface_c, exchange;
+    Real slope, turbulent;  // -dF/dTs, and sensible and latent heat
     SurfaceVapour<Real> vapour;
     WetLine<Wetness, Real> wet;
 };
 template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceRoot<Real, Wetness> chosen(const Mask& mask,
-                                                   const SurfaceRoot<Real, Wetness>& a,
-                                                   const SurfaceRoot<Real, Wetness>& b)
+PETRICHOR_INLINE void take(const Mask& mask, const SurfaceRoot<Real, Wetness>& from,
+                           SurfaceRoot<Real, Wetness>& root)
 {
-    SurfaceRoot<Real, Wetness> root;
-    root.surface_c = select(mask, a.surface_c, b.surface_c);
-    root.exchange = select(mask, a.exchange, b.exchange);
-    root.vapour = chosen(mask, a.vapour, b.vapour);
-    root.wet.potential_rate = select(mask, a.wet.potential_rate, b.wet.potential_rate);
-    root.wet.shares = chosen(mask, a.wet.shares, b.wet.shares);
-    return root;
+    root.surface_c = select(mask, from.surface_c, root.surface_c);
+    root.exchange = select(mask, from.exchange, root.exchange);
+    take(mask, from.vapour, root.vapour);
+    root.wet.offset = select(mask, from.wet.offset, root.wet.offset);
+    take(mask, from.wet.shares, root.wet.shares);
+}
+// The next step of Newton's from the balance at `surface_c`.
+template <class Real, class Wetness>
+PETRICHOR_INLINE void step_root(SurfaceRoot<Real, Wetness>& root, const Real& surface_c,
+                                const PointBalance<Real>& at)
+{
+    const Real step = at.balance / at.slope;
+    root.surface_c = surface_c + step;
+    root.slope = at.slope;
+    root.turbulent = at.turbulent + at.turbulent_slope * step;
 }
 template <class Real, class Mask, class Wetness>
-PETRICHOR_INLINE SurfaceRoot<Real, Wetness> surface_root(const SurfacePoint<Real, Mask, Wetness>& p,
-                                                         const ExchangeParams& params,
-                                                         const Real& first_guess_c)
+PETRICHOR_INLINE void surface_root(const SurfacePoint<Real, Mask, Wetness>& p,
+                                   const ExchangeParams& params, const Real& first_guess_c,
+                                   SurfaceRoot<Real, Wetness>& root)
 {
-    SurfaceRoot<Real, Wetness> root;
     centre_vapour(root.vapour, p, first_guess_c);
     root.exchange = exchange_at(p, params, first_guess_c);
-    const auto humidity = humidity_at_middle(p, root.vapour);
+    const auto humidity = humidity_at_middle(root.vapour);
     lay_wet_line(p, humidity, root.exchange, root.wet);
-    const auto first = fluxes_with(p, humidity, root.wet, first_guess_c, root.exchange);
+    const auto first = balance_with(p, humidity, root.wet, first_guess_c, root.exchange);
     const Real second_c = first_guess_c + first.balance / first.slope;
 
     follow(root.vapour, p, second_c);
     const Real second_exchange = exchange_at(p, params, second_c);
-    const auto second_humidity = humidity_at(p, root.vapour, second_c);
+    const auto second_humidity = humidity_at(root.vapour, second_c);
     lay_wet_line(p, second_humidity, second_exchange, root.wet);
-    const auto second = fluxes_with(p, second_humidity, root.wet, second_c, second_exchange);
+    const auto second = balance_with(p, second_humidity, root.wet, second_c, second_exchange);
     const Real third_c = second_c + second.balance / second.slope;
 
     follow(root.vapour, p, third_c);
     root.exchange = exchange_at(p, params, third_c);
     const auto third =
-        fluxes_with(p, humidity_at(p, root.vapour, third_c), root.wet, third_c, root.exchange);
-    root.surface_c = third_c + third.balance / third.slope;
+        balance_with(p, humidity_at(root.vapour, third_c), root.wet, third_c, root.exchange);
+    step_root(root, third_c, third);
     // In calm air the exchange itself depends so much on the surface that Newton's steps overshoot:
     // the root lies between the last two, and so does its exchange.
     const auto overshot = (second.balance * third.balance < 0.0) &
@@ -279,24 +318,25 @@ PETRICHOR_INLINE SurfaceRoot<Real, Wetness> surface_root(const SurfacePoint<Real
     if (any(overshot)) {
         const Real share = second.balance / (second.balance - third.balance);
         const Real between_c = second_c + (third_c - second_c) * share;
-        auto inner = root;
+        SurfaceRoot<Real, Wetness> inner;
         inner.exchange = second_exchange + (root.exchange - second_exchange) * share;
+        inner.vapour = root.vapour;
         follow(inner.vapour, p, between_c);
-        const auto at = humidity_at(p, inner.vapour, between_c);
+        const auto at = humidity_at(inner.vapour, between_c);
         lay_wet_line(p, at, inner.exchange, inner.wet);
-        const auto f = fluxes_with(p, at, inner.wet, between_c, inner.exchange);
-        inner.surface_c = between_c + f.balance / f.slope;
-        root = chosen(overshot, inner, root);
+        step_root(inner, between_c, balance_with(p, at, inner.wet, between_c, inner.exchange));
+        take(overshot, inner, root);
+        root.slope = select(overshot, inner.slope, root.slope);
+        root.turbulent = select(overshot, inner.turbulent, root.turbulent);
     }
     follow(root.vapour, p, root.surface_c);
-    return root;
 }
 // The fluxes at the root.
 template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE PointFluxes<Real> fluxes_at(const SurfacePoint<Real, Mask, Wetness>& p,
                                              const SurfaceRoot<Real, Wetness>& root)
 {
-    return fluxes_with(p, humidity_at(p, root.vapour, root.surface_c), root.wet, root.surface_c,
+    return fluxes_with(p, humidity_at(root.vapour, root.surface_c), root.wet, root.surface_c,
                        root.exchange);
 }
 

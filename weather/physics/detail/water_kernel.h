@@ -24,8 +24,11 @@ PETRICHOR_KERNEL Lowered<Real> lower_store(const Hypsometry& relief, Real& liqui
     const Real total = liquid + ice;
     const Real drop = evaporation_mm + infiltration_mm;
     const Real level = level_of(relief, total);
-    const Real lost =
-        clamped(total - volume_at(relief, level - drop), Real(0.0), larger(liquid, Real(0.0)));
+    // Nothing is lost to rounding where nothing is asked for.
+    const Real lost = select(
+        drop > 0.0,
+        clamped(total - volume_at(relief, level - drop), Real(0.0), larger(liquid, Real(0.0))),
+        Real(0.0));
     const Real share = evaporation_mm / larger(drop, Real(1e-30));
     Lowered<Real> out;
     out.evaporated = lost * share;
@@ -64,6 +67,24 @@ PETRICHOR_INLINE Real recovered_capacity(const Real& capacity_mm_h, const Horton
 {
     const double first = k.surface.infiltration.first_mm_h;
     return (capacity_mm_h - first) * step.recover + first;
+}
+
+// Capacity after a substep in which a share of the ground was wet.
+template <class Real>
+PETRICHOR_INLINE Real capacity_after(const CellVars<Real>& c, const Real& wet,
+                                     const CellConstants& k, const PartConstants& part)
+{
+    const Real decayed = decayed_capacity(c.infiltration_mm_h, part.horton, k);
+    const Real recovered = recovered_capacity(c.infiltration_mm_h, part.horton, k);
+    return recovered + (decayed - recovered) * wet;
+}
+// Share of the pores that hold water, between two states of the film.
+template <class Real>
+PETRICHOR_INLINE Real pores_of(const Real& film_before, const Real& film, const CellConstants& k)
+{
+    const Real capacity = k.film_capacity;
+    return (smaller(film_before, capacity) + smaller(film, capacity)) *
+           (0.5 * k.inverse_film_capacity);
 }
 
 // Cracks and puddles over a substep, and where their water went.
@@ -153,12 +174,9 @@ PETRICHOR_INLINE Hollows<Real> hollows_after(CellVars<Real>& c, const Real& flow
         return h;
     }
     const Real capacity = c.infiltration_mm_h;
-    const Real decayed = decayed_capacity(capacity, part.horton, k);
-    const Real recovered = recovered_capacity(capacity, part.horton, k);
-    const Real wet = select(holds | flows, Real(1.0), pores);
-    c.infiltration_mm_h = recovered + (decayed - recovered) * wet;
+    c.infiltration_mm_h = capacity_after(c, select(holds | flows, Real(1.0), pores), k, part);
     // A flow that the ground can take to the end does not reach the hollows.
-    const auto fills = flow > decayed * part.horton.hours;
+    const auto fills = flow > decayed_capacity(capacity, part.horton, k) * part.horton.hours;
     h.infiltrated = flow;
     if (any(holds)) {
         fill_and_lower(h, c, {zero, zero}, crack_drop, puddle_drop,
@@ -240,12 +258,14 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
                                  const CellConstants& k, const PartConstants& part)
 {
     const Real zero = 0.0;
-    const Real liquid = c.film + c.crack + c.puddle;
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
-    const bool quiet = !any((supply > zero) | (liquid > zero) | (ice > zero) | (vapour < zero));
-    if (quiet) {
+    // Water that keeps still: under cold snow, or none.
+    const bool flows = part.sprayed > 0.0 || any((supply > zero) | (c.film > k.film_capacity));
+    const bool soaks = k.permeable && any(c.crack + c.puddle > zero);
+    const bool changes = any((vapour > zero) | (vapour < zero) | (phase > zero) | (phase < zero));
+    if (!flows && !soaks && !changes) {
         if (k.permeable)
-            c.infiltration_mm_h = recovered_capacity(c.infiltration_mm_h, part.horton, k);
+            c.infiltration_mm_h = capacity_after(c, pores_of(c.film, c.film, k), k, part);
         return;
     }
 
@@ -273,9 +293,7 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     }
 
     // ---- infiltration on the way down, then cracks and puddles fill
-    const Real pores =
-        (smaller(film_before, Real(k.film_capacity)) + smaller(c.film, Real(k.film_capacity))) *
-        (0.5 * k.inverse_film_capacity);
+    const Real pores = pores_of(film_before, c.film, k);
     const auto hollows =
         hollows_after(c, film.drained, supply > zero, per_wet * open, per_wet, pores, k, part);
     c.crack = hollows.crack;

@@ -134,13 +134,13 @@ struct WetShares {
 };
 
 template <class Real, class Mask>
-PETRICHOR_INLINE WetShares<Real> chosen(const Mask& mask, const WetShares<Real>& a,
-                                        const WetShares<Real>& b)
+PETRICHOR_INLINE void take(const Mask& mask, const WetShares<Real>& from, WetShares<Real>& to)
 {
-    return {select(mask, a.film, b.film),
-            select(mask, a.crack, b.crack),
-            select(mask, a.puddle, b.puddle),
-            {select(mask, a.all.mean, b.all.mean), select(mask, a.all.end, b.all.end)}};
+    to.film = select(mask, from.film, to.film);
+    to.crack = select(mask, from.crack, to.crack);
+    to.puddle = select(mask, from.puddle, to.puddle);
+    to.all.mean = select(mask, from.all.mean, to.all.mean);
+    to.all.end = select(mask, from.all.end, to.all.end);
 }
 
 // What the shares of a step depend on.

@@ -1,4 +1,4 @@
-#include "weather/fill_precipitation.h"
+#include "weather/filling/fill_precipitation.h"
 
 #include <algorithm>
 #include <cmath>

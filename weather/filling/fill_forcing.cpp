@@ -1,15 +1,14 @@
-// fill_forcing: gaps, then humidity, pressure, cloud and radiation from what is there.
+// fill_forcing: gaps, then humidity and pressure from what is there; the order of everything.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
-#include "weather/fill_precipitation.h"
+#include "weather/filling/fill_precipitation.h"
+#include "weather/filling/fill_radiation.h"
 #include "weather/forcing.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/humidity.h"
-#include "weather/physics/longwave.h"
-#include "weather/physics/solar.h"
 
 namespace petrichor::weather {
 
@@ -27,7 +26,7 @@ void bridge(ForcingTable& table, ReadReport& report, Field field, const FillOpti
 {
     auto& v = table[field];
     if (v.empty()) return;
-    const bool rate = field_info(field).is_rate;
+    const bool rate = field_info(field).is_rate && field != Field::NetShortwave;
     std::size_t short_gaps = 0, long_gaps = 0;
     std::size_t i = 0;
     while (i < v.size()) {
@@ -103,67 +102,11 @@ void fill_pressure(ForcingTable& table, ReadReport& report)
     note_filled(report, field_info(Field::Pressure).name, filled, how);
 }
 
-// Cloud, then shortwave, then longwave: each from what is there.
-void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options)
-{
-    const std::size_t n = table.rows();
-    auto& cloud = table[Field::Cloud];
-    auto& sw = table[Field::Shortwave];
-    auto& lw = table[Field::Longwave];
-    cloud.resize(n, kMissing);
-    sw.resize(n, kMissing);
-    lw.resize(n, kMissing);
-    const bool place =
-        !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
-    const double latitude = place ? table.site.latitude_deg : 45.0;
-    const double longitude = place ? table.site.longitude_deg : 0.0;
-    std::size_t from_sun = 0, assumed = 0, made_sw = 0, made_lw = 0;
-    double last_cloud = kMissing;
-    for (std::size_t i = 0; i < n; ++i) {
-        double sine = 0.0;
-        if (std::isnan(cloud[i]) || std::isnan(sw[i])) {
-            sine = sun_direction(table.time_us[i], latitude, longitude).up;
-        }
-        if (std::isnan(cloud[i])) {
-            // A low sun tells little about clouds: keep what the day said.
-            if (!std::isnan(sw[i]) && sine > 0.17 && place) {
-                cloud[i] = cloud_fraction_of(sw[i], sine);
-                ++from_sun;
-            } else if (!std::isnan(last_cloud)) {
-                cloud[i] = last_cloud;
-                ++from_sun;
-            } else {
-                cloud[i] = options.default_cloud;
-                ++assumed;
-            }
-        }
-        last_cloud = cloud[i];
-        if (std::isnan(sw[i])) {
-            sw[i] = cloudy_sky_w_m2(sine, cloud[i]);
-            ++made_sw;
-        }
-        sw[i] = std::max(sw[i], 0.0);
-        if (std::isnan(lw[i])) {
-            const double t = table[Field::AirTemp][i];
-            lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]),
-                                           cloud[i]);
-            ++made_lw;
-        }
-    }
-    const std::string where = place ? "" : " at 45 N 0 E: the file gives no place";
-    note_filled(report, field_info(Field::Cloud).name, from_sun,
-                "from shortwave, kept through the night");
-    note_filled(report, field_info(Field::Cloud).name, assumed, "assumed");
-    note_filled(report, field_info(Field::Shortwave).name, made_sw,
-                "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where);
-    note_filled(report, field_info(Field::Longwave).name, made_lw, "air and cloud (Prata 1996)");
-}
-
 }  // namespace
 
 void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& options)
 {
-    const std::size_t n = table.rows();
+    std::size_t n = table.rows();
     if (n == 0)
         throw Error("weather: the table has no rows",
                     "Give a file with at least one row of weather.");
@@ -191,8 +134,11 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     }
     if (!table.has(Field::AirTemp)) {
         throw Error("weather: no air temperature in the file",
-                    "Give a file with air temperature in every row.");
+                    "Give a file with air temperature in every row; in a CSV its column is called "
+                    "air_temp_c, air_temp_k or temperature (F).");
     }
+    divide_for_the_sun(table, report);
+    n = table.rows();
     bridge(table, report, Field::AirTemp, options);
     bridge(table, report, Field::DewPoint, options);
     bridge(table, report, Field::RelHumidity, options);
@@ -201,6 +147,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
     bridge(table, report, Field::Cloud, options);
     bridge(table, report, Field::Shortwave, options);
     bridge(table, report, Field::Longwave, options);
+    bridge(table, report, Field::NetShortwave, options);
     const std::vector<bool> precip_known = known_precipitation(table);
     bridge(table, report, Field::Rain, options);
     bridge(table, report, Field::Snow, options);

@@ -1,0 +1,189 @@
+#include "cli/texture/build/prefiltered_maps.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "cli/texture/build/shipped.h"
+#include "texproc/prefilter/stored.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+// These blocks hold numbers between 8-bit codes.
+bool between_codes(const OutputRule& rule)
+{
+    return rule.compression == "bc4" || rule.compression == "bc5";
+}
+
+}  // namespace
+
+PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& maps, int threads)
+    : plan_(plan), maps_(maps)
+{
+    const auto filtered = [](const PlannedOutput& output) { return output.prefiltered; };
+    if (std::none_of(plan.outputs.begin(), plan.outputs.end(), filtered)) return;
+    rough_role_ = maps.rough_role();
+    check_sizes();
+    choose_options(threads);
+    chains_ =
+        texproc::prefilter_raw(maps.images.at("normal"), maps.images.at(rough_role_), options_);
+}
+
+void PrefilteredMaps::check_sizes() const
+{
+    const texproc::RawImage &normal = maps_.images.at("normal"),
+                            &rough = maps_.images.at(rough_role_);
+    if (normal.width == rough.width && normal.height == rough.height) return;
+    throw Error("texture build: " + file_of(plan_, "normal") + " is " +
+                    std::to_string(normal.width) + " x " + std::to_string(normal.height) + ", " +
+                    file_of(plan_, rough_role_) + " is " + std::to_string(rough.width) + " x " +
+                    std::to_string(rough.height),
+                "Resample one of them: both must have the same size.");
+}
+
+void PrefilteredMaps::choose_options(int threads)
+{
+    bool joint = false, all_eight = true;
+    int bits = 0;
+    for (const PlannedOutput& output : plan_.outputs) {
+        if (!output.prefiltered) continue;
+        // Re-aimed normals are of use only where they are written with the roughness.
+        joint = joint || holds(output, "normal");
+        bits = std::max(bits, output.rule.bits);
+        all_eight = all_eight && output.rule.bits == 8 && !between_codes(output.rule);
+    }
+    const Recipe& recipe = *plan_.recipe;
+    options_.rule = recipe.rule;
+    options_.smoothness = rough_role_ == "smoothness";
+    options_.design_light = recipe.design_light;
+    options_.quick = recipe.quick;
+    options_.joint = joint;
+    options_.bits = all_eight ? 8 : 0;  // codes chosen for the files that ship
+    options_.wrap_u = recipe.mips.wrap_u;
+    options_.wrap_v = recipe.mips.wrap_v;
+    options_.threads = threads;
+    bits_ = std::min(bits, 16);
+}
+
+bool PrefilteredMaps::holds(const PlannedOutput& output, const std::string& role) const
+{
+    return output.prefiltered &&
+           std::find(output.roles.begin(), output.roles.end(), role) != output.roles.end();
+}
+
+// Codes that were chosen with the roughness come back as they are.
+bool PrefilteredMaps::changes_normals(const PlannedOutput& output) const
+{
+    return output.rule.compression != "none" || (output.rule.bits == 8 && options_.bits != 8);
+}
+
+// The output whose normals are read with the roughness of output `number`: of the same engine, and
+// best of the same kind of file.
+std::optional<std::size_t> PrefilteredMaps::normals_of(std::size_t number) const
+{
+    const PlannedOutput& rough = plan_.outputs[number];
+    std::optional<std::size_t> best;
+    int most = -1;
+    for (std::size_t i = 0; i < plan_.outputs.size(); ++i) {
+        const PlannedOutput& output = plan_.outputs[i];
+        if (!holds(output, "normal")) continue;
+        const int fits = 2 * (output.rule.folder == rough.rule.folder) +
+                         (output.rule.format == rough.rule.format);
+        if (fits > most) {
+            most = fits;
+            best = i;
+        }
+    }
+    return best;
+}
+
+std::vector<std::size_t> PrefilteredMaps::order() const
+{
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < plan_.outputs.size(); ++i) numbers.push_back(i);
+    std::stable_partition(numbers.begin(), numbers.end(), [&](std::size_t i) {
+        return !rough_role_.empty() && !holds(plan_.outputs[i], rough_role_);
+    });
+    return numbers;
+}
+
+std::vector<Image> PrefilteredMaps::read_back(std::size_t number, const std::string& role,
+                                              const std::vector<MadeOutput>& made,
+                                              const std::filesystem::path& folder) const
+{
+    const auto has = [&](const std::string& name) { return maps_.find(name) != nullptr; };
+    return shipped_levels(folder, plan_.outputs[number], made[number], role,
+                          role == "normal" ? 3 : 1, maps_.images.at("normal").width, has);
+}
+
+void PrefilteredMaps::aim(std::size_t number, const std::vector<MadeOutput>& made,
+                          const std::filesystem::path& folder)
+{
+    if (rough_role_.empty() || options_.rule != "overlap") return;
+    if (!holds(plan_.outputs[number], rough_role_)) return;
+    const std::optional<std::size_t> normals = normals_of(number);
+    if (!normals || *normals == number || aimed_.count(*normals) != 0) return;
+    if (!changes_normals(plan_.outputs[*normals])) return;
+    std::vector<Image> read = read_back(*normals, "normal", made, folder);
+    if (read.empty()) return;
+    for (std::size_t k = 1; k < read.size(); ++k) {  // above the first level of a smaller output
+        if (read[k].empty()) read[k] = chains_.normal[k];
+    }
+    aimed_[*normals] =
+        texproc::aim_roughness(maps_.images.at("normal"), maps_.images.at(rough_role_),
+                               {std::move(read), chains_.roughness, {}}, options_);
+}
+
+const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std::string& role) const
+{
+    if (rough_role_.empty() || !holds(plan_.outputs[number], role)) return nullptr;
+    if (role == "normal") return &chains_.normal;
+    if (role != rough_role_) return nullptr;
+    const std::optional<std::size_t> normals = normals_of(number);
+    const auto aimed = normals ? aimed_.find(*normals) : aimed_.end();
+    return aimed == aimed_.end() ? &chains_.roughness : &aimed->second;
+}
+
+std::vector<Image> PrefilteredMaps::texel_weights(std::size_t number, std::size_t first) const
+{
+    const PlannedOutput& output = plan_.outputs[number];
+    if (!output.prefiltered || !between_codes(output.rule) || options_.rule != "overlap") return {};
+    texproc::LobeWeights both = texproc::lobe_weights(chains_, options_);
+    std::vector<Image> weights;
+    if (output.roles == std::vector<std::string>{"normal"}) {
+        weights = std::move(both.normal);
+    } else if (output.roles == std::vector<std::string>{rough_role_}) {
+        weights = std::move(both.roughness);
+    } else {
+        return {};
+    }
+    weights.erase(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(first));
+    return weights;
+}
+
+std::optional<texproc::Score> PrefilteredMaps::lobe_error(const std::vector<MadeOutput>& made,
+                                                          const std::filesystem::path& folder) const
+{
+    if (rough_role_.empty() || !plan_.recipe->score) return {};
+    texproc::Prefiltered read;
+    for (std::size_t i = 0; i < made.size() && read.roughness.empty(); ++i) {
+        if (!holds(plan_.outputs[i], rough_role_)) continue;
+        read.roughness = read_back(i, rough_role_, made, folder);
+        const std::optional<std::size_t> normals = normals_of(i);
+        if (normals && !read.roughness.empty()) {
+            read.normal = read_back(*normals, "normal", made, folder);
+        }
+    }
+    if (read.roughness.empty()) {  // files that are not read back: as their numbers are rounded
+        read = chains_;
+        texproc::quantize(read, bits_);
+    }
+    if (!options_.joint) read.normal.clear();
+    return texproc::score(
+        maps_.images.at("normal"), maps_.images.at(rough_role_), read, options_,
+        {.light = plan_.recipe->design_light, .texels = 16, .threads = options_.threads});
+}
+
+}  // namespace petrichor::cli

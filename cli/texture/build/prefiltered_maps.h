@@ -1,0 +1,62 @@
+#ifndef PETRICHOR_CLI_TEXTURE_BUILD_PREFILTERED_MAPS_H
+#define PETRICHOR_CLI_TEXTURE_BUILD_PREFILTERED_MAPS_H
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/texture/build/material.h"
+#include "cli/texture/build/source_maps.h"
+#include "texproc/prefilter/prefilter.h"
+#include "texproc/prefilter/score.h"
+
+namespace petrichor::cli {
+
+/// The prefiltered levels of a material on their way into its files. Normals are written first;
+/// where a file changes them (blocks, few bits), the roughness that goes with it is chosen anew for
+/// the normals that came out.
+class PrefilteredMaps {
+public:
+    /// Throws Error when normal and roughness differ in size. Both references must outlive this.
+    PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& maps, int threads);
+
+    /// Numbers of the outputs in the order to write them: normals before roughness.
+    std::vector<std::size_t> order() const;
+    /// To be called before output `number` is written, with what was made so far.
+    void aim(std::size_t number, const std::vector<MadeOutput>& made,
+             const std::filesystem::path& folder);
+
+    /// Levels 1.. of a role for an output; nullptr where they are plain mips.
+    const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
+    /// For TextureWriteOptions::texel_weights of an output whose first level is `first`: a
+    /// prefiltered map alone in BC4 or BC5; empty for others.
+    std::vector<Image> texel_weights(std::size_t number, std::size_t first) const;
+    /// The lobe error of what engines read from the first outputs that hold the maps.
+    std::optional<texproc::Score> lobe_error(const std::vector<MadeOutput>& made,
+                                             const std::filesystem::path& folder) const;
+
+private:
+    void check_sizes() const;
+    void choose_options(int threads);
+    bool holds(const PlannedOutput& output, const std::string& role) const;
+    bool changes_normals(const PlannedOutput& output) const;
+    std::optional<std::size_t> normals_of(std::size_t number) const;
+    std::vector<Image> read_back(std::size_t number, const std::string& role,
+                                 const std::vector<MadeOutput>& made,
+                                 const std::filesystem::path& folder) const;
+
+    const PlannedMaterial& plan_;
+    const SourceMaps& maps_;
+    std::string rough_role_;  // empty: nothing is prefiltered
+    texproc::PrefilterOptions options_;
+    int bits_ = 8;  // of the finest file
+    texproc::Prefiltered chains_;
+    std::map<std::size_t, std::vector<Image>> aimed_;  // roughness, by the output of its normals
+};
+
+}  // namespace petrichor::cli
+
+#endif

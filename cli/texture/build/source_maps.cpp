@@ -1,0 +1,209 @@
+#include "cli/texture/build/source_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "cli/texture/files.h"
+#include "texproc/bake.h"
+#include "texproc/normal.h"
+#include "texproc/pack.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+using texproc::PixelType;
+using texproc::RawImage;
+
+int bits_of(const RawImage& image)
+{
+    return image.type == PixelType::U8 ? 8 : image.type == PixelType::U16 ? 16 : 32;
+}
+
+// Grey paint is colour too.
+RawImage widened(const RawImage& image)
+{
+    const texproc::PackPreset grey{"grey", "", {"m.r", "m.r", "m.r"}, {}};
+    return texproc::pack(grey, {{"m", image}}, bits_of(image), 1);
+}
+
+// Some channels of an image, in its own numbers.
+RawImage channels_of(const RawImage& image, const InputMap& map)
+{
+    if (map.channels.empty()) return image;
+    texproc::PackPreset preset{"channels", "", {}, {}};
+    for (const char letter : map.channels) {
+        const int channel = static_cast<int>(std::string("rgba").find(letter));
+        if (channel >= image.channels) {
+            throw Error("texture build: " + map.path.string() + " has " +
+                            std::to_string(image.channels) + " channels, '" + letter +
+                            "' is not one of them",
+                        "Choose a channel that is there.");
+        }
+        preset.channels.push_back(std::string("map.") + letter);
+    }
+    if (preset.channels.size() == 1) {
+        return texproc::channel_of(image,
+                                   static_cast<int>(std::string("rgba").find(map.channels[0])));
+    }
+    return texproc::pack(preset, {{"map", image}}, bits_of(image), 1);
+}
+
+void check_numbers(const RawImage& image, const InputMap& map)
+{
+    if (image.type != PixelType::F16 && image.type != PixelType::F32) return;
+    for (const float v : texproc::to_image(image, ColorSpace::Data).pixels) {
+        if (std::isfinite(v)) continue;
+        throw Error("texture build: " + map.path.string() + " holds values that are not numbers",
+                    "Repair the NaN or infinite pixels first.");
+    }
+}
+
+bool has_word(const std::vector<std::string>& words, const std::string& word)
+{
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Turns green in place: codes are subtracted from the largest, which is exact.
+void turn_green(RawImage& normal)
+{
+    texproc::PackPreset turned{"turned", "", {"n.r", "1 - n.g", "n.b"}, {}};
+    normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
+}
+
+std::string percent(double share)
+{
+    return std::to_string(std::lround(100.0 * share)) + " %";
+}
+
+// Whether an output, a baked map or the prefilter looks at this input.
+bool is_wanted(const PlannedMaterial& plan, const std::string& role)
+{
+    const auto baked = [&](const char* name) { return has_word(plan.baked, name); };
+    for (const PlannedOutput& output : plan.outputs) {
+        if (has_word(output.roles, role)) return true;
+        if (output.prefiltered && (role == "normal" || role == "roughness" || role == "smoothness"))
+            return true;
+    }
+    if (role == "roughness" || role == "smoothness" || role == "metallic") return baked("porosity");
+    if (role == "normal") return baked("height");
+    if (role == "height") {
+        return baked("puddle") || baked("crack") || baked("cavity") || baked("occlusion") ||
+               baked("normal");
+    }
+    return false;
+}
+
+void read(const PlannedMaterial& plan, int threads, SourceMaps& maps)
+{
+    std::vector<std::string> names;  // a packed file is read once
+    for (const auto& [role, map] : plan.files.inputs) {
+        const std::string name = map.path.string();
+        if (is_wanted(plan, role) && !has_word(names, name)) names.push_back(name);
+    }
+    const std::vector<RawImage> images = read_maps(names, {}, threads);
+    for (const auto& [role, map] : plan.files.inputs) {
+        if (!is_wanted(plan, role)) continue;
+        const auto at = std::find(names.begin(), names.end(), map.path.string());
+        const RawImage& whole = images[static_cast<std::size_t>(at - names.begin())];
+        maps.sources.push_back({role, whole.width, whole.height, whole.channels,
+                                static_cast<int>(8 * texproc::size_of(whole.type))});
+        RawImage& image = maps.images[role] = channels_of(whole, map);
+        if (is_color(role) && image.channels < 3) image = widened(image);
+        check_numbers(image, map);
+    }
+}
+
+// Three channels that hold x, y and z.
+Image as_rgb(Image normal)
+{
+    return normal.channels > 3 ? texproc::from_layout(normal, texproc::NormalLayout::Rgb)
+                               : std::move(normal);
+}
+
+void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
+{
+    const auto at = maps.images.find("normal");
+    if (at == maps.images.end()) return;
+    RawImage& normal = at->second;
+    const texproc::NormalLayout layout = texproc::normal_layout(plan.recipe->layout);
+    if (layout != texproc::NormalLayout::Rgb) {
+        normal = texproc::to_raw(
+            texproc::from_layout(texproc::to_image(normal, ColorSpace::Data), layout),
+            normal.type == PixelType::U8 ? PixelType::U16 : normal.type);
+    }
+    if (normal.channels < 3) {
+        throw Error("texture build: the normal map " + file_of(plan, "normal") + " has " +
+                        std::to_string(normal.channels) + " channels, 3 are needed",
+                    "Give a three-channel normal map, or name its layout in [normal].");
+    }
+    Green green = plan.recipe->green == Green::Auto ? plan.files.green : plan.recipe->green;
+    maps.green = green == Green::Down ? "down, turned" : "up";
+    if (green == Green::Auto) {
+        const RawImage* height = maps.find("height");
+        const bool same =
+            height && height->width == normal.width && height->height == normal.height;
+        const Image rgb = as_rgb(texproc::to_image(normal, ColorSpace::Data));
+        const texproc::GreenDirection found =
+            same ? texproc::detect_green(rgb, maps.data("height")) : texproc::detect_green(rgb);
+        // A map that says little is left as it is: up is what most tools write.
+        const bool down = found.down && found.confidence > 0.25;
+        green = down ? Green::Down : Green::Up;
+        maps.green = std::string(down ? "down, turned" : "up") + ", found from the map (" +
+                     percent(found.confidence) + " " + (found.down ? "down" : "up") + ")";
+    }
+    if (green == Green::Down) turn_green(normal);
+}
+
+void bake(const PlannedMaterial& plan, int threads, SourceMaps& maps)
+{
+    const auto missing = [&](const char* role) { return has_word(plan.baked, role); };
+    const auto put = [&](const char* role, const Image& image) {
+        maps.images[role] = texproc::to_raw(image, PixelType::U16);
+    };
+    texproc::BakeOptions options = plan.recipe->baking;
+    options.threads = threads;
+    if (missing("height"))
+        put("height", texproc::height_from_normal(as_rgb(maps.data("normal"))).height);
+    const auto height = [&] { return maps.data("height"); };
+    if (missing("normal"))
+        put("normal", texproc::normal_from_height(height(), {.depth = options.depth}));
+    if (missing("occlusion")) put("occlusion", texproc::ambient_occlusion(height(), options));
+    if (missing("cavity")) put("cavity", texproc::cavity(height(), options));
+    if (missing("puddle")) put("puddle", texproc::puddles(height(), options).depth);
+    if (missing("crack")) put("crack", texproc::cracks(height(), options).depth);
+    if (missing("porosity")) {
+        Image rough = maps.data(maps.rough_role());
+        if (maps.rough_role() == "smoothness") {
+            for (float& v : rough.pixels) v = 1.0f - v;
+        }
+        put("porosity",
+            texproc::porosity(rough, maps.find("metallic") ? maps.data("metallic") : Image()));
+    }
+}
+
+}  // namespace
+
+bool is_color(const std::string& role)
+{
+    return role == "albedo" || role == "specular" || role == "emission";
+}
+
+std::string file_of(const PlannedMaterial& plan, const std::string& role)
+{
+    const auto at = plan.files.inputs.find(role);
+    return at == plan.files.inputs.end() ? "the baked " + role : at->second.path.string();
+}
+
+SourceMaps read_source_maps(const PlannedMaterial& plan, int threads)
+{
+    SourceMaps maps;
+    read(plan, threads, maps);
+    orient_normal(plan, maps);
+    bake(plan, threads, maps);
+    return maps;
+}
+
+}  // namespace petrichor::cli

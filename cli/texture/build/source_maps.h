@@ -1,0 +1,51 @@
+#ifndef PETRICHOR_CLI_TEXTURE_BUILD_SOURCE_MAPS_H
+#define PETRICHOR_CLI_TEXTURE_BUILD_SOURCE_MAPS_H
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/texture/build/plan.h"
+#include "texproc/files/raw_image.h"
+
+namespace petrichor::cli {
+
+/// One map as its file holds it.
+struct MadeSource {
+    std::string role;
+    int width = 0, height = 0, channels = 0, bits = 0;
+};
+
+/// Level 0 of everything that the outputs of a material draw from, by role.
+struct SourceMaps {
+    std::map<std::string, texproc::RawImage> images;
+    std::vector<MadeSource> sources;  ///< the maps that were read
+    std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
+
+    const texproc::RawImage* find(const std::string& role) const
+    {
+        const auto at = images.find(role);
+        return at == images.end() ? nullptr : &at->second;
+    }
+    /// A role that is there, as numbers.
+    Image data(const std::string& role) const
+    {
+        return texproc::to_image(images.at(role), ColorSpace::Data);
+    }
+    /// The roughness, or the smoothness where that is what there is.
+    std::string rough_role() const { return find("roughness") ? "roughness" : "smoothness"; }
+};
+
+/// Reads the maps that the outputs need, turns the normals green up and bakes what is missing.
+/// Throws Error that names the file at fault.
+SourceMaps read_source_maps(const PlannedMaterial& plan, int threads);
+
+/// Roles that hold colour, which files keep as sRGB.
+bool is_color(const std::string& role);
+
+/// Where a role came from, for people: a file, or "the baked height".
+std::string file_of(const PlannedMaterial& plan, const std::string& role);
+
+}  // namespace petrichor::cli
+
+#endif

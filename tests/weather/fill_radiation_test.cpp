@@ -1,0 +1,187 @@
+// Sun, sky and cloud where a file has only some of them: laws first, then the one real file with
+// net shortwave in six-hour rows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "weather/forcing.h"
+#include "weather/physical.h"
+#include "weather/physics/humidity.h"
+#include "weather/physics/longwave.h"
+#include "weather/physics/surfaces.h"
+#include "weather/readers/read_weather.h"
+
+namespace petrichor::weather {
+namespace {
+
+constexpr std::int64_t kHour_us = 3600LL * 1000000;
+constexpr double kFull = 281.0, kClear = 236.0;  // longwave, W/m2 at 0 C and 70 %
+
+bool says(const ReadReport& report, const char* text)
+{
+    return to_text(report).find(text) != std::string::npos;
+}
+
+// Two days in May at 39 N 120 W, a row every `hours`, without shortwave or cloud.
+ForcingTable without_sun(int hours)
+{
+    ForcingTable t;
+    t.site = {.latitude_deg = 39, .longitude_deg = -120, .elevation_m = 500};
+    const std::int64_t begin = 1683000000LL / 86400 * 86400 * 1000000;
+    for (int h = 0; h <= 48; h += hours) {
+        t.time_us.push_back(begin + h * kHour_us);
+        t[Field::AirTemp].push_back(273.15 + 0.1 * h);
+        t[Field::RelHumidity].push_back(70);
+        t[Field::Longwave].push_back(h < 24 ? kClear : kFull);
+        t[Field::Precip].push_back(h == 12 ? 1.0 / 3600 : 0);
+    }
+    return t;
+}
+
+double sum(const ForcingTable& t, Field f)
+{
+    double out = 0;
+    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
+        out += t[f][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
+    return out;
+}
+
+TEST(Cloud, OfLongwaveUndoesTheSky)
+{
+    const double t = 278.0, vapour = vapour_pressure_pa(t, 60);
+    double before = 0;
+    for (double cloud = 0; cloud <= 1.0; cloud += 0.05) {
+        const double lw = longwave_from_sky_w_m2(t, vapour, cloud);
+        EXPECT_NEAR(cloud_of_longwave(t, vapour, lw), cloud, 1e-9);
+        EXPECT_GE(lw, before);
+        before = lw;
+    }
+    EXPECT_EQ(cloud_of_longwave(t, vapour, 100), 0.0);
+    EXPECT_EQ(cloud_of_longwave(t, vapour, 600), 1.0);
+}
+
+TEST(FillRadiation, TheSkysOwnWarmthSaysHowCloudyItIs)
+{
+    ForcingTable t = without_sun(1);
+    ReadReport report;
+    fill_forcing(t, report);
+    EXPECT_LT(t[Field::Cloud][20], 0.5);
+    EXPECT_GT(t[Field::Cloud][26], 0.8);
+    // Noon is at 20 h UTC.
+    EXPECT_GT(t[Field::Shortwave][20], 700);
+    EXPECT_LT(t[Field::Shortwave][44], 0.7 * t[Field::Shortwave][20]);
+    EXPECT_TRUE(says(report, "from longwave")) << to_text(report);
+}
+
+TEST(FillRadiation, WhatIsAssumedIsCalledAssumed)
+{
+    ForcingTable t = without_sun(1);
+    t[Field::Longwave].clear();
+    ReadReport report;
+    fill_forcing(t, report);
+    EXPECT_TRUE(says(report, "cloud: 0 read; filled: assumed (49 rows)")) << to_text(report);
+    EXPECT_FALSE(says(report, "from shortwave")) << to_text(report);
+}
+
+TEST(FillRadiation, LongRowsAreDividedForTheSun)
+{
+    for (const int hours : {1, 3, 6, 24}) {
+        ForcingTable t = without_sun(hours);
+        const double water = sum(t, Field::Precip);
+        ReadReport report;
+        fill_forcing(t, report);
+        // The last row lasts as long as the one before it.
+        EXPECT_EQ(t.rows(), 49u + static_cast<unsigned>(hours) - 1u) << hours;
+        EXPECT_NEAR(sum(t, Field::Precip), water, 1e-12) << hours;
+        EXPECT_NEAR(t[Field::AirTemp][31], 273.15 + 3.1, 1e-9) << hours;
+        const auto day = t[Field::Shortwave].begin();
+        EXPECT_GT(*std::max_element(day, day + 24), 500) << hours;
+        EXPECT_EQ(*std::min_element(day, day + 24), 0) << hours;
+    }
+    ForcingTable measured = without_sun(6);
+    measured[Field::Shortwave].assign(measured.rows(), 100);
+    ReadReport report;
+    fill_forcing(measured, report);
+    EXPECT_EQ(measured.rows(), 9u);
+}
+
+TEST(FillRadiation, NetShortwaveKeepsItsMeanAndTheNightStaysDark)
+{
+    ForcingTable t = without_sun(6);
+    t[Field::NetShortwave] = {20, 0, 150, 300, 20, 0, 100, 200, 0};
+    const double light = sum(t, Field::NetShortwave);
+    ReadReport report;
+    fill_forcing(t, report);
+    EXPECT_NEAR(sum(t, Field::NetShortwave), light, 1e-9 * light);
+    EXPECT_EQ(t[Field::NetShortwave][8], 0);
+    EXPECT_GT(t[Field::NetShortwave][20], t[Field::NetShortwave][23]);
+    for (std::size_t i = 0; i + 1 < t.rows(); ++i) {
+        if (t[Field::Shortwave][i] == 0 && t[Field::Shortwave][i + 1] == 0) {
+            EXPECT_EQ(t[Field::NetShortwave][i], 0) << i;
+        }
+    }
+}
+
+TEST(FillRadiation, TheGroundTakesUpTheNetShortwaveWhateverItsAlbedo)
+{
+    ForcingTable t = without_sun(6);
+    t[Field::NetShortwave] = {20, 0, 150, 300, 20, 0, 100, 200, 0};
+    ReadReport report;
+    fill_forcing(t, report);
+    for (const char* surface : {"asphalt", "concrete", "grass"}) {
+        PhysicalParams p;
+        p.surface = surface_preset(surface);
+        double taken_up = 0;
+        const PhysicalTimeline run(t, p);
+        for (const CellState& c : run.series(run.begin_us(), run.end_us(), kHour_us))
+            taken_up += c.flux_shortwave;
+        EXPECT_NEAR(taken_up * 3600, sum(t, Field::NetShortwave), 1e-6) << surface;
+    }
+}
+
+TEST(FillRadiation, MeasuredShortwaveIsBetterThanNet)
+{
+    ForcingTable t = without_sun(1);
+    t[Field::Shortwave].assign(t.rows(), 100);
+    t[Field::NetShortwave].assign(t.rows(), 60);
+    ReadReport report;
+    fill_forcing(t, report);
+    EXPECT_FALSE(t.has(Field::NetShortwave));
+    EXPECT_TRUE(says(report, "not used: the file has sw_down")) << to_text(report);
+}
+
+// The record winter of the Central Sierra: 1.9 m of water fell, nearly all as snow.
+TEST(FillRadiation, CentralSierra)
+{
+    const char* folder = std::getenv("PETRICHOR_ASSETS");
+    const std::string name =
+        std::string(folder ? folder : "") + "/weather/central_sierra_2022_23_snobal_inputs.csv";
+    std::ifstream file(name);
+    if (!folder || !file) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto read = read_weather(
+        text, {.site = {.latitude_deg = 39.33, .longitude_deg = -120.37, .elevation_m = 2103}});
+    PhysicalParams p;
+    p.surface = surface_preset("grass");
+    const PhysicalTimeline run(read.table, p);
+    double peak_kg_m2 = 0;
+    std::int64_t last_snow_us = 0;
+    for (std::int64_t at = run.begin_us(); at <= run.end_us(); at += 24 * kHour_us) {
+        const double swe = diagnostics(run.state_at(at)).swe_kg_m2;
+        peak_kg_m2 = std::max(peak_kg_m2, swe);
+        if (swe > 1) last_snow_us = at;
+    }
+    std::printf("  peak %.0f kg/m2\n", peak_kg_m2);
+    EXPECT_GT(peak_kg_m2, 1300);
+    EXPECT_LT(peak_kg_m2, 1925);
+    // Gone in June or July.
+    EXPECT_GT(last_snow_us, 1685577600LL * 1000000);
+    EXPECT_LT(last_snow_us, 1690848000LL * 1000000);
+}
+
+}  // namespace
+}  // namespace petrichor::weather

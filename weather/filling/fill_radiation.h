@@ -1,0 +1,19 @@
+#ifndef PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
+#define PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
+
+#include "weather/forcing.h"
+
+// The part of fill_forcing that concerns sun, sky and cloud.
+namespace petrichor::weather {
+
+/// Divides rows of more than an hour and at most two days into hours where the file has no
+/// shortwave; adds to the report how many rows that makes. Columns may have gaps.
+void divide_for_the_sun(ForcingTable& table, ReadReport& report);
+
+/// Cloud, then shortwave, then longwave: each from what is there. Needs air temperature and
+/// humidity; net shortwave, where it is used, follows the shortwave made here.
+void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options);
+
+}  // namespace petrichor::weather
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef PETRICHOR_WEATHER_READERS_CSV_TIMES_H
+#define PETRICHOR_WEATHER_READERS_CSV_TIMES_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace petrichor::weather {
+
+/// Where the rows of a CSV say when they are: one column ("time", "datetime", "valid_time", ..), a
+/// date and a clock ("date,time", "date,hour"), or parts ("year,month,day,hour,minute" or
+/// "year,doy,hour").
+struct CsvTimes {
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    enum Part : std::uint8_t { Year, Month, Day, DayOfYear, Hour, Minute, Second, kParts };
+
+    std::size_t stamp = kNone;  ///< the one column, or the date
+    std::size_t clock = kNone;  ///< beside a date
+    std::array<std::size_t, kParts> part = {kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+
+    bool found() const { return stamp != kNone || part[Year] != kNone; }
+    /// Whether a column says when its row is, so that it says nothing else.
+    bool uses(std::size_t column) const;
+    /// The time of a row with as many cells as the header has names; nothing when it is none.
+    std::optional<std::int64_t> time_of(const std::vector<std::string_view>& cells) const;
+    /// The cells that time_of reads, for a message.
+    std::string shown_cells(const std::vector<std::string_view>& cells) const;
+};
+
+/// Finds them by name. A first column without a name counts when it holds times: `first_row` is the
+/// line below the header.
+CsvTimes find_csv_times(const std::vector<std::string_view>& names,
+                        const std::vector<std::string_view>& first_row);
+
+/// A date and time in one cell: ISO 8601, 31.12.2024 13:00, or seconds or milliseconds since 1970.
+std::optional<std::int64_t> time_of_cell(std::string_view text);
+
+}  // namespace petrichor::weather
+
+#endif
