@@ -40,6 +40,7 @@ constexpr const char* kColumns[] = {
     "film_ice_kg_m2",
     "crack_ice_kg_m2",
     "puddle_ice_kg_m2",
+    "slush",
     "sw_net_w_m2",
     "lw_net_w_m2",
     "sensible_w_m2",
@@ -91,6 +92,7 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
 {
     const auto at = [&](Field f) { return weather::value_at(table, f, us); };
     const auto d = weather::diagnostics(c);
+    const bool slush = weather::cover_of(c, surface.film_capacity_kg_m2) == weather::Cover::Slush;
     const auto masks = weather::weather_masks({}, surface, c, interval_s);
     const double per_s = 1.0 / interval_s;
     const double visibility = at(Field::Visibility);
@@ -122,6 +124,7 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
         c.film_ice,
         c.crack_ice,
         c.puddle_ice,
+        slush ? 1.0 : 0.0,
         c.flux_shortwave,
         c.flux_longwave,
         c.flux_sensible,

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/slush_kernel.h"
 
 namespace petrichor::weather {
 
@@ -46,8 +47,15 @@ CellDiagnostics diagnostics(const CellState& c)
     d.snow_temp_k = kZeroCelsiusK + (ice > 0.0 ? heat / ice : 0.0);
     d.surface_water_kg_m2 = c.film + c.crack + c.puddle;
     d.surface_ice_kg_m2 = c.film_ice + c.crack_ice + c.puddle_ice;
-    d.slush = ice > 0.0 && d.snow_liquid_kg_m2 > 0.5 * ice;
     return d;
+}
+
+Cover cover_of(const CellState& c, double film_capacity_kg_m2)
+{
+    const double ice = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
+    if (!(ice > 0.0)) return Cover::Bare;
+    if (c.film > detail::slush_limit(c)) return Cover::Water;
+    return c.film - film_capacity_kg_m2 >= kSlushWater_kg_m2 ? Cover::Slush : Cover::Snow;
 }
 
 double stored_mass_kg_m2(const CellState& c)

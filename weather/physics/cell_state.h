@@ -53,9 +53,18 @@ struct CellDiagnostics {
     double snow_depth_m = 0.0, swe_kg_m2 = 0.0, snow_liquid_kg_m2 = 0.0, snow_density_kg_m3 = 0.0;
     double snow_temp_k = 273.15;
     double surface_water_kg_m2 = 0.0, surface_ice_kg_m2 = 0.0;
-    bool slush = false;  ///< more liquid than half the ice of the pack
 };
 CellDiagnostics diagnostics(const CellState& state);
+
+/// What lies on the ground (weather-physics B.7). Film water below a pack counts as the pack's.
+enum class Cover {
+    Bare,
+    Snow,   ///< no more water than snow and pores hold
+    Slush,  ///< snow on water: at least kSlushWater_kg_m2 that the pores do not hold
+    Water,  ///< more water than half the ice: the snow floats in it
+};
+inline constexpr double kSlushWater_kg_m2 = 0.01;
+Cover cover_of(const CellState& state, double film_capacity_kg_m2);
 
 /// All stores of the cell, kg/m2.
 double stored_mass_kg_m2(const CellState& state);

@@ -185,6 +185,7 @@ PartConstants make_part_constants(const CellConstants& k, double dt_s)
     part.inverse_dt_1_s = 1.0 / dt_s;
     part.ground = make_ground_stack(surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k, dt_s);
     part.film = reservoir_constants(surface.film_rate_1_s, k.film_capacity, dt_s);
+    part.film_in_snow = reservoir_constants(surface.slush_rate_1_s, k.film_capacity, dt_s);
     part.horton = make_horton_step(horton, hours);
     part.horton_turn = make_horton_step(horton, hours / kFillingTurns);
     part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);

@@ -8,8 +8,9 @@ namespace petrichor::weather {
 
 FilmStep drain_film(double water, double net, double rate, double threshold, double dt)
 {
+    const auto constants = detail::reservoir_constants(rate, threshold, dt);
     const auto step =
-        detail::drain_reservoir(water, net, detail::reservoir_constants(rate, threshold, dt));
+        detail::drain_reservoir(water, net, threshold, detail::drain_of<double>(constants));
     return {step.water, step.drained, step.shortfall};
 }
 

@@ -107,6 +107,8 @@ void check_surface(const Surface& s)
             "film_capacity_kg_m2", s.film_capacity_kg_m2, "in 0.01..100");
     require(s.film_rate_1_s > 0.0 && s.film_rate_1_s <= 10.0, s, "film_rate_1_s", s.film_rate_1_s,
             "in (0, 10]");
+    require(s.slush_rate_1_s > 0.0 && s.slush_rate_1_s <= 10.0, s, "slush_rate_1_s",
+            s.slush_rate_1_s, "in (0, 10]");
     require(s.cracks.depth_mm > 0.0 && std::isfinite(s.cracks.depth_mm), s, "cracks.depth_mm",
             s.cracks.depth_mm, "above 0");
     require(s.puddles.depth_mm > 0.0 && std::isfinite(s.puddles.depth_mm), s, "puddles.depth_mm",

@@ -48,7 +48,7 @@ constexpr int kFillingTurns = 6;  // of filling and soaking at the same time
 struct PartConstants {
     double dt_s = 0.0, inverse_dt_1_s = 0.0;
     GroundStack ground;
-    ReservoirConstants film;
+    ReservoirConstants film, film_in_snow;
     HortonStep horton, horton_turn;  // over the substep, and over a turn of it
     double sprayed = 0.0;            // share of the film that traffic takes
 };

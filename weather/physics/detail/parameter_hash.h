@@ -70,11 +70,12 @@ private:
     {
         // A name changes nothing.
         const auto& [name, albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2,
-                     film_rate_1_s, cracks, puddles, infiltration, conductivity_w_m_k,
-                     heat_capacity_j_m3_k, traffic_loss_1_h, traffic_wind_m_s] = surface;
+                     film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration,
+                     conductivity_w_m_k, heat_capacity_j_m3_k, traffic_loss_1_h, traffic_wind_m_s] =
+            surface;
         static_cast<void>(name);
         add(albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2, film_rate_1_s,
-            cracks, puddles, infiltration, conductivity_w_m_k, heat_capacity_j_m3_k,
+            slush_rate_1_s, cracks, puddles, infiltration, conductivity_w_m_k, heat_capacity_j_m3_k,
             traffic_loss_1_h, traffic_wind_m_s);
     }
     void put(const SnowParams& snow)

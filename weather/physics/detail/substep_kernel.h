@@ -8,6 +8,7 @@
 #include "weather/physics/detail/cell_weather.h"
 #include "weather/physics/detail/ground_kernel.h"
 #include "weather/physics/detail/melting_kernel.h"
+#include "weather/physics/detail/slush_kernel.h"
 #include "weather/physics/detail/snow_kernel.h"
 #include "weather/physics/detail/surface_kernel.h"
 #include "weather/physics/detail/water_kernel.h"
@@ -50,6 +51,7 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
 
     // ---- the surface point
     const Real liquid = c.film + c.crack + c.puddle;
+    const Real slush_before = slush_limit(c);
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
     const auto bare_icy = (ice > liquid) | ((liquid <= zero) & (c.surface_temp_c < zero));
     const MaskOf<Real> icy = covered | bare_icy;
@@ -127,8 +129,10 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     }
     ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
     c.total_melt += larger(melt_mass, zero);
+    const Real slush =
+        any_snow ? select(covered, (slush_before + slush_limit(c)) * 0.5, zero) : zero;
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
-               bare_icy, root.wet.shares, k, part);
+               bare_icy, slush, root.wet.shares, k, part);
 
     c.flux_shortwave += absorbed_sw * share;
     c.flux_longwave += (f.net_radiation - absorbed_sw) * share;

@@ -252,10 +252,12 @@ PETRICHOR_INLINE void dry_remnants(CellVars<Real>& c, const Mask& drying)
 //   supply    rain, or what came out of the snow, kg/m2 of the substep
 //   vapour    leaving (> 0) or settling, bare ground only
 //   phase     melting (> 0) or freezing, bare ground only
+//   slush     film up to which it is slush, kg/m2
 template <class Real, class Mask>
 PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Real& vapour,
-                                 const Real& phase, const Mask& icy, const WetShares<Real>& wet,
-                                 const CellConstants& k, const PartConstants& part)
+                                 const Real& phase, const Mask& icy, const Real& slush,
+                                 const WetShares<Real>& wet, const CellConstants& k,
+                                 const PartConstants& part)
 {
     const Real zero = 0.0;
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
@@ -282,8 +284,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     const Real per_wet = evaporation / larger(wet.all.mean, Real(1e-12));
     const Real open = 1.0 - wet.puddle;
     const Real film_wanted = per_wet * (open * (1.0 - wet.crack) * wet.film);
-    const auto film =
-        drain_reservoir(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, part.film);
+    const auto film = drain_slush(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, slush,
+                                  part.film_in_snow, part.film);
     c.film = film.water;
     Real evaporated = film_wanted - film.shortfall;
     if (part.sprayed > 0.0) {
