@@ -22,7 +22,8 @@
 namespace petrichor::cli {
 namespace {
 
-constexpr int kNotFound = 127;  // of the shell
+constexpr double kLongMs = 20e3;  // a warm-up changes nothing
+constexpr int kNotFound = 127;    // of the shell
 constexpr int kNotAProgram = 126;
 
 class Descriptor {
@@ -187,7 +188,8 @@ Rival parse_rival(const std::string& text)
 
 Cost time_rival(const Rival& rival, int repeat)
 {
-    time_once(rival);
+    const Cost first = time_once(rival);
+    if (first.cpu_ms > kLongMs) return first;
     std::vector<Cost> costs;
     for (int i = 0; i < repeat; ++i) costs.push_back(time_once(rival));
     return median_of_costs(costs);

@@ -19,7 +19,7 @@ Rival parse_rival(const std::string& text);
 
 /// CPU time of the command and of all it started, and time by the clock, from its start to its end;
 /// what it reads from the terminal or prints goes nowhere. Medians of `repeat` runs after one that
-/// is not counted.
+/// is not counted; a command of more than 20 CPU seconds is run once.
 ///
 /// Ctrl-C or SIGTERM meanwhile ends the command and everything it started, then this program.
 ///   throws  Error when it cannot be started or fails, with the last line it wrote to stderr

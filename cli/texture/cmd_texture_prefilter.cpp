@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/texture/block_fit.h"
 #include "cli/texture/chain_output.h"
@@ -75,19 +76,22 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
 {
     const texproc::PrefilterOptions& o = a.input.options;
     const bool whole = maps.map.channels == 1;
+    texproc::RawImage channel;
+    if (!whole) channel = texproc::channel_of(maps.map, o.channel);
     write_chain({a.out, a.format, a.bits, o.threads, fit.roughness_weights},
-                whole ? maps.map : texproc::channel_of(maps.map, o.channel),
-                whole ? maps.map_path : "", chains.roughness);
+                whole ? maps.map : channel, whole ? maps.map_path : "", chains.roughness);
     if (!a.normal_out.empty()) {
         for (std::size_t k = 1; k < chains.normal.size(); ++k) {
-            chains.normal[k] = lay_out_normals(chains.normal[k], o, maps.normal.channels);
+            chains.normal[k] =
+                lay_out_normals(std::move(chains.normal[k]), o, maps.normal.channels);
         }
         const bool xyz = maps.normal.channels == 3 && o.normal_x == 0 && !o.rebuild_z;
+        texproc::RawImage unit;
+        if (xyz && drops_z(a.normal_format)) {
+            unit = unit_normals(maps.normal, texproc::PixelType::U16);
+        }
         write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
-                    xyz && drops_z(a.normal_format)
-                        ? unit_normals(maps.normal, texproc::PixelType::U16)
-                        : maps.normal,
-                    a.input.normal, chains.normal);
+                    unit.bytes.empty() ? maps.normal : unit, a.input.normal, chains.normal);
     }
     if (!a.anisotropy_out.empty()) {
         // Level 0 has none: along x, strength 0.

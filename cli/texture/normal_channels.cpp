@@ -9,7 +9,7 @@
 
 namespace petrichor::cli {
 
-Image lay_out_normals(const Image& normals, const texproc::PrefilterOptions& o, int channels)
+Image lay_out_normals(Image normals, const texproc::PrefilterOptions& o, int channels)
 {
     if (channels == 3 && o.normal_x == 0 && !o.rebuild_z) return normals;
     Image to(normals.width, normals.height, channels, ColorSpace::Data, 1.0f);

@@ -9,7 +9,7 @@ namespace petrichor::cli {
 
 /// Normals (three channels) as a file of so many channels holds them: x and y where the options
 /// say, z in the third where there is one, 1 elsewhere.
-Image lay_out_normals(const Image& normals, const texproc::PrefilterOptions& options, int channels);
+Image lay_out_normals(Image normals, const texproc::PrefilterOptions& options, int channels);
 
 /// The same back: x y z of any layout, z rebuilt where the options say so or the level holds x and
 /// y only. Throws Error that names the level when channels are missing.
