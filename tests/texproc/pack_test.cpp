@@ -102,6 +102,34 @@ TEST(Pack, BytesDoNotDependOnThreads)
     EXPECT_EQ(one.bytes, pack(pack_preset("gltf-orm"), maps, 8, 5).bytes);
 }
 
+// Four greys of the packed type are written in one sweep; in one channel of a colour image the same
+// codes go channel by channel.
+TEST(Pack, GreysPackLikeTheSameChannelsOfColours)
+{
+    for (const PixelType type : {PixelType::U8, PixelType::U16}) {
+        std::map<std::string, RawImage> greys, colours;
+        int seed = 1;
+        for (const char* role : {"metallic", "occlusion", "detail", "roughness"}) {
+            RawImage grey{37, 5, 1, type, {}, {}}, colour{37, 5, 3, type, {}, {}};
+            const std::size_t bytes = size_of(type);
+            for (std::size_t i = 0; i < grey.values() * bytes; ++i)
+                grey.bytes.push_back(static_cast<std::byte>(i * 73 + i / 11 * 5 + seed * 41));
+            for (std::size_t i = 0; i < grey.values() * 3; ++i)
+                for (std::size_t b = 0; b < bytes; ++b)
+                    colour.bytes.push_back(grey.bytes[i / 3 * bytes + b]);
+            ++seed;
+            // The fill of a channel without a map, and its inverse, are swept too.
+            if (std::string(role) == "detail") continue;
+            greys.emplace(role, grey);
+            colours.emplace(role, colour);
+        }
+        const PackPreset preset = pack_preset("unity-hdrp-mask");
+        const RawImage swept = pack(preset, greys, 0, 2), single = pack(preset, colours, 0, 2);
+        EXPECT_EQ(swept.type, type);
+        EXPECT_EQ(swept.bytes, single.bytes);
+    }
+}
+
 // Every preset: what was packed comes back, bit for bit.
 TEST(Pack, UnpackIsTheInverse)
 {
