@@ -138,8 +138,8 @@ std::optional<double> psnr_of(const Contest& contest, const std::string& setting
     double squared = 0.0;
     for (const std::string& channel : channels) {
         const std::string answer =
-            output_of(settings + "$P texture compare --json --kind color " + contest.reference +
-                      channel + " " + contest.result + channel);
+            output_of(settings + "$P texture compare --json --psnr-only --kind color " +
+                      contest.reference + channel + " " + contest.result + channel);
         const auto json = nlohmann::json::parse(answer, nullptr, false);
         if (!json.is_object() || !json.contains("psnr_db") || !json["psnr_db"].is_number())
             return {};

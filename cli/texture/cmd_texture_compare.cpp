@@ -24,6 +24,7 @@ using texproc::RawImage;
 
 struct Arguments {
     std::string a, b, out, kind = "auto";
+    bool psnr_only = false;
     double ppd = 67.0206, fail_flip = -1.0, fail_psnr = -1.0;
     bool json = false;
     int threads = 0;
@@ -103,6 +104,12 @@ std::string number(double value)
     return std::isinf(value) ? "equal" : text;
 }
 
+[[noreturn]] void refuse_difference(const Arguments& a)
+{
+    throw Error("texture compare: " + a.a + " and " + a.b + " differ by more than was allowed",
+                "Look at the numbers above, or loosen --fail-flip or --fail-psnr.");
+}
+
 void run(const Arguments& a)
 {
     RawImage raw_a = read_map(a.a, a.reading), raw_b = read_map(a.b, a.reading);
@@ -123,17 +130,23 @@ void run(const Arguments& a)
     const Image ia = normals ? texproc::to_image(raw_a, ColorSpace::Data) : codes_of(raw_a);
     const Image ib = normals ? texproc::to_image(raw_b, ColorSpace::Data) : codes_of(raw_b);
     const std::vector<double> db = texproc::psnr(ia, ib);
+    const auto psnr_json =
+        std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back());
+    if (a.psnr_only) {
+        a.json ? std::printf("%s\n", nlohmann::ordered_json{{"psnr_db", psnr_json}}.dump(1).c_str())
+               : std::printf("psnr     %s dB\n", number(db.back()).c_str());
+        if (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr) refuse_difference(a);
+        return;
+    }
     const double similarity = texproc::ssim(ia, ib, a.threads),
                  largest = texproc::largest_difference(ia, ib);
-    nlohmann::ordered_json json{
-        {"kind", normals ? "normal" : "color"},
-        {"width", ia.width},
-        {"height", ia.height},
-        {"channels", ia.channels},
-        {"psnr_db",
-         std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back())},
-        {"ssim", similarity},
-        {"largest", largest}};
+    nlohmann::ordered_json json{{"kind", normals ? "normal" : "color"},
+                                {"width", ia.width},
+                                {"height", ia.height},
+                                {"channels", ia.channels},
+                                {"psnr_db", psnr_json},
+                                {"ssim", similarity},
+                                {"largest", largest}};
     Image picture;
     double mean_flip = 0.0;
     if (!a.json) {
@@ -168,9 +181,7 @@ void run(const Arguments& a)
     if (!a.out.empty()) texproc::write_image(a.out, texproc::error_colors(picture));
     const bool worse = (a.fail_flip >= 0.0 && mean_flip > a.fail_flip) ||
                        (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr);
-    if (worse)
-        throw Error("texture compare: " + a.a + " and " + a.b + " differ by more than was allowed",
-                    "Look at the numbers above, or loosen --fail-flip or --fail-psnr.");
+    if (worse) refuse_difference(a);
 }
 
 }  // namespace
@@ -181,15 +192,20 @@ void add_texture_compare(CLI::App& texture)
     CLI::App* app = texture.add_subcommand("compare", "PSNR, SSIM, FLIP, angles between normals");
     app->add_option("reference", a->a, "FILE or FILE:g (one channel)")->required();
     app->add_option("test", a->b, "the other one, of the same size")->required();
-    app->add_option("-o,--out", a->out,
-                    "picture of the difference: FLIP, or angle (light yellow at 20 degrees)");
+    auto* out =
+        app->add_option("-o,--out", a->out,
+                        "picture of the difference: FLIP, or angle (light yellow at 20 degrees)");
     app->add_option("--kind", a->kind, "auto, color or normal")
         ->check(CLI::IsMember({"auto", "color", "normal"}))
         ->capture_default_str();
     app->add_option("--ppd", a->ppd, "FLIP: pixels a degree of the eye; 67 is a monitor on a desk")
         ->capture_default_str();
-    app->add_option("--fail-flip", a->fail_flip, "exit 2 when the mean FLIP is above this");
+    auto* fail_flip =
+        app->add_option("--fail-flip", a->fail_flip, "exit 2 when the mean FLIP is above this");
     app->add_option("--fail-psnr", a->fail_psnr, "exit 2 when the PSNR in dB is below this");
+    app->add_flag("--psnr-only", a->psnr_only, "no SSIM, no FLIP: quick on large images")
+        ->excludes(out)
+        ->excludes(fail_flip);
     app->add_flag("--json", a->json, "for machines");
     app->add_option("--threads", a->threads, "0: all cores; the numbers do not depend on it");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")

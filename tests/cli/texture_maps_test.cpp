@@ -240,6 +240,25 @@ TEST(TextureTools, CompareAndInspectSpeakToMachines)
     EXPECT_GT(texproc::read_raw(place / "sheet.png").width, 400);
 }
 
+TEST(TextureTools, PsnrAloneIsThatOfTheWholeComparison)
+{
+    const Workplace place("texture_psnr");
+    write_maps(place);
+    const auto report = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"texture", "compare", "color.png", "zero.png", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return json::parse(run(words, place).out);
+    };
+    const json whole = report({}), alone = report({"--psnr-only"});
+    EXPECT_EQ(alone["psnr_db"], whole["psnr_db"]);
+    EXPECT_EQ(alone.size(), 1u);
+    EXPECT_EQ(
+        run({"texture", "compare", "color.png", "zero.png", "--psnr-only", "--fail-psnr", "60"},
+            place)
+            .exit_code,
+        2);
+}
+
 double largest_angle(const std::string& a, const std::string& b, const Workplace& place)
 {
     const Outcome made = run({"texture", "compare", a, b, "--kind", "normal", "--json"}, place);
