@@ -38,6 +38,7 @@ PhysicalParams road()
 {
     PhysicalParams params;
     params.surface = surface_preset("asphalt");
+    params.surface.slush_rate_1_s = 0.0003;
     params.surface.film_capacity_kg_m2 = 1.0;
     params.deep_temp_k = 268.15;
     return params;

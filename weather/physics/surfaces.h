@@ -19,7 +19,9 @@ struct Surface {
     double roughness_m = 0.005;        ///< aerodynamic, z0
     double film_capacity_kg_m2 = 1.0;  ///< held by pores and texture before it runs, > 0
     double film_rate_1_s = 0.003;      ///< drainage above the capacity, > 0
-    double slush_rate_1_s = 0.0003;    ///< the same under snow and in slush, > 0
+    /// The same under snow and in slush, > 0. METRo takes 0.0003; then the film under melting snow
+    /// is up to 0.016 kg/m2 (root mean square of a rough year) from steps of a minute, not 0.010.
+    double slush_rate_1_s = 0.003;
     Hypsometry cracks = {1.5, {}, {}};
     Hypsometry puddles = {15.0, {}, {}};
     HortonParams infiltration;

@@ -51,7 +51,6 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
 
     // ---- the surface point
     const Real liquid = c.film + c.crack + c.puddle;
-    const Real slush_before = slush_limit(c);
     const Real ice = c.film_ice + c.crack_ice + c.puddle_ice;
     const auto bare_icy = (ice > liquid) | ((liquid <= zero) & (c.surface_temp_c < zero));
     const MaskOf<Real> icy = covered | bare_icy;
@@ -129,8 +128,8 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     }
     ground_update(ground, interface_c, ground_equivalents, c.ground_temp_c);
     c.total_melt += larger(melt_mass, zero);
-    const Real slush =
-        any_snow ? select(covered, (slush_before + slush_limit(c)) * 0.5, zero) : zero;
+    const bool holds_slush = any_snow && part.film_in_snow.rate_1_s != part.film.rate_1_s;
+    const Real slush = holds_slush ? select(covered, slush_limit(c), zero) : zero;
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
                bare_icy, slush, root.wet.shares, k, part);
 
