@@ -327,9 +327,13 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
 
 Scenario read_scenario(const std::filesystem::path& file)
 {
+    if (std::filesystem::is_directory(file)) {
+        throw Error("scenario: " + file.string() + " is a folder",
+                    "Name a scenario (.toml) or a scene (.glb, .gltf) in it.");
+    }
     std::ifstream in(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in || std::filesystem::is_directory(file)) {
+    if (!in) {
         throw Error("scenario: cannot read " + file.string(),
                     "Check the name; `petrichor init NAME` writes a scenario to start from.");
     }

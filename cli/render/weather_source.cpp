@@ -20,11 +20,13 @@ namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file)
 {
+    const auto refuse = [&] {
+        throw Error("weather: cannot read " + file.string(), "Check the name of the file.");
+    };
+    if (fs::is_directory(file)) refuse();
     std::ifstream in(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in || fs::is_directory(file)) {
-        throw Error("weather: cannot read " + file.string(), "Check the name of the file.");
-    }
+    if (!in) refuse();
     return text;
 }
 

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"command", {"rendr"}, "Did you mean \"render\"?"},
         Mistake{"option", {"render", "--framse", "1"}, "--framse"},
-        Mistake{"no_command", {}, "subcommand"},
+        Mistake{"folder", {"render", "."}, "is a folder"}, Mistake{"no_command", {}, "subcommand"},
         Mistake{"size_zero", {"render", "scene.glb", "--size", "0x0"}, "0x0"},
         Mistake{"size_words", {"render", "scene.glb", "--size", "large"}, "WIDTHxHEIGHT"},
         Mistake{"size_large", {"render", "scene.glb", "--size", "99999x10"}, "99999x10"},

@@ -112,17 +112,28 @@ PETRICHOR_INLINE Real exponential_short(const Real& x)
     return (p45678 * r4 + (p23 * r2 + p01)) * power_of_two(magic);
 }
 
-/// ln x for positive normal x.
+/// x = 2^k m with m about 1, and s = (m - 1) / (m + 1), |s| <= 0.1716.
 template <class Real>
-PETRICHOR_INLINE Real logarithm(const Real& x)
+struct SplitLogarithm {
+    Real k, s;
+};
+template <class Real>
+PETRICHOR_INLINE SplitLogarithm<Real> split_logarithm(const Real& x)
 {
     Real m = mantissa_of(x);
     Real k = exponent_of(x);
     const auto high = m > 1.41421356237309504880;
     m = select(high, m * 0.5, m);
     k = select(high, k + 1.0, k);
-    // ln m = 2 atanh(s), s = (m-1)/(m+1), |s| <= 0.1716; odd series to s^21.
-    const Real s = (m - 1.0) / (m + 1.0);
+    return {k, (m - 1.0) / (m + 1.0)};
+}
+
+/// ln x for positive normal x.
+template <class Real>
+PETRICHOR_INLINE Real logarithm(const Real& x)
+{
+    const auto [k, s] = split_logarithm(x);
+    // ln m = 2 atanh(s): odd series to s^21.
     const Real z = s * s;
     // In pairs, so that the multiplications overlap.
     const Real z2 = z * z;
@@ -151,12 +162,7 @@ PETRICHOR_INLINE Real power(const Real& x, double y)
 template <class Real>
 PETRICHOR_INLINE Real logarithm_short(const Real& x)
 {
-    Real m = mantissa_of(x);
-    Real k = exponent_of(x);
-    const auto high = m > 1.41421356237309504880;
-    m = select(high, m * 0.5, m);
-    k = select(high, k + 1.0, k);
-    const Real s = (m - 1.0) / (m + 1.0);
+    const auto [k, s] = split_logarithm(x);
     const Real z = s * s;
     const Real z2 = z * z;
     const Real p01 = z * (2.0 / 3.0) + 2.0;
