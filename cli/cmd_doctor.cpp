@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/folders.h"
-#include "cli/render/film.h"
-#include "cli/words.h"
+#include "cli/rooms.h"
+#include "film/data/folders.h"
+#include "film/frames/film.h"
 #include "gpu/renderer.h"
 
 namespace petrichor::cli {

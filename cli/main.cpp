@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/words.h"
 
 namespace {
 
@@ -24,8 +24,8 @@ void check_command(const CLI::App& app, const std::string& word)
         if (command->get_name() == word) return;
         names.push_back(command->get_name());
     }
-    throw Error("petrichor: no command \"" + word + "\"." + cli::did_you_mean(word, names),
-                "Use one of: " + cli::join_words(names) + ".");
+    throw Error("petrichor: no command \"" + word + "\"." + petrichor::did_you_mean(word, names),
+                "Use one of: " + petrichor::join_words(names) + ".");
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ int main(int argc, char** argv)
         return cli::kExitUser;
     } catch (const cli::ExitCode& exit) {
         return exit.code;
-    } catch (const cli::Interrupted& stop) {
+    } catch (const petrichor::Interrupted& stop) {
         std::cerr << stop.what() << "\n";
         return cli::kExitInterrupted;
     } catch (const Error& error) {

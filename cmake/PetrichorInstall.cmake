@@ -1,11 +1,11 @@
 # `cmake --install build/release --prefix P`:
 #   P/bin/petrichor                  the program, which finds its data at ../share/petrichor
 #   P/lib/libpetrichor_*.a           one library a room, with lib/cmake/petrichor for find_package
-#   P/include/petrichor/ROOM/*.h     the public headers, formulas and shader interfaces
+#   P/include/petrichor/ROOM/*.h     the public headers, formulas and shader texts
 #   P/share/petrichor                scenarios and presets
 include(CMakePackageConfigHelpers)
 
-set(rooms base weather texproc gpu)
+set(rooms base formulas weather texproc scene gpu demo film)
 set(petrichor_package ${CMAKE_INSTALL_LIBDIR}/cmake/petrichor)
 set(petrichor_headers ${CMAKE_INSTALL_INCLUDEDIR}/petrichor)
 
@@ -16,8 +16,9 @@ foreach(room IN LISTS rooms)
     set_target_properties(petrichor_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS petrichor_${room} EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(DIRECTORY ${room} DESTINATION ${petrichor_headers}
-        FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE PATTERN "passes" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "detail" EXCLUDE)
 endforeach()
+install(TARGETS petrichor_film_weather EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT petrichor NAMESPACE petrichor:: DESTINATION ${petrichor_package}
     FILE petrichorTargets.cmake)
 

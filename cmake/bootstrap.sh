@@ -4,7 +4,7 @@
 
 build=$root/build/release
 program=$build/cli/petrichor
-sources=(base weather texproc gpu cli cmake CMakeLists.txt CMakePresets.json)
+sources=(base formulas weather texproc scene gpu demo film cli cmake CMakeLists.txt CMakePresets.json)
 
 # To build and run the program. openimageio-tools is there because the CMake package of the image
 # library stops without it.

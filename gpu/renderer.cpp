@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "gpu/detail/frame.h"
+#include "gpu/build_frame.h"
 
 namespace petrichor::gpu {
 

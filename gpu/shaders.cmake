@@ -29,7 +29,7 @@ function(petrichor_add_shaders target)
         string(APPEND table_rows "    if (name == \"${name}\") return ${symbol};\n")
     endforeach()
     file(GENERATE OUTPUT ${output_dir}/embedded_shaders.cpp CONTENT
-"#include \"gpu/detail/shaders.h\"
+"#include \"gpu/device/shaders.h\"
 
 namespace petrichor::gpu {
 namespace {

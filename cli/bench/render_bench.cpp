@@ -10,12 +10,13 @@
 
 #include "base/error.h"
 #include "cli/bench/measure.h"
-#include "cli/render/camera.h"
-#include "cli/render/scene_file.h"
-#include "cli/render/scene_textures.h"
-#include "cli/render/sequence.h"
+#include "cli/rooms.h"
+#include "film/jobs/camera.h"
+#include "film/jobs/sequence.h"
+#include "film/scenes/scene_file.h"
+#include "film/scenes/scene_textures.h"
 #include "gpu/renderer.h"
-#include "texproc/files/io.h"
+#include "texproc/codecs/files/io.h"
 
 namespace petrichor::cli {
 namespace {
@@ -49,7 +50,7 @@ std::vector<gpu::PassTime> median_passes(const std::vector<FrameCost>& costs)
 
 // The workload that renderers are compared by: the scene's own lights, nothing that is not asked
 // for.
-gpu::Frame bench_frame(const gpu::Scene& scene, const RenderBenchOptions& options,
+gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& options,
                        const ImageSize& size)
 {
     gpu::Frame frame;
@@ -58,8 +59,8 @@ gpu::Frame bench_frame(const gpu::Scene& scene, const RenderBenchOptions& option
     const double aspect = static_cast<double>(size.width) / size.height;
     frame.camera = camera_at(camera, scene, content_bounds(scene), aspect, 0.0);
     bool has_sun = false;
-    for (const gpu::Light& light : scene.lights) {
-        has_sun = has_sun || light.kind == gpu::LightKind::Directional;
+    for (const scene::Light& light : scene.lights) {
+        has_sun = has_sun || light.kind == scene::LightKind::Directional;
     }
     frame.sky.analytic_sun = !has_sun;
     gpu::FrameSettings& settings = frame.settings;
@@ -133,7 +134,7 @@ void run_render_bench(const RenderBenchOptions& options)
 {
     if (options.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     const ImageSize size = parse_size(options.size);
-    gpu::Scene scene = read_scene(options.scene).scene;
+    scene::Scene scene = read_scene(options.scene).scene;
     gpu::Renderer renderer({.device = options.device});
     renderer.load(scene, prepare_textures(scene, {.threads = options.threads}));
     const gpu::Frame frame = bench_frame(scene, options, size);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "weather/forcing.h"
-#include "weather/physical_grid.h"
-#include "weather/timeline.h"
+#include "weather/forcing/forcing.h"
+#include "weather/models/artist/timeline.h"
+#include "weather/models/physical/physical_grid.h"
 
 namespace petrichor::cli {
 

@@ -14,9 +14,9 @@
 
 #include "base/error.h"
 #include "cli/bench/sample_weather.h"
-#include "weather/artist/exact.h"
-#include "weather/physical.h"
-#include "weather/physical_grid.h"
+#include "weather/models/artist/exact.h"
+#include "weather/models/physical/physical.h"
+#include "weather/models/physical/physical_grid.h"
 #include "weather/physics/snow_simple.h"
 #include "weather/readers/read_weather.h"
 

@@ -8,7 +8,8 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "cli/commands.h"
-#include "cli/render/starter.h"
+#include "cli/rooms.h"
+#include "film/scenario/starter.h"
 
 namespace petrichor::cli {
 namespace {

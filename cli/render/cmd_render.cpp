@@ -11,16 +11,17 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
-#include "cli/folders.h"
 #include "cli/progress.h"
-#include "cli/render/material_keys.h"
-#include "cli/render/render_job.h"
-#include "cli/render/scene_source.h"
-#include "cli/render/weather_source.h"
+#include "cli/rooms.h"
 #include "cli/signals.h"
-#include "cli/words.h"
+#include "film/data/folders.h"
+#include "film/jobs/render_job.h"
+#include "film/jobs/scene_source.h"
+#include "film/jobs/weather_source.h"
+#include "film/scenario/material_keys.h"
 
 namespace petrichor::cli {
 namespace {
@@ -155,6 +156,22 @@ void report_on(const RenderReport& report, const RenderRequest& request)
               << duration_text(report.seconds) << ", " << report.peak_mib << " MiB\n";
 }
 
+// The log line at the start, and a progress line.
+class ProgressWatcher : public RenderWatcher {
+public:
+    void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) override
+    {
+        std::cerr << "info render: " << count << " frames, " << output.width << "x" << output.height
+                  << ", " << output.samples << " samples, on " << device.name << "\n";
+        progress_.emplace("render", count);
+    }
+    void written(int count) override { progress_->update(count); }
+    void end() { progress_.reset(); }
+
+private:
+    std::optional<Progress> progress_;
+};
+
 void render(const RenderOptions& options)
 {
     if (options.list_aovs) {
@@ -180,7 +197,9 @@ void render(const RenderOptions& options)
     request.device = options.device;
     request.threads = options.threads;
     request.validation = options.validate;
-    request.dump_graph = options.dump_graph;
+    request.stop = interrupted;
+    ProgressWatcher watcher;
+    request.watcher = &watcher;
     request.command = resume_command(options);
 
     const WeatherSource weather = weather_source(scenario, options.weather);
@@ -199,6 +218,8 @@ void render(const RenderOptions& options)
         std::cerr << "warn " << unmatched << "\n";
     }
     const RenderReport report = render_sequence(sequence, request);
+    watcher.end();
+    if (options.dump_graph) std::cout << report.graph << std::flush;
     report_on(report, request);
     if (!report.validation.empty()) throw ExitCode{kExitOurs};
 }

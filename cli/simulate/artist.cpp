@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "weather/artist/csv.h"
+#include "weather/models/artist/csv.h"
 
 namespace petrichor::cli {
 namespace {

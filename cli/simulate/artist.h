@@ -6,9 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "cli/simulate/table.h"
-#include "cli/simulate/times.h"
-#include "cli/weather_file.h"
+#include "cli/report/table.h"
+#include "cli/report/times.h"
+#include "cli/rooms.h"
+#include "film/scenario/weather_script.h"
 
 namespace petrichor::cli {
 

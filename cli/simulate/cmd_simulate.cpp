@@ -9,11 +9,12 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "cli/commands.h"
-#include "cli/folders.h"
-#include "cli/simulate/inputs.h"
+#include "cli/report/panel_choice.h"
+#include "cli/rooms.h"
 #include "cli/simulate/outputs.h"
-#include "cli/simulate/panel_choice.h"
 #include "cli/simulate/simulations.h"
+#include "film/data/folders.h"
+#include "film/weather/inputs.h"
 
 namespace petrichor::cli {
 namespace {

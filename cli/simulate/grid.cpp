@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "cli/exit.h"
 #include "cli/simulate/grid_progress.h"
-#include "weather/physical_grid.h"
+#include "weather/models/physical/physical_grid.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/text.h"
 

@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "base/error.h"
-#include "cli/simulate/drawing.h"
-#include "texproc/files/io.h"
-#include "weather/mapping.h"
+#include "cli/report/drawing.h"
+#include "texproc/codecs/files/io.h"
+#include "weather/models/physical/mapping.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

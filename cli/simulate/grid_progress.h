@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weather/physical_grid_checkpoint.h"
+#include "weather/models/physical/physical_grid_checkpoint.h"
 
 namespace petrichor::cli {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/error.h"
-#include "cli/simulate/plot_axes.h"
-#include "cli/words.h"
+#include "base/words.h"
+#include "cli/report/plot_axes.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/simulate/table.h"
+#include "cli/report/table.h"
 
 namespace petrichor::cli {
 

@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/simulate/plot.h"
-#include "cli/simulate/report.h"
-#include "texproc/files/io.h"
+#include "cli/report/plot.h"
+#include "cli/report/report.h"
+#include "texproc/codecs/files/io.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "cli/simulate/table.h"
+#include "cli/report/table.h"
 
 namespace petrichor::cli {
 

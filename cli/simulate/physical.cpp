@@ -9,9 +9,9 @@
 #include "base/error.h"
 #include "cli/simulate/observations.h"
 #include "cli/simulate/physical_table.h"
-#include "weather/artist/fit.h"
-#include "weather/ensemble.h"
-#include "weather/physical_checkpoint.h"
+#include "weather/models/artist/fit.h"
+#include "weather/models/physical/ensemble.h"
+#include "weather/models/physical/physical_checkpoint.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "cli/simulate/table.h"
-#include "cli/simulate/weather_input.h"
-#include "weather/physical.h"
+#include "cli/report/table.h"
+#include "cli/rooms.h"
+#include "film/weather/weather_input.h"
+#include "weather/models/physical/physical.h"
 #include "weather/readers/read_weather.h"
 
 namespace petrichor::cli {

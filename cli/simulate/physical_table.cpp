@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/simulate/plot_axes.h"
-#include "weather/mapping.h"
+#include "cli/report/plot_axes.h"
+#include "weather/models/physical/mapping.h"
 #include "weather/physics/air.h"
 #include "weather/physics/constants.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/simulate/table.h"
-#include "weather/forcing.h"
+#include "cli/report/table.h"
+#include "weather/forcing/forcing.h"
 #include "weather/physics/cell_state.h"
 #include "weather/physics/surfaces.h"
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "texproc/bake.h"
-#include "texproc/files/io.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/filter/bake.h"
 
 namespace petrichor::cli {
 namespace {

@@ -1,10 +1,10 @@
 #include "base/error.h"
 #include "base/output_file.h"
+#include "cli/report/times.h"
 #include "cli/simulate/artist.h"
 #include "cli/simulate/simulations.h"
-#include "cli/simulate/times.h"
-#include "weather/artist/csv.h"
-#include "weather/artist/from_forcing.h"
+#include "weather/models/artist/csv.h"
+#include "weather/models/artist/from_forcing.h"
 
 namespace petrichor::cli {
 namespace {

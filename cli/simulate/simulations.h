@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/simulate/inputs.h"
+#include "cli/report/table.h"
+#include "cli/rooms.h"
 #include "cli/simulate/simulate_options.h"
-#include "cli/simulate/table.h"
+#include "film/weather/inputs.h"
 
 // From the words of the command line to the runs of the models. Each reads what the options name
 // (parameters, checkpoints, observations), runs and writes the checkpoint; tables are left to the

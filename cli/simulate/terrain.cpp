@@ -7,9 +7,10 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "cli/simulate/inputs.h"
-#include "texproc/files/io.h"
-#include "weather/forcing.h"
+#include "cli/rooms.h"
+#include "film/weather/inputs.h"
+#include "texproc/codecs/files/io.h"
+#include "weather/forcing/forcing.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

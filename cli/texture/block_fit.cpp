@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "cli/texture/normal_channels.h"
-#include "texproc/prefilter/score.h"
+#include "cli/texture/maps/normal_channels.h"
 #include "texproc/prefilter/stored.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::cli {
 

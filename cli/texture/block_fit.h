@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "texproc/blocks/blocks.h"
+#include "texproc/codecs/blocks/blocks.h"
 #include "texproc/prefilter/prefilter.h"
 
 namespace petrichor::cli {

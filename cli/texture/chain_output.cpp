@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/texture/files.h"
-#include "texproc/files/io.h"
-#include "texproc/files/texture.h"
+#include "cli/texture/maps/files.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/codecs/files/texture.h"
 
 namespace petrichor::cli {
 

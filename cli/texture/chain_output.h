@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "texproc/files/raw_image.h"
+#include "texproc/image/raw_image.h"
 
 namespace petrichor::cli {
 

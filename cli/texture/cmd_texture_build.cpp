@@ -7,11 +7,12 @@
 
 #include "base/error.h"
 #include "cli/exit.h"
-#include "cli/folders.h"
+#include "cli/rooms.h"
 #include "cli/signals.h"
 #include "cli/texture/build/build.h"
 #include "cli/texture/build/watch.h"
 #include "cli/texture/cmd_texture.h"
+#include "film/data/folders.h"
 
 namespace petrichor::cli {
 

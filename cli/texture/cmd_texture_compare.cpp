@@ -10,11 +10,11 @@
 #include "base/error.h"
 #include "cli/exit.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "texproc/compare/inspect.h"
-#include "texproc/compare/metrics.h"
-#include "texproc/normal.h"
-#include "texproc/pack.h"
+#include "cli/texture/maps/files.h"
+#include "texproc/filter/normal.h"
+#include "texproc/material/pack.h"
+#include "texproc/study/compare/inspect.h"
+#include "texproc/study/compare/metrics.h"
 
 namespace petrichor::cli {
 

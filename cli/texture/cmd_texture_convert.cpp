@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "cli/texture/normal_channels.h"
-#include "cli/words.h"
-#include "texproc/files/texture.h"
-#include "texproc/mips.h"
+#include "cli/texture/maps/files.h"
+#include "cli/texture/maps/normal_channels.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::cli {
 

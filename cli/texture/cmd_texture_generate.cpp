@@ -8,15 +8,15 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "cli/progress.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/contact_sheet.h"
-#include "cli/words.h"
-#include "texproc/area.h"
-#include "texproc/bake.h"
-#include "texproc/compare/shading.h"
-#include "texproc/files/io.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/filter/area.h"
+#include "texproc/filter/bake.h"
 #include "texproc/generate/generate.h"
+#include "texproc/study/compare/shading.h"
 
 namespace petrichor::cli {
 

@@ -12,11 +12,11 @@
 #include "cli/exit.h"
 #include "cli/texture/build/material_names.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
+#include "cli/texture/maps/files.h"
 #include "cli/texture/sparkle_sheet.h"
-#include "texproc/compare/inspect.h"
-#include "texproc/files/texture.h"
-#include "texproc/normal.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/filter/normal.h"
+#include "texproc/study/compare/inspect.h"
 
 namespace petrichor::cli {
 

@@ -9,14 +9,14 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "cli/texture/normal_channels.h"
-#include "cli/texture/pack_file.h"
-#include "texproc/bake.h"
-#include "texproc/files/texture.h"
-#include "texproc/mips.h"
-#include "texproc/normal.h"
-#include "texproc/pack.h"
+#include "cli/texture/maps/files.h"
+#include "cli/texture/maps/normal_channels.h"
+#include "cli/texture/maps/pack_file.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/filter/bake.h"
+#include "texproc/filter/mips.h"
+#include "texproc/filter/normal.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::cli {
 

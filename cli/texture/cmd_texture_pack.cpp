@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "cli/texture/pack_file.h"
-#include "cli/words.h"
-#include "texproc/files/texture.h"
-#include "texproc/mips.h"
+#include "cli/texture/maps/files.h"
+#include "cli/texture/maps/pack_file.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::cli {
 

@@ -7,15 +7,15 @@
 #include "cli/texture/block_fit.h"
 #include "cli/texture/chain_output.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "cli/texture/normal_channels.h"
+#include "cli/texture/maps/files.h"
+#include "cli/texture/maps/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/prefilter_timings.h"
-#include "texproc/files/texture.h"
-#include "texproc/pack.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/material/pack.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/prefilter/rules.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::cli {
 

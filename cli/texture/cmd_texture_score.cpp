@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
-#include "cli/texture/files.h"
-#include "cli/texture/normal_channels.h"
+#include "cli/texture/maps/files.h"
+#include "cli/texture/maps/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/score_protocol.h"
-#include "texproc/files/texture.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/codecs/files/texture.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::cli {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "texproc/files/raw_image.h"
+#include "texproc/image/raw_image.h"
 
 namespace petrichor::cli {
 

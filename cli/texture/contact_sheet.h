@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/image.h"
-#include "cli/simulate/drawing.h"
+#include "cli/report/drawing.h"
 
 namespace petrichor::cli {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/texture/files.h"
+#include "cli/texture/maps/files.h"
 #include "texproc/prefilter/prefilter.h"
 
 namespace CLI {

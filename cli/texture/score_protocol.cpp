@@ -6,12 +6,12 @@
 #include <span>
 
 #include "base/error.h"
-#include "cli/texture/files.h"
+#include "base/words.h"
+#include "cli/texture/maps/files.h"
 #include "cli/texture/naming.h"
-#include "cli/words.h"
-#include "texproc/pack.h"
-#include "texproc/prefilter/fresh_maps.h"
-#include "texproc/prefilter/protocol.h"
+#include "texproc/material/pack.h"
+#include "texproc/study/fresh_maps.h"
+#include "texproc/study/protocol.h"
 
 namespace petrichor::cli {
 

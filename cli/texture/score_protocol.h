@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "texproc/files/io.h"
+#include "texproc/codecs/files/io.h"
 
 namespace petrichor::cli {
 

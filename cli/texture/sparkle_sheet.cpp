@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "cli/texture/contact_sheet.h"
-#include "texproc/compare/shading.h"
-#include "texproc/files/io.h"
-#include "texproc/mips.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/filter/mips.h"
 #include "texproc/prefilter/prefilter.h"
+#include "texproc/study/compare/shading.h"
 
 namespace petrichor::cli {
 

@@ -22,8 +22,8 @@ target_link_libraries(consumer PRIVATE petrichor::weather petrichor::texproc pet
 END
 cat >"$scratch/consumer/main.cpp" <<'END'
 #include "gpu/renderer.h"
-#include "texproc/mips.h"
-#include "weather/artist/model.h"
+#include "texproc/filter/mips.h"
+#include "weather/models/artist/model.h"
 int main()
 {
     const auto wet = petrichor::weather::step({.rain = 1.0}, {}, 12.0, 0.8, 0.02);

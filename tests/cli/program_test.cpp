@@ -1,5 +1,5 @@
 // The program from outside, where no GPU is needed: exit codes and messages.
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Whole renders of a tiny scene: determinism, resuming, Ctrl-C, a full disk.
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "cli/render/frames_jsonl.h"
+#include "cli/rooms.h"
+#include "film/frames/frames_jsonl.h"
 #include "gpu/renderer.h"
 
 namespace petrichor::cli {

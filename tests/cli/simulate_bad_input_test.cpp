@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 
 namespace petrichor::cli {
 namespace {

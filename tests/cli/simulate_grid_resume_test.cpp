@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 
 // Grids that stop and go on, through the program.
 namespace petrichor::cli {

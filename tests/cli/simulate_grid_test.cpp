@@ -9,11 +9,11 @@
 #include <string>
 
 #include "base/error.h"
+#include "cli/report/plot_axes.h"
 #include "cli/simulate/grid_map.h"
-#include "cli/simulate/plot_axes.h"
 #include "cli/simulate/relief.h"
-#include "tests/cli/program.h"
-#include "texproc/files/io.h"
+#include "tests/support/program.h"
+#include "texproc/codecs/files/io.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {

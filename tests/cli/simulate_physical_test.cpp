@@ -9,10 +9,10 @@
 #include <variant>
 
 #include "base/error.h"
-#include "cli/simulate/panel_choice.h"
-#include "cli/simulate/plot.h"
-#include "cli/simulate/plot_axes.h"
-#include "cli/simulate/report.h"
+#include "cli/report/panel_choice.h"
+#include "cli/report/plot.h"
+#include "cli/report/plot_axes.h"
+#include "cli/report/report.h"
 #include "weather/physics/stores.h"
 
 namespace petrichor::cli {

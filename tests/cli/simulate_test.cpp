@@ -11,11 +11,11 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "cli/report/plot.h"
+#include "cli/report/plot_axes.h"
+#include "cli/report/report.h"
 #include "cli/simulate/artist.h"
-#include "cli/simulate/plot.h"
-#include "cli/simulate/plot_axes.h"
-#include "cli/simulate/report.h"
-#include "weather/artist/csv.h"
+#include "weather/models/artist/csv.h"
 
 namespace petrichor::cli {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "cli/texture/build/material_names.h"
 #include "cli/texture/build/sha256.h"
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 #include "texproc/generate/generate.h"
-#include "texproc/pack.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::cli {
 namespace {

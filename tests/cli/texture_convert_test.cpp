@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/cli/program.h"
-#include "texproc/files/texture.h"
+#include "tests/support/program.h"
+#include "texproc/codecs/files/texture.h"
 
 namespace petrichor::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/cli/program.h"
+#include "tests/support/program.h"
 #include "texproc/generate/generate.h"
 
 namespace petrichor::cli {

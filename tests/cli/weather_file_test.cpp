@@ -1,4 +1,5 @@
-#include "cli/weather_file.h"
+#include "cli/rooms.h"
+#include "film/scenario/weather_script.h"
 
 #include <gtest/gtest.h>
 

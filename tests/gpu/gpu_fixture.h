@@ -1,6 +1,6 @@
 // A renderer with the validation layer on; any message fails the test. Scenes made of a few quads.
-#ifndef PETRICHOR_TESTS_GPU_FIXTURE_H
-#define PETRICHOR_TESTS_GPU_FIXTURE_H
+#ifndef PETRICHOR_TESTS_GPU_GPU_FIXTURE_H
+#define PETRICHOR_TESTS_GPU_GPU_FIXTURE_H
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 // formula jumps (a phase that wraps), a difference of one period is accepted.
 #include <cstring>
 
-#include "gpu/detail/graph.h"
-#include "gpu/shaders/interface/formula_probe.h"
+#include "formulas/formula_probe.h"
+#include "gpu/device/graph.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {

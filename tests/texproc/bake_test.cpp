@@ -1,4 +1,4 @@
-#include "texproc/bake.h"
+#include "texproc/filter/bake.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texproc/blocks/blocks.h"
+#include "texproc/codecs/blocks/blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "texproc/blocks/detail/bc7_tables.h"
-#include "texproc/blocks/detail/bit_reader.h"
-#include "texproc/blocks/detail/decode_block.h"
-#include "texproc/blocks/detail/encode_kernel.h"
-#include "texproc/files/io.h"
+#include "texproc/codecs/blocks/detail/bc7_tables.h"
+#include "texproc/codecs/blocks/detail/bit_reader.h"
+#include "texproc/codecs/blocks/detail/decode_block.h"
+#include "texproc/codecs/blocks/detail/encode_kernel.h"
+#include "texproc/codecs/files/io.h"
 
 namespace petrichor::texproc {
 namespace {

@@ -4,13 +4,13 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "texproc/compare/inspect.h"
-#include "texproc/compare/metrics.h"
-#include "texproc/compare/shading.h"
+#include "texproc/filter/mips.h"
+#include "texproc/filter/normal.h"
 #include "texproc/generate/generate.h"
-#include "texproc/mips.h"
-#include "texproc/normal.h"
 #include "texproc/prefilter/prefilter.h"
+#include "texproc/study/compare/inspect.h"
+#include "texproc/study/compare/metrics.h"
+#include "texproc/study/compare/shading.h"
 
 namespace petrichor::texproc {
 namespace {

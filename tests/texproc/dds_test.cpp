@@ -1,4 +1,4 @@
-#include "texproc/files/detail/dds.h"
+#include "texproc/codecs/files/detail/dds.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // What an elliptic lobe can do at all, and how near the anisotropic output comes to it.
-#include "texproc/prefilter/detail/elliptic_oracle.h"
+#include "texproc/study/detail/elliptic_oracle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "texproc/prefilter/fresh_maps.h"
-#include "texproc/prefilter/protocol.h"
+#include "texproc/study/fresh_maps.h"
+#include "texproc/study/protocol.h"
 
 namespace petrichor::texproc {
 namespace {

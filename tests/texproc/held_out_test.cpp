@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "texproc/prefilter/fresh_maps.h"
-#include "texproc/prefilter/protocol.h"
+#include "texproc/study/fresh_maps.h"
+#include "texproc/study/protocol.h"
 
 namespace petrichor::texproc {
 namespace {

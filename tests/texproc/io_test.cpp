@@ -1,4 +1,4 @@
-#include "texproc/files/io.h"
+#include "texproc/codecs/files/io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "texproc/files/detail/ktx2.h"
+#include "texproc/codecs/files/detail/ktx2.h"
 
 #include <cstring>
 

@@ -1,11 +1,11 @@
-#include "texproc/mips.h"
+#include "texproc/filter/mips.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.h"
-#include "texproc/area.h"
+#include "texproc/filter/area.h"
 
 namespace petrichor::texproc {
 namespace {

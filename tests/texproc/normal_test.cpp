@@ -1,4 +1,4 @@
-#include "texproc/normal.h"
+#include "texproc/filter/normal.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "base/error.h"
-#include "texproc/detail/fft.h"
+#include "texproc/filter/detail/fft.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {

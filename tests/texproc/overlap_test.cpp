@@ -1,4 +1,4 @@
-#include "texproc/prefilter/overlap.h"
+#include "texproc/prefilter/detail/overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "texproc/prefilter/rules.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::texproc {
 namespace {

@@ -1,4 +1,4 @@
-#include "texproc/pack.h"
+#include "texproc/material/pack.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texproc/detail/portable_math.h"
+#include "texproc/image/portable_math.h"
 
 #include <gtest/gtest.h>
 

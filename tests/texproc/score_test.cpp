@@ -1,4 +1,4 @@
-#include "texproc/prefilter/score.h"
+#include "texproc/study/score.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "texproc/prefilter/detail/codes.h"
-#include "texproc/prefilter/protocol.h"
-#include "texproc/prefilter/scored_maps.h"
+#include "texproc/study/protocol.h"
+#include "texproc/study/scored_maps.h"
 
 namespace petrichor::texproc {
 namespace {

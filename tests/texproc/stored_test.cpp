@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "texproc/generate/generate.h"
-#include "texproc/prefilter/fresh_maps.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/study/fresh_maps.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::texproc {
 namespace {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <functional>
 
-#include "texproc/files/texture.h"
+#include "texproc/codecs/files/texture.h"
 
 namespace petrichor::texproc {
 

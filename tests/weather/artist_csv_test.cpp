@@ -1,5 +1,5 @@
-#include "weather/artist/csv.h"
-#include "weather/artist/exact.h"
+#include "weather/models/artist/csv.h"
+#include "weather/models/artist/exact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "weather/artist/exact.h"
+#include "weather/models/artist/exact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "weather/artist/model.h"
+#include "weather/models/artist/model.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "weather/artist/math.h"
+#include "weather/models/artist/math.h"
 
 namespace petrichor::weather {
 namespace {

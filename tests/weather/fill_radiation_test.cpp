@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "weather/forcing.h"
-#include "weather/physical.h"
+#include "weather/forcing/forcing.h"
+#include "weather/models/physical/physical.h"
 #include "weather/physics/humidity.h"
 #include "weather/physics/longwave.h"
 #include "weather/physics/surfaces.h"

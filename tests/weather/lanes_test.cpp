@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/weather/made_up.h"
-#include "weather/physical_grid.h"
-#include "weather/physics/detail/cell_steps.h"
+#include "weather/models/physical/detail/cell_steps.h"
+#include "weather/models/physical/physical_grid.h"
 
 namespace petrichor::weather {
 namespace {

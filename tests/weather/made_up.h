@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"
 

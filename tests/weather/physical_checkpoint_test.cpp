@@ -1,10 +1,10 @@
-#include "weather/physical_checkpoint.h"
+#include "weather/models/physical/physical_checkpoint.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "tests/weather/made_up.h"
-#include "weather/physical.h"
+#include "weather/models/physical/physical.h"
 
 namespace petrichor::weather {
 namespace {

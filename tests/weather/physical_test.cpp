@@ -1,5 +1,5 @@
 // The physical cell: balances, measured winters, water on ground, seeking, grids.
-#include "weather/physical.h"
+#include "weather/models/physical/physical.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include "base/error.h"
 #include "tests/weather/made_up.h"
 #include "tests/weather/winters.h"
-#include "weather/mapping.h"
-#include "weather/physical_grid.h"
-#include "weather/physics/detail/cell_steps.h"
+#include "weather/models/physical/detail/cell_steps.h"
+#include "weather/models/physical/mapping.h"
+#include "weather/models/physical/physical_grid.h"
 
 namespace petrichor::weather {
 namespace {

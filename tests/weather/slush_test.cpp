@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "weather/physical.h"
+#include "weather/models/physical/physical.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/reservoir.h"
 #include "weather/physics/drainage.h"

@@ -7,8 +7,8 @@
 
 #include "tests/weather/made_up.h"
 #include "tests/weather/winters.h"
-#include "weather/mapping.h"
-#include "weather/physical.h"
+#include "weather/models/physical/mapping.h"
+#include "weather/models/physical/physical.h"
 
 namespace petrichor::weather {
 namespace {

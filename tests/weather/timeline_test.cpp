@@ -1,11 +1,11 @@
-#include "weather/timeline.h"
+#include "weather/models/artist/timeline.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.h"
-#include "weather/artist/detail/polynomial.h"
+#include "weather/models/artist/detail/polynomial.h"
 
 namespace petrichor::weather {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "weather/physical.h"
+#include "weather/models/physical/physical.h"
 #include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
 

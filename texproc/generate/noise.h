@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_TEXPROC_NOISE_H
-#define PETRICHOR_TEXPROC_NOISE_H
+#ifndef PETRICHOR_TEXPROC_GENERATE_NOISE_H
+#define PETRICHOR_TEXPROC_GENERATE_NOISE_H
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "texproc/bake.h"
+#include "texproc/filter/bake.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "texproc/detail/parallel.h"
+#include "base/parallel.h"
 
 namespace petrichor::texproc {
 
@@ -40,7 +40,7 @@ std::vector<std::vector<std::uint8_t>> lux_smoothness_mips(
                         "Pass every level from 1 on, each half the size of the one before.");
         }
         out[m - 1].resize(mips[m - 1].size());
-        detail::parallel_for(static_cast<std::size_t>(side), 0, [&](std::size_t j) {
+        parallel_for(static_cast<std::size_t>(side), 0, [&](std::size_t j) {
             for (int i = 0; i < side; ++i) {
                 const int x0 = i * footprint;
                 const int y0 = static_cast<int>(j) * footprint;

@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_TEXPROC_LUX_H
-#define PETRICHOR_TEXPROC_LUX_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_LUX_H
+#define PETRICHOR_TEXPROC_PREFILTER_LUX_H
 
 #include <cstdint>
 #include <vector>

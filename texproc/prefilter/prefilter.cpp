@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "texproc/area.h"
-#include "texproc/detail/input.h"
+#include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/filter.h"
+#include "texproc/prefilter/detail/input.h"
 #include "texproc/prefilter/detail/walk.h"
 #include "texproc/prefilter/lux.h"
 

@@ -1,12 +1,12 @@
-#ifndef PETRICHOR_TEXPROC_PREFILTER_H
-#define PETRICHOR_TEXPROC_PREFILTER_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_PREFILTER_H
+#define PETRICHOR_TEXPROC_PREFILTER_PREFILTER_H
 
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
-#include "texproc/files/raw_image.h"
+#include "texproc/image/raw_image.h"
 
 namespace petrichor::texproc {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "texproc/area.h"
-#include "texproc/detail/input.h"
+#include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/codes.h"
+#include "texproc/prefilter/detail/input.h"
 #include "texproc/prefilter/detail/lobe_cost.h"
 #include "texproc/prefilter/detail/walk.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "texproc/blocks/blocks.h"
+#include "texproc/codecs/blocks/blocks.h"
 #include "texproc/prefilter/prefilter.h"
 
 namespace petrichor::texproc {

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "weather/filling/fill_precipitation.h"
 #include "weather/filling/fill_radiation.h"
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/humidity.h"
 

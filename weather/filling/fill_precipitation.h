@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 // The part of fill_forcing that concerns precipitation, in the order in which it is done.
 namespace petrichor::weather {

@@ -1,7 +1,7 @@
 #ifndef PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
 #define PETRICHOR_WEATHER_FILLING_FILL_RADIATION_H
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 // The part of fill_forcing that concerns sun, sky and cloud.
 namespace petrichor::weather {

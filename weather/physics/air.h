@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_WEATHER_AIR_H
-#define PETRICHOR_WEATHER_AIR_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_AIR_H
+#define PETRICHOR_WEATHER_PHYSICS_AIR_H
 
 namespace petrichor::weather {
 

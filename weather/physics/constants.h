@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_WEATHER_CONSTANTS_H
-#define PETRICHOR_WEATHER_CONSTANTS_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_CONSTANTS_H
+#define PETRICHOR_WEATHER_PHYSICS_CONSTANTS_H
 
 // Physical constants of the weather room, SI. One place, so that two formulas never disagree.
 namespace petrichor::weather {

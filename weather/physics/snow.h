@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_WEATHER_SNOW_H
-#define PETRICHOR_WEATHER_SNOW_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_SNOW_H
+#define PETRICHOR_WEATHER_PHYSICS_SNOW_H
 
 namespace petrichor::weather {
 

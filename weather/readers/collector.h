@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 namespace petrichor::weather {
 

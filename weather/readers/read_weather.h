@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 #include "weather/readers/taf.h"
 
 namespace petrichor::weather {

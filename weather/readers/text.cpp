@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 namespace petrichor::weather {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 namespace petrichor::weather {
 

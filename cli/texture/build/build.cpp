@@ -12,13 +12,14 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/folders.h"
+#include "base/words.h"
 #include "cli/progress.h"
+#include "cli/rooms.h"
 #include "cli/signals.h"
 #include "cli/texture/build/material.h"
 #include "cli/texture/build/sha256.h"
 #include "cli/texture/build/state.h"
-#include "cli/words.h"
+#include "film/data/folders.h"
 
 namespace petrichor::cli {
 

@@ -7,9 +7,9 @@
 #include "base/error.h"
 #include "cli/texture/build/prefiltered_maps.h"
 #include "cli/texture/build/write_levels.h"
-#include "cli/texture/normal_channels.h"
-#include "texproc/area.h"
-#include "texproc/mips.h"
+#include "cli/texture/maps/normal_channels.h"
+#include "texproc/filter/area.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::cli {
 

@@ -8,7 +8,7 @@
 
 #include "cli/texture/build/plan.h"
 #include "cli/texture/build/source_maps.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::cli {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "cli/words.h"
+#include "base/words.h"
 #include "texproc/prefilter/rules.h"
 
 namespace petrichor::cli {

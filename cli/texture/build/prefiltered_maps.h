@@ -11,7 +11,7 @@
 #include "cli/texture/build/material.h"
 #include "cli/texture/build/source_maps.h"
 #include "texproc/prefilter/prefilter.h"
-#include "texproc/prefilter/score.h"
+#include "texproc/study/score.h"
 
 namespace petrichor::cli {
 

@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/detail/toml_value.h"
-#include "cli/folders.h"
-#include "cli/texture/pack_file.h"
-#include "cli/words.h"
-#include "texproc/normal.h"
+#include "base/words.h"
+#include "cli/rooms.h"
+#include "cli/texture/maps/pack_file.h"
+#include "film/data/folders.h"
+#include "film/toml/toml_value.h"
+#include "texproc/filter/normal.h"
 #include "texproc/prefilter/rules.h"
 
 namespace petrichor::cli {

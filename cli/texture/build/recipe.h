@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cli/texture/build/material_names.h"
-#include "texproc/bake.h"
-#include "texproc/mips.h"
-#include "texproc/pack.h"
+#include "texproc/filter/bake.h"
+#include "texproc/filter/mips.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::cli {
 

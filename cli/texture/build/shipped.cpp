@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "texproc/files/texture.h"
+#include "texproc/codecs/files/texture.h"
 
 namespace petrichor::cli {
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cli/texture/files.h"
-#include "texproc/bake.h"
-#include "texproc/normal.h"
-#include "texproc/pack.h"
+#include "cli/texture/maps/files.h"
+#include "texproc/filter/bake.h"
+#include "texproc/filter/normal.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/texture/build/plan.h"
-#include "texproc/files/raw_image.h"
+#include "texproc/image/raw_image.h"
 
 namespace petrichor::cli {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "texproc/files/io.h"
-#include "texproc/files/texture.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/codecs/files/texture.h"
 
 namespace petrichor::cli {
 

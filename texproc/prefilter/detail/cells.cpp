@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "texproc/detail/portable_math.h"
+#include "texproc/image/portable_math.h"
 
 namespace petrichor::texproc::detail {
 

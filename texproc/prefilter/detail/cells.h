@@ -1,9 +1,9 @@
-#ifndef PETRICHOR_TEXPROC_DETAIL_CELLS_H
-#define PETRICHOR_TEXPROC_DETAIL_CELLS_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_CELLS_H
+#define PETRICHOR_TEXPROC_PREFILTER_DETAIL_CELLS_H
 
 #include <vector>
 
-#include "texproc/area.h"
+#include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/lobe_kernel.h"
 #include "texproc/prefilter/detail/map_surface.h"
 

@@ -1,8 +1,8 @@
-#ifndef PETRICHOR_TEXPROC_DETAIL_FILTER_H
-#define PETRICHOR_TEXPROC_DETAIL_FILTER_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_FILTER_H
+#define PETRICHOR_TEXPROC_PREFILTER_DETAIL_FILTER_H
 
+#include "texproc/prefilter/detail/overlap.h"
 #include "texproc/prefilter/detail/walk.h"
-#include "texproc/prefilter/overlap.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/prefilter/rules.h"
 

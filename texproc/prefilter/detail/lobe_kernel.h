@@ -1,8 +1,8 @@
 // The inner loops of the lobe fit and of the yardstick: many half-vectors against one or many GGX
 // lobes. Built twice, for plain x86-64 and for AVX2; both do the same operations on the same eight
 // lanes without fused rounding, so the bits are the same and the faster one is taken.
-#ifndef PETRICHOR_TEXPROC_DETAIL_LOBE_KERNEL_H
-#define PETRICHOR_TEXPROC_DETAIL_LOBE_KERNEL_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_LOBE_KERNEL_H
+#define PETRICHOR_TEXPROC_PREFILTER_DETAIL_LOBE_KERNEL_H
 
 #include <cstddef>
 

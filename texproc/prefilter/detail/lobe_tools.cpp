@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "texproc/detail/portable_math.h"
+#include "texproc/image/portable_math.h"
 
 namespace petrichor::texproc::detail {
 

@@ -1,10 +1,10 @@
-#ifndef PETRICHOR_TEXPROC_DETAIL_MAP_SURFACE_H
-#define PETRICHOR_TEXPROC_DETAIL_MAP_SURFACE_H
+#ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_MAP_SURFACE_H
+#define PETRICHOR_TEXPROC_PREFILTER_DETAIL_MAP_SURFACE_H
 
 #include <cstddef>
 #include <vector>
 
-#include "texproc/files/raw_image.h"
+#include "texproc/image/raw_image.h"
 
 namespace petrichor::texproc::detail {
 

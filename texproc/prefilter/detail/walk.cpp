@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "texproc/area.h"
-#include "texproc/detail/parallel.h"
+#include "base/parallel.h"
+#include "texproc/filter/area.h"
 
 namespace petrichor::texproc::detail {
 

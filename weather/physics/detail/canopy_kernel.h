@@ -1,6 +1,6 @@
 // Branches above the cell: they catch snow and let it go.
-#ifndef PETRICHOR_WEATHER_DETAIL_CANOPY_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_CANOPY_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_CANOPY_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_CANOPY_KERNEL_H
 
 #include "weather/physics/detail/lanes.h"
 #include "weather/physics/detail/portable_math.h"

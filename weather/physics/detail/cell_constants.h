@@ -1,6 +1,6 @@
 // What a kernel needs of the parameters, worked out once.
-#ifndef PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
-#define PETRICHOR_WEATHER_DETAIL_CELL_CONSTANTS_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_CONSTANTS_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_CONSTANTS_H
 
 #include "weather/physics/detail/reservoir.h"
 #include "weather/physics/exchange.h"

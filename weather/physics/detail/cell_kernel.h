@@ -12,8 +12,8 @@
 // One balance serves the step: wet shares, melt and the temperature at its end are exact over the
 // line along which the weather changes. Only a thin pack that comes or goes, which turns one
 // surface into another, is followed in substeps.
-#ifndef PETRICHOR_WEATHER_DETAIL_CELL_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_CELL_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/canopy_kernel.h"

@@ -1,7 +1,7 @@
 // The weather of a step at a cell: higher or lower than the station, on a slope, under part of the
 // sky.
-#ifndef PETRICHOR_WEATHER_DETAIL_CELL_WEATHER_H
-#define PETRICHOR_WEATHER_DETAIL_CELL_WEATHER_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_WEATHER_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_WEATHER_H
 
 #include "weather/physics/detail/formulas.h"
 #include "weather/physics/detail/saturation_curve.h"

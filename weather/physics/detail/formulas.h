@@ -1,8 +1,8 @@
 // Formulas that the cell kernel and the public functions share, as templates over double and Lanes.
 // Temperatures here are in degrees Celsius where the name ends in _c; the public headers document
 // the sources.
-#ifndef PETRICHOR_WEATHER_DETAIL_FORMULAS_H
-#define PETRICHOR_WEATHER_DETAIL_FORMULAS_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_FORMULAS_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_FORMULAS_H
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"

@@ -1,6 +1,6 @@
 // The two sweeps through the ground: equivalent temperatures upward, new temperatures downward.
-#ifndef PETRICHOR_WEATHER_DETAIL_GROUND_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_GROUND_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_GROUND_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_GROUND_KERNEL_H
 
 #include "weather/physics/detail/lanes.h"
 #include "weather/physics/ground.h"

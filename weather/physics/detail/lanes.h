@@ -5,8 +5,8 @@
 // each element, in the same order, so both give the same bits. Which registers are used is chosen
 // by the file that instantiates the kernel; the type carries the width, so that two instantiations
 // never share a symbol.
-#ifndef PETRICHOR_WEATHER_DETAIL_LANES_H
-#define PETRICHOR_WEATHER_DETAIL_LANES_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_LANES_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_LANES_H
 
 #include <bit>
 #include <cmath>

@@ -4,8 +4,8 @@
 // At 0 C the balance F runs along a line over the step, F0 - a .. F0 + a. Ice melts by the mean of
 // its positive part, water freezes by the mean of its negative part, so that an hour in which the
 // sun comes out melts what an hour of minutes would.
-#ifndef PETRICHOR_WEATHER_DETAIL_MELTING_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_MELTING_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_MELTING_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_MELTING_KERNEL_H
 
 #include "weather/physics/detail/surface_kernel.h"
 

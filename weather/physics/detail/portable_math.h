@@ -3,8 +3,8 @@
 // The C library's versions differ in the last bit between machines and versions, and a state hash
 // must not. These are exact to about 1e-15 relative, the same on every compiler that does not
 // contract a*b+c (the project builds with -ffp-contract=off), and run on Lanes as on double.
-#ifndef PETRICHOR_WEATHER_DETAIL_PORTABLE_MATH_H
-#define PETRICHOR_WEATHER_DETAIL_PORTABLE_MATH_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_PORTABLE_MATH_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_PORTABLE_MATH_H
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/lanes.h"

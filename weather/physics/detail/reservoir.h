@@ -1,7 +1,7 @@
 // The film as a linear reservoir, solved exactly over a step; shared by drainage.cpp and the
 // kernel.
-#ifndef PETRICHOR_WEATHER_DETAIL_RESERVOIR_H
-#define PETRICHOR_WEATHER_DETAIL_RESERVOIR_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_RESERVOIR_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_RESERVOIR_H
 
 #include "weather/physics/detail/portable_math.h"
 

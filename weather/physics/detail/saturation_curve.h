@@ -6,8 +6,8 @@
 //   e(T) / e(T0) - 1 = d + d^2/2 + .. + d^6/720
 //
 // Exact at T0; relative error at 4 K below 1e-7 from -30 C up, 4e-7 from -70 C; at 1 K below 1e-9.
-#ifndef PETRICHOR_WEATHER_DETAIL_SATURATION_CURVE_H
-#define PETRICHOR_WEATHER_DETAIL_SATURATION_CURVE_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SATURATION_CURVE_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SATURATION_CURVE_H
 
 #include "weather/physics/detail/formulas.h"
 

@@ -1,8 +1,8 @@
 // One number as a type of its own: the same arithmetic as double, for kernels that are compiled for
 // other registers than the rest of the program. An instantiation with it never shares a symbol with
 // one of double.
-#ifndef PETRICHOR_WEATHER_DETAIL_SINGLE_H
-#define PETRICHOR_WEATHER_DETAIL_SINGLE_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SINGLE_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SINGLE_H
 
 #include "weather/physics/detail/portable_math.h"
 

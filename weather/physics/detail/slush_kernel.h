@@ -1,6 +1,6 @@
 // Snow and water on the ground together.
-#ifndef PETRICHOR_WEATHER_DETAIL_SLUSH_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_SLUSH_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SLUSH_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SLUSH_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/lanes.h"

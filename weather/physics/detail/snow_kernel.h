@@ -1,8 +1,8 @@
 // The snow pack of the cell kernel: up to three layers, top first. A layer that is not there has no
 // mass, no thickness, no resistance and no heat capacity, so it drops out of every formula by
 // itself.
-#ifndef PETRICHOR_WEATHER_DETAIL_SNOW_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_SNOW_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SNOW_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SNOW_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"

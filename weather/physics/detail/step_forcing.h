@@ -1,11 +1,11 @@
 // The forcing of one model step, made once for all cells: integrals exact, shape linear.
-#ifndef PETRICHOR_WEATHER_DETAIL_STEP_FORCING_H
-#define PETRICHOR_WEATHER_DETAIL_STEP_FORCING_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_STEP_FORCING_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_STEP_FORCING_H
 
 #include <cstdint>
 #include <vector>
 
-#include "weather/forcing.h"
+#include "weather/forcing/forcing.h"
 
 namespace petrichor::weather::detail {
 

@@ -1,7 +1,7 @@
 // One substep of one cell, or of eight side by side: the surface point, its balance, and where the
 // heat and the water go.
-#ifndef PETRICHOR_WEATHER_DETAIL_SUBSTEP_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_SUBSTEP_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SUBSTEP_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SUBSTEP_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"

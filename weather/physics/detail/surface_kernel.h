@@ -1,6 +1,6 @@
 // One surface point: its energy balance and Newton's method on it. Degrees Celsius inside.
-#ifndef PETRICHOR_WEATHER_DETAIL_SURFACE_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_SURFACE_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_SURFACE_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_SURFACE_KERNEL_H
 
 #include "weather/physics/detail/formulas.h"
 #include "weather/physics/detail/saturation_curve.h"

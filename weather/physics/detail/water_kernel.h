@@ -1,7 +1,7 @@
 // Film, cracks and puddles of the cell kernel. "Level" and wet area count liquid and ice together:
 // a frozen puddle still fills its hollow.
-#ifndef PETRICHOR_WEATHER_DETAIL_WATER_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_WATER_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_WATER_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_WATER_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"

@@ -4,8 +4,8 @@
 //   film     share u = w / capacity of pore water evaporates: dw/dt = supply - e u, an exponential;
 //            above the capacity u = 1 until the excess has run off
 //   hollows  evaporation lowers the level by e dt, and the water lost is V(h) - V(h - e dt)
-#ifndef PETRICHOR_WEATHER_DETAIL_WETNESS_KERNEL_H
-#define PETRICHOR_WEATHER_DETAIL_WETNESS_KERNEL_H
+#ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_WETNESS_KERNEL_H
+#define PETRICHOR_WEATHER_PHYSICS_DETAIL_WETNESS_KERNEL_H
 
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"

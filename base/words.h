@@ -1,0 +1,30 @@
+#ifndef PETRICHOR_BASE_WORDS_H
+#define PETRICHOR_BASE_WORDS_H
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace petrichor {
+
+/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours; letter case
+/// and
+/// '-' against '_' are free), or "" when none is near: more than a third of the letters would
+/// change.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+
+/// " Did you mean \"x\"?" for the nearest candidate, or "".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "a, b, c" for messages.
+std::string join_words(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+/// True when `text` matches `pattern` with * (any run) and ? (any one); letter case is ignored.
+bool glob_matches(std::string_view pattern, std::string_view text);
+
+/// The shortest decimal text that reads back as the same number: "0.1", "-3", "1e-20".
+std::string number_text(double value);
+
+}  // namespace petrichor
+
+#endif

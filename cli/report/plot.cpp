@@ -1,0 +1,284 @@
+#include "cli/report/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "cli/report/plot_axes.h"
+#include "cli/report/time_axis.h"
+
+namespace petrichor::cli {
+namespace {
+
+constexpr double kWidth = 960.0;
+constexpr double kLeft = 62.0;
+constexpr double kRight = 22.0;
+constexpr double kTop = 58.0;
+constexpr double kPanelGap = 44.0;
+constexpr double kForcingHeight = 110.0;
+constexpr double kStateHeight = 180.0;
+constexpr double kBottom = 46.0;
+constexpr std::size_t kMostPoints = 3000;  // more rows than this are thinned
+constexpr std::size_t kMostEvents = 40;
+
+constexpr const char* kInk = "#1b2430";
+constexpr const char* kSoft = "#51606f";
+constexpr const char* kGrid = "#e3e8ee";
+constexpr const char* kMark = "#8b98a7";
+constexpr const char* kWarning = "#a8480a";
+
+void add_line(Drawing& drawing, DrawnPoint a, DrawnPoint b, const char* color, bool dashed = false)
+{
+    drawing.shapes.push_back(DrawnLine{{a, b}, color, 1.0, dashed});
+}
+
+void add_label(Drawing& drawing, DrawnPoint at, Anchor anchor, const std::string& text)
+{
+    drawing.shapes.push_back(DrawnText{at, text, kSoft, 12.0, anchor, false});
+}
+
+struct TimeAxis {
+    double first_s = 0.0;
+    double last_s = 1.0;
+    double x(double time_s) const
+    {
+        const double span = last_s > first_s ? last_s - first_s : 1.0;
+        return kLeft + (kWidth - kLeft - kRight) * (time_s - first_s) / span;
+    }
+};
+
+// A piece of a curve as pixels can show it: of many rows in one place only the lowest and the
+// highest.
+std::vector<DrawnPoint> thinned(const std::vector<DrawnPoint>& piece, std::size_t bucket)
+{
+    std::vector<DrawnPoint> points;
+    for (std::size_t begin = 0; begin < piece.size(); begin += bucket) {
+        const auto at = piece.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto end =
+            piece.begin() + static_cast<std::ptrdiff_t>(std::min(begin + bucket, piece.size()));
+        auto [first, second] = std::minmax_element(
+            at, end, [](const DrawnPoint& a, const DrawnPoint& b) { return a.y < b.y; });
+        if (first > second) std::swap(first, second);
+        points.push_back(*first);
+        if (second != first) points.push_back(*second);
+    }
+    if (!piece.empty() && points.back().x < piece.back().x) points.push_back(piece.back());
+    return points;
+}
+
+// The pieces of a curve: between them there is nothing to show.
+std::vector<std::vector<DrawnPoint>> curve_pieces(const SimulationTable& table,
+                                                  const TimeAxis& time,
+                                                  const std::vector<double>& y)
+{
+    std::vector<std::vector<DrawnPoint>> pieces;
+    const std::size_t bucket =
+        y.size() <= kMostPoints ? 1 : (2 * y.size() + kMostPoints - 1) / kMostPoints;  // two points
+    std::vector<DrawnPoint> piece;
+    const auto close = [&] {
+        if (!piece.empty()) pieces.push_back(thinned(piece, bucket));
+        piece.clear();
+    };
+    for (std::size_t r = 0; r < y.size(); ++r) {
+        if (std::isnan(y[r]))
+            close();
+        else
+            piece.push_back({time.x(table.rows[r][0]), y[r]});
+    }
+    close();
+    return pieces;
+}
+
+// Title at the left with its score, legend at the right.
+void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel, double top)
+{
+    drawing.shapes.push_back(
+        DrawnText{{kLeft, top - 10}, panel.title, kInk, 13.0, Anchor::Start, true});
+    double title_end = kLeft + 1.08 * text_width(panel.title, 13.0) + 18.0;
+    for (const Score& score : table.scores) {
+        const bool here =
+            !panel.dots.empty() &&
+            std::any_of(panel.series.begin(), panel.series.end(),
+                        [&](const PlotSeries& s) { return s.column == score.column; });
+        if (!here) continue;
+        char text[120];
+        std::snprintf(text, sizeof text, "RMSE %.3g%s, bias %+.2g%s", score.rmse,
+                      unit_text(score).c_str(), score.bias, unit_text(score).c_str());
+        add_label(drawing, {title_end, top - 10}, Anchor::Start, text);
+    }
+    double legend_x = kWidth - kRight;
+    for (auto dots = panel.dots.rbegin(); dots != panel.dots.rend(); ++dots) {
+        add_label(drawing, {legend_x, top - 10}, Anchor::End, dots->label);
+        legend_x -= text_width(dots->label, 12.0) + 10.0;
+        drawing.shapes.push_back(DrawnDots{{{legend_x, top - 14}}, dots->color, 3.0});
+        legend_x -= 22.0;
+    }
+    for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
+        if (series->label.empty()) continue;
+        add_label(drawing, {legend_x, top - 10}, Anchor::End, series->label);
+        legend_x -= text_width(series->label, 12.0) + 8.0;
+        drawing.shapes.push_back(DrawnLine{
+            {{legend_x - 16, top - 14}, {legend_x, top - 14}}, series->color, 3.0, false});
+        legend_x -= 34.0;
+    }
+}
+
+void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series,
+                const TimeAxis& time, const std::function<double(double)>& y, double bottom)
+{
+    const auto pieces = [&](const std::string& name) {
+        std::vector<double> values = series_values(table, series, name);
+        for (double& v : values) v = std::isnan(v) ? v : y(v);
+        return curve_pieces(table, time, values);
+    };
+    if (!series.band_low.empty()) {
+        const auto lower = pieces(series.band_low), upper = pieces(series.band_high);
+        for (std::size_t i = 0; i < std::min(lower.size(), upper.size()); ++i) {
+            DrawnArea band{lower[i], series.color, 0.25};
+            band.points.insert(band.points.end(), upper[i].rbegin(), upper[i].rend());
+            drawing.shapes.push_back(std::move(band));
+        }
+    }
+    for (const auto& points : pieces(series.column)) {
+        if (series.filled) {
+            DrawnArea area{points, series.color, 0.22};
+            area.points.insert(area.points.begin(), {points.front().x, bottom});
+            area.points.push_back({points.back().x, bottom});
+            drawing.shapes.push_back(std::move(area));
+        }
+        drawing.shapes.push_back(
+            DrawnLine{points, series.color, table.rows.size() > 1500 ? 1.3 : 2.0, false});
+    }
+}
+
+void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
+               const TimeAxis& time, const std::vector<TimeTick>& time_ticks, double top,
+               double height)
+{
+    const auto [low, high] = axis_range(table, panel);
+    const auto y = [&, low = low, high = high](double value) {
+        return top + height * (1.0 - (std::clamp(value, low, high) - low) / (high - low));
+    };
+    const double right = kWidth - kRight;
+    add_heading(drawing, table, panel, top);
+    const auto ticks = axis_ticks(low, high, panel.forcing ? 4 : 5, false);
+    for (double tick : ticks) {
+        add_line(drawing, {kLeft, y(tick)}, {right, y(tick)}, kGrid);
+        add_label(drawing, {kLeft - 8, y(tick) + 4}, Anchor::End,
+                  number_text(tick, decimals_of(ticks)));
+    }
+    for (const TimeTick& tick : time_ticks)
+        add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
+    if (low < 0.0 && high > 0.0) add_line(drawing, {kLeft, y(0)}, {right, y(0)}, kMark);
+    for (std::size_t i = 0; i < std::min(table.events.size(), kMostEvents); ++i) {
+        const double x = time.x(table.events[i].time_s);
+        add_line(drawing, {x, top}, {x, top + height}, kMark, true);
+    }
+    for (const PlotSeries& series : panel.series)
+        add_series(drawing, table, series, time, y, y(low));
+    for (const PlotDots& dots : panel.dots) {
+        DrawnDots drawn{{}, dots.color, dots.values.size() > 150 ? 1.7 : 2.4};
+        for (std::size_t i = 0; i < dots.values.size(); ++i)
+            drawn.points.push_back({time.x(dots.time_s[i]), y(dots.values[i])});
+        drawing.shapes.push_back(std::move(drawn));
+    }
+}
+
+std::string subtitle(const SimulationTable& table)
+{
+    if (!table.dated || table.rows.empty()) return "";
+    return time_text(table, table.rows.front()[0]) + " to " +
+           time_text(table, table.rows.back()[0]) + " UTC";
+}
+
+// The numbered list of events below the panels, in two columns, and their numbers under the time
+// axis.
+void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& time,
+                double numbers_y, double list_top)
+{
+    const std::size_t count = std::min(table.events.size(), kMostEvents);
+    const std::size_t half = (count + 1) / 2;
+    double label_x = -1e9;
+    for (std::size_t i = 0; i < count; ++i) {
+        const SimulationEvent& event = table.events[i];
+        const double x = time.x(event.time_s);
+        if (x - label_x >= 14.0) {  // the list below has them all
+            label_x = x;
+            add_label(drawing, {x, numbers_y}, Anchor::Middle, std::to_string(i + 1));
+        }
+        const double list_x = i < half ? kLeft : kLeft + 440.0;
+        const double list_y = list_top + 10.0 + 18.0 * static_cast<double>(i < half ? i : i - half);
+        add_label(drawing, {list_x + 14, list_y}, Anchor::End, std::to_string(i + 1));
+        const bool dated = table.dated;  // dates are equally long, numbers are not
+        add_label(drawing, {list_x + (dated ? 28 : 98), list_y},
+                  dated ? Anchor::Start : Anchor::End, time_text(table, event.time_s));
+        add_label(drawing, {list_x + (dated ? 152 : 112), list_y}, Anchor::Start, event.text);
+    }
+}
+
+}  // namespace
+
+Drawing plot_of(const SimulationTable& table)
+{
+    Drawing drawing;
+    drawing.width = kWidth;
+    const std::string under = subtitle(table);
+    const double head =
+        kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
+    drawing.height = head + kBottom - kPanelGap + 22.0;
+    for (const PlotPanel& panel : table.panels) {
+        drawing.height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
+    }
+    const double list_top = drawing.height;
+    const std::size_t half = (std::min(table.events.size(), kMostEvents) + 1) / 2;
+    if (half > 0) drawing.height += 14.0 + 18.0 * static_cast<double>(half);
+
+    TimeAxis time;
+    if (!table.rows.empty()) {
+        time.first_s = table.rows.front()[0];
+        time.last_s = table.rows.back()[0];
+    }
+    const auto ticks = table.dated
+                           ? calendar_ticks(table.utc_start_us, time.first_s, time.last_s, 12)
+                           : elapsed_ticks(time.first_s, time.last_s, 12);
+    drawing.shapes.push_back(
+        DrawnText{{kLeft, 26},
+                  table.title + " (" + table.model + " model, " + table.mode + ")",
+                  kInk,
+                  17.0,
+                  Anchor::Start,
+                  true});
+    if (!under.empty()) add_label(drawing, {kLeft, 46}, Anchor::Start, under);
+    double line_y = under.empty() ? 46.0 : 63.0;
+    for (const std::string& warning : table.warnings) {
+        drawing.shapes.push_back(
+            DrawnText{{kLeft, line_y}, warning, kWarning, 12.0, Anchor::Start, false});
+        line_y += 17.0;
+    }
+    double top = head + 18.0;
+    for (const PlotPanel& panel : table.panels) {
+        const double height = panel.forcing ? kForcingHeight : kStateHeight;
+        add_panel(drawing, table, panel, time, ticks, top, height);
+        top += height + kPanelGap;
+    }
+    const double bottom = top - kPanelGap;
+    for (const TimeTick& tick : ticks) {
+        const double room = 0.5 * text_width(tick.label, 12.0);
+        add_label(drawing,
+                  {std::clamp(time.x(tick.time_s), room, kWidth - room - 2.0), bottom + 34},
+                  Anchor::Middle, tick.label);
+    }
+    add_events(drawing, table, time, bottom + 14, list_top);
+    return drawing;
+}
+
+std::string svg_plot(const SimulationTable& table)
+{
+    std::string svg = to_svg(plot_of(table));
+    svg.insert(svg.find("\n") + 1, "<desc>" + escaped(table.title) + ", state " +
+                                       hash_text(table.state_hash) + "</desc>\n");
+    return svg;
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,120 @@
+#include "cli/report/table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/report/plot_axes.h"
+#include "weather/readers/text.h"
+#include "weather/text/csv.h"
+
+namespace petrichor::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json head_of(const SimulationTable& table)
+{
+    ordered_json events = ordered_json::array();
+    for (const SimulationEvent& event : table.events) {
+        events.push_back({{"time_s", event.time_s}, {"event", event.text}});
+    }
+    ordered_json json{{"title", table.title},
+                      {"model", table.model},
+                      {"mode", table.mode},
+                      {"rows_written", table.rows.size()},
+                      {"state_hash", hash_text(table.state_hash)},
+                      {"table_hash", hash_text(table.table_hash)},
+                      {"warnings", table.warnings},
+                      {"notes", table.notes}};
+    if (table.dated) json["utc_start"] = weather::iso_from_us(table.utc_start_us);
+    for (const auto& [key, text] : table.json_parts) json[key] = ordered_json::parse(text);
+    if (!table.scores.empty()) {
+        ordered_json scores = ordered_json::object();
+        for (const Score& s : table.scores) {
+            scores[s.column] = {{"rmse", s.rmse},
+                                {"bias", s.bias},
+                                {"unit", s.unit},
+                                {"count", s.count},
+                                {"how", s.how}};
+        }
+        json["scores"] = scores;
+    }
+    json["events"] = events;
+    return json;
+}
+
+}  // namespace
+
+std::string hash_text(std::uint64_t hash)
+{
+    std::string digits(16, '0');
+    for (int i = 15; i >= 0; --i, hash >>= 4) {
+        digits[static_cast<std::size_t>(i)] = "0123456789abcdef"[hash & 15u];
+    }
+    return digits;
+}
+
+std::string time_text(const SimulationTable& table, double time_s)
+{
+    if (!table.dated) return number_text(time_s, 3) + " s";
+    const auto us = table.utc_start_us + static_cast<std::int64_t>(std::llround(time_s * 1e6));
+    std::string text = weather::iso_from_us(us).substr(0, 16);
+    text[10] = ' ';
+    return text;
+}
+
+std::string csv_text(const SimulationTable& table, bool with_hash)
+{
+    std::string text;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        if (c > 0) text += ',';
+        text += table.columns[c];
+        if (c == 0 && table.utc) text += ",time_utc";
+    }
+    text += '\n';
+    for (const auto& row : table.rows) {
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            if (c > 0) text += ',';
+            text += weather::number_17(row[c]);
+            if (c == 0 && table.utc) {
+                text += ',';
+                text += weather::iso_from_us(table.utc_start_us +
+                                             static_cast<std::int64_t>(std::llround(row[0] * 1e6)));
+            }
+        }
+        text += '\n';
+    }
+    if (with_hash) {
+        text += "# hash state=" + hash_text(table.state_hash) +
+                " table=" + hash_text(table.table_hash) + '\n';
+    }
+    return text;
+}
+
+std::string json_text(const SimulationTable& table)
+{
+    ordered_json json = head_of(table);
+    json["columns"] = table.columns;
+    json["rows"] = table.rows;
+    return json.dump() + "\n";
+}
+
+std::string json_summary(const SimulationTable& table)
+{
+    ordered_json json = head_of(table);
+    ordered_json columns = ordered_json::object();
+    for (std::size_t c = 0; c < table.columns.size() && !table.rows.empty(); ++c) {
+        double low = table.rows[0][c];
+        double high = low;
+        for (const auto& row : table.rows) {
+            low = std::min(low, row[c]);
+            high = std::max(high, row[c]);
+        }
+        columns[table.columns[c]] = {{"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
+    }
+    json["columns"] = columns;
+    return json.dump(2) + "\n";
+}
+
+}  // namespace petrichor::cli

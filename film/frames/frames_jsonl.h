@@ -1,0 +1,53 @@
+#ifndef PETRICHOR_FILM_FRAMES_FRAMES_JSONL_H
+#define PETRICHOR_FILM_FRAMES_FRAMES_JSONL_H
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "gpu/renderer.h"
+
+namespace petrichor::film {
+
+/// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the
+/// same frame gives the same line on every run.
+struct FrameFacts {
+    int frame = 0;
+    double time_s = 0.0;  ///< on the clock of weather, sun and camera
+    double temperature_c = 0.0;
+    std::string weather;      ///< name of the preset or file, for the reader
+    std::string settings;     ///< fingerprint of everything that decides the picture
+    std::string beauty_hash;  ///< of the half-float pixels
+    float exposure = 1.0f;    ///< scale from scene light to the PNG
+    gpu::Frame input;
+    std::map<std::string, std::uintmax_t> files;  ///< name -> bytes
+};
+
+/// One line, without the line break: JSON with a fixed order of keys and shortest exact numbers.
+/// Matrices are rows of rows. "projection" maps camera space to clip space with y up and reversed
+/// depth (1 near, 0 infinitely far); intrinsics are in pixels, y down.
+std::string frame_line(const FrameFacts& facts);
+
+/// What is needed of a line to tell whether its frame can be kept.
+struct FrameRecord {
+    std::string settings;
+    std::map<std::string, std::uintmax_t> files;
+    std::string line;
+};
+
+/// Reads folder/frames.jsonl by frame; lines that are not whole are left out, a missing file is
+/// empty.
+std::map<int, FrameRecord> read_frame_records(const std::filesystem::path& folder);
+
+/// True when every file of the record lies in the folder with its size.
+bool files_are_whole(const FrameRecord& record, const std::filesystem::path& folder);
+
+/// Adds or replaces lines in folder/frames.jsonl, in order of frames, whole or not at all. Several
+/// programs may do this to one folder at once: each sees what the others wrote.
+void merge_frame_lines(const std::filesystem::path& folder,
+                       const std::map<int, std::string>& lines);
+
+}  // namespace petrichor::film
+
+#endif

@@ -1,0 +1,156 @@
+#include "film/jobs/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/error.h"
+#include "base/words.h"
+
+namespace petrichor::film {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kFramingFov_rad = 35.0 * kDegree;
+constexpr double kDefaultFov_rad = 45.0 * kDegree;
+
+// Path of one attribute of the keys.
+template <class Get>
+std::vector<PathKey> path_of(const std::vector<CameraKey>& keys, Get get)
+{
+    std::vector<PathKey> path;
+    for (const CameraKey& key : keys) path.push_back({key.time_s, get(key)});
+    return path;
+}
+
+const scene::Camera& named_camera(const scene::Scene& scene, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const scene::Camera& camera : scene.cameras) {
+        if (camera.name == name) return camera;
+        names.push_back(camera.name);
+    }
+    throw Error("camera: the scene " + scene.name + " has no camera \"" + name + "\"." +
+                    did_you_mean(name, names),
+                names.empty()
+                    ? "Leave the name out: the scene has no cameras and is framed as a whole."
+                    : "Use one of: " + join_words(names) + ".");
+}
+
+}  // namespace
+
+scene::Bounds content_bounds(const scene::Scene& scene)
+{
+    const scene::Bounds all = scene::scene_bounds(scene);
+    std::array<std::vector<float>, 3> axes;
+    for (const scene::Instance& instance : scene.instances) {
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            for (const glm::vec3& position : primitive.positions) {
+                const auto world = glm::vec3(instance.to_world * glm::vec4(position, 1.0f));
+                for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].push_back(world[i]);
+            }
+        }
+    }
+    if (axes[0].size() < 100) return all;
+    scene::Bounds middle;
+    for (int i = 0; i < 3; ++i) {
+        auto& values = axes[static_cast<std::size_t>(i)];
+        const auto cut = static_cast<std::ptrdiff_t>(values.size() / 50);
+        std::nth_element(values.begin(), values.begin() + cut, values.end());
+        middle.low[i] = values[static_cast<std::size_t>(cut)];
+        std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
+        middle.high[i] = *(values.end() - 1 - cut);
+    }
+    const bool few_far_points =
+        glm::length(middle.high - middle.low) < 0.4f * glm::length(all.high - all.low);
+    return few_far_points ? middle : all;
+}
+
+scene::Camera camera_towards(const glm::dvec3& position_m, const glm::dvec3& look_at_m,
+                             double fov_rad)
+{
+    const glm::dvec3 away = position_m - look_at_m;
+    const double distance = glm::length(away);
+    const glm::dvec3 back = distance > 0.0 ? away / distance : glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dvec3 up_hint =
+        std::abs(back.y) > 0.9999 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 right = glm::normalize(glm::cross(up_hint, back));
+    const glm::dvec3 up = glm::cross(back, right);
+    scene::Camera camera;
+    camera.to_world =
+        glm::mat4(glm::vec4(glm::vec3(right), 0.0f), glm::vec4(glm::vec3(up), 0.0f),
+                  glm::vec4(glm::vec3(back), 0.0f), glm::vec4(glm::vec3(position_m), 1.0f));
+    camera.vertical_fov_rad = static_cast<float>(fov_rad);
+    return camera;
+}
+
+scene::Camera framing_camera(const scene::Bounds& bounds, double aspect)
+{
+    glm::dvec3 low(bounds.low);
+    glm::dvec3 high(bounds.high);
+    if (!(glm::length(high - low) > 0.0)) {
+        low = glm::dvec3(-0.5);
+        high = glm::dvec3(0.5);
+    }
+    const glm::dvec3 centre = 0.5 * (low + high);
+    const double azimuth = 35.0 * kDegree;
+    const double elevation = 20.0 * kDegree;
+    const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                          std::cos(azimuth) * std::cos(elevation));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), back));
+    const glm::dvec3 up = glm::cross(back, right);
+    const double tan_y = std::tan(0.5 * kFramingFov_rad);
+    const double tan_x = tan_y * aspect;
+    // Each corner asks for a distance from the centre at which it just touches the edge of the
+    // frame.
+    double distance = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p = glm::dvec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                        corner & 4 ? high.z : low.z) -
+                             centre;
+        const double nearer = glm::dot(p, back);
+        distance = std::max({distance, nearer + std::abs(glm::dot(p, up)) / tan_y,
+                             nearer + std::abs(glm::dot(p, right)) / tan_x});
+    }
+    distance *= 1.05;  // a little air around it
+    scene::Camera camera = camera_towards(centre + back * distance, centre, kFramingFov_rad);
+    camera.name = "framed";
+    camera.near_m = static_cast<float>(std::max(1e-4, distance * 0.002));
+    return camera;
+}
+
+scene::Camera camera_at(const ScenarioCamera& camera, const scene::Scene& scene,
+                        const scene::Bounds& bounds, double aspect, double time_s)
+{
+    scene::Camera result;
+    const bool placed = !camera.keys.empty() && camera.keys.front().position_m.has_value();
+    if (placed) {
+        const auto position =
+            path_of(camera.keys, [](const CameraKey& key) { return *key.position_m; });
+        const auto target =
+            path_of(camera.keys, [](const CameraKey& key) { return *key.look_at_m; });
+        const auto fov = path_of(camera.keys, [](const CameraKey& key) {
+            return glm::dvec3(key.fov_degrees ? *key.fov_degrees * kDegree : kDefaultFov_rad, 0.0,
+                              0.0);
+        });
+        result = camera_towards(point_at(position, camera.interpolation, time_s),
+                                point_at(target, camera.interpolation, time_s),
+                                point_at(fov, camera.interpolation, time_s).x);
+        result.name = "scenario";
+    } else if (!camera.name.empty()) {
+        result = named_camera(scene, camera.name);
+    } else if (!scene.cameras.empty()) {
+        result = scene.cameras.front();
+    } else {
+        result = framing_camera(bounds, aspect);
+    }
+    if (!placed && !camera.keys.empty() && camera.keys.front().fov_degrees) {
+        result.vertical_fov_rad = static_cast<float>(*camera.keys.front().fov_degrees * kDegree);
+    }
+    if (camera.near_m) result.near_m = static_cast<float>(*camera.near_m);
+    return result;
+}
+
+}  // namespace petrichor::film

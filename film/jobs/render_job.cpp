@@ -1,0 +1,185 @@
+#include "film/jobs/render_job.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "film/data/folders.h"
+#include "film/frames/film.h"
+#include "film/frames/frame_writer.h"
+#include "film/frames/frames_jsonl.h"
+#include "film/scenes/scene_file.h"
+#include "film/scenes/scene_textures.h"
+
+namespace petrichor::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool stopped(const RenderRequest& request)
+{
+    return request.stop && request.stop();
+}
+
+// One frame that still has to be rendered.
+struct Pending {
+    int index = 0;
+    SequenceFrame frame;
+    std::string fingerprint;
+};
+
+bool is_kept(const std::map<int, FrameRecord>& records, int frame, const std::string& fingerprint,
+             const ScenarioOutput& output, const fs::path& folder)
+{
+    const auto found = records.find(frame);
+    if (found == records.end() || found->second.settings != fingerprint) return false;
+    const auto has = [&](const char* extension) {
+        return found->second.files.count(frame_file_name(frame, extension)) != 0;
+    };
+    return (!output.exr || has("exr")) && (!output.png || has("png")) &&
+           files_are_whole(found->second, folder);
+}
+
+std::vector<Pending> pending_frames(const Sequence& sequence, const RenderRequest& request)
+{
+    std::map<int, FrameRecord> records;
+    if (request.resume) records = read_frame_records(request.folder);
+    std::vector<Pending> pending;
+    for (int i = request.range.first; i <= request.range.last; ++i) {
+        Pending one{i, frame_at(sequence, i), ""};
+        one.fingerprint = frame_fingerprint(sequence, one.frame.frame);
+        if (is_kept(records, i, one.fingerprint, sequence.scenario.output, request.folder))
+            continue;
+        pending.push_back(std::move(one));
+    }
+    return pending;
+}
+
+// Frames of the whole sequence that are not there as they should be, for the film.
+int frames_missing_for_film(const Sequence& sequence, const fs::path& folder)
+{
+    const auto records = read_frame_records(folder);
+    int missing = 0;
+    for (int i = 0; i < sequence.scenario.output.frames; ++i) {
+        const auto fingerprint = frame_fingerprint(sequence, frame_at(sequence, i).frame);
+        if (!is_kept(records, i, fingerprint, sequence.scenario.output, folder)) ++missing;
+    }
+    return missing;
+}
+
+void finish_film(const Sequence& sequence, const RenderRequest& request, RenderReport& report)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    if (!output.film || !output.png || output.frames < 2) return;
+    const fs::path film = request.folder / "film.mp4";
+    if (report.rendered == 0 && fs::exists(film)) return;
+    if (find_ffmpeg().empty()) {
+        report.notes.push_back("no film: ffmpeg is not installed (apt-get install ffmpeg)");
+        return;
+    }
+    if (const int missing = frames_missing_for_film(sequence, request.folder)) {
+        // An older film would show other frames than those beside it.
+        std::error_code ignored;
+        fs::remove(film, ignored);
+        report.notes.push_back("no film yet: " + std::to_string(missing) + " of " +
+                               std::to_string(output.frames) + " frames are not rendered");
+        return;
+    }
+    make_film(request.folder, 0, output.frames, output.fps, film);
+    report.film = true;
+}
+
+gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request)
+{
+    gpu::Renderer renderer({.device = request.device, .validation = request.validation});
+    const auto textures =
+        prepare_textures(sequence.scene, {.max_size = sequence.scenario.scene.max_texture,
+                                          .threads = request.threads,
+                                          .stop = request.stop});
+    renderer.load(sequence.scene, textures);
+    if (!sequence.scenario.sky.environment.empty()) {
+        renderer.set_environment(
+            read_environment(sequence.scenario.folder / sequence.scenario.sky.environment));
+    }
+    return renderer;
+}
+
+void render_frames(Sequence& sequence, const RenderRequest& request,
+                   const std::vector<Pending>& pending, RenderReport& report)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    gpu::Renderer renderer = make_renderer(sequence, request);
+    const int count = static_cast<int>(pending.size());
+    if (request.watcher) request.watcher->begin(count, output, renderer.device());
+    std::uint32_t overflows = 0;
+    {
+        FrameWriter writer(request.folder, {output.exr, output.png});
+        for (const Pending& one : pending) {
+            if (stopped(request)) break;
+            gpu::RenderResult result = renderer.render(one.frame.frame);
+            overflows = std::max(overflows, result.light_list_overflows);
+            FrameFacts facts;
+            facts.frame = one.index;
+            facts.time_s = one.frame.time_s;
+            facts.temperature_c = one.frame.temperature_c;
+            facts.weather = request.weather_name;
+            facts.settings = one.fingerprint;
+            facts.input = one.frame.frame;
+            writer.write(std::move(facts), std::move(result));
+            if (request.watcher) request.watcher->written(writer.written());
+        }
+        writer.finish();
+        report.rendered = writer.written();
+        if (request.watcher) request.watcher->written(report.rendered);
+    }
+    report.graph = renderer.describe_graph();
+    if (overflows > 0) {
+        report.notes.push_back(
+            "up to " + std::to_string(overflows) +
+            " tiles of a frame see more lights than a list holds; the faintest are left out");
+    }
+    report.validation = renderer.validation_messages();
+}
+
+long peak_memory_mib()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+}
+
+}  // namespace
+
+RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
+{
+    const auto start = std::chrono::steady_clock::now();
+    RenderReport report;
+    const int asked = request.range.last - request.range.first + 1;
+    const auto stop = [&](int done) {
+        return Interrupted("interrupted: " + std::to_string(done) + " of " + std::to_string(asked) +
+                           " frames are in " + request.folder.string() +
+                           "\n  Go on with: " + request.command);
+    };
+    const auto pending = pending_frames(sequence, request);
+    report.kept = asked - static_cast<int>(pending.size());
+    try {
+        if (!pending.empty()) render_frames(sequence, request, pending, report);
+        if (stopped(request)) throw stop(report.kept + report.rendered);
+        finish_film(sequence, request, report);
+    } catch (const std::exception&) {
+        // Ctrl-C reaches the image readers and ffmpeg too; what they say then is not the news.
+        if (stopped(request)) throw stop(report.kept + report.rendered);
+        throw;
+    }
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.peak_mib = peak_memory_mib();
+    return report;
+}
+
+}  // namespace petrichor::film

@@ -1,0 +1,239 @@
+#include "film/jobs/sequence.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "film/jobs/camera.h"
+#include "film/jobs/sun.h"
+
+namespace petrichor::film {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kLargestSide = 16384;
+constexpr std::int64_t kMostPixels = 64 << 20;
+
+std::optional<int> whole_number(std::string_view text)
+{
+    int value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size() || value < 0)
+        return std::nullopt;
+    return value;
+}
+
+float narrow(double value)
+{
+    return static_cast<float>(value);
+}
+
+// 1 with the sun low, 0 with it high.
+double lamp_scale(const ScenarioLights& lights, double sun_elevation_rad)
+{
+    if (lights.lamps == Lamps::Off) return 0.0;
+    if (lights.lamps == Lamps::On) return lights.scale;
+    const double above = sun_elevation_rad * 180.0 / kPi - lights.dusk_degrees;
+    if (above <= 0.0) return lights.scale;
+    if (above >= lights.dusk_fade_degrees) return 0.0;
+    const double u = 1.0 - above / lights.dusk_fade_degrees;
+    return lights.scale * u * u * (3.0 - 2.0 * u);
+}
+
+void add_camera(Hasher& hasher, const scene::Camera& camera)
+{
+    hasher.add_numbers(std::span<const float>(&camera.to_world[0][0], 16));
+    hasher.add(camera.vertical_fov_rad);
+    hasher.add(camera.near_m);
+    hasher.add(camera.orthographic_height_m);
+}
+
+void add_sky(Hasher& hasher, const gpu::Sky& sky)
+{
+    static_assert(sizeof(gpu::Sky) == 9 * sizeof(float), "hash the new field too");
+    for (const float value :
+         {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover,
+          sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad}) {
+        hasher.add(value);
+    }
+    hasher.add(sky.analytic_sun);
+}
+
+void add_light(Hasher& hasher, const scene::Light& light)
+{
+    hasher.add(light.kind);
+    for (const glm::vec3& v : {light.color, light.position_m, light.direction}) {
+        hasher.add(v.x);
+        hasher.add(v.y);
+        hasher.add(v.z);
+    }
+    for (const float value :
+         {light.intensity, light.range_m, light.inner_cone_rad, light.outer_cone_rad}) {
+        hasher.add(value);
+    }
+}
+
+void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
+{
+    hasher.add(settings.width);
+    hasher.add(settings.height);
+    hasher.add(settings.samples);
+    hasher.add(settings.time_s);
+    hasher.add(settings.seed);
+    hasher.add(settings.exposure);
+    hasher.add(settings.exposure_bias_stops);
+    for (const bool flag :
+         {settings.shadows, settings.ambient_occlusion, settings.image_based_light,
+          settings.draw_sky, settings.tone_map, settings.shelter}) {
+        hasher.add(flag);
+    }
+    for (const std::string& aov : settings.aovs) hasher.add(aov);
+}
+
+}  // namespace
+
+FrameRange parse_frame_range(std::string_view text, int count)
+{
+    const std::size_t colon = text.find(':');
+    FrameRange range{0, count - 1};
+    bool good = !text.empty() && text != ":";
+    const std::string_view first = text.substr(0, colon);
+    if (!first.empty()) {
+        const auto number = whole_number(first);
+        good = good && number.has_value();
+        range.first = number.value_or(0);
+    }
+    if (colon == std::string_view::npos) {
+        range.last = range.first;
+    } else if (const std::string_view last = text.substr(colon + 1); !last.empty()) {
+        const auto number = whole_number(last);
+        good = good && number.has_value();
+        range.last = number.value_or(0);
+    }
+    if (!good || range.first > range.last) {
+        throw Error("frames: expected FIRST:LAST (both are rendered) or one number, got \"" +
+                        std::string(text) + "\"",
+                    "For example --frames 0:9 for the first ten, --frames 30 for one.");
+    }
+    if (range.last >= count) {
+        throw Error("frames: the sequence has frames 0 to " + std::to_string(count - 1) +
+                        ", got \"" + std::string(text) + "\"",
+                    "Ask for frames it has, or make it longer with --count or output.frames.");
+    }
+    return range;
+}
+
+void check_size(const ImageSize& size)
+{
+    const bool sides = size.width >= 1 && size.height >= 1 && size.width <= kLargestSide &&
+                       size.height <= kLargestSide;
+    if (!sides || static_cast<std::int64_t>(size.width) * size.height > kMostPixels) {
+        throw Error("size: width and height must be 1 to " + std::to_string(kLargestSide) +
+                        " pixels, together at most " + std::to_string(kMostPixels) + ", got " +
+                        std::to_string(size.width) + "x" + std::to_string(size.height),
+                    "For example --size 1280x720.");
+    }
+}
+
+ImageSize parse_size(std::string_view text)
+{
+    const std::size_t x = text.find_first_of("xX");
+    if (x != std::string_view::npos) {
+        const auto width = whole_number(text.substr(0, x));
+        const auto height = whole_number(text.substr(x + 1));
+        if (width && height) {
+            const ImageSize size{*width, *height};
+            check_size(size);
+            return size;
+        }
+    }
+    throw Error("size: expected WIDTHxHEIGHT in pixels, got \"" + std::string(text) + "\"",
+                "For example --size 1280x720.");
+}
+
+double frame_time_s(const Sequence& sequence, int frame)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    return output.start_s + sequence.duration_s * frame / output.frames;
+}
+
+SequenceFrame frame_at(const Sequence& sequence, int frame)
+{
+    const Scenario& scenario = sequence.scenario;
+    SequenceFrame result;
+    result.time_s = frame_time_s(sequence, frame);
+    const double time_s = result.time_s;
+    const WeatherMoment moment = sequence.weather(time_s);
+    result.temperature_c = moment.temperature_c;
+
+    gpu::Frame& out = result.frame;
+    const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
+    out.camera = camera_at(scenario.camera, sequence.scene, sequence.bounds, aspect, time_s);
+    out.weather = moment.surface;
+
+    const SunDirection sun = sun_at(scenario.sun, sequence.scene, time_s);
+    out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
+    out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad);
+    out.sky.sun_illuminance = narrow(scenario.sun.illuminance_lux);
+    out.sky.cloud_cover = narrow(value_at(scenario.sky.cloud_cover, time_s, moment.cloud_cover));
+    out.sky.turbidity = narrow(value_at(scenario.sky.turbidity, time_s, 2.5));
+    out.sky.ground_albedo = narrow(scenario.sky.ground_albedo);
+    out.sky.environment_scale = narrow(scenario.sky.environment_scale);
+    out.sky.environment_rotation_rad =
+        narrow(scenario.sky.environment_rotation_degrees * kPi / 180.0);
+    out.sky.analytic_sun = !scenario.sun.from_scene;
+
+    const double lamps = lamp_scale(scenario.lights, sun.elevation_rad);
+    out.scene_light_scale = narrow(lamps);
+    out.emissive_scale = narrow(lamps);
+
+    gpu::FrameSettings& settings = out.settings;
+    settings.width = scenario.output.width;
+    settings.height = scenario.output.height;
+    settings.samples = scenario.output.samples;
+    settings.time_s = frame / scenario.output.fps;
+    settings.seed = scenario.output.seed;
+    settings.exposure = narrow(value_at(scenario.camera.exposure, time_s, 0.0));
+    settings.exposure_bias_stops = narrow(value_at(scenario.camera.exposure_bias, time_s, 0.0));
+    settings.shadows = scenario.render.shadows;
+    settings.ambient_occlusion = scenario.render.ambient_occlusion;
+    settings.image_based_light = scenario.render.image_based_light;
+    settings.draw_sky = scenario.render.draw_sky;
+    settings.tone_map = scenario.render.tone_map;
+    settings.shelter = scenario.render.shelter;
+    settings.aovs = scenario.output.aovs;
+    return result;
+}
+
+std::string frame_fingerprint(const Sequence& sequence, const gpu::Frame& frame)
+{
+    Hasher hasher;
+    hasher.add("petrichor " PETRICHOR_VERSION);
+    hasher.add(sequence.content);
+    hasher.add(sequence.scenario.scene.max_texture);
+    for (const MaterialOverride& one : sequence.scenario.materials) {
+        hasher.add(one.glob);
+        for (const auto& [name, values] : one.values) {
+            hasher.add(name);
+            hasher.add_numbers(std::span<const double>(values));
+        }
+    }
+    add_camera(hasher, frame.camera);
+    add_sky(hasher, frame.sky);
+    static_assert(std::is_trivially_copyable_v<gpu::SurfaceWeather> &&
+                      sizeof(gpu::SurfaceWeather) % sizeof(float) == 0,
+                  "all floats: hashed as one run");
+    hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
+    for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
+    hasher.add(frame.scene_light_scale);
+    hasher.add(frame.emissive_scale);
+    add_settings(hasher, frame.settings);
+    return hasher.text();
+}
+
+}  // namespace petrichor::film

@@ -1,0 +1,76 @@
+#ifndef PETRICHOR_FILM_SCENARIO_WEATHER_SCRIPT_H
+#define PETRICHOR_FILM_SCENARIO_WEATHER_SCRIPT_H
+
+#include <string>
+#include <string_view>
+
+#include "weather/models/artist/exact.h"
+#include "weather/models/artist/model.h"
+#include "weather/models/artist/timeline.h"
+
+namespace petrichor::film {
+
+/// A weather preset, or the [weather] table of a scenario: what drives the artist model, and the
+/// sky that goes with it.
+///
+///   name = "drizzle"                      # optional, top level
+///   description = "A grey afternoon."     # optional, top level
+///
+///   [weather]
+///   model = "artist"                      # the default, and the only model of these files
+///   interpolation = "linear"              # hold, linear (default) or smooth
+///   duration_s = 48.0                     # default: time of the last key
+///   keys = [
+///     { time_s =  0, temperature_c = 12, rainfall = 0.0, cloud_cover = 0.3 },
+///     { time_s = 10, temperature_c = 11, rainfall = 0.6 },   # a key may leave out what does not
+///     change
+///   ]
+///
+///   [weather.artist]                      # parameters of the model, as in [artist] of --params
+///   time_scale = 0.5
+///   [weather.artist.initial]              # state at 0 s
+///   water_to_snow = 0.0
+///
+/// A key holds time_s (ascending) and any of: temperature_c (-100..60), rainfall (0..1: rain or
+/// snow), cloud_cover (0 clear .. 1 overcast), wind_m_s (0..80), wind_from_deg (where it comes
+/// from; 0 north, 90 east; may pass 360 to keep turning), visibility_m (20..200000, 2 % contrast),
+/// and any number of [artist]; script_controlled (1 on, 0 off: the state is set by hand) and, for
+/// while it is off, wetness, cracks, puddles, snow, water_to_snow (0..1). Each quantity is
+/// interpolated between the keys that name it; one that no key names keeps the default below, or
+/// the parameter's own value.
+struct WeatherScript {
+    std::string name;
+    std::string description;
+    double duration_s = 0.0;
+    weather::Timeline timeline;
+    weather::ArtistParams params;
+    weather::ArtistState initial;
+    weather::Channel cloud_cover = weather::constant_channel(0.3);
+    weather::Channel wind_m_s = weather::constant_channel(2.0);
+    weather::Channel wind_from_deg = weather::constant_channel(240.0);
+    weather::Channel visibility_m = weather::constant_channel(20000.0);
+
+    /// The solved weather, for any time.
+    weather::ArtistTimeline solve() const
+    {
+        return weather::ArtistTimeline(timeline, params, initial);
+    }
+};
+
+/// Reads [weather] (and name, description) from TOML text; other tables are not looked at, so the
+/// text may be a whole scenario. `file` names the text in messages. Throws Error for syntax,
+/// unknown names (with the nearest that exists), types, ranges and order.
+WeatherScript read_weather_script(std::string_view toml_text, const std::string& file);
+
+/// [artist] and [artist.initial] of a parameter file (petrichor simulate --params); a [site] is
+/// left to others. `time_scale` is that of the model where the file does not say.
+struct ArtistSettings {
+    weather::ArtistParams params;
+    weather::ArtistState initial;
+};
+ArtistSettings read_artist_settings(std::string_view toml_text, const std::string& file,
+                                    double time_scale = 1.0);
+
+}  // namespace petrichor::film
+
+#endif

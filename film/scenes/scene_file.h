@@ -1,0 +1,31 @@
+#ifndef PETRICHOR_FILM_SCENES_SCENE_FILE_H
+#define PETRICHOR_FILM_SCENES_SCENE_FILE_H
+
+#include <filesystem>
+#include <string>
+
+#include "gpu/renderer.h"
+#include "scene/scene.h"
+
+namespace petrichor::film {
+
+/// A scene from disk with the fingerprint of every byte that it is made of.
+struct LoadedScene {
+    scene::Scene scene;
+    std::string fingerprint;
+};
+
+/// Reads a .glb or .gltf file; files that it names are looked for beside it and nowhere else.
+/// Throws Error when the file or one that it names is missing or damaged.
+LoadedScene read_scene(const std::filesystem::path& file);
+
+/// Fingerprint of the bytes of a file. Throws Error when it cannot be read.
+std::string file_fingerprint(const std::filesystem::path& file);
+
+/// Reads a lat-long HDR picture. Throws Error when it is missing, damaged, or not twice as wide as
+/// high.
+gpu::EnvironmentMap read_environment(const std::filesystem::path& file);
+
+}  // namespace petrichor::film
+
+#endif

@@ -1,0 +1,61 @@
+#ifndef PETRICHOR_FILM_TOML_TOML_VALUE_H
+#define PETRICHOR_FILM_TOML_TOML_VALUE_H
+
+#include <toml++/toml.h>
+
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "film/toml/keyed.h"
+
+namespace petrichor::film {
+
+/// One value of a TOML file on its way in: every reader checks type and range, and throws Error
+/// with "file:line: table.key", the value found and the values accepted.
+class TomlValue {
+public:
+    TomlValue(const toml::node& node, std::string file, std::string key)
+        : node_(&node), file_(std::move(file)), key_(std::move(key))
+    {
+    }
+
+    double number(double low, double high) const;
+    int integer(int low, int high) const;
+    bool boolean() const;
+    std::string text() const;
+    /// Index of the word in `words`.
+    int choice(const std::vector<std::string>& words) const;
+    std::vector<double> numbers(std::size_t count, double low, double high) const;
+    glm::dvec3 point() const;
+    std::vector<std::string> texts() const;
+    /// A number, or [[time_s, value], ...] with ascending times.
+    KeyedNumber keyed(double low, double high) const;
+    Interpolation interpolation() const;
+    /// Elements of an array, each under the name key[i].
+    std::vector<TomlValue> elements() const;
+    /// Entries of a table, each under the name key.name; names not in `known` are errors.
+    std::vector<std::pair<std::string, TomlValue>> entries(
+        const std::vector<std::string>& known) const;
+
+    std::string place() const;  ///< "file:line"
+    /// Throws Error: "file:line: key must be EXPECTED, got FOUND".
+    [[noreturn]] void refuse(const std::string& expected) const;
+
+private:
+    const toml::node* node_;
+    std::string file_;
+    std::string key_;
+};
+
+/// Parses TOML; a syntax error becomes an Error with file and line.
+toml::table parse_toml(std::string_view text, const std::string& file);
+
+/// Throws Error for a name that does not exist at a place, with the nearest that does.
+[[noreturn]] void refuse_name(const std::string& place, const std::string& what,
+                              const std::string& name, const std::vector<std::string>& known);
+
+}  // namespace petrichor::film
+
+#endif

@@ -1,0 +1,119 @@
+#include "film/weather/inputs.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/words.h"
+#include "film/data/folders.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+
+Input read_one(const std::string& word)
+{
+    Input input;
+    input.file = word;
+    if (word == "-") {
+        input.text.assign(std::istreambuf_iterator<char>(std::cin), {});
+        input.name = "keys";
+        input.kind = kind_of_text(input.text);
+        return input;
+    }
+    const std::vector<std::string> presets = preset_names("weather");
+    fs::path path = word;
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+        if (std::find(presets.begin(), presets.end(), word) == presets.end()) {
+            throw Error(
+                "simulate: no file and no preset \"" + word + "\"." + did_you_mean(word, presets),
+                presets.empty()
+                    ? "Give a weather file, a CSV of keys or a weather TOML."
+                    : "Give a weather file, a CSV of keys, a weather TOML, or one of: " +
+                          join_words(presets) + ".");
+        }
+        path = data_folder() / "weather" / (word + ".toml");
+    }
+    input.text = read_input_file(path);
+    input.name = path.stem().string();
+    input.kind = path.extension() == ".toml" ? InputKind::Script : kind_of_text(input.text);
+    return input;
+}
+
+}  // namespace
+
+std::string read_input_file(const fs::path& path)
+{
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(path, failed);
+    std::ifstream in(path, std::ios::binary);
+    if (!in || fs::is_directory(path)) {
+        throw Error("simulate: cannot read " + path.string(),
+                    "Give a file that exists, or the name of a preset (simulate --list).");
+    }
+    std::string head(4096, ' ');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (head.find('\0') != head.npos) return head;
+    if (!failed && size > kMostBytes) {
+        throw Error("simulate: " + path.string() + " has " + std::to_string(size) +
+                        " bytes, at most 268435456 are read",
+                    "Give a smaller file.");
+    }
+    std::ostringstream rest;
+    if (in) rest << in.rdbuf();
+    return head + rest.str();
+}
+
+std::string read_checkpoint_file(const fs::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream whole;
+    if (!in || fs::is_directory(path) || !(whole << in.rdbuf())) {
+        throw Error("simulate: --resume: cannot read " + path.string(),
+                    "Give a file that --checkpoint wrote.");
+    }
+    return std::move(whole).str();
+}
+
+InputKind kind_of_text(std::string_view text)
+{
+    weather::Lines lines(text.substr(0, 65536));
+    while (const auto line = lines.next()) {
+        const auto words = weather::trimmed(*line);
+        if (words.empty() || words.front() == '#') continue;
+        const std::string low = weather::lower(words);
+        const auto has = [&](const char* word) { return low.find(word) != low.npos; };
+        const bool some = has("temperature_c") || has("rainfall");
+        // Both without any time are keys whose time column has another name: their reader says so.
+        const bool both = has("temperature_c") && has("rainfall") && !has("time") && !has("date");
+        return (has("time_s") && !has("time_utc") && some) || both ? InputKind::Keys
+                                                                   : InputKind::Weather;
+    }
+    return InputKind::Weather;
+}
+
+std::vector<Input> read_inputs(const std::vector<std::string>& words)
+{
+    std::vector<Input> inputs;
+    for (const std::string& word : words) inputs.push_back(read_one(word));
+    if (inputs.size() > 1) {
+        for (const Input& input : inputs) {
+            if (input.kind == InputKind::Weather) continue;
+            throw Error("simulate: " + input.file + " cannot be joined with other inputs",
+                        "Give several weather files of one place, or one file of keys, one weather "
+                        "TOML or one preset.");
+        }
+    }
+    return inputs;
+}
+
+}  // namespace petrichor::film

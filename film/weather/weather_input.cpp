@@ -1,0 +1,154 @@
+#include "film/weather/weather_input.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "film/toml/toml_value.h"
+#include "weather/models/artist/from_forcing.h"
+#include "weather/readers/join.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::film {
+namespace {
+
+using weather::Field;
+
+weather::ReadOptions read_options(const SiteOptions& options)
+{
+    weather::ReadOptions read;
+    read.site.latitude_deg = options.latitude_deg.value_or(weather::kMissing);
+    read.site.longitude_deg = options.longitude_deg.value_or(weather::kMissing);
+    read.site.elevation_m = options.elevation_m.value_or(weather::kMissing);
+    read.station = options.station;
+    read.filling.missing_precip = options.missing_precip == "estimate"
+                                      ? weather::MissingPrecip::Estimate
+                                      : weather::MissingPrecip::Dry;
+    read.taf = options.taf == "prevailing" ? weather::TafUse::Prevailing
+               : options.taf == "worst"    ? weather::TafUse::Worst
+                                           : weather::TafUse::Expected;
+    if (options.month.empty()) return read;
+    const auto day = weather::us_from_iso(options.month + "-01");
+    if (!day)
+        throw Error("simulate: --month must be like 2024-02, got '" + options.month + "'",
+                    "Give year and month.");
+    const auto civil = weather::civil_from_us(*day);
+    read.year = static_cast<int>(civil.year);
+    read.month = civil.month;
+    return read;
+}
+
+// Degrees that may pass 360, so that from 350 to 10 is a turn of 20 and not of 340.
+weather::Channel unwound(weather::Channel degrees)
+{
+    for (std::size_t i = 1; i < degrees.values.size(); ++i) {
+        double& now = degrees.values[i];
+        now += 360.0 * std::round((degrees.values[i - 1] - now) / 360.0);
+    }
+    return degrees;
+}
+
+}  // namespace
+
+SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
+{
+    if (toml_text.empty()) return options;
+    const toml::table root = parse_toml(toml_text, "--params");
+    for (const auto& [key, node] : root) {
+        const std::string name(key.str());
+        if (name == "artist") continue;
+        const TomlValue value(node, "--params", name);
+        if (name != "site") refuse_name(value.place(), "table", name, {"site", "artist"});
+        const auto put = [](std::optional<double>& option, double number) {
+            option = option.value_or(number);
+        };
+        for (const auto& [k, v] :
+             value.entries({"latitude", "longitude", "elevation_m", "temp_height_m",
+                            "wind_height_m", "sky_view", "canopy_vai", "surface"})) {
+            if (k == "latitude")
+                put(options.latitude_deg, v.number(-90.0, 90.0));
+            else if (k == "longitude")
+                put(options.longitude_deg, v.number(-180.0, 360.0));
+            else if (k == "elevation_m")
+                put(options.elevation_m, v.number(-450.0, 9000.0));
+            else if (k == "temp_height_m")
+                put(options.temp_height_m, v.number(0.3, 200.0));
+            else if (k == "wind_height_m")
+                put(options.wind_height_m, v.number(0.6, 500.0));
+            else if (k == "sky_view")
+                put(options.sky_view, v.number(0.0, 1.0));
+            else if (k == "canopy_vai")
+                put(options.canopy_vai, v.number(0.0, 20.0));
+            else
+                options.surface = v.text();
+        }
+    }
+    return options;
+}
+
+weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOptions& options)
+{
+    std::vector<weather::NamedText> texts;
+    for (const Input& file : files) texts.push_back({file.file, file.text});
+    weather::ReadResult read = weather::read_weather_files(texts, read_options(options));
+    weather::Site& site = read.table.site;
+    site.temp_height_m = options.temp_height_m.value_or(site.temp_height_m);
+    site.wind_height_m = options.wind_height_m.value_or(site.wind_height_m);
+    if (!(site.temp_height_m >= 0.3 && site.temp_height_m <= 200.0) ||
+        !(site.wind_height_m >= 0.6 && site.wind_height_m <= 500.0)) {
+        throw Error(
+            "simulate: sensor heights must be 0.3..200 m (temperature) and 0.6..500 m (wind)",
+            "Set --temp-height-m and --wind-height-m.");
+    }
+    return read;
+}
+
+WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::string& name)
+{
+    WeatherScript script;
+    script.name = name;
+    script.timeline = weather::artist_keys(table);
+    script.duration_s = static_cast<double>(table.time_us.back() - table.time_us.front()) * 1e-6;
+    script.params.time_scale = weather::kFileTimeScale;
+    script.cloud_cover = weather::channel_of_field(table, Field::Cloud);
+    script.wind_m_s = weather::channel_of_field(table, Field::Wind);
+    const auto complete = [&](Field field) {
+        for (const double v : table[field]) {
+            if (std::isnan(v)) return false;
+        }
+        return table.has(field);
+    };
+    if (complete(Field::WindFrom))
+        script.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
+    if (complete(Field::Visibility))
+        script.visibility_m = weather::channel_of_field(table, Field::Visibility);
+    return script;
+}
+
+WeatherScript faster_script(WeatherScript script, double factor)
+{
+    const auto quicken = [&](weather::Channel& channel) {
+        for (weather::TimeUs& time : channel.times)
+            time = static_cast<weather::TimeUs>(std::llround(static_cast<double>(time) / factor));
+    };
+    for (weather::Channel* channel :
+         {&script.timeline.temperature_c, &script.timeline.rainfall, &script.cloud_cover,
+          &script.wind_m_s, &script.wind_from_deg, &script.visibility_m}) {
+        quicken(*channel);
+    }
+    for (auto& [name, channel] : script.timeline.parameters) quicken(channel);
+    for (auto& [name, channel] : script.timeline.states) quicken(channel);
+    script.duration_s /= factor;
+    script.params.time_scale *= factor;
+    return script;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> out;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) out.push_back(line);
+    return out;
+}
+
+}  // namespace petrichor::film

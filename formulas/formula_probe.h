@@ -1,0 +1,99 @@
+// Calls every shared formula with arguments made from twelve numbers of 0..1, so that one test can
+// compare what the device computes with what the CPU computes from the same text.
+#ifndef PETRICHOR_FORMULAS_FORMULA_PROBE_H
+#define PETRICHOR_FORMULAS_FORMULA_PROBE_H
+
+#include "formulas/codec/octahedral.h"
+#include "formulas/color/tone_map.h"
+#include "formulas/light/atmosphere.h"
+#include "formulas/light/brdf.h"
+#include "formulas/weather/ripple.h"
+#include "formulas/weather/surface_weather.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kProbeKinds = 15;
+
+SHARED_FN vec3 probe_direction(float u, float v)
+{
+    const float y = 2.0f * u - 1.0f;
+    const float level = sqrt(max(1.0f - y * y, 0.0f));
+    return vec3(level * cos(6.2831853f * v), y, level * sin(6.2831853f * v));
+}
+
+SHARED_FN vec4 probe_material(WeatheredMaterial m)
+{
+    return vec4(m.albedo.x + m.specular.y, m.smoothness, m.occlusion + m.emission_scale,
+                m.normal_mix);
+}
+
+SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
+{
+    WeatheredMaterial m;
+    m.albedo = vec3(a.x, a.y, a.z);
+    m.specular = vec3(0.04f + 0.6f * a.w);
+    m.smoothness = b.x;
+    m.occlusion = b.y;
+    m.emission_scale = 1.0f;
+    m.normal_mix = 0.0f;
+    if (kind == 0) {
+        const WaterCover w =
+            water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
+        return vec4(w.anywhere, w.deep, 0.0f, 0.0f);
+    }
+    if (kind == 1) {
+        const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w);
+        return vec4(s.snow, s.melt, 0.0f, 0.0f);
+    }
+    if (kind == 2) {
+        return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x),
+                    porosity_from_smoothness(b.y), smooth_edge(a.x, b.z, b.w));
+    }
+    if (kind == 3)
+        return probe_material(apply_water(m, vec2(b.z, b.w), c.x, vec4(c.y, c.y, c.y, c.z), c.w));
+    if (kind == 4) return probe_material(apply_snow(m, b.z, vec3(c.x), vec3(0.02f), c.y, c.z));
+    if (kind == 5) return probe_material(apply_frost(m, b.z));
+    if (kind == 6) {
+        const RippleLayer l = ripple_layer(int(3.999f * a.x), a.y, 10.0f * a.z, 0.5f + a.w);
+        return vec4(l.weight, l.offset.x, l.offset.y, l.clock);
+    }
+    if (kind == 7) {
+        const vec2 s = ripple_slope(vec4(a.x, a.y, a.z, a.w), b.x, b.y);
+        return vec4(s.x, s.y, 0.0f, 0.0f);
+    }
+    if (kind == 8) {
+        const FlowPhases f = flow_phases(10.0f * a.x, 0.5f + a.y);
+        return vec4(f.first, f.second, f.blend, 0.0f);
+    }
+    if (kind == 9) {
+        const float alpha = 0.05f + 0.95f * a.y;
+        return vec4(ggx_distribution(a.x, alpha), ggx_visibility(a.x, a.z, alpha),
+                    schlick_fresnel(vec3(a.w), b.x).y,
+                    light_attenuation(0.2f + 5.0f * b.y, 6.0f * b.z));
+    }
+    if (kind == 10) {
+        const vec3 r =
+            shade_direct(probe_direction(a.x, a.y), probe_direction(a.z, a.w),
+                         probe_direction(b.x, b.y), vec3(b.z), vec3(0.04f), 0.1f + 0.9f * b.w);
+        return vec4(r.x, r.y, r.z, spot_attenuation(c.x, 0.9f, 0.5f * c.y));
+    }
+    if (kind == 11) {
+        const vec2 e = octahedral_encode(probe_direction(a.x, a.y));
+        const vec3 d = octahedral_decode(e);
+        return vec4(e.x, e.y, d.x, d.z);
+    }
+    if (kind == 12) {
+        const vec3 t = tone_map(vec3(8.0f * a.x, a.y, 0.1f * a.z));
+        return vec4(t.x, t.y, t.z, srgb_encode(a.w));
+    }
+    if (kind == 13) {
+        const vec3 t = air_transmittance(2000.0f * a.x, a.y, 1.5f + 8.0f * a.z);
+        return vec4(t.x, t.y, t.z, 0.0f);
+    }
+    const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
+    return vec4(r.x, r.y, r.z, 0.0f);
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,107 @@
+// The dry reflectance model: GGX with height-correlated Smith visibility, Schlick Fresnel, Lambert.
+//
+// Notation: n normal, v to the eye, l to the light, h between them; nl, nv, nh, lh clamped cosines;
+// alpha = perceptual roughness squared. Sources: Walter et al. 2007, Heitz 2014, Schlick 1994.
+#ifndef PETRICHOR_FORMULAS_LIGHT_BRDF_H
+#define PETRICHOR_FORMULAS_LIGHT_BRDF_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+SHARED_CONST float kPi = 3.14159265f;
+
+// Distribution of normals, 1/sr; integrates to 1 over nh.
+SHARED_FN float ggx_distribution(float nh, float alpha)
+{
+    const float a2 = alpha * alpha;
+    const float d = (nh * a2 - nh) * nh + 1.0f;
+    return a2 / (kPi * d * d);
+}
+
+// Visibility = G / (4 nl nv).
+SHARED_FN float ggx_visibility(float nl, float nv, float alpha)
+{
+    const float a2 = alpha * alpha;
+    const float light = nl * sqrt(nv * nv * (1.0f - a2) + a2);
+    const float view = nv * sqrt(nl * nl * (1.0f - a2) + a2);
+    return 0.5f / max(light + view, 1.0e-6f);
+}
+
+SHARED_FN vec3 schlick_fresnel(vec3 f0, float lh)
+{
+    const float m = 1.0f - lh;
+    const float m2 = m * m;
+    return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
+}
+
+// What a lobe needs to know of the surface and the eye: the same for every light.
+struct Lobe {
+    vec3 normal;
+    vec3 view;
+    vec3 diffuse;  // albedo without its specular share, divided by pi
+    vec3 f0;       // reflectance at normal incidence; all zero switches the highlight off
+    float a2;      // alpha squared
+    float nv;
+    float view_term;  // of the visibility
+    float lit;
+};
+
+SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
+{
+    Lobe lobe;
+    lobe.normal = n;
+    lobe.view = v;
+    lobe.diffuse = diffuse * (1.0f / kPi);
+    lobe.f0 = f0;
+    lobe.a2 = alpha * alpha;
+    lobe.nv = clamp(abs(dot(n, v)), 1.0e-4f, 1.0f);
+    lobe.view_term = sqrt(lobe.nv * lobe.nv * (1.0f - lobe.a2) + lobe.a2);
+    lobe.lit = f0.x + f0.y + f0.z > 0.0f ? 1.0f : 0.0f;
+    return lobe;
+}
+
+// Reflected radiance per unit irradiance on a facing plane, times nl.
+SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
+{
+    const float nl = clamp(dot(lobe.normal, l), 0.0f, 1.0f);
+    // Dot products of the half vector without the vector itself.
+    const float lv = dot(l, lobe.view);
+    const float q = inversesqrt(max(2.0f + 2.0f * lv, 1.0e-8f));
+    const float nh = clamp((dot(lobe.normal, l) + dot(lobe.normal, lobe.view)) * q, 0.0f, 1.0f);
+    const float lh = clamp((1.0f + lv) * q, 0.0f, 1.0f);
+    const float d = (nh * lobe.a2 - nh) * nh + 1.0f;
+    const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
+    const float specular =
+        lobe.a2 * 0.5f * lobe.lit / max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-7f);
+    return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
+}
+
+// The same for one light alone.
+//   diffuse   albedo without its specular share
+SHARED_FN vec3 shade_direct(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float alpha)
+{
+    return shade_lobe(make_lobe(n, v, diffuse, f0, alpha), l);
+}
+
+// Window of a punctual light: 1/d^2 that reaches 0 at the range (range 0: unlimited).
+SHARED_FN float light_attenuation(float distance_m, float range_m)
+{
+    const float d2 = max(distance_m * distance_m, 1.0e-4f);
+    if (range_m <= 0.0f) return 1.0f / d2;
+    const float q = distance_m / range_m;
+    const float q2 = q * q;
+    return clamp(1.0f - q2 * q2, 0.0f, 1.0f) / d2;
+}
+
+// Cone of a spot light. cosine: of the angle between its axis and the direction to the point.
+SHARED_FN float spot_attenuation(float cosine, float inner_cosine, float outer_cosine)
+{
+    const float t =
+        clamp((cosine - outer_cosine) / max(inner_cosine - outer_cosine, 1.0e-4f), 0.0f, 1.0f);
+    return t * t;
+}
+
+SHARED_END
+
+#endif

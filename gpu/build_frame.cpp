@@ -1,0 +1,166 @@
+// The frame: which passes run, in which order. Read it as a table of contents.
+#include <algorithm>
+#include <cstring>
+
+#include "gpu/build_frame.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+bool same_sky(const shared::SkyParams& a, const shared::SkyParams& b)
+{
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+// Depth maps are drawn only when their views have changed.
+void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
+                    bool weather)
+{
+    DepthMaps& maps = *r.depth_maps;
+    const float aspect =
+        static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
+    if (frame.settings.shadows) {
+        const auto views = cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
+        if (!maps.shadow_valid || views != maps.shadow_views) {
+            maps.shadow_views = views;
+            maps.shadow_valid = true;
+            add_shadow(graph, maps, *r.scene);
+        }
+    }
+    if (frame.settings.image_based_light && frame.settings.ambient_occlusion) {
+        const auto views = sky_views(frame.camera, r.scene->bounds());
+        if (!maps.sky_valid || views != maps.sky_views) {
+            maps.sky_views = views;
+            maps.sky_valid = true;
+            add_sky_visibility(graph, maps, *r.scene);
+        }
+    }
+    if (frame.settings.shelter && weather) {
+        const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
+        if (!maps.shelter_valid || !(view == maps.shelter_view)) {
+            maps.shelter_view = view;
+            maps.shelter_valid = true;
+            add_shelter(graph, maps, *r.scene);
+        }
+    }
+}
+
+void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
+{
+    SkyMaps& sky = *r.sky;
+    if (!sky.env_brdf_valid) {
+        add_env_brdf(graph, sky);
+        sky.env_brdf_valid = true;
+    }
+    if (r.environment) {
+        const float scale = frame.sky.environment_scale;
+        const float rotation = frame.sky.environment_rotation_rad;
+        if (!sky.drawn_valid || scale != sky.environment_scale ||
+            rotation != sky.environment_rotation_rad) {
+            add_environment(graph, sky, *r.environment, scale, rotation);
+            sky.environment_scale = scale;
+            sky.environment_rotation_rad = rotation;
+            sky.drawn_valid = true;
+        }
+    } else {
+        shared::SkyParams params = sky_params(frame);
+        // Without clouds, time and wind change nothing.
+        if (params.cloud_cover <= 0.0f) {
+            params.time_s = 0.0f;
+            params.wind_m_s = glm::vec2(0.0f);
+        }
+        if (!sky.drawn_valid || !same_sky(params, sky.drawn)) {
+            add_analytic_sky(graph, sky, params);
+            sky.drawn = params;
+            sky.drawn_valid = true;
+        }
+    }
+    Metering metering;
+    metering.sun_illuminance = sun.illuminance;
+    metering.sun_up = sun.direction.y;
+    metering.exposure = frame.settings.exposure;
+    metering.bias = std::exp2(frame.settings.exposure_bias_stops);
+    metering.ambient_scale = frame.settings.image_based_light ? 1.0f : 0.0f;
+    add_sky_light(graph, sky, metering);
+}
+
+void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResources& r)
+{
+    const DepthMaps& maps = *r.depth_maps;
+    for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
+        c.shadow_from_world[i] = maps.shadow_views[i].map_from_world;
+        c.cascade_scale[static_cast<int>(i)] =
+            maps.shadow_views[i].texel_m / std::max(maps.shadow_views[0].texel_m, 1e-9f);
+    }
+    c.shadow_texel_m = maps.shadow_views[0].texel_m;
+    c.cascade_end_m = glm::vec4(cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
+    c.shelter_from_world = maps.shelter_view.map_from_world;
+    if (!maps.shelter_valid) c.flags &= ~FRAME_SHELTER;
+    for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
+        c.sky_from_world[i] = maps.sky_views[i].map_from_world;
+        c.sky_direction[i] =
+            glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
+    }
+    c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
+    c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
+    c.light_count = r.lights->count;
+    c.light_words = r.lights->words();
+    c.directional_count = r.lights->directional;
+}
+
+}  // namespace
+
+FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
+                       const std::vector<std::uint32_t>& aov_kinds)
+{
+    FrameGraph graph;
+    const FrameSettings& settings = frame.settings;
+    const VisibleWeather weather = visible_weather(frame, r.scene_has_constant_weather);
+    const auto time_s = static_cast<float>(settings.time_s);
+
+    if (!r.surface_maps->generated) {
+        add_surface_map_sources(graph, *r.surface_maps);
+        r.surface_maps->generated = true;
+    }
+    if (weather.any) {
+        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
+        add_flow(graph, *r.surface_maps, time_s);
+    }
+    add_depth_maps(graph, frame, sun, r, weather.any);
+    add_sky(graph, frame, sun, r);
+
+    const LightingVariant variant{weather.any,
+                                  settings.shadows,
+                                  settings.image_based_light,
+                                  settings.ambient_occlusion,
+                                  r.scene->emissive(),
+                                  settings.all_lights};
+    ConstantsRange constants{r.constants, 0};
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
+        shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
+        fill_views(c, frame, r);
+        constants.offset = i * r.constants_stride;
+        std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
+
+        add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
+                    c.world_to_clip, c.camera_m, weather);
+        if (i == 0) {
+            for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
+                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot], variant);
+            }
+        }
+        add_light_lists(graph, *r.targets, *r.lights, constants);
+        if (settings.ambient_occlusion) {
+            add_ambient_occlusion(graph, *r.targets, constants);
+        }
+        add_lighting(graph, *r.targets, *r.lights, *r.sky, *r.depth_maps, constants, variant);
+        if (settings.image_based_light) {
+            add_reflections(graph, *r.targets, *r.sky, constants);
+        }
+    }
+    add_resolve(graph, *r.targets, *r.sky, constants);
+    return graph;
+}
+
+}  // namespace petrichor::gpu

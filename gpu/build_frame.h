@@ -1,0 +1,32 @@
+#ifndef PETRICHOR_GPU_BUILD_FRAME_H
+#define PETRICHOR_GPU_BUILD_FRAME_H
+
+#include "gpu/frame/frame_constants.h"
+#include "gpu/passes/lighting/lighting.h"
+#include "gpu/passes/surface/surface.h"
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+/// Everything on the device that a frame reads or writes.
+struct FrameResources {
+    const Device* device = nullptr;
+    const GpuScene* scene = nullptr;
+    FrameTargets* targets = nullptr;
+    SurfaceMaps* surface_maps = nullptr;
+    DepthMaps* depth_maps = nullptr;
+    SkyMaps* sky = nullptr;
+    LightTable* lights = nullptr;
+    GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
+    GpuBuffer* constants = nullptr;   ///< one range a sample
+    VkDeviceSize constants_stride = 0;
+    bool scene_has_constant_weather = false;
+};
+
+/// The passes of one frame in order. Also writes the constants of every sample.
+FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& resources,
+                       const std::vector<std::uint32_t>& aov_kinds);
+
+}  // namespace petrichor::gpu
+
+#endif

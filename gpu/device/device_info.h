@@ -1,0 +1,35 @@
+#ifndef PETRICHOR_GPU_DEVICE_DEVICE_INFO_H
+#define PETRICHOR_GPU_DEVICE_DEVICE_INFO_H
+
+#include <string>
+#include <vector>
+
+namespace petrichor::gpu {
+
+/// One Vulkan device of this machine, as `petrichor doctor` lists it.
+struct DeviceInfo {
+    std::string name;
+    std::string driver;
+    std::string kind;         ///< "discrete", "integrated", "virtual", "cpu" or "other"
+    std::string api_version;  ///< "1.3.230"
+    bool usable = false;
+    std::string why_not;  ///< what is missing, when not usable
+};
+
+/// All Vulkan devices, best first. Empty when there is no loader or no driver; never throws for
+/// that.
+std::vector<DeviceInfo> list_devices();
+
+struct RendererOptions {
+    std::string device;       ///< part of a device name or an index; empty: best GPU, else CPU
+    bool validation = false;  ///< load the validation layer and collect its messages
+};
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;  ///< of the device, all samples of the frame together
+};
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,349 @@
+#include "gpu/device/pipelines.h"
+
+#include <cassert>
+#include <stdexcept>
+
+#include "gpu/device/shaders.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr VkShaderStageFlags kAllStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+
+// Specialization constants in the layout that Vulkan wants; must outlive the create call.
+struct SpecializationInfo {
+    explicit SpecializationInfo(const std::vector<Specialization>& constants)
+    {
+        for (std::size_t i = 0; i < constants.size(); ++i) {
+            entries.push_back({constants[i].id,
+                               static_cast<std::uint32_t>(i * sizeof(std::uint32_t)),
+                               sizeof(std::uint32_t)});
+            values.push_back(constants[i].value);
+        }
+        info.mapEntryCount = static_cast<std::uint32_t>(entries.size());
+        info.pMapEntries = entries.data();
+        info.dataSize = values.size() * sizeof(std::uint32_t);
+        info.pData = values.data();
+    }
+    SpecializationInfo(const SpecializationInfo&) = delete;
+    SpecializationInfo& operator=(const SpecializationInfo&) = delete;
+
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    VkSpecializationInfo info{};
+};
+
+std::string key_of(const std::string& name, const std::vector<Specialization>& specialization)
+{
+    std::string key = name;
+    for (const Specialization& s : specialization) {
+        key += ";" + std::to_string(s.id) + "=" + std::to_string(s.value);
+    }
+    return key;
+}
+
+}  // namespace
+
+Binding sampled(const GpuImage& image, const SamplerHandle& sampler)
+{
+    Binding binding;
+    binding.image = {sampler.get(), image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    return binding;
+}
+
+Binding storage(const GpuImage& image, int mip)
+{
+    Binding binding;
+    binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    const bool slice = mip >= 0 && !image.mip_views.empty();
+    const VkImageView view =
+        slice ? image.mip_views[static_cast<std::size_t>(mip)].get() : image.view.get();
+    binding.image = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    return binding;
+}
+
+Binding uniform(const GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size)
+{
+    Binding binding;
+    binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    binding.buffer = {buffer.buffer.get(), offset, size};
+    return binding;
+}
+
+Binding texels(const GpuBuffer& buffer)
+{
+    Binding binding;
+    binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    binding.texels = buffer.texel_view.get();
+    return binding;
+}
+
+Binding storage_buffer(const GpuBuffer& buffer)
+{
+    Binding binding;
+    binding.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    binding.buffer = {buffer.buffer.get(), 0, VK_WHOLE_SIZE};
+    return binding;
+}
+
+BindingTypes types_of(const std::vector<Binding>& bindings)
+{
+    BindingTypes types;
+    for (const Binding& binding : bindings) types.push_back(binding.type);
+    return types;
+}
+
+VkDescriptorSetLayout PipelineCache::set_layout(const BindingTypes& types)
+{
+    auto& slot = set_layouts_[types];
+    if (slot) return slot.get();
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        bindings.push_back({static_cast<std::uint32_t>(i), types[i], 1, kAllStages, nullptr});
+    }
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device_->handle(), &info, nullptr, &layout),
+          "creating a descriptor set layout");
+    slot = SetLayoutHandle(device_->handle(), layout);
+    return layout;
+}
+
+VkPipelineLayout PipelineCache::layout(const std::vector<BindingTypes>& sets)
+{
+    auto& slot = layouts_[sets];
+    if (slot) return slot.get();
+    std::vector<VkDescriptorSetLayout> set_handles;
+    for (const BindingTypes& types : sets) set_handles.push_back(set_layout(types));
+    const VkPushConstantRange push{kAllStages, 0, kPushBytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = static_cast<std::uint32_t>(set_handles.size());
+    info.pSetLayouts = set_handles.data();
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &push;
+    VkPipelineLayout made = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device_->handle(), &info, nullptr, &made),
+          "creating a pipeline layout");
+    slot = PipelineLayoutHandle(device_->handle(), made);
+    return made;
+}
+
+VkShaderModule PipelineCache::module(const std::string& shader)
+{
+    auto& slot = modules_[shader];
+    if (slot) return slot.get();
+    const auto code = embedded_shader(shader);
+    if (code.empty()) throw std::logic_error("no embedded shader " + shader);
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = code.size_bytes();
+    info.pCode = code.data();
+    VkShaderModule made = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device_->handle(), &info, nullptr, &made), "creating a shader");
+    device_->name(VK_OBJECT_TYPE_SHADER_MODULE, made, shader);
+    slot = ShaderModuleHandle(device_->handle(), made);
+    return made;
+}
+
+const Pipeline& PipelineCache::compute(const std::string& shader,
+                                       const std::vector<Specialization>& specialization,
+                                       const BindingTypes& bindings)
+{
+    auto& slot = pipelines_[key_of(shader, specialization)];
+    if (slot) return *slot;
+    auto made = std::make_unique<Pipeline>();
+    const SpecializationInfo constants(specialization);
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module(shader);
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &constants.info;
+    info.layout = layout({bindings});
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "creating a compute pipeline");
+    device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, shader);
+    made->pipeline = PipelineHandle(device_->handle(), pipeline);
+    made->layout = info.layout;
+    made->set_layouts = {set_layout(bindings)};
+    slot = std::move(made);
+    return *slot;
+}
+
+const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
+{
+    std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
+    for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
+    key += "|" + std::to_string(desc.depth) + "|" + std::to_string(desc.color_write) +
+           std::to_string(desc.depth_equal);
+    auto& slot = pipelines_[key];
+    if (slot) return *slot;
+    auto made = std::make_unique<Pipeline>();
+    const SpecializationInfo constants(desc.specialization);
+
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    const auto add_stage = [&](VkShaderStageFlagBits stage, const std::string& shader) {
+        VkPipelineShaderStageCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        info.stage = stage;
+        info.module = module(shader);
+        info.pName = "main";
+        info.pSpecializationInfo = &constants.info;
+        stages.push_back(info);
+    };
+    add_stage(VK_SHADER_STAGE_VERTEX_BIT, desc.vertex);
+    if (!desc.fragment.empty()) add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment);
+
+    const VkVertexInputBindingDescription stream{0, desc.stride, VK_VERTEX_INPUT_RATE_VERTEX};
+    std::vector<VkVertexInputAttributeDescription> attributes;
+    for (const VertexAttribute& a : desc.attributes) {
+        attributes.push_back({a.location, 0, a.format, a.offset});
+    }
+    VkPipelineVertexInputStateCreateInfo vertex_input{};
+    vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    vertex_input.vertexBindingDescriptionCount = 1;
+    vertex_input.pVertexBindingDescriptions = &stream;
+    vertex_input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
+    vertex_input.pVertexAttributeDescriptions = attributes.data();
+
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+
+    VkPipelineViewportStateCreateInfo viewport{};
+    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.polygonMode = VK_POLYGON_MODE_FILL;
+    raster.lineWidth = 1.0f;
+
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = VK_TRUE;
+    depth.depthWriteEnable = !desc.depth_equal;
+    // Reversed depth: 1 near, 0 far.
+    depth.depthCompareOp = desc.depth_equal ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
+
+    std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colors.size());
+    for (auto& attachment : attachments) attachment.colorWriteMask = desc.color_write ? 0xfu : 0u;
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    blend.pAttachments = attachments.data();
+
+    const VkDynamicState dynamic_states[] = {
+        VK_DYNAMIC_STATE_VIEWPORT_WITH_COUNT, VK_DYNAMIC_STATE_SCISSOR_WITH_COUNT,
+        VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+    VkPipelineDynamicStateCreateInfo dynamic{};
+    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamic.dynamicStateCount = 4;
+    dynamic.pDynamicStates = dynamic_states;
+
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(desc.colors.size());
+    rendering.pColorAttachmentFormats = desc.colors.data();
+    rendering.depthAttachmentFormat = desc.depth;
+
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.pNext = &rendering;
+    info.stageCount = static_cast<std::uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertex_input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &multisample;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = layout(desc.sets);
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(
+        vkCreateGraphicsPipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "creating a graphics pipeline");
+    device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.vertex + "+" + desc.fragment);
+    made->pipeline = PipelineHandle(device_->handle(), pipeline);
+    made->layout = info.layout;
+    for (const BindingTypes& types : desc.sets) made->set_layouts.push_back(set_layout(types));
+    slot = std::move(made);
+    return *slot;
+}
+
+VkDescriptorPool DescriptorArena::new_pool()
+{
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2048}, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 512},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 512},          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 256},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 512},
+    };
+    VkDescriptorPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.maxSets = 256;
+    info.poolSizeCount = 5;
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device_->handle(), &info, nullptr, &pool),
+          "creating a descriptor pool");
+    pools_.emplace_back(device_->handle(), pool);
+    return pool;
+}
+
+VkDescriptorSet DescriptorArena::set(VkDescriptorSetLayout layout,
+                                     const std::vector<Binding>& bindings)
+{
+    VkDescriptorSetAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &layout;
+    VkDescriptorSet made = VK_NULL_HANDLE;
+    for (;;) {
+        info.descriptorPool = current_ < pools_.size() ? pools_[current_].get() : new_pool();
+        const VkResult result = vkAllocateDescriptorSets(device_->handle(), &info, &made);
+        if (result == VK_SUCCESS) break;
+        if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL) {
+            check(result, "allocating descriptors");
+        }
+        ++current_;
+    }
+    std::vector<VkWriteDescriptorSet> writes;
+    for (std::size_t i = 0; i < bindings.size(); ++i) {
+        VkWriteDescriptorSet write{};
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = made;
+        write.dstBinding = static_cast<std::uint32_t>(i);
+        write.descriptorCount = 1;
+        write.descriptorType = bindings[i].type;
+        write.pImageInfo = &bindings[i].image;
+        write.pBufferInfo = &bindings[i].buffer;
+        write.pTexelBufferView = &bindings[i].texels;
+        writes.push_back(write);
+    }
+    vkUpdateDescriptorSets(device_->handle(), static_cast<std::uint32_t>(writes.size()),
+                           writes.data(), 0, nullptr);
+    return made;
+}
+
+void DescriptorArena::reset()
+{
+    for (const auto& pool : pools_) {
+        check(vkResetDescriptorPool(device_->handle(), pool.get(), 0), "resetting descriptors");
+    }
+    current_ = 0;
+}
+
+}  // namespace petrichor::gpu

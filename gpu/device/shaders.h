@@ -1,0 +1,16 @@
+#ifndef PETRICHOR_GPU_DEVICE_SHADERS_H
+#define PETRICHOR_GPU_DEVICE_SHADERS_H
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace petrichor::gpu {
+
+/// SPIR-V of a shader compiled at build time; the name is its file without ".glsl", as
+/// "lighting.comp". Empty when there is none.
+std::span<const std::uint32_t> embedded_shader(const std::string& name);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef PETRICHOR_GPU_FRAME_FRAME_CONSTANTS_H
+#define PETRICHOR_GPU_FRAME_FRAME_CONSTANTS_H
+
+#include "gpu/frame/frame.h"
+#include "gpu/frame/sun.h"
+#include "gpu/frame/view.h"
+
+namespace petrichor::gpu {
+
+/// What of the weather can show in a frame; the rest is not compiled into its shaders.
+struct VisibleWeather {
+    bool any = false;    ///< anything at all, wet air and frost included
+    bool water = false;  ///< standing water
+    bool snow = false;
+};
+
+/// Constants of one jittered sample. Views of the depth maps are filled in by the caller.
+shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
+                                       std::uint32_t sample_index);
+
+/// What of the weather can show in a frame, constant water and snow of materials included.
+VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather);
+
+}  // namespace petrichor::gpu
+
+#endif

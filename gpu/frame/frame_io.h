@@ -1,0 +1,88 @@
+// What every pass of a frame knows: camera, sun, weather. One uniform block a jittered sample.
+#ifndef PETRICHOR_GPU_FRAME_FRAME_IO_H
+#define PETRICHOR_GPU_FRAME_FRAME_IO_H
+
+#include "base/interop.h"
+
+#define SHADOW_CASCADES 3
+#define LIGHT_TILE 16         // pixels a side of a light list
+#define LIGHT_COARSE 8        // light tiles a side of a coarse tile
+#define LIGHT_LIST_MAX 255    // lights a list holds; its first entry is the count
+#define SKY_DIRECTIONS 16     // depth maps over the upper hemisphere, for skylight's shadow
+#define SKY_PREFILTER_MIPS 6  // roughness 0, 0.2 .. 1
+
+SHARED_BEGIN
+
+struct FrameConstants {
+    mat4 world_to_clip;
+    mat4 shadow_from_world[SHADOW_CASCADES];  // to (u, v, depth), reversed depth
+    mat4 shelter_from_world;
+    mat4 sky_from_world[SKY_DIRECTIONS];
+    vec4 sky_direction[SKY_DIRECTIONS];  // towards the sky, unit
+
+    vec3 camera_m;
+    float time_s;
+    vec3 ray_corner;  // perspective: direction through pixel (0, 0) corner, forward part 1 long
+    vec3 ray_dx;      // change per pixel
+    float near_m;
+    vec3 ray_dy;
+    float far_m;  // > 0: orthographic, depth is 1 - distance / far
+    vec3 forward;
+    uint sample_index;
+    vec3 origin_corner;  // orthographic: world position of the corner on the camera plane
+    float pixel_angle;   // radians a pixel spans near the image centre
+
+    vec3 sun_direction;    // towards the sun, unit
+    float shadow_texel_m;  // of the first cascade
+    vec3 sun_illuminance;  // lux by channel on a facing plane, after air and clouds
+    vec4 cascade_end_m;    // view distance where cascade i ends
+    vec4 cascade_scale;    // texel size of cascade i relative to the first
+
+    vec2 flood;  // published levels: cracks, puddles
+    vec2 film;   // published film: albedo, smoothness
+    float rain;
+    float snow_amount;
+    float water_to_snow;
+    float freeze_exp;
+    float melt;
+    float melt_exp;
+    float snow_start_m;
+    float snow_blend_m;
+    float frost;
+    vec3 snow_color;
+    float ripple_tiling;  // repeats per metre
+    float ripple_refraction;
+    vec4 snow_tiling;  // per metre: snow, detail, mask, mask detail
+    vec2 wind_m_s;
+
+    ivec2 size;  // pixels
+    ivec2 light_tiles;
+    ivec2 coarse_tiles;
+    uint light_count;
+    uint light_words;        // 32 lights a word
+    uint directional_count;  // first lights of the table; not in lists
+
+    float ao_radius_m;
+    float ao_strength;
+    float ambient_scale;  // of the environment
+    float sky_scale;      // of what is seen behind the scene
+    float fog_per_m;      // extinction
+    float emissive_scale;
+    float exposure;       // > 0: given; 0: metered
+    float exposure_bias;  // linear factor
+    float samples;
+    float sun_angular_cos;   // cosine of the sun's angular radius
+    float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
+    float bounce;            // share of skylight that hidden directions still send
+    uint flags;
+};
+
+SHARED_END
+
+#define FRAME_SKY 8u
+#define FRAME_TONE_MAP 16u
+#define FRAME_SHELTER 32u
+#define FRAME_ORTHOGRAPHIC 64u
+#define FRAME_SUN_DISC 128u
+
+#endif

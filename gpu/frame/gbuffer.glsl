@@ -1,0 +1,79 @@
+// How the G-buffer is read back. Targets: see gpu/passes/gbuffer.h.
+#ifndef PETRICHOR_GBUFFER_GLSL
+#define PETRICHOR_GBUFFER_GLSL
+
+#include "formulas/codec/octahedral.h"
+#include "gpu/frame/frame_io.h"
+
+// Reflectance in seven bits, by its root: 63 is 0.04, that of glass.
+uint encode_reflectance(float f0)
+{
+    return uint(sqrt(clamp(f0, 0.0, 0.16) / 0.16) * 126.0 + 0.5);
+}
+
+float decode_reflectance(uint code)
+{
+    const float root = float(code) / 126.0;
+    return 0.16 * root * root;
+}
+
+struct GBufferTexel {
+    vec3 base_color;
+    float occlusion;
+    vec3 base_normal;
+    vec3 cover_normal;
+    float roughness;
+    float metallic;
+    float porosity;
+    float f0;      // reflectance of the dielectric part at normal incidence, 0..0.16
+    uint model;
+    vec4 weather;  // film, water, snow, frost
+};
+
+GBufferTexel decode_gbuffer(vec4 color, vec4 normals, vec4 material, vec4 weather)
+{
+    GBufferTexel texel;
+    texel.base_color = color.rgb * color.rgb;
+    texel.occlusion = color.a;
+    texel.base_normal = octahedral_decode(normals.xy);
+    texel.cover_normal = octahedral_decode(normals.zw);
+    texel.roughness = material.x;
+    texel.metallic = material.y;
+    texel.porosity = material.z;
+    const uint code = uint(material.w * 255.0 + 0.5);
+    texel.model = code & 1u;
+    texel.f0 = decode_reflectance(code >> 1);
+    texel.weather = weather;
+    return texel;
+}
+
+// Direction from the eye through a pixel centre; perspective: its forward part is 1 long.
+vec3 pixel_ray(FrameConstants frame, vec2 pixel)
+{
+    return frame.ray_corner + frame.ray_dx * pixel.x + frame.ray_dy * pixel.y;
+}
+
+// World position of a pixel from its depth (> 0).
+vec3 pixel_position(FrameConstants frame, vec2 pixel, float depth)
+{
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.origin_corner + frame.ray_dx * pixel.x + frame.ray_dy * pixel.y +
+               frame.forward * ((1.0 - depth) * frame.far_m);
+    }
+    return frame.camera_m + pixel_ray(frame, pixel) * (frame.near_m / depth);
+}
+
+vec3 pixel_view_direction(FrameConstants frame, vec2 pixel)
+{
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) return frame.forward;
+    return normalize(pixel_ray(frame, pixel));
+}
+
+// Distance along the view axis.
+float linear_depth(FrameConstants frame, float depth)
+{
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) return (1.0 - depth) * frame.far_m;
+    return frame.near_m / max(depth, 1.0e-9);
+}
+
+#endif

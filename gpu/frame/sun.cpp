@@ -1,0 +1,48 @@
+#include "gpu/frame/sun.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formulas/light/atmosphere.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+float cloud_shadow(float cover)
+{
+    return 1.0f - glm::smoothstep(0.25f, 0.95f, cover);
+}
+
+}  // namespace
+
+glm::vec3 sun_direction(const Sky& sky)
+{
+    const float level = std::cos(sky.sun_elevation_rad);
+    return {level * std::sin(sky.sun_azimuth_rad), std::sin(sky.sun_elevation_rad),
+            -level * std::cos(sky.sun_azimuth_rad)};
+}
+
+glm::vec3 sunlight_at_ground(const Sky& sky)
+{
+    const float up = std::sin(sky.sun_elevation_rad);
+    const float risen = glm::smoothstep(-0.01f, 0.015f, up);
+    return shared::air_transmittance(2.0f, std::max(up, 0.0f), sky.turbidity) *
+           (sky.sun_illuminance * risen);
+}
+
+Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
+{
+    Sun sun;
+    if (sky.analytic_sun) {
+        sun.direction = sun_direction(sky);
+        sun.illuminance = sunlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
+        sun.disc = !has_environment;
+    } else if (scene_sun) {
+        sun.direction = -scene_sun->direction;
+        sun.illuminance = scene_sun->color * scene_sun->intensity;
+    }
+    return sun;
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,27 @@
+#ifndef PETRICHOR_GPU_FRAME_SUN_H
+#define PETRICHOR_GPU_FRAME_SUN_H
+
+#include "gpu/frame/frame.h"
+
+namespace petrichor::gpu {
+
+/// The sun as the ground sees it: direction towards it and illuminance after air and clouds.
+struct Sun {
+    glm::vec3 direction{0.0f, 1.0f, 0.0f};
+    glm::vec3 illuminance{0.0f};
+    bool disc = false;
+};
+
+/// From the analytic sky, or from `scene_sun` (a directional light) when the frame asks for it.
+Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment);
+
+/// Towards the sun, unit, by the angles of the sky.
+glm::vec3 sun_direction(const Sky& sky);
+
+/// Lux by channel on a plane that faces a sun without clouds, at the ground: its way through the
+/// air.
+glm::vec3 sunlight_at_ground(const Sky& sky);
+
+}  // namespace petrichor::gpu
+
+#endif

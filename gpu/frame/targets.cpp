@@ -1,0 +1,85 @@
+#include "gpu/frame/targets.h"
+
+#include <algorithm>
+
+#include "gpu/frame/frame_io.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+int divide_up(int value, int by)
+{
+    return (value + by - 1) / by;
+}
+
+}  // namespace
+
+int FrameTargets::tiles_x() const
+{
+    return divide_up(width, LIGHT_TILE);
+}
+int FrameTargets::tiles_y() const
+{
+    return divide_up(height, LIGHT_TILE);
+}
+int FrameTargets::coarse_x() const
+{
+    return divide_up(tiles_x(), LIGHT_COARSE);
+}
+int FrameTargets::coarse_y() const
+{
+    return divide_up(tiles_y(), LIGHT_COARSE);
+}
+
+FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
+                                int light_words)
+{
+    FrameTargets targets;
+    targets.width = width;
+    targets.height = height;
+    targets.nearest = make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true);
+    const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+        return arena.image({.name = name,
+                            .format = format,
+                            .width = width,
+                            .height = height,
+                            .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
+    targets.gbuffer.depth =
+        target("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    targets.gbuffer.color = target("color", VK_FORMAT_R8G8B8A8_UNORM, color);
+    targets.gbuffer.normals = target("normals", VK_FORMAT_R16G16B16A16_SNORM, color);
+    targets.gbuffer.material = target("material", VK_FORMAT_R8G8B8A8_UNORM, color);
+    targets.gbuffer.weather = target("weather", VK_FORMAT_R8G8B8A8_UNORM, color);
+    targets.gbuffer.emission = target("emission", VK_FORMAT_R16G16B16A16_SFLOAT, color);
+    targets.occlusion = target("screen_occlusion", VK_FORMAT_R8_UNORM, storage);
+    targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
+    targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
+    targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
+    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
+
+    const auto pixels = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height);
+    const auto tiles = static_cast<VkDeviceSize>(targets.tiles_x() * targets.tiles_y());
+    const auto coarse = static_cast<VkDeviceSize>(targets.coarse_x() * targets.coarse_y());
+    const VkBufferUsageFlags table =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    targets.coarse_lights =
+        arena.buffer({.name = "coarse_lights",
+                      .size = coarse * static_cast<VkDeviceSize>(std::max(light_words, 1)) * 4,
+                      .usage = table,
+                      .texel_format = VK_FORMAT_R32_UINT});
+    targets.light_lists = arena.buffer({.name = "light_lists",
+                                        .size = tiles * (LIGHT_LIST_MAX + 1) * 4,
+                                        .usage = table,
+                                        .texel_format = VK_FORMAT_R32_UINT,
+                                        .host = true});
+    targets.beauty = arena.buffer({.name = "beauty", .size = pixels * 8, .host = true});
+    targets.display = arena.buffer({.name = "display", .size = pixels * 4, .host = true});
+    return targets;
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,210 @@
+#include "gpu/frame/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petrichor::gpu {
+
+namespace {
+
+struct Axes {
+    glm::vec3 position, right, up, forward;
+};
+
+// The camera's frame without the scale that a node may carry.
+Axes axes_of(const Camera& camera)
+{
+    const glm::mat4& m = camera.to_world;
+    Axes axes;
+    axes.position = glm::vec3(m[3]);
+    axes.forward = -glm::normalize(glm::vec3(m[2]));
+    axes.right = glm::normalize(glm::cross(axes.forward, glm::vec3(m[1])));
+    axes.up = glm::cross(axes.right, axes.forward);
+    return axes;
+}
+
+// Distances along the view axis between which the scene lies.
+glm::vec2 depth_range_m(const Axes& axes, const Bounds& scene)
+{
+    glm::vec2 range(1e30f, -1e30f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1) ? scene.high.x : scene.low.x,
+                          (corner & 2) ? scene.high.y : scene.low.y,
+                          (corner & 4) ? scene.high.z : scene.low.z);
+        const float along = glm::dot(p - axes.position, axes.forward);
+        range.x = std::min(range.x, along);
+        range.y = std::max(range.y, along);
+    }
+    return range;
+}
+
+float far_m(const Axes& axes, const Camera& camera, const Bounds& scene)
+{
+    return std::max(depth_range_m(axes, scene).y * 1.01f, camera.near_m * 4.0f);
+}
+
+// What the maps from above cover: a small scene whole, else the surroundings of the camera.
+struct Window {
+    glm::vec3 centre_m;
+    float radius_m;
+};
+Window window_of(const Axes& axes, const Bounds& scene)
+{
+    const float reach = 40.0f;
+    const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
+    if (scene_radius <= reach * 1.2f) {
+        return {0.5f * (scene.low + scene.high), std::max(scene_radius, 1e-3f)};
+    }
+    glm::vec3 level(axes.forward.x, 0.0f, axes.forward.z);
+    if (glm::length(level) > 1e-3f) level = glm::normalize(level);
+    const glm::vec3 ahead = axes.position + level * (0.6f * reach);
+    // Steps of four metres: the maps are kept while the camera moves less.
+    return {glm::round(ahead * 0.25f) * 4.0f, reach};
+}
+
+}  // namespace
+
+glm::vec2 sample_offset(std::uint32_t index, std::uint32_t seed)
+{
+    if (index == 0) return glm::vec2(0.0f);
+    // A rank-1 lattice by the plastic number: even over any count. The seed picks where it starts.
+    const double start = static_cast<double>(seed % 4096u) * 0.618033988749895;
+    const double i = static_cast<double>(index) + start;
+    const auto within_pixel = [](double x) { return static_cast<float>(x - std::floor(x)) - 0.5f; };
+    return {within_pixel(0.7548776662466927 * i), within_pixel(0.5698402909980532 * i)};
+}
+
+void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int height,
+                const glm::vec2& jitter, const Bounds& scene)
+{
+    const Axes axes = axes_of(camera);
+    const auto w = static_cast<float>(width);
+    const auto h = static_cast<float>(height);
+    const bool orthographic = camera.orthographic_height_m > 0.0f;
+    const float half_y = orthographic ? 0.5f * camera.orthographic_height_m
+                                      : std::tan(0.5f * camera.vertical_fov_rad);
+    const float half_x = half_y * w / h;
+
+    glm::mat4 view(1.0f);
+    for (int i = 0; i < 3; ++i) {
+        view[i][0] = axes.right[i];
+        view[i][1] = axes.up[i];
+        view[i][2] = -axes.forward[i];
+    }
+    view[3] = glm::vec4(-glm::dot(axes.right, axes.position), -glm::dot(axes.up, axes.position),
+                        glm::dot(axes.forward, axes.position), 1.0f);
+    glm::mat4 projection(0.0f);
+    projection[0][0] = 1.0f / half_x;
+    projection[1][1] = -1.0f / half_y;
+    if (orthographic) {
+        c.far_m = far_m(axes, camera, scene);
+        c.flags |= FRAME_ORTHOGRAPHIC;
+        projection[2][2] = 1.0f / c.far_m;
+        projection[3][2] = 1.0f;
+        projection[3][3] = 1.0f;
+    } else {
+        projection[2][3] = -1.0f;
+        projection[3][2] = camera.near_m;
+    }
+    // The picture moves against the jitter, so that each pixel sees its sample at the centre.
+    glm::mat4 shift(1.0f);
+    shift[3][0] = -2.0f * jitter.x / w;
+    shift[3][1] = -2.0f * jitter.y / h;
+    c.world_to_clip = shift * projection * view;
+
+    c.camera_m = axes.position;
+    c.forward = axes.forward;
+    c.near_m = camera.near_m;
+    c.ray_dx = axes.right * (2.0f * half_x / w);
+    c.ray_dy = -axes.up * (2.0f * half_y / h);
+    const glm::vec3 corner =
+        -axes.right * half_x + axes.up * half_y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
+    c.ray_corner = axes.forward + corner;
+    c.origin_corner = axes.position + corner;
+    c.pixel_angle = 2.0f * half_y / h;
+    c.size = glm::ivec2(width, height);
+}
+
+glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene)
+{
+    const Axes axes = axes_of(camera);
+    const float end = std::min(far_m(axes, camera, scene), 250.0f);
+    const float begin =
+        std::max(camera.near_m, std::max(depth_range_m(axes, scene).x, 0.02f * end));
+    glm::vec3 ends;
+    for (int i = 0; i < SHADOW_CASCADES; ++i) {
+        const float t = static_cast<float>(i + 1) / SHADOW_CASCADES;
+        const float logarithmic = begin * std::pow(end / begin, t);
+        const float even = begin + (end - begin) * t;
+        ends[i] = 0.75f * logarithmic + 0.25f * even;
+    }
+    return ends;
+}
+
+std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float aspect,
+                                                     const glm::vec3& to_sun, const Bounds& scene)
+{
+    const Axes axes = axes_of(camera);
+    const glm::vec3 ends = cascade_ends_m(camera, scene);
+    const bool orthographic = camera.orthographic_height_m > 0.0f;
+    const float half_y = orthographic ? 0.5f * camera.orthographic_height_m
+                                      : std::tan(0.5f * camera.vertical_fov_rad);
+    std::array<DepthView, SHADOW_CASCADES> views;
+    for (int i = 0; i < SHADOW_CASCADES; ++i) {
+        const float begin = i == 0 ? camera.near_m : ends[i - 1] * 0.97f;
+        const float end = ends[i];
+        // The sphere around a slice of the view: its size does not change as the camera turns.
+        const float k = half_y * half_y * (1.0f + aspect * aspect);
+        float along;
+        float radius;
+        if (orthographic) {
+            along = 0.5f * (begin + end);
+            radius = std::sqrt(k + 0.25f * (end - begin) * (end - begin));
+        } else {
+            along = std::min(0.5f * (begin + end) * (1.0f + k), end);
+            radius = std::sqrt((end - along) * (end - along) + k * end * end);
+        }
+        const glm::vec3 scene_centre = 0.5f * (scene.low + scene.high);
+        const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
+        glm::vec3 centre = axes.position + axes.forward * along;
+        if (scene_radius < radius) {  // a small scene: no texels are spent around it
+            centre = scene_centre;
+            radius = scene_radius;
+        }
+        views[static_cast<std::size_t>(i)] =
+            orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, kShadowMapSize);
+    }
+    return views;
+}
+
+glm::vec3 sky_direction(int index)
+{
+    const float u = (static_cast<float>(index) + 0.5f) / SKY_DIRECTIONS;
+    const float phi = 2.3999632f * static_cast<float>(index);
+    const float level = std::sqrt(u);
+    return {level * std::cos(phi), std::sqrt(1.0f - u), level * std::sin(phi)};
+}
+
+std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene)
+{
+    const Window window = window_of(axes_of(camera), scene);
+    std::array<DepthView, SKY_DIRECTIONS> views;
+    for (int i = 0; i < SKY_DIRECTIONS; ++i) {
+        views[static_cast<std::size_t>(i)] = orthographic_view(-sky_direction(i), window.centre_m,
+                                                               window.radius_m, scene, kSkyMapSize);
+    }
+    return views;
+}
+
+DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene)
+{
+    const Axes axes = axes_of(camera);
+    // Drops fall at about 6.5 m/s. Steps of half a metre a second keep the map while the wind
+    // wavers.
+    const glm::vec2 wind = glm::clamp(glm::round(wind_m_s * 2.0f) * 0.5f, -6.0f, 6.0f);
+    const glm::vec3 fall = glm::normalize(glm::vec3(wind.x, -6.5f, wind.y));
+    const Window window = window_of(axes, scene);
+    return orthographic_view(fall, window.centre_m, window.radius_m, scene, kShelterMapSize);
+}
+
+}  // namespace petrichor::gpu

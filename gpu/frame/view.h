@@ -1,0 +1,35 @@
+#ifndef PETRICHOR_GPU_FRAME_VIEW_H
+#define PETRICHOR_GPU_FRAME_VIEW_H
+
+#include <array>
+
+#include "gpu/frame/depth_view.h"
+
+namespace petrichor::gpu {
+
+/// Where sample `index` of `count` lies inside its pixel, -0.5..0.5. Sample 0 is the centre.
+glm::vec2 sample_offset(std::uint32_t index, std::uint32_t seed);
+
+/// Camera part of the constants: matrices and pixel rays, for pixels moved by `jitter`.
+void set_camera(shared::FrameConstants& constants, const Camera& camera, int width, int height,
+                const glm::vec2& jitter, const Bounds& scene);
+
+/// Ends of the shadow cascades along the view axis, metres.
+glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene);
+
+/// The cascades' views from the sun. `to_sun` is a unit vector.
+std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float aspect,
+                                                     const glm::vec3& to_sun, const Bounds& scene);
+
+/// Direction `index` of SKY_DIRECTIONS towards the sky, spread by the cosine with the vertical.
+glm::vec3 sky_direction(int index);
+
+/// The views from all over the sky, around the camera.
+std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene);
+
+/// The view along the falling rain, around the camera; wind tilts it.
+DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene);
+
+}  // namespace petrichor::gpu
+
+#endif

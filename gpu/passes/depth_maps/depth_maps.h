@@ -1,0 +1,47 @@
+#ifndef PETRICHOR_GPU_PASSES_DEPTH_MAPS_DEPTH_MAPS_H
+#define PETRICHOR_GPU_PASSES_DEPTH_MAPS_DEPTH_MAPS_H
+
+#include <array>
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/depth_view.h"
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+struct DepthMaps {
+    DepthMaps(const Device& device, MemoryArena& arena);
+
+    std::unique_ptr<GpuImage> shadow;   ///< one layer a cascade
+    std::unique_ptr<GpuImage> shelter;  ///< seen along the falling rain
+    std::unique_ptr<GpuImage> sky;      ///< seen from directions over the upper hemisphere
+    SamplerHandle compare;              ///< lit when at least as near as the map
+    std::vector<ImageViewHandle> shadow_layers;
+    std::vector<ImageViewHandle> sky_layers;
+    // What the maps hold now; equal views are not drawn again.
+    std::array<DepthView, SHADOW_CASCADES> shadow_views;
+    DepthView shelter_view;
+    std::array<DepthView, SKY_DIRECTIONS> sky_views;
+    bool shadow_valid = false;
+    bool shelter_valid = false;
+    bool sky_valid = false;
+};
+
+// Depth of the scene from the sun, all cascades.
+//
+//   writes   shadow
+void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+
+// Depth of the scene from all over the sky, for the shadow of skylight.
+//
+//   writes   sky
+void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+
+// Depth of the scene along the falling rain.
+//
+//   writes   shelter
+void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+
+}  // namespace petrichor::gpu
+
+#endif

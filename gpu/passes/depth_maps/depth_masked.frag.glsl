@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/upload/material_io.h"
+
+layout(set = 0, binding = 0, scalar) uniform Material { MaterialConstants material; };
+layout(set = 0, binding = 1) uniform sampler2D base_color_map;
+
+layout(location = 0) in vec4 in_uv;
+
+void main()
+{
+    const bool second = (material.flags & (65536u << TEXTURE_BASE_COLOR)) != 0u;
+    const vec2 p = second ? in_uv.zw : in_uv.xy;
+    const TextureTransform t = material.transforms[TEXTURE_BASE_COLOR];
+    const vec2 uv = vec2(dot(t.row0.xy, p) + t.row0.z, dot(t.row1.xy, p) + t.row1.z);
+    float alpha = material.base_color.a;
+    if ((material.flags & 1u) != 0u) alpha *= texture(base_color_map, uv).a;
+    if (alpha < material.alpha_cutoff) discard;
+}

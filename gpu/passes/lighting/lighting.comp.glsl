@@ -1,0 +1,280 @@
+#version 460
+// Lights the G-buffer: weather is applied to the dry material here, in one place; then sun, lights from
+// the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/brdf.h"
+#include "gpu/frame/gbuffer.glsl"
+#include "gpu/upload/material_io.h"
+#include "gpu/passes/sky/sky_light_io.h"
+#include "formulas/noise/noise.glsl"
+#include "formulas/weather/surface_weather.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint WEATHER = 1u;
+layout(constant_id = 1) const uint SHADOWS = 1u;
+layout(constant_id = 2) const uint IMAGE_BASED_LIGHT = 1u;
+layout(constant_id = 3) const uint AMBIENT_OCCLUSION = 1u;
+layout(constant_id = 4) const uint EMISSION = 1u;
+layout(constant_id = 5) const uint ALL_LIGHTS = 0u;  // 1: no lists; what they are tested against
+
+layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
+layout(binding = 2) uniform sampler2D depth_map;
+layout(binding = 3) uniform sampler2D color_map;
+layout(binding = 4) uniform sampler2D normals_map;
+layout(binding = 5) uniform sampler2D material_map;
+layout(binding = 6) uniform sampler2D weather_map;
+layout(binding = 7) uniform sampler2D emission_map;
+layout(binding = 8) uniform sampler2D occlusion_map;
+layout(binding = 9) uniform sampler2DArrayShadow shadow_map;
+layout(binding = 10) uniform samplerCube specular_map;
+layout(binding = 11) uniform sampler2D env_brdf;
+layout(binding = 12) uniform samplerCube sky_map;
+layout(binding = 13) uniform samplerBuffer lights;
+layout(binding = 14) uniform usamplerBuffer light_lists;
+layout(binding = 15, rgba32f) uniform image2D accumulated;
+layout(binding = 16) uniform sampler2DArrayShadow sky_visibility_map;
+layout(binding = 17, rgba16f) uniform writeonly image2D radiance_out;
+layout(binding = 18, rgba16f) uniform writeonly image2D mirror_weight;
+layout(binding = 19, rgba16_snorm) uniform writeonly image2D mirror_shape;
+
+// Smoother surfaces than this mirror their surroundings, in a pass of its own.
+const float kMirrorRoughness = 0.32;
+
+vec3 sky_irradiance(vec3 n)
+{
+    // Divided by pi: what a white Lambert surface sends out.
+    vec3 e = sky_light.harmonics[0].xyz * 0.282095;
+    e += (sky_light.harmonics[1].xyz * n.y + sky_light.harmonics[2].xyz * n.z +
+          sky_light.harmonics[3].xyz * n.x) * 0.488603;
+    e += (sky_light.harmonics[4].xyz * (n.x * n.y) + sky_light.harmonics[5].xyz * (n.y * n.z) +
+          sky_light.harmonics[7].xyz * (n.x * n.z)) * 1.092548;
+    e += sky_light.harmonics[6].xyz * (0.315392 * (3.0 * n.z * n.z - 1.0));
+    e += sky_light.harmonics[8].xyz * (0.546274 * (n.x * n.x - n.y * n.y));
+    return max(e, vec3(0.0));
+}
+
+// Share of the sun's disc that is not hidden: hardware 2 x 2 comparisons on a turning disc.
+float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
+{
+    int cascade = 0;
+    while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
+    const float texel_m = frame.shadow_texel_m * frame.cascade_scale[cascade];
+    // Off the surface by a texel, more at grazing light: no acne, little peter-panning.
+    const float grazing = 1.0 - saturate(dot(normal, frame.sun_direction));
+    const vec3 lifted = position + normal * (texel_m * (1.0 + 2.0 * grazing)) +
+                        frame.sun_direction * (texel_m * 0.5);
+    const vec4 map = frame.shadow_from_world[cascade] * vec4(lifted, 1.0);
+    if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
+    const vec2 step_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
+    const float turn = 6.2831853 * dither(texel, frame.sample_index);
+    const vec2 axis = vec2(cos(turn), sin(turn)) * 1.6;
+    float lit = 0.0;
+    lit += texture(shadow_map, vec4(map.xy + step_uv * axis, cascade, map.z));
+    lit += texture(shadow_map, vec4(map.xy - step_uv * axis, cascade, map.z));
+    lit += texture(shadow_map, vec4(map.xy + step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
+    lit += texture(shadow_map, vec4(map.xy - step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
+    return lit * 0.25;
+}
+
+// Share of skylight that reaches a surface past buildings and roofs: each sample of the frame asks a
+// quarter of the sky's directions, so that four samples ask all of them.
+float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
+{
+    const int start = int((hash_u3(uint(texel.x), uint(texel.y), 9u) + frame.sample_index) & 3u);
+    const float turn = 6.2831853 * dither(texel.yx, frame.sample_index + 5u);
+    const vec2 blur = vec2(cos(turn), sin(turn)) * (0.8 / float(textureSize(sky_visibility_map, 0).x));
+    float open = 0.0;
+    float total = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const int i = (start + k * (SKY_DIRECTIONS / 4)) % SKY_DIRECTIONS;
+        const vec4 direction = frame.sky_direction[i];
+        const float facing = dot(normal, direction.xyz);
+        if (facing <= 0.0) continue;
+        // Directions are spread by their cosine with the vertical: undone for other normals.
+        const float weight = facing / max(direction.y, 0.2);
+        const vec3 lifted = position + normal * (direction.w * 1.2) + direction.xyz * (direction.w * 0.8);
+        const vec4 map = frame.sky_from_world[i] * vec4(lifted, 1.0);
+        const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
+        const float seen =
+            inside ? texture(sky_visibility_map, vec4(map.xy + blur, float(i), map.z)) : 1.0;
+        open += weight * seen;
+        total += weight;
+    }
+    return total > 0.0 ? open / total : 1.0;
+}
+
+vec3 background(vec3 direction)
+{
+    vec3 radiance = textureLod(sky_map, direction, 0.0).rgb * frame.sky_scale;
+    if ((frame.flags & FRAME_SUN_DISC) != 0u) {
+        const float c = dot(direction, frame.sun_direction);
+        if (c > frame.sun_angular_cos) {
+            const float solid_angle = 6.2831853 * (1.0 - frame.sun_angular_cos);
+            radiance += frame.sun_illuminance / solid_angle;
+        }
+    }
+    return radiance;
+}
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, frame.size))) return;
+    const vec2 pixel = vec2(texel) + 0.5;
+    const float depth = texelFetch(depth_map, texel, 0).r;
+    vec3 radiance;
+    vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
+    vec4 shape = vec4(0.0);
+    if (depth <= 0.0) {
+        radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
+                                                   : vec3(0.0);
+        radiance = min(radiance, vec3(60000.0));
+    } else {
+        const GBufferTexel g =
+            decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
+                           texelFetch(material_map, texel, 0),
+                           WEATHER != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
+        const vec3 emission = EMISSION != 0u ? texelFetch(emission_map, texel, 0).rgb : vec3(0.0);
+        const vec3 position = pixel_position(frame, pixel, depth);
+        const vec3 v = -pixel_view_direction(frame, pixel);
+        const float view_m = linear_depth(frame, depth);
+
+        // Metallic to specular, then weather, then light.
+        WeatheredMaterial m;
+        m.albedo = g.base_color * (1.0 - g.metallic);
+        m.specular = mix(vec3(g.f0), g.base_color, g.metallic);
+        m.smoothness = 1.0 - g.roughness;
+        m.occlusion = g.occlusion;
+        m.emission_scale = 1.0;
+        m.normal_mix = 0.0;
+        vec3 n = g.base_normal;
+        float closed = 0.0;  // share of a flat water surface over the relief
+        if (WEATHER != 0u) {
+            const float film = g.weather.x;
+            m = apply_frost(m, g.weather.w);
+            // Murk (the opacity of standing water) is part of the base colour already, and emission has
+            // been dimmed by it and by snow: both are the material's own business.
+            m = apply_water(m, film * frame.film, g.weather.y, vec4(0.0), g.porosity);
+            m = apply_snow(m, g.weather.z, frame.snow_color, vec3(0.02), 0.35, 0.0);
+            // A thin film follows the bumps, water that stands closes over them to a mirror.
+            closed = smooth_edge(0.08, 0.55, g.weather.y) * (1.0 - g.weather.z);
+            m.smoothness = mix(m.smoothness, 0.94, closed);
+            n = normalize(mix(n, g.cover_normal,
+                              saturate(max(max(m.normal_mix, closed), g.weather.z))));
+        }
+        if (g.model == MODEL_UNLIT) {
+            radiance = g.base_color + emission;
+        } else {
+            // A normal map must not turn a visible point away from the eye.
+            const float facing = dot(n, v);
+            if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+            const float roughness = clamp(1.0 - m.smoothness, 0.045, 1.0);
+            const float alpha = roughness * roughness;
+            const vec3 diffuse =
+                m.albedo * (1.0 - max(m.specular.r, max(m.specular.g, m.specular.b)));
+
+            const Lobe lobe = make_lobe(n, v, diffuse, m.specular, alpha);
+            radiance = emission * m.emission_scale;
+            const float sun_lit = dot(n, frame.sun_direction);
+            if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
+                const float visible =
+                    SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
+                if (visible > 0.0) {
+                    radiance += shade_lobe(lobe, frame.sun_direction) *
+                                frame.sun_illuminance * visible;
+                }
+            }
+            for (uint i = 0u; i < frame.directional_count; ++i) {
+                const vec4 color = texelFetch(lights, int(i * 3u + 1u));
+                const vec4 direction = texelFetch(lights, int(i * 3u + 2u));
+                radiance += shade_lobe(lobe, -direction.xyz) * color.rgb;
+            }
+            const ivec2 tile = texel / LIGHT_TILE;
+            const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
+            const uint count = ALL_LIGHTS != 0u
+                                   ? frame.light_count - frame.directional_count
+                                   : min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
+            for (uint i = 0u; i < count; ++i) {
+                const int light = ALL_LIGHTS != 0u
+                                      ? int(frame.directional_count + i) * 3
+                                      : int(texelFetch(light_lists, list + 1 + int(i)).r) * 3;
+                const vec4 sphere = texelFetch(lights, light);
+                const vec3 to_light = sphere.xyz - position;
+                const float d2 = dot(to_light, to_light);
+                if (d2 >= sphere.w * sphere.w) continue;
+                const float distance_m = sqrt(d2);
+                const vec3 l = to_light / max(distance_m, 1.0e-4);
+                if (dot(n, l) <= 0.0) continue;
+                const vec4 color = texelFetch(lights, light + 1);
+                const vec4 axis = texelFetch(lights, light + 2);
+                float falloff = light_attenuation(distance_m, sphere.w);
+                if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
+                    falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
+                }
+                radiance += shade_lobe(lobe, l) * color.rgb * falloff;
+            }
+
+            if (IMAGE_BASED_LIGHT != 0u) {
+                const float screen =
+                    AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
+                const float sky_open =
+                    AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
+                const float occlusion = m.occlusion * screen;
+                // A water surface lies above the crevices that its ground has.
+                const float mirror_occlusion = mix(occlusion, 1.0, closed);
+                const float nv = clamp(dot(n, v), 0.0, 1.0);
+                const vec2 size = vec2(textureSize(env_brdf, 0));
+                const vec2 at = (vec2(nv, roughness) * (size - 1.0) + 0.5) / size;
+                const vec2 ab = textureLod(env_brdf, at, 0.0).rg;
+                // Energy that one bounce loses comes back (Fdez-Aguera 2019).
+                const vec3 single = m.specular * ab.x + vec3(ab.y);
+                const float lost = 1.0 - (ab.x + ab.y);
+                const vec3 average = m.specular + (vec3(1.0) - m.specular) * (1.0 / 21.0);
+                const vec3 multiple = single * average * lost / (vec3(1.0) - average * lost);
+                // Where the sky is hidden, walls and ground send some of its light on, warmer.
+                const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
+                const vec3 irradiance = sky_irradiance(n) * (sky_open + (1.0 - sky_open) * hidden);
+                const float specular_occlusion =
+                    saturate(pow(nv + mirror_occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 +
+                             mirror_occlusion);
+                // Light that a bright surface throws back into its own crevices (Jimenez et al. 2016).
+                const vec3 a = 2.0404 * m.albedo - 0.3324;
+                const vec3 b = -4.7951 * m.albedo + 0.6417;
+                const vec3 c = 2.7552 * m.albedo + 0.6903;
+                const vec3 bounced =
+                    max(vec3(occlusion), ((occlusion * a + b) * occlusion + c) * occlusion);
+                radiance += (multiple + m.albedo * (vec3(1.0) - single - multiple)) * irradiance *
+                            bounced * frame.ambient_scale;
+                const vec3 reflectance = single * (specular_occlusion * frame.ambient_scale);
+                if (roughness < kMirrorRoughness) {
+                    mirror = vec4(reflectance, closed);
+                    shape = vec4(octahedral_encode(n), roughness, sky_open);
+                } else {
+                    const vec3 reflected = reflect(-v, n);
+                    const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
+                    radiance += reflectance * textureLod(specular_map, reflected, lod).rgb *
+                                (sky_open + (1.0 - sky_open) * hidden);
+                }
+            }
+        }
+        if (frame.fog_per_m > 0.0) {
+            const float distance_m = length(position - frame.camera_m);
+            const float kept = exp(-frame.fog_per_m * distance_m);
+            const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
+            const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
+            radiance = mix(veil, radiance, kept);
+            mirror.rgb *= kept;
+        }
+    }
+    const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
+    if (IMAGE_BASED_LIGHT != 0u) {
+        imageStore(radiance_out, texel, result);
+        imageStore(mirror_weight, texel, mirror);
+        imageStore(mirror_shape, texel, shape);
+    } else {
+        imageStore(accumulated, texel,
+                   frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
+    }
+}

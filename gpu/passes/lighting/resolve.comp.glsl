@@ -1,0 +1,32 @@
+#version 460
+// Averages the samples; packs the linear picture as halves and the display picture as sRGB bytes.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "formulas/color/tone_map.h"
+#include "gpu/frame/frame_io.h"
+#include "gpu/passes/sky/sky_light_io.h"
+#include "formulas/noise/noise.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
+layout(binding = 2, rgba32f) uniform readonly image2D accumulated;
+layout(binding = 3, scalar) writeonly buffer Beauty { uvec2 beauty[]; };
+layout(binding = 4, scalar) writeonly buffer Display { uint display[]; };
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, frame.size))) return;
+    const vec4 mean = imageLoad(accumulated, texel) / frame.samples;
+    const int index = texel.y * frame.size.x + texel.x;
+    beauty[index] = uvec2(packHalf2x16(mean.rg), packHalf2x16(mean.ba));
+
+    const vec3 exposed = mean.rgb * sky_light.exposure;
+    const vec3 mapped = (frame.flags & FRAME_TONE_MAP) != 0u ? tone_map(exposed) : exposed;
+    const vec3 encoded = vec3(srgb_encode(mapped.r), srgb_encode(mapped.g), srgb_encode(mapped.b));
+    // Half a step of dither hides banding in soft gradients such as the sky.
+    const float noise = dither(texel, 0u) - 0.5;
+    const uvec3 bytes = uvec3(clamp(encoded * 255.0 + 0.5 + noise, vec3(0.0), vec3(255.0)));
+    display[index] = bytes.r | (bytes.g << 8) | (bytes.b << 16) | 0xff000000u;
+}

@@ -1,0 +1,74 @@
+#version 460
+// Second step of light culling: one list a tile, in the order of the lights, by sides and depth range.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/passes/lights/light_volume.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = 1) uniform samplerBuffer lights;
+layout(binding = 2) uniform usamplerBuffer words;
+layout(binding = 3) uniform sampler2D depth_map;
+layout(binding = 4, scalar) writeonly buffer Lists { uint lists[]; };
+
+void main()
+{
+    const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(tile, frame.light_tiles))) return;
+    const uint list = uint(tile.y * frame.light_tiles.x + tile.x) * uint(LIGHT_LIST_MAX + 1);
+
+    float nearest = 0.0;
+    float farthest = 2.0;
+    const ivec2 low = tile * LIGHT_TILE;
+    const ivec2 high = min(low + LIGHT_TILE, frame.size);
+    for (int y = low.y; y < high.y; ++y) {
+        for (int x = low.x; x < high.x; ++x) {
+            const float d = texelFetch(depth_map, ivec2(x, y), 0).r;
+            if (d <= 0.0) continue;
+            nearest = max(nearest, d);
+            farthest = min(farthest, d);
+        }
+    }
+    uint count = 0u;
+    if (nearest > 0.0) {
+        const TileVolume volume = tile_volume(frame, vec2(low), vec2(low + LIGHT_TILE));
+        const float near_m = linear_depth(frame, nearest);
+        const float far_m = linear_depth(frame, farthest);
+        // Axis-aligned box of the slab in camera axes: a sphere near a corner is told apart by it.
+        const vec3 right = normalize(frame.ray_dx);
+        const vec3 down = normalize(frame.ray_dy);
+        const bool orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+        vec2 box_low = vec2(1.0e30);
+        vec2 box_high = vec2(-1.0e30);
+        for (int i = 0; i < 4; ++i) {
+            const vec3 ray = orthographic ? volume.rays[i] - frame.camera_m : volume.rays[i];
+            const vec2 at = vec2(dot(ray, right), dot(ray, down));
+            const vec2 a = orthographic ? at : at * near_m;
+            const vec2 b = orthographic ? at : at * far_m;
+            box_low = min(box_low, min(a, b));
+            box_high = max(box_high, max(a, b));
+        }
+        const ivec2 coarse = tile / LIGHT_COARSE;
+        const uint first = uint(coarse.y * frame.coarse_tiles.x + coarse.x) * frame.light_words;
+        for (uint w = 0u; w < frame.light_words; ++w) {
+            uint bits = texelFetch(words, int(first + w)).r;
+            while (bits != 0u) {
+                const int bit = findLSB(bits);
+                bits &= bits - 1u;
+                const uint light = w * 32u + uint(bit);
+                if (light < frame.directional_count) continue;
+                const vec4 sphere = texelFetch(lights, int(light * 3u));
+                const vec3 offset = sphere.xyz - frame.camera_m;
+                const float along = dot(offset, frame.forward);
+                const vec2 across = vec2(dot(offset, right), dot(offset, down));
+                const vec2 gap = max(max(box_low - across, across - box_high), vec2(0.0));
+                const float gap_z = max(max(near_m - along, along - far_m), 0.0);
+                if (dot(gap, gap) + gap_z * gap_z > sphere.w * sphere.w) continue;
+                if (!touches_sides(volume, sphere.xyz, sphere.w)) continue;
+                if (count < uint(LIGHT_LIST_MAX)) lists[list + 1u + count] = light;
+                ++count;
+            }
+        }
+    }
+    lists[list] = count;
+}

@@ -1,0 +1,43 @@
+#ifndef PETRICHOR_GPU_PASSES_LIGHTS_LIGHTS_H
+#define PETRICHOR_GPU_PASSES_LIGHTS_LIGHTS_H
+
+#include <memory>
+#include <vector>
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/targets.h"
+#include "gpu/upload/scene_names.h"
+
+namespace petrichor::gpu {
+
+/// Lights as the shaders read them: three texels each (centre and radius; colour in cd and cosine
+/// of the outer cone, -2 for a point light; axis and cosine of the inner cone). Directional lights
+/// come first.
+struct LightTable {
+    std::unique_ptr<GpuBuffer> texels;
+    std::uint32_t count = 0;
+    std::uint32_t directional = 0;
+
+    std::uint32_t words() const { return (count + 31) / 32; }
+};
+
+/// Distance at which a light of unlimited range is taken to have faded away, metres.
+float light_radius_m(const Light& light);
+
+LightTable make_light_table(const Device& device, MemoryArena& arena,
+                            const std::vector<Light>& lights);
+
+// Finds, for each tile of 16 x 16 pixels, the lights that can reach what is seen there.
+//
+//   reads    depth, the light table
+//   writes   coarse_lights, light_lists (ordered by light: sums are bit-exact)
+void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& lights,
+                     const ConstantsRange& constants);
+
+/// Tiles of the last frame whose list was too short.
+std::uint32_t count_overflows(const FrameTargets& targets);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,29 @@
+#version 460
+// A lat-long environment map, turned about the vertical, as a cube map.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "base/interop.h"
+#include "gpu/passes/sky/cube.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D map;
+layout(binding = 1, rgba16f) uniform writeonly image2DArray target;
+
+struct EnvironmentParams {
+    float rotation_rad;
+    float scale;
+};
+layout(push_constant, scalar) uniform Push { EnvironmentParams params; };
+
+void main()
+{
+    const ivec3 id = ivec3(gl_GlobalInvocationID);
+    const ivec3 size = imageSize(target);
+    if (any(greaterThanEqual(id.xy, size.xy))) return;
+    const vec2 st = (vec2(id.xy) + 0.5) / vec2(size.xy) * 2.0 - 1.0;
+    const vec3 d = normalize(cube_direction(id.z, st));
+    const float u = atan(d.x, -d.z) / 6.2831853 + 0.5 + params.rotation_rad / 6.2831853;
+    const float v = acos(clamp(d.y, -1.0, 1.0)) / 3.14159265;
+    const vec3 radiance = textureLod(map, vec2(u, v), 0.0).rgb * params.scale;
+    imageStore(target, id, vec4(clamp(radiance, vec3(0.0), vec3(60000.0)), 1.0));
+}

@@ -1,0 +1,183 @@
+#include "gpu/passes/sky/sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formulas/light/brdf.h"
+#include "gpu/frame/frame_io.h"
+#include "gpu/frame/sun.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr float kNightRadiance = 0.05f;  // cd/m2, stars and the glow of a town
+
+constexpr int kAirWidth = 64;
+constexpr int kAirHeight = 96;
+constexpr int kCubeSize = 256;
+constexpr int kCubeMips = 9;
+constexpr int kIrradianceMip = 4;  // 16 texels a side
+constexpr int kSpecularSize = 64;
+constexpr int kBrdfSize = 64;
+constexpr int kTile = 8;
+
+struct PrefilterParams {
+    float roughness, source_size, source_mips;
+};
+struct EnvironmentParams {
+    float rotation_rad, scale;
+};
+struct SkyLightParams {
+    glm::vec3 sun_illuminance;
+    float sun_up, mip, face_size, exposure, bias, ambient_scale, floor_lux;
+};
+
+std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int size, int mips)
+{
+    return arena.image({.name = name,
+                        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                        .width = size,
+                        .height = size,
+                        .mips = mips,
+                        .layers = 6,
+                        .cube = true,
+                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+}
+
+// Mips of the cube, then the lobes that the specular light reads.
+void add_filtered(FrameGraph& graph, SkyMaps& maps)
+{
+    graph.add({.name = "sky_mips",
+               .uses = {{maps.cube, Use::TransferTarget}},
+               .record = [&maps](PassContext& pass) { record_mips(pass.commands(), *maps.cube); }});
+    graph.add({.name = "sky_specular",
+               .uses = {{maps.cube, Use::Sampled}, {maps.specular, Use::StorageWrite}},
+               .record = [&maps](PassContext& pass) {
+                   for (int mip = 0; mip < SKY_PREFILTER_MIPS; ++mip) {
+                       pass.bind_compute(
+                           "sky_specular.comp", {},
+                           {sampled(*maps.cube, maps.linear), storage(*maps.specular, mip)});
+                       pass.push(PrefilterParams{
+                           static_cast<float>(mip) / static_cast<float>(SKY_PREFILTER_MIPS - 1),
+                           static_cast<float>(kCubeSize), static_cast<float>(kCubeMips)});
+                       pass.dispatch_over(kSpecularSize >> mip, kSpecularSize >> mip, kTile, 6);
+                   }
+               }});
+}
+
+}  // namespace
+
+shared::SkyParams sky_params(const Frame& frame)
+{
+    const Sky& sky = frame.sky;
+    shared::SkyParams p{};
+    p.sun_direction = sun_direction(sky);
+    p.turbidity = sky.turbidity;
+    p.sun_illuminance = glm::vec3(sky.sun_illuminance);
+    p.cloud_cover = std::clamp(sky.cloud_cover, 0.0f, 1.0f);
+    p.time_s = static_cast<float>(frame.settings.time_s);
+    p.wind_m_s = frame.weather.wind_m_s;
+    p.night_radiance = kNightRadiance;
+    // Kasten and Czeplak 1980 for the light under clouds; a clear sky adds about 15 % to the sun.
+    const float up = std::max(p.sun_direction.y, 0.0f);
+    const glm::vec3 level =
+        sunlight_at_ground(sky) * up * 1.15f + glm::vec3(0.02f) * sky.sun_illuminance * up;
+    const float through = 1.0f - 0.75f * std::pow(p.cloud_cover, 3.4f);
+    const float white = std::clamp(frame.weather.snow_amount * 1.2f, 0.0f, 1.0f);
+    const glm::vec3 albedo =
+        glm::mix(glm::vec3(1.0f, 0.97f, 0.9f) * sky.ground_albedo, glm::vec3(0.75f), white);
+    const float grey = glm::dot(level, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    p.ground_radiance =
+        glm::mix(level, glm::vec3(grey), p.cloud_cover) * through * albedo / shared::kPi;
+    return p;
+}
+
+SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
+    : air(arena.image({.name = "sky_air",
+                       .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                       .width = kAirWidth,
+                       .height = kAirHeight,
+                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT})),
+      cube(cube_map(arena, "sky_cube", kCubeSize, kCubeMips)),
+      specular(cube_map(arena, "sky_specular", kSpecularSize, SKY_PREFILTER_MIPS)),
+      env_brdf(arena.image({.name = "env_brdf",
+                            .format = VK_FORMAT_R16G16_SFLOAT,
+                            .width = kBrdfSize,
+                            .height = kBrdfSize,
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT})),
+      light(arena.buffer(
+          {.name = "sky_light",
+           .size = sizeof(shared::SkyLight),
+           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+           .host = true})),
+      linear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                          VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)),
+      wrap_u(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                          VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE))
+{
+}
+
+void add_env_brdf(FrameGraph& graph, SkyMaps& maps)
+{
+    graph.add({.name = "env_brdf",
+               .uses = {{maps.env_brdf, Use::StorageWrite}},
+               .record = [&maps](PassContext& pass) {
+                   pass.bind_compute("env_brdf.comp", {}, {storage(*maps.env_brdf)});
+                   pass.dispatch_over(kBrdfSize, kBrdfSize, kTile);
+               }});
+}
+
+void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params)
+{
+    graph.add({.name = "sky_air",
+               .uses = {{maps.air, Use::StorageWrite}},
+               .record = [&maps, params](PassContext& pass) {
+                   pass.bind_compute("sky_air.comp", {}, {storage(*maps.air)});
+                   pass.push(params);
+                   pass.dispatch_over(kAirWidth, kAirHeight, kTile);
+               }});
+    graph.add({.name = "sky_cube",
+               .uses = {{maps.air, Use::Sampled}, {maps.cube, Use::StorageWrite}},
+               .record = [&maps, params](PassContext& pass) {
+                   pass.bind_compute("sky_cube.comp", {},
+                                     {sampled(*maps.air, maps.linear), storage(*maps.cube, 0)});
+                   pass.push(params);
+                   pass.dispatch_over(kCubeSize, kCubeSize, kTile, 6);
+               }});
+    add_filtered(graph, maps);
+}
+
+void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float scale,
+                     float rotation_rad)
+{
+    graph.add({.name = "environment",
+               .uses = {{lat_long, Use::Sampled}, {maps.cube, Use::StorageWrite}},
+               .record = [&maps, &lat_long, scale, rotation_rad](PassContext& pass) {
+                   pass.bind_compute("environment_cube.comp", {},
+                                     {sampled(lat_long, maps.wrap_u), storage(*maps.cube, 0)});
+                   pass.push(EnvironmentParams{rotation_rad, scale});
+                   pass.dispatch_over(kCubeSize, kCubeSize, kTile, 6);
+               }});
+    add_filtered(graph, maps);
+}
+
+void add_sky_light(FrameGraph& graph, SkyMaps& maps, const Metering& metering)
+{
+    graph.add(
+        {.name = "sky_light",
+         .uses = {{maps.cube, Use::Sampled}, {maps.light, Use::StorageWrite}},
+         .record = [&maps, metering](PassContext& pass) {
+             pass.bind_compute("sky_light.comp", {},
+                               {sampled(*maps.cube, maps.linear), storage_buffer(*maps.light)});
+             pass.push(SkyLightParams{
+                 metering.sun_illuminance, metering.sun_up, static_cast<float>(kIrradianceMip),
+                 static_cast<float>(kCubeSize >> kIrradianceMip), metering.exposure, metering.bias,
+                 metering.ambient_scale, metering.floor_lux});
+             pass.dispatch(1, 1);
+         }});
+}
+
+}  // namespace petrichor::gpu

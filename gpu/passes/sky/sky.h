@@ -1,0 +1,62 @@
+#ifndef PETRICHOR_GPU_PASSES_SKY_SKY_H
+#define PETRICHOR_GPU_PASSES_SKY_SKY_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/frame.h"
+#include "gpu/passes/sky/sky_light_io.h"
+
+namespace petrichor::gpu {
+
+/// The light that comes from all around, in the forms that lighting needs.
+struct SkyMaps {
+    SkyMaps(const Device& device, MemoryArena& arena);
+
+    std::unique_ptr<GpuImage> air;       ///< clear air by direction
+    std::unique_ptr<GpuImage> cube;      ///< the sky or the environment, with mips
+    std::unique_ptr<GpuImage> specular;  ///< as GGX lobes see it, one roughness a mip
+    std::unique_ptr<GpuImage> env_brdf;  ///< scale and offset of F0
+    std::unique_ptr<GpuBuffer> light;    ///< shared::SkyLight
+    SamplerHandle linear;                ///< clamped, trilinear
+    SamplerHandle wrap_u;                ///< lat-long maps
+    bool env_brdf_valid = false;
+    // What the cube holds now; equal skies are not drawn again.
+    shared::SkyParams drawn{};
+    float environment_scale = 0.0f;
+    float environment_rotation_rad = 0.0f;
+    bool drawn_valid = false;
+};
+
+// Split-sum table of GGX; once.
+void add_env_brdf(FrameGraph& graph, SkyMaps& maps);
+
+/// Analytic sky of the frame, with the land lit by it (snow brightens the land).
+shared::SkyParams sky_params(const Frame& frame);
+
+// The analytic sky: clear air, clouds, land.
+//
+//   writes   air, cube with mips, specular
+void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params);
+
+// A lat-long map as the sky.
+void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float scale,
+                     float rotation_rad);
+
+/// For sky_light: irradiance and exposure.
+struct Metering {
+    glm::vec3 sun_illuminance{0.0f};
+    float sun_up = 0.0f;
+    float exposure = 0.0f;  ///< > 0: given
+    float bias = 1.0f;
+    float ambient_scale = 1.0f;
+    float floor_lux = 1.0f;
+};
+
+// Irradiance of the sky, and the exposure.
+//
+//   reads    cube
+//   writes   light
+void add_sky_light(FrameGraph& graph, SkyMaps& maps, const Metering& metering);
+
+}  // namespace petrichor::gpu
+
+#endif

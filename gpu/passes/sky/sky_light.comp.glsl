@@ -1,0 +1,75 @@
+#version 460
+// Irradiance of the sky as spherical harmonics, and the exposure that follows from it and the sun.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/passes/sky/cube.glsl"
+#include "gpu/passes/sky/sky_light_io.h"
+
+layout(local_size_x = 9) in;
+layout(binding = 0) uniform samplerCube sky;
+layout(binding = 1, scalar) writeonly buffer Output { SkyLight result; };
+
+struct SkyLightParams {
+    vec3 sun_illuminance;
+    float sun_up;
+    float mip;
+    float face_size;
+    float exposure;   // > 0: given
+    float bias;
+    float ambient_scale;
+    float floor_lux;
+};
+layout(push_constant, scalar) uniform Push { SkyLightParams params; };
+
+float basis(int i, vec3 d)
+{
+    if (i == 0) return 0.282095;
+    if (i == 1) return 0.488603 * d.y;
+    if (i == 2) return 0.488603 * d.z;
+    if (i == 3) return 0.488603 * d.x;
+    if (i == 4) return 1.092548 * d.x * d.y;
+    if (i == 5) return 1.092548 * d.y * d.z;
+    if (i == 6) return 0.315392 * (3.0 * d.z * d.z - 1.0);
+    if (i == 7) return 1.092548 * d.x * d.z;
+    return 0.546274 * (d.x * d.x - d.y * d.y);
+}
+
+shared vec3 coefficients[9];
+
+void main()
+{
+    const int i = int(gl_LocalInvocationID.x);
+    const int n = int(params.face_size);
+    vec3 sum = vec3(0.0);
+    float weight = 0.0;
+    for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < n; ++y) {
+            for (int x = 0; x < n; ++x) {
+                const vec2 st = (vec2(x, y) + 0.5) / params.face_size * 2.0 - 1.0;
+                const float w = cube_texel_weight(st);
+                const vec3 d = normalize(cube_direction(face, st));
+                sum += textureLod(sky, d, params.mip).rgb * (w * basis(i, d));
+                weight += w;
+            }
+        }
+    }
+    // Convolution with the cosine, divided by pi: 1, 2/3, 1/4.
+    const float band = i == 0 ? 1.0 : i < 4 ? 2.0 / 3.0 : 0.25;
+    const vec3 coefficient = sum * (12.566371 / weight) * band;
+    coefficients[i] = coefficient;
+    result.harmonics[i] = vec4(coefficient, 0.0);
+    barrier();
+    if (i != 0) return;
+
+    // What falls on level ground: the sky's irradiance along +y and the sun.
+    vec3 up = vec3(0.0);
+    for (int k = 0; k < 9; ++k) up += coefficients[k] * basis(k, vec3(0.0, 1.0, 0.0));
+    const vec3 weights = vec3(0.2126, 0.7152, 0.0722);
+    const float sky_lux = max(dot(up, weights), 0.0) * 3.14159265 * params.ambient_scale;
+    const float lux =
+        max(sky_lux + dot(params.sun_illuminance, weights) * max(params.sun_up, 0.0), params.floor_lux);
+    // A photographer's meter: half a stop above grey for streets between walls; dusk stays a little dark.
+    const float dusk = 1.5 * clamp(pow(lux / 5000.0, 0.12), 0.35, 1.0);
+    result.illuminance = lux;
+    result.exposure = (params.exposure > 0.0 ? params.exposure : 3.14159265 / lux * dusk) * params.bias;
+}

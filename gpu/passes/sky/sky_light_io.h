@@ -1,0 +1,30 @@
+// Light of the sky as the lighting pass reads it; written by the sky_light pass.
+#ifndef PETRICHOR_GPU_PASSES_SKY_SKY_LIGHT_IO_H
+#define PETRICHOR_GPU_PASSES_SKY_SKY_LIGHT_IO_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+struct SkyLight {
+    vec4 harmonics[9];  // irradiance / pi, order-2 spherical harmonics, in x, y, z
+    float exposure;     // linear scale for the display
+    float illuminance;  // metered, lux on level ground
+};
+
+// Analytic sky of one moment.
+struct SkyParams {
+    vec3 sun_direction;
+    float turbidity;
+    vec3 sun_illuminance;  // above the air
+    float cloud_cover;
+    vec3 ground_radiance;
+    float time_s;
+    vec2 wind_m_s;
+    float night_radiance;
+    float padding;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_SURFACE_H
+#define PETRICHOR_GPU_PASSES_SURFACE_SURFACE_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/frame_constants.h"
+#include "gpu/frame/targets.h"
+#include "gpu/passes/depth_maps/depth_maps.h"
+#include "gpu/passes/surface_maps/surface_maps.h"
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+// Draws the scene into the G-buffer: dry material and weather.
+//
+//   reads    ripple, flow and snow maps, the shelter map
+//   writes   the G-buffer
+//   variant  weather and emission: a target that nobody reads is not written
+void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
+                 DepthMaps& depth_maps, const ConstantsRange& constants,
+                 const glm::mat4& world_to_clip, const glm::vec3& camera_m,
+                 const VisibleWeather& weather);
+
+}  // namespace petrichor::gpu
+
+#endif

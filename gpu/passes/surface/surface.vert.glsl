@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/frame/frame_io.h"
+#include "gpu/upload/material_io.h"
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec2 in_uv0;
+layout(location = 4) in vec2 in_uv1;
+layout(location = 5) in vec4 in_color;
+layout(location = 6) in vec4 in_weather;
+
+layout(set = 0, binding = 0, scalar) uniform Frame { FrameConstants frame; };
+layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+
+layout(location = 0) out vec3 out_position;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec4 out_tangent;
+layout(location = 3) out vec4 out_uv;
+layout(location = 4) out vec4 out_color;
+layout(location = 5) out vec4 out_weather;
+
+// The depth pre-pass must find the same depth to the last bit.
+invariant gl_Position;
+
+void main()
+{
+    const vec4 p = vec4(in_position, 1.0);
+    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    out_position = world;
+    out_normal = vec3(dot(draw.normal_to_world[0].xyz, in_normal),
+                      dot(draw.normal_to_world[1].xyz, in_normal),
+                      dot(draw.normal_to_world[2].xyz, in_normal));
+    out_tangent.xyz = vec3(dot(draw.to_world[0].xyz, in_tangent.xyz),
+                           dot(draw.to_world[1].xyz, in_tangent.xyz),
+                           dot(draw.to_world[2].xyz, in_tangent.xyz));
+    out_tangent.w = in_tangent.w;
+    out_uv = vec4(in_uv0, in_uv1);
+    out_color = in_color;
+    out_weather = in_weather;
+    gl_Position = frame.world_to_clip * vec4(world, 1.0);
+}

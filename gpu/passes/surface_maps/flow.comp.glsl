@@ -1,0 +1,41 @@
+#version 460
+// Small waves on flowing and wind-blown water: a tileable sum of travelling sines, as a normal map.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "formulas/noise/noise.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba8) uniform writeonly image2D target;
+
+struct FlowParams {
+    float time_s;
+    float tile_m;
+};
+layout(push_constant, scalar) uniform Push { FlowParams params; };
+
+const int kWaves = 18;
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 size = imageSize(target);
+    if (any(greaterThanEqual(texel, size))) return;
+    const vec2 uv = (vec2(texel) + 0.5) / vec2(size);
+    vec2 slope = vec2(0.0);
+    for (int i = 0; i < kWaves; ++i) {
+        const uint id = hash_u(uint(i) * 7919u + 13u);
+        const float angle = hash_f(id) * 6.2831853;
+        const float frequency = 2.0 + 14.0 * hash_f(id + 1u) * hash_f(id + 2u);
+        // Whole numbers of waves a tile keep the seam closed.
+        const vec2 k = floor(vec2(cos(angle), sin(angle)) * frequency + 0.5);
+        const float waves = max(length(k), 1.0);
+        const float wavelength_m = params.tile_m / waves;
+        // Deep-water dispersion with surface tension.
+        const float k_m = 6.2831853 / wavelength_m;
+        const float omega = sqrt(9.81 * k_m + 7.3e-5 * k_m * k_m * k_m);
+        const float phase = 6.2831853 * (dot(k, uv) + hash_f(id + 3u)) - omega * params.time_s * 0.35;
+        slope += k / waves * cos(phase) * (0.35 / sqrt(waves));
+    }
+    const vec3 normal = normalize(vec3(slope * 0.5, 1.0));
+    imageStore(target, texel, vec4(0.5 * normal + 0.5, 1.0));
+}

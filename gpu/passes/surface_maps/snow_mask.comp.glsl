@@ -1,0 +1,31 @@
+#version 460
+// The texture that breaks up snow edges and gives a snow cover its relief, tileable:
+// x, y of a soft normal in r, g; the mask in b; smoothness in a.
+#extension GL_GOOGLE_include_directive : require
+#include "formulas/noise/noise.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba8) uniform writeonly image2D target;
+
+float relief(vec2 uv)
+{
+    return tileable_fbm(uv, 6, 6, 11u) + 0.35 * tileable_fbm(uv, 23, 4, 31u);
+}
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 size = imageSize(target);
+    if (any(greaterThanEqual(texel, size))) return;
+    const vec2 uv = (vec2(texel) + 0.5) / vec2(size);
+    const float d = 1.0 / float(size.x);
+    const float steepness = 0.06;
+    const float gx = (relief(uv + vec2(d, 0.0)) - relief(uv - vec2(d, 0.0))) / (2.0 * d);
+    const float gy = (relief(uv + vec2(0.0, d)) - relief(uv - vec2(0.0, d))) / (2.0 * d);
+    const vec3 normal = normalize(vec3(-gx * steepness, -gy * steepness, 1.0));
+    // Spread like the masks artists paint: mean near 0.7, few dark spots.
+    const float n = tileable_fbm(uv, 9, 6, 57u);
+    const float mask = clamp(0.72 + (n - 0.5) * 1.1, 0.0, 1.0);
+    const float smoothness = 0.32 + 0.14 * tileable_fbm(uv, 41, 3, 91u);
+    imageStore(target, texel, vec4(0.5 + 0.5 * normal.xy, mask, smoothness));
+}

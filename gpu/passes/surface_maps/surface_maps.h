@@ -1,0 +1,38 @@
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_MAPS_SURFACE_MAPS_H
+#define PETRICHOR_GPU_PASSES_SURFACE_MAPS_SURFACE_MAPS_H
+
+#include "gpu/device/graph.h"
+
+namespace petrichor::gpu {
+
+/// Tileable maps of the weather that every surface samples.
+struct SurfaceMaps {
+    SurfaceMaps(const Device& device, MemoryArena& arena);
+
+    std::unique_ptr<GpuImage> ripple_source;  ///< drops: envelope, direction, time offset
+    std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
+    std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
+    std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
+    SamplerHandle trilinear;
+    bool generated = false;  ///< source and snow are made once
+};
+
+// Draws the drops and the snow mask; once.
+//
+//   writes   ripple_source, snow
+void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
+
+// Rings of rain drops at `time_s`.
+//
+//   reads    ripple_source
+//   writes   ripple, with mips
+void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s);
+
+// Waves of flowing and wind-blown water at `time_s`.
+//
+//   writes   flow, with mips
+void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s);
+
+}  // namespace petrichor::gpu
+
+#endif

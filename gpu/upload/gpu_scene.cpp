@@ -1,0 +1,293 @@
+#include "gpu/upload/gpu_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <tuple>
+
+namespace petrichor::gpu {
+
+namespace {
+
+std::uint8_t to_byte(float value)
+{
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+}
+
+void set_bytes(std::uint8_t (&target)[4], const std::vector<glm::vec4>& values, std::size_t i)
+{
+    for (int c = 0; c < 4; ++c) target[c] = values.empty() ? 255 : to_byte(values[i][c]);
+}
+
+VkFormat vk_format(TexelFormat format)
+{
+    switch (format) {
+        case TexelFormat::Rgba8Srgb:
+            return VK_FORMAT_R8G8B8A8_SRGB;
+        case TexelFormat::Rgba8Unorm:
+            return VK_FORMAT_R8G8B8A8_UNORM;
+        case TexelFormat::Rg8Unorm:
+            return VK_FORMAT_R8G8_UNORM;
+        case TexelFormat::R8Unorm:
+            return VK_FORMAT_R8_UNORM;
+        case TexelFormat::Rgba16Float:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
+    }
+    return VK_FORMAT_UNDEFINED;
+}
+
+VkSamplerAddressMode address_mode(Wrap wrap)
+{
+    switch (wrap) {
+        case Wrap::Repeat:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        case Wrap::Clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case Wrap::Mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+shared::TextureTransform texture_transform(const TextureUse& use)
+{
+    // glTF: offset * rotation * scale, rotation counter-clockwise in a v-down frame.
+    const float c = std::cos(use.rotation_rad);
+    const float s = std::sin(use.rotation_rad);
+    return {{c * use.scale.x, s * use.scale.y, use.offset.x},
+            {-s * use.scale.x, c * use.scale.y, use.offset.y}};
+}
+
+struct Slots {
+    const TextureUse* use[TEXTURE_SLOTS];
+};
+
+Slots slots_of(const Material& m)
+{
+    return {{&m.base_color_texture, &m.normal_texture, &m.metallic_roughness_texture,
+             &m.occlusion_texture, &m.emissive_texture, &m.weather.height, &m.weather.puddle_mask,
+             &m.weather.snow_mask}};
+}
+
+shared::MaterialConstants constants_of(const Material& m, const std::vector<bool>& loaded)
+{
+    shared::MaterialConstants c{};
+    c.base_color = m.base_color;
+    // What passes through a clear body is seen as transparency of its surface.
+    if (m.transmission > 0.0f) c.base_color.w *= 1.0f - 0.9f * m.transmission;
+    c.emissive = m.emissive;
+    c.metallic = m.metallic;
+    c.roughness = m.roughness;
+    c.normal_scale = m.normal_scale;
+    c.occlusion_strength = m.occlusion_strength;
+    c.alpha_cutoff = m.alpha_cutoff;
+    const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
+    c.f0 = f * f * m.specular;
+    const MaterialWeather& w = m.weather;
+    c.porosity = w.porosity;
+    c.default_height = w.default_height;
+    c.water_slope_damp = w.water_slope_damp;
+    c.water_accumulation = w.water_accumulation;
+    c.water_color = w.water_color;
+    c.flow_tiling = w.flow_tiling;
+    c.flow_speed = w.flow_speed;
+    c.flow_interval_s = w.flow_interval_s;
+    c.flow_refraction = w.flow_refraction;
+    c.flow_normal_strength = w.flow_normal_strength;
+    c.snow_slope_damp = w.snow_slope_damp;
+    c.snow_accumulation = w.snow_accumulation;
+    c.snow_normal_strength = w.snow_normal_strength;
+    c.snow_detail_strength = w.snow_detail_strength;
+    c.snow_opacity = w.snow_opacity;
+    const bool blended = m.alpha_mode == AlphaMode::Blend || m.transmission > 0.0f;
+    if (m.alpha_mode == AlphaMode::Mask) c.flags |= MATERIAL_MASK;
+    if (blended) c.flags |= MATERIAL_BLEND;
+    if (m.unlit) c.flags |= MATERIAL_UNLIT;
+    if (w.sheltered) c.flags |= MATERIAL_SHELTERED;
+    if (m.double_sided) c.flags |= MATERIAL_DOUBLE_SIDED;
+    const Slots slots = slots_of(m);
+    for (std::uint32_t i = 0; i < TEXTURE_SLOTS; ++i) {
+        const TextureUse& use = *slots.use[i];
+        c.transforms[i] = texture_transform(use);
+        const bool present = use.present() &&
+                             static_cast<std::size_t>(use.texture) < loaded.size() &&
+                             loaded[static_cast<std::size_t>(use.texture)];
+        if (present) c.flags |= 1u << i;
+        if (use.texcoord == 1) c.flags |= 65536u << i;
+    }
+    return c;
+}
+
+}  // namespace
+
+const std::vector<VertexAttribute>& vertex_attributes()
+{
+    static const std::vector<VertexAttribute> attributes{
+        {0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
+        {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
+        {2, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Vertex, tangent)},
+        {3, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv0)},
+        {4, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv1)},
+        {5, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Vertex, color)},
+        {6, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Vertex, weather)},
+    };
+    return attributes;
+}
+
+GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures)
+    : arena_(device), lights_(scene.lights), bounds_(scene_bounds(scene))
+{
+    upload_textures(device, textures);
+    make_materials(device, scene);
+    upload_geometry(device, scene);
+}
+
+void GpuScene::upload_geometry(const Device& device, const Scene& scene)
+{
+    struct Range {
+        std::uint32_t first_index, index_count;
+        std::int32_t vertex_offset;
+        glm::vec3 low, high;
+    };
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<std::vector<Range>> ranges(scene.meshes.size());
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        for (const Primitive& p : scene.meshes[m].primitives) {
+            Range range{static_cast<std::uint32_t>(indices.size()),
+                        static_cast<std::uint32_t>(p.indices.size()),
+                        static_cast<std::int32_t>(vertices.size()), glm::vec3(1e30f),
+                        glm::vec3(-1e30f)};
+            for (std::size_t i = 0; i < p.positions.size(); ++i) {
+                Vertex v{};
+                v.position = p.positions[i];
+                v.normal = p.normals[i];
+                v.tangent = p.tangents.empty() ? glm::vec4(0.0f, 0.0f, 0.0f, 1.0f) : p.tangents[i];
+                if (!p.uv0.empty()) v.uv0 = p.uv0[i];
+                if (!p.uv1.empty()) v.uv1 = p.uv1[i];
+                set_bytes(v.color, p.colors, i);
+                set_bytes(v.weather, p.weather, i);
+                vertices.push_back(v);
+                range.low = glm::min(range.low, v.position);
+                range.high = glm::max(range.high, v.position);
+            }
+            indices.insert(indices.end(), p.indices.begin(), p.indices.end());
+            ranges[m].push_back(range);
+        }
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const auto& primitives = scene.meshes[instance.mesh].primitives;
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const Range& range = ranges[instance.mesh][p];
+            if (range.index_count == 0) continue;
+            Draw draw;
+            draw.first_index = range.first_index;
+            draw.index_count = range.index_count;
+            draw.vertex_offset = range.vertex_offset;
+            draw.material = primitives[p].material;
+            draw.instance_id = static_cast<std::uint32_t>(i);
+            draw.to_world = instance.to_world;
+            const glm::vec3 centre = 0.5f * (range.low + range.high);
+            const glm::vec3 half = 0.5f * (range.high - range.low);
+            draw.centre_m = glm::vec3(instance.to_world * glm::vec4(centre, 1.0f));
+            const glm::mat3 linear(instance.to_world);
+            draw.radius_m =
+                glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
+                            glm::abs(linear[2]) * half.z);
+            draw.mirrored = glm::determinant(linear) < 0.0f;
+            draws_.push_back(draw);
+        }
+    }
+    std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
+        const auto key = [this](const Draw& d) {
+            const GpuMaterial& m = materials_[d.material];
+            return std::make_tuple(m.blended, m.masked, m.double_sided, d.material);
+        };
+        return key(a) < key(b);
+    });
+    vertices_ = arena_.buffer(
+        {.name = "scene_vertices",
+         .size = vertices.size() * sizeof(Vertex),
+         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    indices_ = arena_.buffer(
+        {.name = "scene_indices",
+         .size = indices.size() * 4,
+         .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
+    upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
+}
+
+void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)
+{
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    white_ = arena_.image({.name = "white", .usage = usage});
+    upload_image(device, *white_, {std::vector<std::byte>(4, std::byte{255})});
+    for (const Texture& texture : textures) {
+        if (texture.mips.empty()) {
+            images_.push_back(nullptr);
+            image_samplers_.push_back(nullptr);
+            continue;
+        }
+        auto image = arena_.image({.name = texture.name,
+                                   .format = vk_format(texture.format),
+                                   .width = texture.width,
+                                   .height = texture.height,
+                                   .mips = static_cast<int>(texture.mips.size()),
+                                   .usage = usage});
+        upload_image(device, *image, texture.mips);
+        images_.push_back(std::move(image));
+        image_samplers_.push_back(
+            &sampler(device, texture.wrap_u, texture.wrap_v, texture.nearest));
+    }
+}
+
+const SamplerHandle& GpuScene::sampler(const Device& device, Wrap u, Wrap v, bool nearest)
+{
+    const int key = static_cast<int>(u) * 8 + static_cast<int>(v) * 2 + (nearest ? 1 : 0);
+    auto& slot = samplers_[key];
+    if (!slot) {
+        slot = make_sampler(device, nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR, address_mode(u),
+                            address_mode(v));
+    }
+    return slot;
+}
+
+void GpuScene::make_materials(const Device& device, const Scene& scene)
+{
+    std::vector<bool> loaded;
+    for (const auto& image : images_) loaded.push_back(image != nullptr);
+    const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
+    const VkDeviceSize stride =
+        (sizeof(shared::MaterialConstants) + alignment - 1) / alignment * alignment;
+    constants_ = arena_.buffer({.name = "material_constants",
+                                .size = stride * scene.materials.size(),
+                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                .host = true});
+    const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& source = scene.materials[i];
+        emissive_ = emissive_ || source.emissive != glm::vec3(0.0f);
+        const shared::MaterialConstants c = constants_of(source, loaded);
+        std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
+        GpuMaterial material;
+        material.double_sided = source.double_sided;
+        material.masked = source.alpha_mode == AlphaMode::Mask;
+        material.blended = (c.flags & MATERIAL_BLEND) != 0;
+        material.bindings.push_back(uniform(*constants_, i * stride, sizeof(c)));
+        const Slots slots = slots_of(source);
+        for (std::uint32_t slot = 0; slot < TEXTURE_SLOTS; ++slot) {
+            if (c.flags & (1u << slot)) {
+                material.slots |= 1u << slot;
+                const auto t = static_cast<std::size_t>(slots.use[slot]->texture);
+                material.bindings.push_back(sampled(*images_[t], *image_samplers_[t]));
+            } else {
+                material.bindings.push_back(sampled(*white_, plain));
+            }
+        }
+        materials_.push_back(std::move(material));
+    }
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,83 @@
+#ifndef PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
+#define PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
+
+#include <memory>
+#include <vector>
+
+#include "gpu/device/pipelines.h"
+#include "gpu/upload/material_io.h"
+#include "gpu/upload/texture.h"
+
+namespace petrichor::gpu {
+
+/// One vertex as the vertex stage reads it.
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    glm::vec4 tangent;
+    glm::vec2 uv0;
+    glm::vec2 uv1;
+    std::uint8_t color[4];
+    std::uint8_t weather[4];
+};
+static_assert(sizeof(Vertex) == 64);
+const std::vector<VertexAttribute>& vertex_attributes();
+
+/// One primitive of one instance.
+struct Draw {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    std::int32_t vertex_offset = 0;
+    std::uint32_t material = 0;
+    std::uint32_t instance_id = 0;
+    glm::mat4 to_world{1.0f};
+    glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
+    float radius_m = 0.0f;
+    bool mirrored = false;
+};
+
+struct GpuMaterial {
+    bool double_sided = false;
+    bool masked = false;
+    bool blended = false;
+    std::uint32_t slots = 0;        ///< texture slots present, one bit each
+    std::vector<Binding> bindings;  ///< constants, then the texture slots
+};
+
+/// A scene on the device: geometry in one buffer, textures, material constants.
+class GpuScene {
+public:
+    GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures);
+
+    const GpuBuffer& vertices() const { return *vertices_; }
+    const GpuBuffer& indices() const { return *indices_; }
+    const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
+    const std::vector<GpuMaterial>& materials() const { return materials_; }
+    const std::vector<Light>& lights() const { return lights_; }
+    const Bounds& bounds() const { return bounds_; }
+    bool emissive() const { return emissive_; }  ///< any material emits light
+
+private:
+    void upload_geometry(const Device& device, const Scene& scene);
+    void upload_textures(const Device& device, const std::vector<Texture>& textures);
+    void make_materials(const Device& device, const Scene& scene);
+    const SamplerHandle& sampler(const Device& device, Wrap u, Wrap v, bool nearest);
+
+    MemoryArena arena_;
+    std::unique_ptr<GpuBuffer> vertices_;
+    std::unique_ptr<GpuBuffer> indices_;
+    std::unique_ptr<GpuBuffer> constants_;
+    std::vector<std::unique_ptr<GpuImage>> images_;
+    std::unique_ptr<GpuImage> white_;
+    std::vector<const SamplerHandle*> image_samplers_;
+    std::map<int, SamplerHandle> samplers_;
+    std::vector<Draw> draws_;
+    std::vector<GpuMaterial> materials_;
+    std::vector<Light> lights_;
+    Bounds bounds_;
+    bool emissive_ = false;
+};
+
+}  // namespace petrichor::gpu
+
+#endif

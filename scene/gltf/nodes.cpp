@@ -1,0 +1,301 @@
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "scene/gltf/detail/gltf_parts.h"
+
+namespace petrichor::scene {
+namespace {
+
+constexpr std::uint32_t kNoParent = 0xffffffffu;
+constexpr const char* kFixTree = "Give every node one parent at most, or export the scene again.";
+constexpr const char* kFixDamaged = "Export the scene again: the file is damaged or incomplete.";
+
+bool finite(const glm::dmat4& m)
+{
+    // Beyond this a float overflows; positions and normals are computed in floats later.
+    constexpr double kLargest = 1e18;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            if (!(std::abs(m[c][r]) <= kLargest)) return false;
+        }
+    }
+    return true;
+}
+
+glm::dmat4 compose(const glm::dvec3& translation, const glm::dquat& rotation,
+                   const glm::dvec3& scale)
+{
+    glm::dmat4 m = glm::mat4_cast(rotation);
+    m[0] *= scale.x;
+    m[1] *= scale.y;
+    m[2] *= scale.z;
+    m[3] = glm::dvec4(translation, 1.0);
+    return m;
+}
+
+// x, y, z, w as files give it; nothing when it has no direction.
+std::optional<glm::dquat> to_rotation(const glm::vec4& xyzw)
+{
+    const glm::dquat rotation(static_cast<double>(xyzw.w), static_cast<double>(xyzw.x),
+                              static_cast<double>(xyzw.y), static_cast<double>(xyzw.z));
+    const double length = glm::length(rotation);
+    if (!(length > 1e-12)) return std::nullopt;
+    return rotation / length;
+}
+
+glm::dmat4 local_matrix(const JsonObject& node)
+{
+    glm::mat4 matrix(1.0f);
+    if (node.numbers("matrix", {glm::value_ptr(matrix), 16})) {
+        if (matrix[0][3] != 0.0f || matrix[1][3] != 0.0f || matrix[2][3] != 0.0f ||
+            matrix[3][3] != 1.0f) {
+            node.fail("matrix", "the last row must be 0 0 0 1", kFixDamaged);
+        }
+        if (node.has("translation") || node.has("rotation") || node.has("scale")) {
+            node.warn("matrix", "a node with a matrix and other transforms: the matrix counts");
+        }
+        return glm::dmat4(matrix);
+    }
+    glm::vec3 translation(0.0f);
+    glm::vec4 rotation(0.0f, 0.0f, 0.0f, 1.0f);
+    glm::vec3 scale(1.0f);
+    node.numbers("translation", {&translation.x, 3});
+    node.numbers("rotation", {&rotation.x, 4});
+    node.numbers("scale", {&scale.x, 3});
+    const auto turned = to_rotation(rotation);
+    if (!turned) node.fail("rotation", "is a quaternion of length 0", kFixDamaged);
+    return compose(glm::dvec3(translation), *turned, glm::dvec3(scale));
+}
+
+// The rotation and place of a matrix: columns made orthonormal, z first, since a camera or light
+// looks along it. A mirrored or collapsed matrix gives the nearest proper frame.
+glm::dmat4 without_scale(const glm::dmat4& m)
+{
+    const auto unit_or = [](const glm::dvec3& v, const glm::dvec3& otherwise) {
+        const double length = glm::length(v);
+        return length > 1e-30 ? v / length : otherwise;
+    };
+    const glm::dvec3 z = unit_or(glm::dvec3(m[2]), {0.0, 0.0, 1.0});
+    const glm::dvec3 side =
+        std::abs(z.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    glm::dvec3 y(m[1]);
+    y = unit_or(y - z * glm::dot(z, y), glm::normalize(side - z * glm::dot(z, side)));
+    glm::dmat4 out(1.0);
+    out[0] = glm::dvec4(glm::cross(y, z), 0.0);
+    out[1] = glm::dvec4(y, 0.0);
+    out[2] = glm::dvec4(z, 0.0);
+    out[3] = m[3];
+    return out;
+}
+
+// Checks that the nodes form trees. Gives the children by node.
+std::vector<std::vector<std::uint32_t>> read_tree(const JsonArray& nodes,
+                                                  std::vector<std::uint32_t>& parents)
+{
+    std::vector<std::vector<std::uint32_t>> children(nodes.size());
+    parents.assign(nodes.size(), kNoParent);
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+        const JsonArray list = nodes.object(n).array("children");
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::uint32_t child = list.index(i, "node", nodes.size());
+            if (parents[child] != kNoParent) {
+                nodes.object(n).log().fail(list.path_to(i),
+                                           "node " + std::to_string(child) +
+                                               " is already a child of node " +
+                                               std::to_string(parents[child]),
+                                           kFixTree);
+            }
+            parents[child] = n;
+            children[n].push_back(child);
+        }
+    }
+    // With one parent each, every node that a root does not reach is on a cycle or hangs from one.
+    std::vector<bool> reached(nodes.size(), false);
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+        if (parents[n] == kNoParent) open.push_back(n);
+    }
+    while (!open.empty()) {
+        const std::uint32_t n = open.back();
+        open.pop_back();
+        reached[n] = true;
+        open.insert(open.end(), children[n].begin(), children[n].end());
+    }
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+        if (!reached[n]) {
+            const JsonObject node = nodes.object(n);
+            node.fail("children", "is part of a cycle of nodes, or hangs from one", kFixTree);
+        }
+    }
+    return children;
+}
+
+std::vector<std::uint32_t> scene_roots(const JsonObject& root,
+                                       const std::vector<std::uint32_t>& parents,
+                                       std::string& scene_name)
+{
+    std::vector<std::uint32_t> roots;
+    const JsonArray scenes = root.array("scenes");
+    const auto chosen = root.index("scene", "scene", scenes.size());
+    if (scenes.size() == 0) {
+        for (std::uint32_t n = 0; n < parents.size(); ++n) {
+            if (parents[n] == kNoParent) roots.push_back(n);
+        }
+        return roots;
+    }
+    const JsonObject scene = scenes.object(chosen.value_or(0));
+    if (scene.has("name")) scene_name = scene.text("name");
+    const JsonArray list = scene.array("nodes");
+    std::vector<bool> listed(parents.size(), false);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::uint32_t n = list.index(i, "node", parents.size());
+        if (parents[n] != kNoParent || listed[n]) {
+            scene.log().fail(
+                list.path_to(i),
+                "node " + std::to_string(n) +
+                    (listed[n] ? " is listed twice" : " is not a root: it has a parent"),
+                kFixTree);
+        }
+        listed[n] = true;
+        roots.push_back(n);
+    }
+    return roots;
+}
+
+class NodeReader {
+public:
+    NodeReader(GltfSource& source, std::size_t mesh_count, Scene& scene)
+        : source_(source),
+          scene_(scene),
+          mesh_count_(mesh_count),
+          lights_(read_lights(source.root)),
+          cameras_(read_cameras(source.root))
+    {
+    }
+
+    void place(const JsonObject& node, std::size_t number, const glm::dmat4& to_world)
+    {
+        const std::string name = node.text("name", "node " + std::to_string(number));
+        if (const auto mesh = node.index("mesh", "mesh", mesh_count_)) {
+            if (node.has("skin")) {
+                node.warn("skin", "skins are not applied: the mesh is shown at rest");
+            }
+            place_mesh(node, name, *mesh, to_world);
+        }
+        if (const auto index = node.index("camera", "camera", cameras_.size())) {
+            Camera camera = cameras_[*index];
+            charge(node, sizeof camera + camera.name.size());
+            camera.to_world = glm::mat4(without_scale(to_world));
+            scene_.cameras.push_back(std::move(camera));
+        }
+        const auto extension = node.extension("KHR_lights_punctual");
+        if (!extension) return;
+        const auto& light = lights_[extension->require_index("light", "light", lights_.size())];
+        if (!light) return;
+        charge(node, sizeof *light + light->name.size());
+        const glm::mat4 frame(without_scale(to_world));
+        scene_.lights.push_back(*light);
+        scene_.lights.back().position_m = glm::vec3(frame[3]);
+        scene_.lights.back().direction = -glm::vec3(frame[2]);
+    }
+
+private:
+    void charge(const JsonObject& node, std::size_t bytes)
+    {
+        source_.buffers.budget.take(1, bytes, node.path(), node.log());
+    }
+
+    void place_mesh(const JsonObject& node, const std::string& name, std::uint32_t mesh,
+                    const glm::dmat4& to_world)
+    {
+        const auto extension = node.extension("EXT_mesh_gpu_instancing");
+        if (!extension) {
+            charge(node, sizeof(Instance) + name.size());
+            scene_.instances.push_back({name, mesh, glm::mat4(to_world)});
+            return;
+        }
+        const auto attributes = extension->object("attributes");
+        if (!attributes) extension->fail("attributes", "is missing", kFixDamaged);
+        std::size_t count = 0;
+        bool has_data = false;
+        const auto find = [&](const char* key, int components) -> const Accessor* {
+            const auto index = attributes->index(key, "accessor", source_.buffers.accessor_count());
+            if (!index) return nullptr;
+            const Accessor& accessor = source_.buffers.accessor(*index);
+            if (accessor.components != components || (count != 0 && accessor.count != count)) {
+                attributes->fail(key,
+                                 "needs " + std::to_string(components) +
+                                     " components and as many elements as the other attributes",
+                                 kFixDamaged);
+            }
+            count = accessor.count;
+            has_data = has_data || accessor.base;
+            return &accessor;
+        };
+        const Accessor* translations = find("TRANSLATION", 3);
+        const Accessor* rotations = find("ROTATION", 4);
+        const Accessor* scales = find("SCALE", 3);
+        if (count == 0) attributes->warn("", "no attribute that we know: nothing is placed");
+        source_.buffers.budget.take(
+            count, name.size() + (has_data ? sizeof(Instance) : Budget::kInventedElement),
+            attributes->path(), node.log());
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::vec3 translation(0.0f);
+            glm::vec4 turn(0.0f, 0.0f, 0.0f, 1.0f);
+            glm::vec3 scale(1.0f);
+            for (int c = 0; c < 4; ++c) {
+                if (translations && c < 3) translation[c] = translations->value(i, c);
+                if (scales && c < 3) scale[c] = scales->value(i, c);
+                if (rotations) turn[c] = rotations->value(i, c);
+            }
+            const auto rotation = to_rotation(turn);
+            const glm::dmat4 placed =
+                rotation ? to_world * compose(glm::dvec3(translation), *rotation, glm::dvec3(scale))
+                         : glm::dmat4(0.0);
+            if (!rotation || !finite(placed)) {
+                attributes->fail("", "instance " + std::to_string(i) + " has no usable transform",
+                                 kFixDamaged);
+            }
+            scene_.instances.push_back({name, mesh, glm::mat4(placed)});
+        }
+    }
+
+    GltfSource& source_;
+    Scene& scene_;
+    std::size_t mesh_count_;
+    std::vector<std::optional<Light>> lights_;
+    std::vector<Camera> cameras_;
+};
+
+}  // namespace
+
+void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene)
+{
+    const JsonArray nodes = source.root.array("nodes");
+    std::vector<std::uint32_t> parents;
+    const auto children = read_tree(nodes, parents);
+    NodeReader reader(source, mesh_count, scene);
+
+    struct Visit {
+        std::uint32_t node;
+        glm::dmat4 parent_to_world;
+    };
+    std::vector<Visit> open;  // a stack of our own: files may nest a million deep
+    const auto roots = scene_roots(source.root, parents, scene.name);
+    for (auto n = roots.rbegin(); n != roots.rend(); ++n) open.push_back({*n, glm::dmat4(1.0)});
+    while (!open.empty()) {
+        const Visit visit = open.back();
+        open.pop_back();
+        const JsonObject node = nodes.object(visit.node);
+        const glm::dmat4 to_world = visit.parent_to_world * local_matrix(node);
+        if (!finite(to_world)) {
+            node.fail("", "its place in the world is beyond 1e18", "Correct the node's transform.");
+        }
+        reader.place(node, visit.node, to_world);
+        const auto& below = children[visit.node];
+        for (auto n = below.rbegin(); n != below.rend(); ++n) open.push_back({*n, to_world});
+    }
+}
+
+}  // namespace petrichor::scene

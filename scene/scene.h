@@ -1,0 +1,172 @@
+#ifndef PETRICHOR_SCENE_SCENE_H
+#define PETRICHOR_SCENE_SCENE_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace petrichor::scene {
+
+/// Index into Scene::textures; none when negative.
+using TextureIndex = std::int32_t;
+inline constexpr TextureIndex kNoTexture = -1;
+
+enum class Wrap { Repeat, Clamp, Mirror };
+
+/// How a material reads one texture (KHR_texture_transform folded in).
+/// uv' = rotate(rotation_rad) * (uv * scale) + offset, as the extension defines it.
+struct TextureUse {
+    TextureIndex texture = kNoTexture;
+    int texcoord = 0;  ///< 0 or 1
+    glm::vec2 offset{0.0f};
+    glm::vec2 scale{1.0f};
+    float rotation_rad = 0.0f;
+
+    bool present() const { return texture >= 0; }
+};
+
+/// What weather does to a material. Symbols and defaults: Lux 2.02, "per material".
+/// All linear; the glTF extension PETRICHOR_materials_weather carries these in camelCase.
+struct MaterialWeather {
+    TextureUse height;              ///< red: height, 0 low .. 1 high
+    float height_scale_m = 0.02f;   ///< height 1 above height 0, metres, >= 0
+    float default_height = 0.25f;   ///< H where there is no height map, 0..1
+    TextureUse puddle_mask;         ///< red: 1 puddles may stand, 0 never
+    TextureUse snow_mask;           ///< red: 1 snow may lie, 0 never
+    float porosity = -1.0f;         ///< 0 dense .. 1 porous; negative: from the roughness
+    float water_slope_damp = 0.5f;  ///< 0..1; 0 water on flat ground only
+    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};  ///< cracks constant, influence; puddles
+                                                           ///< constant, influence
+    glm::vec4 water_color{0.0f};                           ///< linear RGB, alpha = opacity
+    float flow_tiling = 2.0f;                              ///< repeats per metre
+    float flow_speed = 0.05f;                              ///< 0..2
+    float flow_interval_s = 1.0f;                          ///< 0..8
+    float flow_refraction = 0.02f;                         ///< 0..0.1
+    float flow_normal_strength = 1.0f;                     ///< 0..2
+    float snow_slope_damp = 0.75f;                         ///< 0..8
+    glm::vec2 snow_accumulation{0.0f, 1.0f};               ///< constant, influence
+    float snow_normal_strength = 1.0f;                     ///< 0..2
+    float snow_detail_strength = 0.3f;                     ///< 0..1
+    float snow_opacity = 0.5f;                             ///< 0..1
+    bool sheltered = false;  ///< never gets rain or snow (an interior)
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// A dry material: glTF 2.0 metallic-roughness and the extensions that we read.
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0f};  ///< linear
+    TextureUse base_color_texture;
+    float metallic = 1.0f;
+    float roughness = 1.0f;                 ///< perceptual
+    TextureUse metallic_roughness_texture;  ///< G roughness, B metallic
+    TextureUse normal_texture;              ///< +y up
+    float normal_scale = 1.0f;
+    TextureUse occlusion_texture;  ///< R
+    float occlusion_strength = 1.0f;
+    glm::vec3 emissive{0.0f};  ///< linear, strength folded in
+    TextureUse emissive_texture;
+    float ior = 1.5f;
+    float specular = 1.0f;           ///< KHR_materials_specular factor
+    glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
+    float transmission = 0.0f;       ///< KHR_materials_transmission factor
+    float clearcoat = 0.0f;
+    float clearcoat_roughness = 0.0f;
+    glm::vec3 sheen_color{0.0f};
+    float sheen_roughness = 0.0f;
+    float anisotropy = 0.0f;
+    float anisotropy_rotation_rad = 0.0f;
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    bool unlit = false;
+    MaterialWeather weather;
+};
+
+/// Triangles of one material. All attribute arrays have positions.size() entries; uv1, colors and
+/// weather may be empty. Tangents are as MikkTSpace defines them, w the bitangent sign.
+struct Primitive {
+    std::vector<glm::vec3> positions;  ///< object space, metres
+    std::vector<glm::vec3> normals;    ///< unit
+    std::vector<glm::vec4> tangents;   ///< unit xyz, w = -1 or 1
+    std::vector<glm::vec2> uv0;
+    std::vector<glm::vec2> uv1;
+    std::vector<glm::vec4> colors;  ///< COLOR_0, linear; multiplies the base colour
+    std::vector<glm::vec4>
+        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
+    std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
+    std::uint32_t material = 0;          ///< index into Scene::materials
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+/// A mesh placed in the world. Several instances may share a mesh.
+struct Instance {
+    std::string name;
+    std::uint32_t mesh = 0;
+    glm::mat4 to_world{1.0f};
+};
+
+enum class LightKind { Directional, Point, Spot };
+
+/// KHR_lights_punctual, in world space.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::Point;
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f;  ///< lux for directional, candela for point and spot
+    float range_m = 0.0f;    ///< 0: unlimited
+    glm::vec3 position_m{0.0f};
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< the light travels this way, unit
+    float inner_cone_rad = 0.0f;
+    float outer_cone_rad = 0.785398163f;
+};
+
+/// Looks along -z of `to_world`, +y up.
+struct Camera {
+    std::string name;
+    glm::mat4 to_world{1.0f};
+    float vertical_fov_rad = 0.8f;  ///< (0, pi); ignored when orthographic
+    float near_m = 0.05f;
+    float orthographic_height_m = 0.0f;  ///< > 0: orthographic
+};
+
+/// An image of the scene as it lies in the file: bytes still encoded (PNG, JPEG, WebP, KTX2, ...).
+struct EncodedImage {
+    std::string name;  ///< for messages: the URI or "image 3 (name)"
+    std::vector<std::byte> bytes;
+    Wrap wrap_u = Wrap::Repeat;
+    Wrap wrap_v = Wrap::Repeat;
+    bool nearest = false;  ///< magnification filter
+};
+
+/// One texture = one image and one sampler. The pixels are decoded outside of this room.
+struct Scene {
+    std::string name;
+    std::vector<EncodedImage> textures;
+    std::vector<Material> materials;  ///< never empty once loaded; index 0 may be the default
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
+};
+
+/// World-space bounds of all instances.
+struct Bounds {
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+};
+Bounds scene_bounds(const Scene& scene);
+
+}  // namespace petrichor::scene
+
+#endif

@@ -1,0 +1,91 @@
+#include "film/frames/frames_jsonl.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "tests/support/program.h"
+
+namespace petrichor::film {
+namespace {
+
+using testing_program::read_file;
+using testing_program::Workplace;
+using testing_program::write_file;
+
+FrameFacts facts_of(int frame, const std::string& settings)
+{
+    FrameFacts facts;
+    facts.frame = frame;
+    facts.settings = settings;
+    facts.files = {{"frame.png", 3}};
+    facts.input.weather.rain = 0.1f;
+    return facts;
+}
+
+TEST(FramesJsonl, LinesComeBackAndStayInOrder)
+{
+    const Workplace place("jsonl");
+    merge_frame_lines(place.path(),
+                      {{7, frame_line(facts_of(7, "a"))}, {2, frame_line(facts_of(2, "a"))}});
+    merge_frame_lines(place.path(),
+                      {{5, frame_line(facts_of(5, "b"))}, {7, frame_line(facts_of(7, "c"))}});
+    const auto records = read_frame_records(place.path());
+    ASSERT_EQ(records.size(), 3u);
+    EXPECT_EQ(records.at(2).settings, "a");
+    EXPECT_EQ(records.at(7).settings, "c");
+    EXPECT_EQ(records.at(7).files.at("frame.png"), 3u);
+    EXPECT_EQ(read_file(place / "frames.jsonl"), frame_line(facts_of(2, "a")) + "\n" +
+                                                     frame_line(facts_of(5, "b")) + "\n" +
+                                                     frame_line(facts_of(7, "c")) + "\n");
+}
+
+TEST(FramesJsonl, NumbersAreShortAndThereIsNoClock)
+{
+    const std::string line = frame_line(facts_of(1, "a"));
+    EXPECT_THAT(line, testing::HasSubstr("\"rain\":0.1,"));
+    EXPECT_EQ(line, frame_line(facts_of(1, "a")));
+}
+
+TEST(FramesJsonl, BrokenLinesAreLeftOut)
+{
+    const Workplace place("broken");
+    write_file(place / "frames.jsonl",
+               frame_line(facts_of(1, "a")) + "\nnot json\n{\"frame\":\"x\"}\n[]\n{\"fra");
+    EXPECT_EQ(read_frame_records(place.path()).size(), 1u);
+    EXPECT_TRUE(read_frame_records(place / "nowhere").empty());
+}
+
+TEST(FramesJsonl, FilesAreWholeOnlyWithTheirSize)
+{
+    const Workplace place("whole");
+    merge_frame_lines(place.path(), {{1, frame_line(facts_of(1, "a"))}});
+    const auto record = read_frame_records(place.path()).at(1);
+    EXPECT_FALSE(files_are_whole(record, place.path()));
+    write_file(place / "frame.png", "1234");
+    EXPECT_FALSE(files_are_whole(record, place.path()));
+    write_file(place / "frame.png", "123");
+    EXPECT_TRUE(files_are_whole(record, place.path()));
+}
+
+// Several programs render parts of one sequence into one folder.
+TEST(FramesJsonl, WritersAtOnceLoseNothing)
+{
+    const Workplace place("shared");
+    std::vector<std::thread> writers;
+    for (int writer = 0; writer < 4; ++writer) {
+        writers.emplace_back([&place, writer] {
+            for (int i = 0; i < 25; ++i) {
+                const int frame = writer * 25 + i;
+                merge_frame_lines(place.path(), {{frame, frame_line(facts_of(frame, "a"))}});
+            }
+        });
+    }
+    for (std::thread& writer : writers) writer.join();
+    EXPECT_EQ(read_frame_records(place.path()).size(), 100u);
+}
+
+}  // namespace
+}  // namespace petrichor::film

@@ -1,0 +1,196 @@
+#include "film/scenario/scenario.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "base/error.h"
+#include "film/scenario/material_keys.h"
+#include "film/scenario/starter.h"
+
+namespace petrichor::film {
+namespace {
+
+using testing::HasSubstr;
+
+struct Message {
+    std::string problem;
+    std::string fix;
+};
+
+Message error_of(const std::string& text)
+{
+    try {
+        parse_scenario(text, "s.toml");
+    } catch (const Error& error) {
+        return {error.what(), error.fix()};
+    }
+    return {"no error", ""};
+}
+
+TEST(Scenario, EmptyTextGivesTheDefaults)
+{
+    const Scenario scenario = parse_scenario("", "s.toml");
+    EXPECT_EQ(scenario.output.width, 640);
+    EXPECT_EQ(scenario.output.height, 360);
+    EXPECT_EQ(scenario.output.frames, 48);
+    EXPECT_FALSE(scenario.has_weather);
+}
+
+TEST(Scenario, ReadsEveryKindOfValue)
+{
+    const Scenario scenario = parse_scenario(R"(
+[scene]
+file = "town.glb"
+[camera]
+interpolation = "linear"
+keys = [{ time_s = 0, position_m = [1, 2, 3], look_at_m = [0, 0, 0] },
+        { time_s = 4.5, position_m = [1, 2, 4], look_at_m = [0, 0, 0], fov_degrees = 30 }]
+[sun]
+elevation_degrees = [[0, 40], [10, -5.5]]
+[lights]
+lamps = "dusk"
+[output]
+width = 320
+aovs = ["depth", "wetness"]
+[weather]
+preset = "storm"
+[materials."*brick*"]
+porosity = 0.7
+water_accumulation = [0, 1, 0.5, 1]
+[materials."glass"]
+sheltered = true
+)",
+                                             "s.toml");
+    EXPECT_EQ(scenario.scene.file, "town.glb");
+    ASSERT_EQ(scenario.camera.keys.size(), 2u);
+    EXPECT_EQ(scenario.camera.interpolation, Interpolation::Linear);
+    EXPECT_EQ(scenario.camera.keys[1].fov_degrees, 30.0);
+    EXPECT_EQ(scenario.camera.keys[1].position_m->z, 4.0);
+    ASSERT_EQ(scenario.sun.elevation_degrees.keys.size(), 2u);
+    EXPECT_EQ(scenario.sun.elevation_degrees.keys[1].value, -5.5);
+    EXPECT_EQ(scenario.lights.lamps, Lamps::Dusk);
+    EXPECT_EQ(scenario.output.width, 320);
+    EXPECT_THAT(scenario.output.aovs, testing::ElementsAre("depth", "wetness"));
+    EXPECT_TRUE(scenario.has_weather);
+    ASSERT_EQ(scenario.materials.size(), 2u);
+    EXPECT_EQ(scenario.materials[0].glob, "*brick*");
+    EXPECT_EQ(scenario.materials[0].values.size(), 2u);
+}
+
+TEST(Scenario, AMisspeltKeyNamesLineAndNearest)
+{
+    const Message message = error_of("[output]\nframes = 3\nwidht = 64\n");
+    EXPECT_THAT(message.problem, HasSubstr("s.toml:3"));
+    EXPECT_THAT(message.problem, HasSubstr("\"widht\""));
+    EXPECT_THAT(message.problem, HasSubstr("Did you mean \"width\"?"));
+    EXPECT_THAT(message.fix, HasSubstr("samples"));
+}
+
+TEST(Scenario, MisspeltTablesAndMaterialKeysToo)
+{
+    EXPECT_THAT(error_of("[outptu]\nframes = 3\n").problem, HasSubstr("Did you mean \"output\"?"));
+    EXPECT_THAT(error_of("\n[materials.x]\nporosty = 1\n").problem, HasSubstr("s.toml:3"));
+    EXPECT_THAT(error_of("[materials.x]\nporosty = 1\n").problem,
+                HasSubstr("Did you mean \"porosity\"?"));
+    EXPECT_THAT(error_of("frames = 3\n").problem, HasSubstr("s.toml:1"));
+    EXPECT_THAT(error_of("[camera]\nkeys = [{ time_s = 0, position = [0, 0, 0] }]\n").problem,
+                HasSubstr("Did you mean \"position_m\"?"));
+}
+
+struct BadValue {
+    const char* name;
+    const char* text;
+    const char* expected;
+};
+void PrintTo(const BadValue& value, std::ostream* out)
+{
+    *out << value.name;
+}
+
+class ScenarioBadValue : public testing::TestWithParam<BadValue> {};
+TEST_P(ScenarioBadValue, NamesPlaceFoundAndAccepted)
+{
+    const Message message = error_of(GetParam().text);
+    EXPECT_THAT(message.problem, HasSubstr("s.toml:2")) << message.problem;
+    EXPECT_THAT(message.problem, HasSubstr(GetParam().expected));
+    EXPECT_FALSE(message.fix.empty());
+}
+INSTANTIATE_TEST_SUITE_P(
+    Table, ScenarioBadValue,
+    testing::Values(
+        BadValue{"zero_width", "[output]\nwidth = 0", "a whole number from 1 to 16384, got 0"},
+        BadValue{"fraction", "[output]\nframes = 2.5", "a whole number"},
+        BadValue{"text_for_number", "[output]\nfps = \"12\"", "a number from"},
+        BadValue{"not_finite", "[output]\nfps = nan", "a number from"},
+        BadValue{"choice", "[lights]\nlamps = \"maybe\"", "\"on\" or \"off\" or \"dusk\""},
+        BadValue{"unordered_keys", "[sun]\nelevation_degrees = [[3, 1], [2, 1]]",
+                 "later than the key before"},
+        BadValue{"short_point", "[camera]\nposition_m = [1, 2]", "an array of 3 numbers"},
+        BadValue{"half_a_camera_key", "[camera]\nkeys = [{ time_s = 1, position_m = [1, 2, 3] }]",
+                 "look_at_m"},
+        BadValue{"material_range", "[materials.x]\nporosity = 2", "from 0 to 1, got 2"},
+        BadValue{"not_a_table", "\noutput = 3", "a table"},
+        BadValue{"syntax", "[output]\nwidth = = 3", "not valid TOML"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(Scenario, TheStarterParsesAsItStands)
+{
+    const Scenario scenario = parse_scenario(starter_scenario("mine", "a.glb"), "mine.toml");
+    EXPECT_EQ(scenario.scene.file, "a.glb");
+    EXPECT_TRUE(scenario.has_weather);
+    EXPECT_TRUE(scenario.materials.empty());
+}
+
+TEST(Scenario, TheStarterNamesEveryKey)
+{
+    const std::string text = starter_scenario("mine", "a.glb");
+    for (const ScenarioKey& key : scenario_keys()) {
+        EXPECT_THAT(text, HasSubstr(key.name + " = ")) << key.table;
+        EXPECT_FALSE(key.meaning.empty()) << key.name;
+        EXPECT_FALSE(table_meaning(key.table).empty()) << key.table;
+    }
+}
+
+// Each documented example is accepted by itself, whatever its table holds besides.
+TEST(Scenario, EveryDocumentedKeyIsAccepted)
+{
+    ASSERT_GT(scenario_keys().size(), 50u);
+    std::set<std::string> seen;
+    for (const ScenarioKey& key : scenario_keys()) {
+        EXPECT_TRUE(seen.insert(key.table + "." + key.name).second)
+            << key.name << " is there twice";
+        const std::string table = key.table == "materials" ? "materials.\"*\"" : key.table;
+        std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
+        if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";
+        if (key.name == "look_at_m") text += "position_m = [0, 0, 0]\n";
+        EXPECT_NO_THROW(parse_scenario(text, "s.toml")) << text;
+        if (key.keyed) {
+            EXPECT_NO_THROW(parse_scenario(
+                "[" + table + "]\n" + key.name + " = [[0, 1.0], [2.5, 1.0]]\n", "s.toml"))
+                << key.name;
+        }
+    }
+}
+
+TEST(MaterialOverrides, MatchByGlobAndTheLaterOneWins)
+{
+    const Scenario scenario = parse_scenario(
+        "[materials.\"z*\"]\nporosity = 0.1\n[materials.\"*stone\"]\nporosity = 0.9\n"
+        "snow_accumulation = [0.5, 2]\n[materials.\"nothing\"]\nsheltered = true\n",
+        "s.toml");
+    std::vector<scene::Material> materials(2);
+    materials[0].name = "z_stone";
+    materials[1].name = "brick";
+    const auto unmatched = apply_material_overrides(scenario.materials, materials);
+    EXPECT_FLOAT_EQ(materials[0].weather.porosity, 0.9f);
+    EXPECT_FLOAT_EQ(materials[0].weather.snow_accumulation.y, 2.0f);
+    EXPECT_LT(materials[1].weather.porosity, 0.0f);
+    ASSERT_EQ(unmatched.size(), 1u);
+    EXPECT_THAT(unmatched[0], HasSubstr("s.toml:6"));
+    EXPECT_THAT(unmatched[0], HasSubstr("z_stone, brick"));
+}
+
+}  // namespace
+}  // namespace petrichor::film

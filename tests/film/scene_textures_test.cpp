@@ -1,0 +1,158 @@
+#include "film/scenes/scene_textures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "texproc/codecs/files/io.h"
+
+namespace petrichor::film {
+namespace {
+
+using Kind = TextureRecipe::Kind;
+
+scene::EncodedImage image_of(int size, const std::vector<std::uint8_t>& even,
+                             const std::vector<std::uint8_t>& odd)
+{
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < size * size; ++i) {
+        const auto& color = (i % size + i / size) % 2 == 0 ? even : odd;
+        pixels.insert(pixels.end(), color.begin(), color.end());
+    }
+    scene::EncodedImage image;
+    image.name = "image";
+    image.bytes = texproc::encode_png8(size, size, 3, pixels);
+    return image;
+}
+
+// Color, bumpy normals, packed occlusion-roughness-metal.
+scene::Scene scene_with_maps()
+{
+    scene::Scene scene;
+    scene.textures = {image_of(8, {255, 255, 255}, {0, 0, 0}),
+                      image_of(8, {228, 128, 208}, {28, 128, 208}),
+                      image_of(8, {200, 64, 255}, {200, 64, 255})};
+    scene::Material material;
+    material.base_color_texture.texture = 0;
+    material.normal_texture.texture = 1;
+    material.metallic_roughness_texture.texture = 2;
+    material.occlusion_texture.texture = 2;
+    material.roughness = 0.5f;
+    scene.materials = {material};
+    return scene;
+}
+
+TEST(PlanTextures, PairsNormalAndRoughness)
+{
+    scene::Scene scene = scene_with_maps();
+    const auto recipes = plan_textures(scene);
+    ASSERT_EQ(recipes.size(), 3u);
+    EXPECT_EQ(recipes[0].kind, Kind::Color);
+    EXPECT_EQ(recipes[1].kind, Kind::Normal);
+    EXPECT_EQ(recipes[2].kind, Kind::Surface);
+    EXPECT_EQ(recipes[2].normal_image, 1);
+    EXPECT_FLOAT_EQ(recipes[2].roughness_factor, 0.5f);
+    EXPECT_FLOAT_EQ(scene.materials[0].roughness, 1.0f) << "moved into the texture";
+    EXPECT_EQ(scene.materials[0].occlusion_texture.texture, 2) << "read once";
+}
+
+TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
+{
+    scene::Scene scene = scene_with_maps();
+    scene.materials[0].emissive_texture.texture = 2;  // colour
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].normal_texture = {};  // the same roughness without its bumps
+    const auto recipes = plan_textures(scene);
+    ASSERT_EQ(recipes.size(), scene.textures.size());
+    ASSERT_EQ(recipes.size(), 5u);
+    const auto& first = scene.materials[0];
+    const auto& second = scene.materials[1];
+    EXPECT_NE(first.emissive_texture.texture, first.metallic_roughness_texture.texture);
+    EXPECT_NE(first.metallic_roughness_texture.texture, second.metallic_roughness_texture.texture);
+    EXPECT_EQ(first.base_color_texture.texture, second.base_color_texture.texture);
+    for (const TextureRecipe& recipe : recipes) EXPECT_LT(recipe.image, 3);
+}
+
+TEST(PlanTextures, OtherCoordinatesAreNotPaired)
+{
+    scene::Scene scene = scene_with_maps();
+    scene.materials[0].normal_texture.scale = {2.0f, 2.0f};
+    EXPECT_EQ(plan_textures(scene)[2].normal_image, -1);
+    EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.5f);
+}
+
+TEST(PrepareTextures, LostBumpsBecomeRoughness)
+{
+    scene::Scene scene = scene_with_maps();
+    const auto textures = prepare_textures(scene, {.threads = 2});
+    ASSERT_EQ(textures.size(), 3u);
+    for (const gpu::Texture& texture : textures) {
+        EXPECT_EQ(texture.mips.size(), 4u);
+        EXPECT_EQ(texture.width, 8);
+    }
+    EXPECT_EQ(textures[0].format, gpu::TexelFormat::Rgba8Srgb);
+    EXPECT_EQ(textures[1].format, gpu::TexelFormat::Rg8Unorm);
+    // Half black, half white is half the light: 188 in sRGB, not 128.
+    EXPECT_NEAR(static_cast<int>(textures[0].mips[3][0]), 188, 1);
+    // Level 0 is the file with the factor in it: 64 / 255 * 0.5; the last level is much rougher.
+    EXPECT_NEAR(static_cast<int>(textures[2].mips[0][1]), 32, 1);
+    EXPECT_GT(static_cast<int>(textures[2].mips[3][1]), 120);
+    EXPECT_EQ(static_cast<int>(textures[2].mips[3][0]), 200) << "occlusion is a plain mean";
+    // Bumps to both sides cancel.
+    EXPECT_NEAR(static_cast<int>(textures[1].mips[3][0]), 128, 1);
+}
+
+// A leaf: bright green where it is, black where it is not.
+TEST(PrepareTextures, HolesDoNotDarkenTheColourOfALeaf)
+{
+    const auto mid_green = [](scene::AlphaMode mode) {
+        std::vector<std::uint8_t> pixels;
+        for (int i = 0; i < 64; ++i) {
+            const bool leaf = (i + i / 8) % 2 == 0;
+            for (const int v : {0, leaf ? 200 : 0, 0, leaf ? 255 : 0}) {
+                pixels.push_back(static_cast<std::uint8_t>(v));
+            }
+        }
+        scene::Scene scene;
+        scene.textures.emplace_back();
+        scene.textures[0].name = "leaf.png";
+        scene.textures[0].bytes = texproc::encode_png8(8, 8, 4, pixels);
+        scene.materials.emplace_back();
+        scene.materials[0].alpha_mode = mode;
+        scene.materials[0].base_color_texture.texture = 0;
+        return static_cast<int>(prepare_textures(scene)[0].mips[1][1]);
+    };
+    EXPECT_EQ(mid_green(scene::AlphaMode::Mask), 200);
+    EXPECT_EQ(mid_green(scene::AlphaMode::Blend), 200);
+    EXPECT_NEAR(mid_green(scene::AlphaMode::Opaque), 146, 2) << "half of the light, whatever alpha";
+}
+
+TEST(PrepareTextures, SameBytesForAnyThreadCountAndLargeOnesAreReduced)
+{
+    scene::Scene one = scene_with_maps();
+    scene::Scene four = scene_with_maps();
+    const auto a = prepare_textures(one, {.max_size = 4, .threads = 1});
+    const auto b = prepare_textures(four, {.max_size = 4, .threads = 4});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].width, 4);
+        EXPECT_EQ(a[i].mips.size(), 3u);
+        EXPECT_TRUE(a[i].mips == b[i].mips);
+    }
+}
+
+TEST(PrepareTextures, ADamagedImageIsNamed)
+{
+    scene::Scene scene = scene_with_maps();
+    scene.textures[1].name = "bumps.png";
+    scene.textures[1].bytes.resize(60);
+    try {
+        prepare_textures(scene);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("bumps.png"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::film

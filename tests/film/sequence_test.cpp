@@ -1,0 +1,206 @@
+#include "film/jobs/sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "film/jobs/camera.h"
+#include "film/jobs/sun.h"
+
+namespace petrichor::film {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+TEST(FrameRange, ReadsEveryForm)
+{
+    EXPECT_EQ(parse_frame_range("3:7", 10).first, 3);
+    EXPECT_EQ(parse_frame_range("3:7", 10).last, 7);
+    EXPECT_EQ(parse_frame_range("5:", 10).last, 9);
+    EXPECT_EQ(parse_frame_range(":4", 10).first, 0);
+    EXPECT_EQ(parse_frame_range("6", 10).first, 6);
+    EXPECT_EQ(parse_frame_range("6", 10).last, 6);
+    for (const char* bad :
+         {"", ":", "a:b", "7:3", "-1", "1:2:3", "10", "0:10", "1.5", "99999999999"}) {
+        EXPECT_THROW(parse_frame_range(bad, 10), Error) << bad;
+    }
+}
+
+TEST(Size, AcceptsWhatCanBeRendered)
+{
+    EXPECT_EQ(parse_size("640x360").width, 640);
+    EXPECT_EQ(parse_size("1X2").height, 2);
+    for (const char* bad :
+         {"", "640", "0x1", "1x0", "-4x4", "4x4x4", "16385x1", "9000x9000", "1e3x1"}) {
+        EXPECT_THROW(parse_size(bad), Error) << bad;
+    }
+}
+
+Sequence sequence_of(const std::string& text)
+{
+    Sequence sequence;
+    sequence.scenario = parse_scenario(text, "s.toml");
+    sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    sequence.duration_s = 48.0;
+    sequence.weather = [](double time_s) {
+        WeatherMoment moment;
+        moment.surface.rain = static_cast<float>(time_s / 48.0);
+        moment.cloud_cover = 0.4;
+        return moment;
+    };
+    sequence.content = "content";
+    return sequence;
+}
+
+TEST(FrameAt, TimesRunFromTheStartOverTheDuration)
+{
+    const Sequence sequence = sequence_of("[output]\nframes = 24\nstart_s = 10\nfps = 8\n");
+    EXPECT_DOUBLE_EQ(frame_time_s(sequence, 0), 10.0);
+    EXPECT_DOUBLE_EQ(frame_time_s(sequence, 12), 34.0);
+    EXPECT_DOUBLE_EQ(frame_at(sequence, 12).frame.settings.time_s, 1.5);
+}
+
+TEST(FrameAt, CloudsComeFromTheWeatherUnlessGiven)
+{
+    EXPECT_FLOAT_EQ(frame_at(sequence_of(""), 0).frame.sky.cloud_cover, 0.4f);
+    EXPECT_FLOAT_EQ(frame_at(sequence_of("[sky]\ncloud_cover = 0.9\n"), 0).frame.sky.cloud_cover,
+                    0.9f);
+}
+
+TEST(FrameAt, LampsComeOnAtDusk)
+{
+    const Sequence sequence = sequence_of(
+        "[sun]\nelevation_degrees = [[0, 12], [48, 0]]\n[lights]\nlamps = \"dusk\"\ndusk_degrees = "
+        "4\n"
+        "dusk_fade_degrees = 4\nscale = 2\n");
+    EXPECT_EQ(frame_at(sequence, 0).frame.scene_light_scale, 0.0f);
+    EXPECT_EQ(frame_at(sequence, 47).frame.scene_light_scale, 2.0f);
+    float before = 0.0f;
+    for (int i = 0; i < 48; ++i) {
+        const float lamps = frame_at(sequence, i).frame.scene_light_scale;
+        EXPECT_GE(lamps, before);
+        before = lamps;
+    }
+}
+
+TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
+{
+    const auto print = [](const std::string& text, int frame) {
+        const Sequence sequence = sequence_of(text);
+        return frame_fingerprint(sequence, frame_at(sequence, frame).frame);
+    };
+    const std::string base = print("", 5);
+    EXPECT_EQ(print("", 5), base);
+    EXPECT_EQ(print("[output]\nfilm = false\n", 5), base) << "the film is not in the picture";
+    EXPECT_EQ(base.size(), 32u);
+    for (const char* other :
+         {"[output]\nwidth = 641\n", "[output]\nseed = 2\n", "[output]\nsamples = 9\n",
+          "[sun]\nelevation_degrees = 3\n", "[sky]\ncloud_cover = 0.41\n",
+          "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n", "[camera]\nnear_m = 0.2\n",
+          "[output]\naovs = [\"depth\"]\n", "[scene]\nmax_texture = 512\n",
+          "[materials.\"x\"]\nporosity = 0.5\n", "[sun]\nsource = \"scene\"\n"}) {
+        EXPECT_NE(print(other, 5), base) << other;
+    }
+    EXPECT_NE(print("", 6), base);
+    Sequence sequence = sequence_of("");
+    sequence.content = "another scene";
+    EXPECT_NE(frame_fingerprint(sequence, frame_at(sequence, 5).frame), base);
+}
+
+// Every corner of the bounds lies inside the frame, and one touches its edge (within the margin).
+TEST(FramingCamera, SeesAllOfTheBounds)
+{
+    for (const double aspect : {0.5, 1.0, 16.0 / 9.0}) {
+        const scene::Bounds bounds{{-3.0f, 0.0f, -1.0f}, {5.0f, 2.0f, 9.0f}};
+        const scene::Camera camera = framing_camera(bounds, aspect);
+        const glm::mat4 view = glm::inverse(camera.to_world);
+        const float tan_y = std::tan(0.5f * camera.vertical_fov_rad);
+        float widest = 0.0f;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec4 p = view * glm::vec4(corner & 1 ? bounds.high.x : bounds.low.x,
+                                                 corner & 2 ? bounds.high.y : bounds.low.y,
+                                                 corner & 4 ? bounds.high.z : bounds.low.z, 1.0f);
+            ASSERT_LT(p.z, -camera.near_m);
+            widest = std::max({widest, std::abs(p.y / p.z) / tan_y,
+                               std::abs(p.x / p.z) / (tan_y * static_cast<float>(aspect))});
+        }
+        EXPECT_LE(widest, 1.0f);
+        EXPECT_GT(widest, 0.85f);
+    }
+}
+
+TEST(ContentBounds, ALargeGroundDoesNotHideTheTown)
+{
+    scene::Scene scene;
+    scene::Primitive town;
+    for (int i = 0; i < 1000; ++i) {
+        town.positions.emplace_back(static_cast<float>(i % 10), static_cast<float>(i / 100),
+                                    static_cast<float>(i / 10 % 10));
+    }
+    scene::Primitive ground;
+    ground.positions = {{-500, 0, -500}, {500, 0, -500}, {500, 0, 500}, {-500, 0, 500}};
+    scene.meshes = {{"m", {town, ground}}};
+    scene.instances = {{"i", 0, glm::mat4(1.0f)}};
+    const scene::Bounds bounds = content_bounds(scene);
+    EXPECT_LE(bounds.high.x, 9.0f);
+    EXPECT_GE(bounds.low.z, 0.0f);
+    scene.meshes[0].primitives.pop_back();
+    EXPECT_FLOAT_EQ(content_bounds(scene).high.x, 9.0f);
+}
+
+TEST(CameraAt, NamesTheCamerasThereAre)
+{
+    scene::Scene scene;
+    scene.cameras.resize(1);
+    scene.cameras[0].name = "main";
+    EXPECT_EQ(camera_at({}, scene, {}, 1.0, 0.0).name, "main");
+    ScenarioCamera misspelt;
+    misspelt.name = "mian";
+    try {
+        camera_at(misspelt, scene, {}, 1.0, 0.0);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("Did you mean \"main\"?"), std::string::npos);
+    }
+}
+
+TEST(CameraTowards, LooksAtThePointWithYUp)
+{
+    const scene::Camera camera = camera_towards({3, 2, 1}, {0, 2, -3}, 0.8);
+    const glm::vec4 target = glm::inverse(camera.to_world) * glm::vec4(0, 2, -3, 1);
+    EXPECT_NEAR(target.x, 0.0f, 1e-5f);
+    EXPECT_NEAR(target.y, 0.0f, 1e-5f);
+    EXPECT_NEAR(target.z, -5.0f, 1e-5f);
+    EXPECT_GT(camera.to_world[1].y, 0.99f);
+    EXPECT_NEAR(glm::determinant(glm::mat3(camera.to_world)), 1.0f, 1e-5f);
+}
+
+// Noon at the equinox: the sun stands in the south at 90 degrees minus the latitude.
+TEST(SolarPosition, KnownMoments)
+{
+    const SunDirection noon = solar_position(50.0 * kDegree, 81.0, 12.0);
+    EXPECT_NEAR(noon.elevation_rad / kDegree, 40.0, 0.5);
+    EXPECT_NEAR(noon.azimuth_rad / kDegree, 180.0, 0.5);
+    const SunDirection morning = solar_position(50.0 * kDegree, 81.0, 6.0);
+    EXPECT_NEAR(morning.elevation_rad / kDegree, 0.0, 0.5);
+    EXPECT_NEAR(morning.azimuth_rad / kDegree, 90.0, 0.5);
+    EXPECT_NEAR(solar_position(50.0 * kDegree, 172.0, 12.0).elevation_rad / kDegree, 63.45, 0.1);
+    EXPECT_LT(solar_position(50.0 * kDegree, 172.0, 0.0).elevation_rad, 0.0);
+}
+
+TEST(SunAt, FollowsTheScenesLightUnlessTold)
+{
+    scene::Scene scene;
+    scene::Light light;
+    light.kind = scene::LightKind::Directional;
+    light.direction =
+        glm::normalize(glm::vec3(-1.0f, -1.0f, 0.0f));  // from the east, 45 degrees high
+    scene.lights = {light};
+    EXPECT_NEAR(sun_at({}, scene, 0.0).elevation_rad / kDegree, 45.0, 1e-4);
+    EXPECT_NEAR(sun_at({}, scene, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
+    const Scenario told = parse_scenario("[sun]\nelevation_degrees = 10\n", "s.toml");
+    EXPECT_NEAR(sun_at(told.sun, scene, 0.0).elevation_rad / kDegree, 10.0, 1e-9);
+    EXPECT_NEAR(sun_at(told.sun, scene, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace petrichor::film

@@ -1,0 +1,250 @@
+// Laws and table values of the shared formulas, on the CPU. tests/gpu/parity_test.cpp shows that
+// the device computes the same.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "formulas/codec/octahedral.h"
+#include "formulas/color/tone_map.h"
+#include "formulas/light/atmosphere.h"
+#include "formulas/light/brdf.h"
+#include "formulas/weather/ripple.h"
+#include "formulas/weather/surface_weather.h"
+
+namespace petrichor::shared {
+namespace {
+
+// Integral over the upper hemisphere by a midpoint rule in cosine and azimuth.
+template <class F>
+double over_hemisphere(int steps, const F& f)
+{
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        for (int j = 0; j < steps; ++j) {
+            const double c = (i + 0.5) / steps;
+            const double phi = 2.0 * M_PI * (j + 0.5) / steps;
+            const double s = std::sqrt(1.0 - c * c);
+            sum += static_cast<double>(f(glm::vec3(s * std::cos(phi), s * std::sin(phi), c)));
+        }
+    }
+    return sum * 2.0 * M_PI / (static_cast<double>(steps) * steps);
+}
+
+TEST(Brdf, DistributionIntegratesToOne)
+{
+    for (const float alpha : {0.25f, 0.4f, 0.6f, 1.0f}) {
+        const double sum = over_hemisphere(
+            400, [&](const glm::vec3& h) { return ggx_distribution(h.z, alpha) * h.z; });
+        EXPECT_NEAR(sum, 1.0, 0.01) << alpha;
+    }
+}
+
+// Closed form at alpha = 1: E(v) = 1 - v ln(1 + 1 / v).
+TEST(Brdf, DirectionalAlbedoAtFullRoughness)
+{
+    for (const float nv : {0.25f, 0.5f, 1.0f}) {
+        const glm::vec3 v(std::sqrt(1.0f - nv * nv), 0.0f, nv);
+        const double sum = over_hemisphere(300, [&](const glm::vec3& l) {
+            return shade_direct(glm::vec3(0, 0, 1), v, l, glm::vec3(0), glm::vec3(1), 1.0f).x;
+        });
+        const double mu = static_cast<double>(nv);
+        EXPECT_NEAR(sum, 1.0 - mu * std::log(1.0 + 1.0 / mu), 2e-3) << nv;
+    }
+}
+
+TEST(Brdf, IsReciprocal)
+{
+    const glm::vec3 n(0, 0, 1);
+    const glm::vec3 a = glm::normalize(glm::vec3(0.3f, 0.5f, 0.7f));
+    const glm::vec3 b = glm::normalize(glm::vec3(-0.6f, 0.1f, 0.4f));
+    const glm::vec3 f = shade_direct(n, a, b, glm::vec3(0.2f), glm::vec3(0.04f), 0.3f) / b.z;
+    const glm::vec3 g = shade_direct(n, b, a, glm::vec3(0.2f), glm::vec3(0.04f), 0.3f) / a.z;
+    EXPECT_NEAR(f.x, g.x, 1e-5f);
+}
+
+// The seed of grass: no F0, no highlight.
+TEST(Brdf, NoHighlightWithoutReflectance)
+{
+    const glm::vec3 n(0, 0, 1);
+    EXPECT_EQ(shade_direct(n, n, n, glm::vec3(0), glm::vec3(0), 0.1f), glm::vec3(0));
+}
+
+TEST(Brdf, LightWindowEndsAtTheRange)
+{
+    EXPECT_FLOAT_EQ(light_attenuation(2.0f, 0.0f), 0.25f);
+    EXPECT_EQ(light_attenuation(5.0f, 5.0f), 0.0f);
+    float before = light_attenuation(0.1f, 5.0f);
+    for (float d = 0.2f; d <= 6.0f; d += 0.1f) {
+        const float now = light_attenuation(d, 5.0f);
+        EXPECT_LE(now, before);
+        before = now;
+    }
+    EXPECT_FLOAT_EQ(spot_attenuation(1.0f, 0.9f, 0.8f), 1.0f);
+    EXPECT_NEAR(spot_attenuation(0.85f, 0.9f, 0.8f), 0.25f, 1e-5f);
+    EXPECT_FLOAT_EQ(spot_attenuation(0.7f, 0.9f, 0.8f), 0.0f);
+}
+
+TEST(Octahedral, RoundTrips)
+{
+    for (float y = -1.0f; y <= 1.0f; y += 0.05f) {
+        for (float phi = 0.0f; phi < 6.2f; phi += 0.3f) {
+            const float s = std::sqrt(std::max(0.0f, 1.0f - y * y));
+            const glm::vec3 n(s * std::cos(phi), y, s * std::sin(phi));
+            EXPECT_LT(glm::length(octahedral_decode(octahedral_encode(n)) - n), 2e-6f);
+        }
+    }
+}
+
+TEST(ToneMap, RisesFromBlackToWhite)
+{
+    EXPECT_EQ(filmic_channel(0.0f), 0.0f);
+    EXPECT_NEAR(filmic_channel(0.18f), 0.18f, 0.002f);
+    float before = -1.0f;
+    for (float x = 0.0f; x < 64.0f; x += 0.05f) {
+        const float now = filmic_channel(x);
+        EXPECT_GT(now, before);
+        before = now;
+    }
+    EXPECT_NEAR(srgb_encode(0.5f), 0.735357f, 1e-5f);
+    EXPECT_NEAR(srgb_encode(0.002f), 0.02584f, 1e-6f);
+}
+
+TEST(Air, ReddensAndDimsTheLowSun)
+{
+    const glm::vec3 high = air_transmittance(2.0f, 1.0f, 2.5f);
+    const glm::vec3 low = air_transmittance(2.0f, 0.05f, 2.5f);
+    EXPECT_GT(high.x, 0.85f);
+    EXPECT_GT(high.b, 0.6f);
+    EXPECT_LT(low.b, low.g);
+    EXPECT_LT(low.g, low.r);
+    EXPECT_LT(low.g, 0.6f * high.g);
+    EXPECT_EQ(air_transmittance(2.0f, -0.3f, 2.5f), glm::vec3(0.0f));
+}
+
+TEST(Air, SkyIsBlueOverhead)
+{
+    const glm::vec3 zenith = air_radiance(1.0f, 0.7f, 0.7f, glm::vec3(100000.0f), 2.5f);
+    EXPECT_GT(zenith.b, 1.5f * zenith.r);
+    EXPECT_GT(zenith.g, 500.0f);
+    EXPECT_LT(zenith.g, 8000.0f);
+}
+
+// ---- water and snow
+// --------------------------------------------------------------------------------
+
+TEST(WaterCover, FillsFromTheLowestPlaceUp)
+{
+    for (float level = 0.0f; level <= 1.0f; level += 0.1f) {
+        float before = 2.0f;
+        for (float height = 0.0f; height <= 1.0f; height += 0.05f) {
+            const WaterCover c = water_cover(glm::vec2(level, 0.0f), height, 1.0f, 1.0f, 0.5f);
+            EXPECT_LE(c.anywhere, before);
+            EXPECT_GE(c.anywhere, 0.0f);
+            before = c.anywhere;
+        }
+    }
+    EXPECT_EQ(water_cover(glm::vec2(0.0f), 0.0f, 1.0f, 1.0f, 0.5f).anywhere, 0.0f);
+    EXPECT_EQ(water_cover(glm::vec2(1.0f), 0.0f, 1.0f, 1.0f, 0.5f).anywhere, 1.0f);
+}
+
+TEST(WaterCover, HandComputedValues)
+{
+    // cracks 0.6 - 0.2 = 0.4; puddles (0.8 - 0.2) / 0.4 = 1 after clamping.
+    const WaterCover c = water_cover(glm::vec2(0.6f, 0.8f), 0.2f, 1.0f, 1.0f, 0.5f);
+    EXPECT_FLOAT_EQ(c.anywhere, 1.0f);
+    EXPECT_FLOAT_EQ(c.deep, 1.0f);
+    // No puddle mask: cracks alone.
+    const WaterCover d = water_cover(glm::vec2(0.6f, 0.8f), 0.2f, 0.0f, 1.0f, 0.5f);
+    EXPECT_FLOAT_EQ(d.anywhere, 0.4f);
+    EXPECT_FLOAT_EQ(d.deep, 0.04f);
+    // A wall sheds its water: slope factor 1 - damp = 0 at full damp.
+    EXPECT_EQ(water_cover(glm::vec2(1.0f), 0.0f, 1.0f, 0.0f, 1.0f).anywhere, 0.0f);
+}
+
+TEST(SnowCover, NothingWithoutSnowEverythingWithMuch)
+{
+    for (float noise = 0.0f; noise <= 1.0f; noise += 0.1f) {
+        EXPECT_EQ(snow_cover(0.0f, 1.0f, 1.0f, 0.75f, 1.0f, noise, 1.0f, 0.0f).snow, 0.0f);
+    }
+    EXPECT_NEAR(snow_cover(1.0f, 1.0f, 1.0f, 0.75f, 1.0f, 0.5f, 0.5f, 0.0f).snow, 1.0f, 1e-6f);
+    EXPECT_EQ(snow_cover(1.0f, 0.0f, 1.0f, 0.75f, 1.0f, 0.9f, 0.9f, 0.0f).snow, 0.0f)
+        << "below the snow line";
+    EXPECT_EQ(snow_cover(1.0f, 1.0f, 1.0f, 0.75f, 0.0f, 0.9f, 0.9f, 0.0f).snow, 0.0f)
+        << "masked out";
+}
+
+TEST(SnowCover, GrowsWithAmountAndFlatness)
+{
+    float before = 0.0f;
+    for (float amount = 0.0f; amount <= 1.0f; amount += 0.02f) {
+        const float now = snow_cover(amount, 1.0f, 1.0f, 0.75f, 1.0f, 0.7f, 0.8f, 0.0f).snow;
+        EXPECT_GE(now, before - 1e-6f);
+        before = now;
+    }
+    before = 0.0f;
+    for (float up = -1.0f; up <= 1.0f; up += 0.05f) {
+        const float now = snow_cover(0.7f, 1.0f, up, 1.0f, 1.0f, 0.8f, 0.9f, 0.0f).snow;
+        EXPECT_GE(now, before - 1e-6f);
+        before = now;
+    }
+}
+
+TEST(ApplyWater, DarkensPorousNotSmooth)
+{
+    WeatheredMaterial dry{glm::vec3(0.4f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f};
+    const WeatheredMaterial porous = apply_water(dry, glm::vec2(1.0f), 0.0f, glm::vec4(0.0f), 1.0f);
+    EXPECT_NEAR(porous.albedo.x, 0.4f * 0.2f, 1e-6f);
+    const WeatheredMaterial dense = apply_water(dry, glm::vec2(1.0f), 0.0f, glm::vec4(0.0f), 0.0f);
+    EXPECT_EQ(dense.albedo.x, 0.4f);
+    const WeatheredMaterial flooded =
+        apply_water(dry, glm::vec2(0.0f), 1.0f, glm::vec4(0.1f, 0.1f, 0.1f, 0.5f), 0.0f);
+    EXPECT_NEAR(flooded.smoothness, 0.9f, 1e-6f);
+    EXPECT_NEAR(flooded.specular.x, 0.02f, 1e-6f);
+    EXPECT_NEAR(flooded.albedo.x, 0.25f, 1e-6f);
+    EXPECT_NEAR(flooded.emission_scale, 0.5f, 1e-6f);
+    EXPECT_NEAR(flooded.occlusion, 0.75f, 1e-6f);
+    const WeatheredMaterial same = apply_water(dry, glm::vec2(0.0f), 0.0f, glm::vec4(0.0f), 1.0f);
+    EXPECT_EQ(same.albedo, dry.albedo);
+    EXPECT_EQ(same.smoothness, dry.smoothness);
+}
+
+TEST(ApplySnow, CoversWhatIsUnder)
+{
+    const WeatheredMaterial under{glm::vec3(0.1f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f};
+    const WeatheredMaterial full =
+        apply_snow(under, 1.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
+    EXPECT_EQ(full.albedo, glm::vec3(0.9f));
+    EXPECT_FLOAT_EQ(full.emission_scale, 0.5f);
+    EXPECT_FLOAT_EQ(full.occlusion, 1.0f);
+    const WeatheredMaterial none =
+        apply_snow(under, 0.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
+    EXPECT_EQ(none.albedo, under.albedo);
+}
+
+TEST(Ripple, DryWeatherIsFlatAndLayersJoinOneByOne)
+{
+    for (int i = 0; i < kRippleLayers; ++i)
+        EXPECT_EQ(ripple_layer(i, 0.0f, 1.0f, 1.0f).weight, 0.0f);
+    EXPECT_EQ(ripple_layer(1, 0.25f, 1.0f, 1.0f).weight, 0.0f);
+    EXPECT_FLOAT_EQ(ripple_layer(0, 0.25f, 1.0f, 1.0f).weight, 1.0f);
+    EXPECT_FLOAT_EQ(ripple_layer(3, 1.0f, 1.0f, 1.0f).weight, 1.0f);
+    EXPECT_EQ(ripple_slope(glm::vec4(0.0f, 0.8f, 0.2f, 0.3f), 0.4f, 1.0f), glm::vec2(0.0f))
+        << "outside every drop";
+}
+
+TEST(Flow, APhaseJumpsOnlyWhereItDoesNotShow)
+{
+    for (float t = 0.0f; t < 3.0f; t += 0.001f) {
+        const FlowPhases p = flow_phases(t, 1.0f);
+        if (p.first < 0.002f) {
+            EXPECT_GT(p.blend, 0.99f);  // only the second shows
+        }
+        if (p.second < 0.002f) {
+            EXPECT_LT(p.blend, 0.01f);  // only the first shows
+        }
+    }
+    EXPECT_EQ(flow_phases(5.0f, 0.0f).first, 0.0f) << "interval 0 is a still surface";
+}
+
+}  // namespace
+}  // namespace petrichor::shared

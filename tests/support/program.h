@@ -1,0 +1,55 @@
+#ifndef PETRICHOR_TESTS_SUPPORT_PROGRAM_H
+#define PETRICHOR_TESTS_SUPPORT_PROGRAM_H
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "scene/gltf/glb_writer.h"
+#include "scene/scene.h"
+#include "texproc/codecs/files/io.h"
+
+namespace petrichor::testing_program {
+
+/// A folder of its own for each test, removed at the end.
+class Workplace {
+public:
+    explicit Workplace(const std::string& name);
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+    ~Workplace();
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+struct Run {
+    std::vector<std::string> arguments;
+    std::vector<std::string> environment = {};  ///< "NAME=value", added to the test's own
+    std::filesystem::path interrupt_when = {};  ///< SIGINT once this file exists
+    long file_limit_bytes = 0;  ///< > 0: no file may grow beyond it, like a full disk
+};
+
+struct Outcome {
+    int exit_code = -1;  ///< 128 + signal when a signal ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs the petrichor that was built with the tests, in a folder.
+Outcome run_petrichor(const Run& run, const std::filesystem::path& folder);
+
+std::string read_file(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& content);
+
+/// A floor and a wall with textures, as .glb: small, but it has all that weather needs.
+std::string tiny_scene_glb();
+
+}  // namespace petrichor::testing_program
+
+#endif

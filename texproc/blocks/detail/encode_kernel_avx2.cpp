@@ -1,7 +1,0 @@
-#include "texproc/blocks/detail/encode_kernel.inc"
-
-namespace petrichor::texproc::detail {
-
-const EncodeKernel kEncodeKernelAvx2{encode_bc1, encode_bc4, encode_bc7};
-
-}  // namespace petrichor::texproc::detail

@@ -1,0 +1,164 @@
+#include "texproc/codecs/blocks/blocks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "texproc/codecs/blocks/detail/decode_block.h"
+#include "texproc/codecs/blocks/detail/encode_kernel.h"
+
+namespace petrichor::texproc {
+
+namespace {
+
+const detail::EncodeKernel& kernel()
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return detail::kEncodeKernelAvx2;
+#endif
+    return detail::kEncodeKernelBase;
+}
+
+// The 16 texels of a block in four planes; what lies past an edge repeats the edge.
+detail::BlockTexels gather(const RawImage& image, int bx, int by)
+{
+    detail::BlockTexels texels;
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    for (int t = 0; t < 16; ++t) {
+        const int x = std::min(4 * bx + t % 4, image.width - 1);
+        const int y = std::min(4 * by + t / 4, image.height - 1);
+        const std::size_t at =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+             static_cast<std::size_t>(x)) *
+            channels;
+        const auto code = [&](std::size_t c) {
+            return static_cast<std::uint8_t>(image.bytes[at + c]);
+        };
+        texels.plane[0][t] = code(0);
+        texels.plane[1][t] = channels > 1 ? code(1) : code(0);
+        texels.plane[2][t] = channels > 2 ? code(2) : channels == 1 ? code(0) : std::uint8_t{0};
+        texels.plane[3][t] = channels > 3 ? code(3) : std::uint8_t{255};
+    }
+    return texels;
+}
+
+void encode_one(const detail::BlockTexels& texels, Block block, const BlockOptions& options,
+                std::byte* to)
+{
+    const detail::EncodeKernel& k = kernel();
+    switch (block) {
+        case Block::Bc1:
+            k.bc1(texels, options,
+                  options.punch_through ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque, to);
+            break;
+        case Block::Bc3:
+            k.bc4(texels.plane[3], options.quality, to);
+            k.bc1(texels, options, detail::Bc1Use::Four, to + 8);
+            break;
+        case Block::Bc4:
+            k.bc4(texels.plane[0], options.quality, to);
+            break;
+        case Block::Bc5:
+            k.bc4(texels.plane[0], options.quality, to);
+            k.bc4(texels.plane[1], options.quality, to + 8);
+            break;
+        case Block::Bc7:
+            k.bc7(texels, options, to);
+            break;
+        case Block::Bc2:
+        case Block::Bc6h:
+            break;
+    }
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
+                                     const BlockOptions& options)
+{
+    if (block == Block::Bc2 || block == Block::Bc6h) {
+        throw Error("block texture: BC2 and BC6H can be read, not written",
+                    "Use bc3 or bc7, or rgba16f for what is beyond 0..1.");
+    }
+    if (image.width < 1 || image.height < 1 || image.channels < 1 || image.type != PixelType::U8 ||
+        image.bytes.size() != image.values()) {
+        throw Error("block texture: it is made from 8-bit codes, at least one pixel of them",
+                    "Convert the image to 8 bits first.");
+    }
+    std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));
+    const int across = (image.width + 3) / 4;
+    parallel_for(static_cast<std::size_t>((image.height + 3) / 4), options.threads,
+                 [&](std::size_t by) {
+                     std::byte* to =
+                         bytes.data() + by * static_cast<std::size_t>(across) * block_bytes(block);
+                     for (int bx = 0; bx < across; ++bx, to += block_bytes(block)) {
+                         encode_one(gather(image, bx, static_cast<int>(by)), block, options, to);
+                     }
+                 });
+    return bytes;
+}
+
+std::array<std::uint8_t, 8> encode_bc4_block(const std::array<std::uint8_t, 16>& values,
+                                             BlockQuality quality)
+{
+    std::array<std::byte, 8> bytes;
+    kernel().bc4(values.data(), quality, bytes.data());
+    std::array<std::uint8_t, 8> block;
+    std::memcpy(block.data(), bytes.data(), 8);
+    return block;
+}
+
+Bc4Choice encode_bc4_block(const TexelCosts& costs, int reach)
+{
+    int low = 255, high = 0;
+    for (const auto& cost : costs) {
+        const auto [least, most] = std::minmax_element(cost.begin(), cost.end());
+        if (*least == *most) continue;  // a texel to which every code is the same
+        const int best = static_cast<int>(least - cost.begin());
+        low = std::min(low, best);
+        high = std::max(high, best);
+    }
+    if (low > high) low = high = 0;
+    Bc4Choice choice;
+    choice.cost = std::numeric_limits<double>::infinity();
+    int chosen[2] = {low, low};
+    const auto look = [&](int r0, int r1) {
+        const auto palette = detail::bc4_palette(r0, r1);
+        double total = 0.0;
+        for (const auto& cost : costs) {
+            float least = cost[palette[0]];
+            for (const std::uint8_t p : palette) least = std::min(least, cost[p]);
+            total += static_cast<double>(least);
+        }
+        if (total < choice.cost) {
+            choice.cost = total;
+            chosen[0] = r0;
+            chosen[1] = r1;
+        }
+    };
+    for (int a = std::max(0, low - reach); a <= std::min(255, low + reach); ++a) {
+        for (int b = std::max(0, high - reach); b <= std::min(255, high + reach); ++b) {
+            look(a, b);  // six values and 0 and 255 when a <= b, else eight
+            look(b, a);
+        }
+    }
+    const auto palette = detail::bc4_palette(chosen[0], chosen[1]);
+    std::uint64_t bits =
+        static_cast<std::uint64_t>(chosen[0]) | static_cast<std::uint64_t>(chosen[1]) << 8;
+    for (std::size_t t = 0; t < 16; ++t) {
+        std::size_t index = 0;
+        for (std::size_t k = 1; k < 8; ++k) {
+            if (costs[t][palette[k]] < costs[t][palette[index]]) index = k;
+        }
+        choice.values[t] = palette[index];
+        bits |= static_cast<std::uint64_t>(index) << (16 + 3 * t);
+    }
+    for (std::size_t i = 0; i < 8; ++i)
+        choice.block[i] = static_cast<std::uint8_t>(bits >> (8 * i));
+    return choice;
+}
+
+}  // namespace petrichor::texproc

@@ -1,0 +1,90 @@
+#include "texproc/codecs/decoder/oiio.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <stdexcept>
+
+#include "texproc/codecs/decoder/image_library.h"
+
+namespace petrichor::texproc::decoder {
+
+namespace {
+
+OIIO::TypeDesc type_desc(PixelType type)
+{
+    switch (type) {
+        case PixelType::U8:
+            return OIIO::TypeDesc::UINT8;
+        case PixelType::U16:
+            return OIIO::TypeDesc::UINT16;
+        case PixelType::F16:
+            return OIIO::TypeDesc::HALF;
+        case PixelType::F32:
+            break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+PixelType stored_type(const OIIO::ImageSpec& spec)
+{
+    switch (spec.format.basetype) {
+        case OIIO::TypeDesc::UINT8:
+            return PixelType::U8;
+        case OIIO::TypeDesc::UINT16:
+            return PixelType::U16;
+        case OIIO::TypeDesc::HALF:
+            return PixelType::F16;
+        default:
+            return PixelType::F32;
+    }
+}
+
+}  // namespace
+
+void read_with_oiio(const std::string& path, const std::string& format, const Accept& accept)
+{
+    OIIO::attribute("threads", 1);  // several files at a time, each in a process of its own
+    OIIO::attribute("exr_threads", -1);
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1);  // alpha is data here: RGB stays as stored
+    wish.attribute("oiio:ioproxy", 0);
+    auto input = OIIO::ImageInput::create(format, false, &wish);
+    if (!input) throw std::runtime_error("this build cannot read " + format + " files");
+    OIIO::ImageSpec spec;
+    if (!input->open(path, spec, wish)) throw std::runtime_error(input->geterror());
+    if (spec.deep) throw std::runtime_error("it holds deep samples, not one value a pixel");
+    if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+        throw std::runtime_error("it has no pixels");
+    }
+    Header header{spec.width, spec.height, spec.nchannels, stored_type(spec), spec.channelnames};
+    std::byte* pixels = accept(header);
+    if (!input->read_image(0, 0, 0, spec.nchannels, type_desc(header.type), pixels)) {
+        const std::string why = input->geterror();
+        throw std::runtime_error(why.empty() ? "its pixels cannot be decoded" : why);
+    }
+}
+
+void write_with_oiio(const std::string& path, const Header& header, const std::byte* pixels,
+                     int quality)
+{
+    auto output = OIIO::ImageOutput::create(path);
+    if (!output) throw std::runtime_error("no writer for " + path);
+    OIIO::ImageSpec spec(header.width, header.height, header.channels, type_desc(header.type));
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("CompressionQuality", quality);
+    if (path.size() > 4 && path.find(".tif", path.size() - 5) != std::string::npos) {
+        spec.attribute("compression", "zip");
+    }
+    if (!output->open(path, spec) || !output->write_image(spec.format, pixels) ||
+        !output->close()) {
+        throw std::runtime_error(output->geterror());
+    }
+}
+
+}  // namespace petrichor::texproc::decoder
+
+// What the program asks this module for.
+extern "C" __attribute__((visibility("default")))
+const petrichor::texproc::decoder::ImageLibrary petrichor_images{
+    petrichor::texproc::decoder::read_with_oiio, petrichor::texproc::decoder::write_with_oiio};

@@ -1,0 +1,78 @@
+#include "texproc/codecs/files/detail/exr_mips.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescriptionAttribute.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/output_file.h"
+
+namespace petrichor::texproc::detail {
+
+namespace {
+
+constexpr unsigned kTile = 64;
+
+std::string channel_name(int c, int channels)
+{
+    if (channels == 1) return "Y";
+    return std::string(1, "RGBA"[c]);
+}
+
+}  // namespace
+
+void write_exr_mips(const std::filesystem::path& path, const MipTexture& texture)
+{
+    int all = 1;
+    while (std::max(texture.width, texture.height) >> all) ++all;
+    if (texture.levels.size() != static_cast<std::size_t>(all)) {
+        throw Error("output " + path.string() + ": EXR with mip levels needs all " +
+                        std::to_string(all) + " levels, got " +
+                        std::to_string(texture.levels.size()),
+                    "Make the whole chain down to 1 x 1 (convert: add --mips).");
+    }
+    const int channels = texture.format.channels;
+    const bool half = texture.format.type == PixelType::F16;
+    const std::size_t size = size_of(texture.format.type);
+    Imf::Header header(texture.width, texture.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 1;
+    header.setTileDescription(
+        Imf::TileDescription(kTile, kTile, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
+    header.insert("textureformat", Imf::StringAttribute("Plain Texture"));
+    header.insert("wrapmodes", Imf::StringAttribute("periodic,periodic"));
+    for (int c = 0; c < channels; ++c) {
+        header.channels().insert(channel_name(c, channels),
+                                 Imf::Channel(half ? Imf::HALF : Imf::FLOAT));
+    }
+    OutputFile file(path);
+    try {
+        Imf::TiledOutputFile out(file.temporary().c_str(), header, 0);
+        for (int k = 0; k < all; ++k) {
+            const std::vector<std::byte>& bytes = texture.levels[static_cast<std::size_t>(k)];
+            char* data = reinterpret_cast<char*>(const_cast<std::byte*>(bytes.data()));
+            const std::size_t pixel = size * static_cast<std::size_t>(channels);
+            const std::size_t row =
+                pixel * static_cast<std::size_t>(level_extent(texture.width, k));
+            Imf::FrameBuffer frame;
+            for (int c = 0; c < channels; ++c) {
+                frame.insert(channel_name(c, channels),
+                             Imf::Slice(half ? Imf::HALF : Imf::FLOAT,
+                                        data + size * static_cast<std::size_t>(c), pixel, row));
+            }
+            out.setFrameBuffer(frame);
+            out.writeTiles(0, out.numXTiles(k) - 1, 0, out.numYTiles(k) - 1, k);
+        }
+    } catch (const std::exception& failed) {
+        throw Error("output: cannot write " + path.string() + ": " + failed.what(),
+                    "Check that the folder is writable and the disk is not full.");
+    }
+    file.commit();
+}
+
+}  // namespace petrichor::texproc::detail

@@ -1,0 +1,162 @@
+// Textures with mip levels to and from files.
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+
+#include "base/error.h"
+#include "texproc/codecs/files/detail/dds.h"
+#include "texproc/codecs/files/detail/exr_mips.h"
+#include "texproc/codecs/files/detail/ktx2.h"
+#include "texproc/codecs/files/detail/texture_shape.h"
+#include "texproc/codecs/files/texture.h"
+
+namespace petrichor::texproc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+void check_holds_levels(const fs::path& path)
+{
+    if (holds_mip_chain(path)) return;
+    throw Error(
+        "output " + path.string() + ": '" + lower_extension(path) + "' does not hold mip levels",
+        "Write .dds, .ktx2 or .exr, or one file a level with %d in the name: 'out_%d.png'.");
+}
+
+void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
+                     const TextureWriteOptions& options)
+{
+    TextureWriteOptions plain = options;
+    if (plain.format.empty() && !levels.empty()) {
+        const bool single = levels[0].type == PixelType::F32;
+        const int channels = std::clamp(levels[0].channels, 1, 4);
+        plain.format = name_of({{}, single ? PixelType::F32 : PixelType::F16, channels, false});
+    }
+    const TextureFormat format = texture_format(plain.format);
+    if (format.block || (format.type != PixelType::F16 && format.type != PixelType::F32)) {
+        throw Error(
+            "output " + path.string() + ": EXR holds halves and floats, not " + plain.format,
+            "Use --format rgba16f or rgba32f (r, rg, rgb), or write .dds or .ktx2.");
+    }
+    detail::write_exr_mips(path, make_texture(levels, plain));
+}
+
+std::vector<std::byte> file_bytes(const fs::path& path, std::uint64_t most)
+{
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+    if (size < 0) {
+        throw Error("image " + path.string() + ": it cannot be read",
+                    "Check the path; it is relative to the folder that you are in.");
+    }
+    if (static_cast<std::uint64_t>(size) > most) {
+        throw Error("image " + path.string() + ": it has " + std::to_string(size >> 20) +
+                        " MiB, more than the limit of " + std::to_string(most >> 20),
+                    "Use a smaller image, or raise the limit (--max-pixels).");
+    }
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!in) throw Error("image " + path.string() + ": it cannot be read", "Check the file.");
+    return bytes;
+}
+
+}  // namespace
+
+bool holds_mip_chain(const fs::path& path)
+{
+    const std::string extension = lower_extension(path);
+    return extension == ".dds" || extension == ".ktx2" || extension == ".exr";
+}
+
+void write_mip_chain(const fs::path& path, std::span<const RawImage> levels,
+                     const TextureWriteOptions& options)
+{
+    check_holds_levels(path);
+    const std::string extension = lower_extension(path);
+    if (extension == ".exr") {
+        write_exr_chain(path, levels, options);
+        return;
+    }
+    if (options.zstd && extension == ".dds") {
+        throw Error("output " + path.string() + ": DDS has no zstd compression", "Write .ktx2.");
+    }
+    // Levels that are stored as they are need no copy.
+    MipTexture texture = detail::texture_shape(levels, options);
+    detail::LevelBytes bytes;
+    const bool kept = !texture.format.block && texture.format.type == levels[0].type &&
+                      texture.format.channels == levels[0].channels;
+    if (kept) {
+        for (const RawImage& level : levels) bytes.emplace_back(level.bytes);
+    } else {
+        texture = make_texture(levels, options);
+        bytes = detail::level_bytes_of(texture);
+    }
+    if (extension == ".ktx2") {
+        const detail::Ktx2Parts file = detail::ktx2_parts(texture, bytes, options.zstd);
+        write_bytes(path, file.parts);
+        return;
+    }
+    const std::vector<std::byte> header = detail::dds_header(texture, bytes.size());
+    bytes.insert(bytes.begin(), header);
+    write_bytes(path, bytes);
+}
+
+void write_mip_chain(const fs::path& path, const std::vector<RawImage>& levels,
+                     const TextureWriteOptions& options)
+{
+    write_mip_chain(path, std::span(levels), options);
+}
+
+void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
+                     const TextureWriteOptions& options)
+{
+    check_holds_levels(path);
+    TextureWriteOptions labelled = options;
+    labelled.srgb = options.srgb || (!levels.empty() && levels[0].space == ColorSpace::Linear);
+    const bool exr = lower_extension(path) == ".exr";
+    PixelType type = exr ? PixelType::F32 : PixelType::U8;
+    if (!options.format.empty()) type = texture_format(options.format).type;
+    std::vector<RawImage> raw;
+    for (const Image& level : levels) {
+        raw.push_back(to_raw(level, type, options.dither ? Rounding::Ordered : Rounding::Nearest));
+    }
+    if (exr && options.format.empty() && !levels.empty()) {
+        labelled.format =
+            name_of({{}, PixelType::F16, std::clamp(levels[0].channels, 1, 4), false});
+    }
+    write_mip_chain(path, raw, labelled);
+}
+
+MipTexture read_texture(const fs::path& path, const ReadOptions& options)
+{
+    const std::vector<std::byte> bytes = file_bytes(path, options.max_bytes);
+    const bool ktx2 = bytes.size() > 12 && bytes[0] == std::byte{0xab};
+    const bool dds = bytes.size() > 4 && std::memcmp(bytes.data(), "DDS ", 4) == 0;
+    if (!ktx2 && !dds) {
+        throw Error(
+            "image " + path.string() + ": its content is neither DDS nor KTX2",
+            "Convert it: petrichor texture convert " + path.filename().string() + " -o out.dds");
+    }
+    try {
+        return ktx2 ? detail::parse_ktx2(bytes, options) : detail::parse_dds(bytes, options);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::runtime_error& why) {
+        throw Error(
+            "image " + path.string() + ": " + why.what(),
+            "Check that the file opens in another program; export it again if it is damaged.");
+    }
+}
+
+}  // namespace petrichor::texproc

@@ -1,0 +1,216 @@
+#include "weather/models/physical/detail/cell_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weather/models/physical/detail/block_kernel.h"
+#include "weather/models/physical/physical.h"
+#include "weather/physics/constants.h"
+#include "weather/physics/detail/canopy_kernel.h"
+#include "weather/physics/exchange.h"
+
+namespace petrichor::weather::detail {
+
+namespace {
+
+// The day's course of sun and air asks for this much, however long a step is.
+constexpr double kLongestPart_s = 3600.0;
+constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
+
+double year_angle(std::int64_t time_us, bool south)
+{
+    const double days = static_cast<double>(time_us) / 86400e6;
+    return 2.0 * kPi * ((days - (south ? 21.0 : 204.0)) / 365.2425);
+}
+
+}  // namespace
+
+void advance_cell_plain(CellState& cell, const CellPlace<double>& place, const StepForcing* steps,
+                        std::size_t count, const CellConstants& k, const StepConstants& s)
+{
+    advance_steps(cell, steps, count, place, k, s);
+}
+
+void advance_block_16(CellBlock& block, const PlaceBlock& place, const StepForcing* steps,
+                      std::size_t count, const CellConstants& k, const StepConstants& s)
+{
+    advance_block<16>(block, place, steps, count, k, s);
+}
+
+bool machine_has_wide_registers()
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") != 0;
+#else
+    return false;
+#endif
+}
+
+AdvanceCell fastest_advance_cell()
+{
+    return machine_has_wide_registers() ? advance_cell_wide : advance_cell_plain;
+}
+
+AdvanceBlock fastest_advance_block()
+{
+    return machine_has_wide_registers() ? advance_block_32 : advance_block_16;
+}
+
+CellPlace<double> station_place(double sky_view, double precip_factor)
+{
+    CellPlace<double> place{};
+    place.pressure_factor = 1.0;
+    place.sky_view = sky_view;
+    place.normal_up = 1.0;
+    place.precip_factor = precip_factor;
+    place.wind_factor = 1.0;
+    place.shortwave_factor = 1.0;
+    return place;
+}
+
+YearlyWave yearly_wave(const ForcingTable& table)
+{
+    // Least squares for mean and amplitude of T = mean + amplitude cos(year - phase); the warmest
+    // day is 24 July in the north and 22 January in the south.
+    const bool south = table.site.latitude_deg < 0.0;
+    double n = 0.0, c1 = 0.0, cc = 0.0, t1 = 0.0, tc = 0.0;
+    // All rows of a day share its cosine: the season does not move within a day.
+    std::int64_t day_end_us = table.time_us[0];
+    double c = 0.0;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const std::int64_t now_us = table.time_us[i];
+        if (now_us >= day_end_us) {
+            const std::int64_t day_begin_us = now_us - ((now_us % kDay_us) + kDay_us) % kDay_us;
+            day_end_us = day_begin_us + kDay_us;
+            c = sine_cosine(year_angle(day_begin_us + kDay_us / 2, south)).cos;
+        }
+        const double t = table[Field::AirTemp][i] - kZeroCelsiusK;
+        n += 1.0;
+        c1 += c;
+        cc += c * c;
+        t1 += t;
+        tc += t * c;
+    }
+    const double days = static_cast<double>(table.time_us.back() - table.time_us.front()) / 86400e6;
+    YearlyWave wave;
+    wave.south = south;
+    wave.mean_c = t1 / n;
+    const double spread = cc / n - (c1 / n) * (c1 / n);
+    if (days >= 120.0 && spread > 0.02) {
+        wave.amplitude_k = clamped((tc / n - (t1 / n) * (c1 / n)) / spread, 0.0, 30.0);
+        wave.mean_c = t1 / n - wave.amplitude_k * c1 / n;
+    } else {
+        // Days or weeks say little about the year: do not invent permafrost from a cold spell.
+        wave.mean_c = std::max(wave.mean_c, 2.0);
+    }
+    return wave;
+}
+
+CellState initial_cell(const ForcingTable& table, const CellConstants& k)
+{
+    const YearlyWave wave = yearly_wave(table);
+    CellState c{};
+    c.snow_albedo = k.snow.albedo_max;
+    c.surface_temp_c = table[Field::AirTemp][0] - kZeroCelsiusK;
+    // The wave of the year goes down into the ground, fading and late by one radian in `damping`;
+    // near the surface the last days of air count.
+    const double diffusivity = k.surface.conductivity_w_m_k / k.surface.heat_capacity_j_m3_k;
+    const double damping = std::sqrt(diffusivity * 365.2425 * 86400.0 / kPi);
+    const double now = year_angle(table.time_us[0], wave.south);
+    double depth = 0.0;
+    for (std::size_t i = 0; i < kGroundLayers; ++i) {
+        const double z = (depth + 0.5 * kGroundThickness_m[i]) / damping;
+        c.ground_temp_c[i] =
+            k.deep_temp_c + wave.amplitude_k * exponential(-z) * sine_cosine(now - z).cos;
+        depth += kGroundThickness_m[i];
+    }
+    c.infiltration_mm_h = k.surface.infiltration.first_mm_h;
+    return c;
+}
+
+CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
+                                  double deep_temp_k)
+{
+    CellConstants k;
+    const Surface& s = params.surface;
+    k.surface = s;
+    k.snow = params.snow;
+    k.exchange = params.exchange;
+    k.phase = params.phase;
+    k.deep_temp_c = deep_temp_k - kZeroCelsiusK;
+    k.wind_height_m = site.wind_height_m;
+    k.albedo_dry = s.albedo_dry;
+    k.albedo_wet = s.albedo_wet;
+    k.emissivity = s.emissivity;
+    k.snow_emissivity = params.snow.emissivity;
+    k.log_roughness = logarithm(s.roughness_m);
+    k.log_snow_roughness = logarithm(params.snow.roughness_m);
+    k.log_wind_height = logarithm(site.wind_height_m);
+    k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
+    k.neutral_bare =
+        kVonKarman * kVonKarman /
+        ((k.log_wind_height - k.log_roughness) * (k.log_temp_height_10 - k.log_roughness));
+    k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
+    k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
+    k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;
+    k.least_wind = std::max(params.exchange.min_wind_m_s, s.traffic_wind_m_s);
+    k.film_capacity = s.film_capacity_kg_m2;
+    k.inverse_film_capacity = 1.0 / s.film_capacity_kg_m2;
+    k.crack_capacity = s.cracks.capacity_kg_m2();
+    k.puddle_capacity = s.puddles.capacity_kg_m2();
+    k.canopy_capacity = kCanopyHolds_kg_m2 * params.canopy_vai;
+    k.permeable = s.infiltration.first_mm_h > 0.0;
+    return k;
+}
+
+namespace {
+
+HortonStep make_horton_step(const HortonParams& horton, double hours)
+{
+    HortonStep step;
+    step.hours = hours;
+    step.keep = exponential(-horton.decay_1_h * hours);
+    step.recover = exponential(-horton.recovery_1_h * hours);
+    step.depth_h = (1.0 - step.keep) / horton.decay_1_h;
+    return step;
+}
+
+PartConstants make_part_constants(const CellConstants& k, double dt_s)
+{
+    const Surface& surface = k.surface;
+    const HortonParams& horton = surface.infiltration;
+    const double hours = dt_s / 3600.0;
+    PartConstants part;
+    part.dt_s = dt_s;
+    part.inverse_dt_1_s = 1.0 / dt_s;
+    part.ground = make_ground_stack(surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k, dt_s);
+    part.film = reservoir_constants(surface.film_rate_1_s, k.film_capacity, dt_s);
+    part.film_in_snow = reservoir_constants(surface.slush_rate_1_s, k.film_capacity, dt_s);
+    part.horton = make_horton_step(horton, hours);
+    part.horton_turn = make_horton_step(horton, hours / kFillingTurns);
+    part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);
+    return part;
+}
+
+}  // namespace
+
+StepConstants make_step_constants(const CellConstants& k, double dt_s, double substep_s)
+{
+    StepConstants s;
+    s.dt_s = dt_s;
+    const auto parts_of = [&](double longest_s) {
+        return std::max(1, static_cast<int>(std::ceil(dt_s / longest_s - 1e-9)));
+    };
+    s.whole_parts = parts_of(kLongestPart_s);
+    s.parts = std::max(s.whole_parts, parts_of(substep_s));
+    s.whole = make_part_constants(k, dt_s / s.whole_parts);
+    s.part = make_part_constants(k, dt_s / s.parts);
+    s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
+    s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));
+    s.unloading_cold = 1.0 - exponential(-dt_s / kUnloadingCold_s);
+    s.unloading_melting = 1.0 - exponential(-dt_s / kUnloadingMelting_s);
+    s.settling = exponential(-dt_s / (200.0 * 3600.0));
+    return s;
+}
+
+}  // namespace petrichor::weather::detail

@@ -1,0 +1,53 @@
+// Entry points of the kernel: one cell, or blocks of eight in the registers of the machine.
+#ifndef PETRICHOR_WEATHER_MODELS_PHYSICAL_DETAIL_CELL_STEPS_H
+#define PETRICHOR_WEATHER_MODELS_PHYSICAL_DETAIL_CELL_STEPS_H
+
+#include "weather/physics/detail/cell_kernel.h"
+
+namespace petrichor::weather::detail {
+
+/// One cell through some steps of equal length.
+using AdvanceCell = void (*)(CellState& cell, const CellPlace<double>& place,
+                             const StepForcing* steps, std::size_t count, const CellConstants& k,
+                             const StepConstants& s);
+/// The fastest version this machine can run; all versions give the same bits.
+AdvanceCell fastest_advance_cell();
+/// For any machine, and with the instructions of AVX2, for tests.
+void advance_cell_plain(CellState&, const CellPlace<double>&, const StepForcing*, std::size_t,
+                        const CellConstants&, const StepConstants&);
+void advance_cell_wide(CellState&, const CellPlace<double>&, const StepForcing*, std::size_t,
+                       const CellConstants&, const StepConstants&);
+
+/// Eight cells: every number of CellVars eight times, side by side.
+struct alignas(64) CellBlock {
+    double numbers[kCellNumbers][kLaneCount];
+};
+inline constexpr std::size_t kPlaceNumbers = sizeof(CellPlace<double>) / sizeof(double);
+struct alignas(64) PlaceBlock {
+    double numbers[kPlaceNumbers][kLaneCount];
+};
+using AdvanceBlock = void (*)(CellBlock& block, const PlaceBlock& place, const StepForcing* steps,
+                              std::size_t count, const CellConstants& k, const StepConstants& s);
+/// The fastest version this machine can run; all versions give the same bits.
+AdvanceBlock fastest_advance_block();
+/// Registers of 16 bytes (any machine) and of 32 bytes (AVX2), for tests.
+void advance_block_16(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
+                      const CellConstants&, const StepConstants&);
+void advance_block_32(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
+                      const CellConstants&, const StepConstants&);
+bool machine_has_wide_registers();
+
+/// The place of a station on flat, open ground.
+CellPlace<double> station_place(double sky_view = 1.0, double precip_factor = 1.0);
+/// The year behind a series of any length: air temperature as a mean and a cosine.
+struct YearlyWave {
+    double mean_c = 8.0, amplitude_k = 0.0;
+    bool south = false;
+};
+YearlyWave yearly_wave(const ForcingTable& table);
+/// Ground as the yearly wave leaves it, dry, no snow.
+CellState initial_cell(const ForcingTable& table, const CellConstants& k);
+
+}  // namespace petrichor::weather::detail
+
+#endif
