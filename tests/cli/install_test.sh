@@ -12,6 +12,17 @@ cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/install.log"
 data=$(cd / && "$scratch/prefix/bin/petrichor" doctor --json | grep -c "$scratch/prefix/share/petrichor")
 [ "$data" = 1 ] || { echo "the installed program does not find its data"; exit 1; }
 
+# Every installed header compiles alone, and every shader text that one of them names is installed.
+include=$scratch/prefix/include/petrichor
+(cd "$include" && find . -name '*.h' | sort) >"$scratch/headers"
+[ "$(wc -l <"$scratch/headers")" -gt 80 ] || { echo "too few headers are installed"; exit 1; }
+check='printf "#include \"%s\"\n" "$1" | "$2" -std=c++20 -fsyntax-only -DGLM_FORCE_DEPTH_ZERO_TO_ONE -I"$3" -x c++ - ||
+    { echo "$1 does not compile alone"; exit 1; }'
+xargs -P "$(nproc)" -I{} sh -c "$check" sh {} "$cxx" "$include" <"$scratch/headers"
+(cd "$include" && grep -rhoE '^#include "[^"]+"' . | sort -u | cut -d'"' -f2) | while read -r named; do
+    [ -e "$include/$named" ] || { echo "$named is included by an installed text, but not installed"; exit 1; }
+done
+
 cat >"$scratch/consumer/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES CXX)
