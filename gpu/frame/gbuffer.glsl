@@ -1,4 +1,4 @@
-// How the G-buffer is read back. Targets: see gpu/passes/gbuffer.h.
+// How a surface point is written into the G-buffer and read back (targets: gpu/frame/targets.h).
 #ifndef PETRICHOR_GBUFFER_GLSL
 #define PETRICHOR_GBUFFER_GLSL
 
@@ -29,6 +29,26 @@ struct GBufferTexel {
     uint model;
     vec4 weather;  // film, water, snow, frost
 };
+
+// As the targets hold it.
+struct GBufferCode {
+    vec4 color;     // square-root base colour, occlusion
+    vec4 normals;   // base and cover normal, octahedral
+    vec4 material;  // roughness, metallic, porosity, model and reflectance
+    vec4 weather;
+};
+
+GBufferCode encode_gbuffer(GBufferTexel texel)
+{
+    GBufferCode code;
+    code.color = vec4(sqrt(clamp(texel.base_color, vec3(0.0), vec3(1.0))), texel.occlusion);
+    code.normals =
+        vec4(octahedral_encode(texel.base_normal), octahedral_encode(texel.cover_normal));
+    code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
+                         float(texel.model | (encode_reflectance(texel.f0) << 1)) / 255.0);
+    code.weather = texel.weather;
+    return code;
+}
 
 GBufferTexel decode_gbuffer(vec4 color, vec4 normals, vec4 material, vec4 weather)
 {

@@ -1,0 +1,102 @@
+// The material and the weather at a surface point.
+//
+// One text for a fragment shader and for a compute shader that resolves a visibility buffer: no
+// derivative is taken here, no built-in read, nothing discarded. The includer defines
+//   SURFACE_WEATHER   1: masks of water, snow and frost are wanted
+//   SURFACE_EMISSION  1: radiance of materials that glow is wanted
+#ifndef PETRICHOR_EVALUATE_SURFACE_GLSL
+#define PETRICHOR_EVALUATE_SURFACE_GLSL
+
+#include "gpu/passes/surface/cover.glsl"
+
+// Cut out by the alpha test, or let through by chance: as often as it is transparent.
+bool hole_in(SurfaceInput at, float alpha)
+{
+    if ((material.flags & MATERIAL_MASK) != 0u && alpha < material.alpha_cutoff) return true;
+    return (material.flags & MATERIAL_BLEND) != 0u &&
+           alpha <= dither(at.pixel, frame.sample_index + hash_u(at.instance_id) % 64u);
+}
+
+vec3 mapped_normal(SurfaceInput at, vec2 shift)
+{
+    return unpack_normal(texel(normal_map, coordinates(TEXTURE_NORMAL, at, shift)).xy,
+                         material.normal_scale);
+}
+
+// Curvature of the geometry inside a pixel widens the lobe (Tokuyoshi and Kaplanyan 2019).
+float widened_by_curvature(float roughness, SurfaceInput at)
+{
+    const float variance =
+        min(0.5 * (dot(at.normal_dx, at.normal_dx) + dot(at.normal_dy, at.normal_dy)), 0.18);
+    const float alpha = roughness * roughness;
+    return sqrt(sqrt(saturate(alpha * alpha + variance)));
+}
+
+SurfaceData evaluate_surface(SurfaceInput at)
+{
+    const TangentFrame f = tangent_frame(at);
+    Cover cover = no_cover(at);
+    vec3 mapped = vec3(0.0, 0.0, 1.0);
+    if (SURFACE_WEATHER != 0) {
+        if (has(TEXTURE_NORMAL)) mapped = mapped_normal(at, vec2(0.0));
+        if ((material.flags & MATERIAL_SHELTERED) == 0u) cover = cover_on(at, f, mapped);
+    }
+
+    // The dry material, seen through the water.
+    const vec2 shift = cover.refraction;
+    SurfaceData data;
+    vec4 base = material.base_color * at.color;
+    if (has(TEXTURE_BASE_COLOR)) {
+        base *= texel(base_color_map, coordinates(TEXTURE_BASE_COLOR, at, shift));
+    }
+    data.hole = HOLES != 0u && hole_in(at, base.a);
+
+    float roughness = material.roughness;
+    float metallic = material.metallic;
+    if (has(TEXTURE_METALLIC_ROUGHNESS)) {
+        const vec4 packed =
+            texel(metallic_roughness_map, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
+        roughness *= packed.g;
+        metallic *= packed.b;
+    }
+    float occlusion = 1.0;
+    if (has(TEXTURE_OCCLUSION)) {
+        occlusion = mix(1.0, texel(occlusion_map, coordinates(TEXTURE_OCCLUSION, at, shift)).r,
+                        material.occlusion_strength);
+    }
+    vec3 normal = at.normal;
+    if (has(TEXTURE_NORMAL)) {
+        // Seen through water: at another place.
+        const bool again = SURFACE_WEATHER == 0 || WATER != 0u;
+        normal = normalize(to_world(f, again ? mapped_normal(at, shift) : mapped));
+    }
+    data.emission = vec3(0.0);
+    if (SURFACE_EMISSION != 0) {
+        data.emission = material.emissive;
+        if (has(TEXTURE_EMISSIVE)) {
+            data.emission *= texel(emissive_map, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
+        }
+    }
+    roughness = widened_by_curvature(roughness, at);
+    const float porosity = material.porosity >= 0.0 ? material.porosity
+                                                    : porosity_from_smoothness(1.0 - roughness);
+
+    // Murky water hides the ground: its colour takes the place of the material's, and with snow it
+    // covers what glows.
+    const float murk = material.water_color.a * cover.water;
+    data.emission *= frame.emissive_scale * ((1.0 - murk) *
+                     mix(1.0, 1.0 - cover.snow * material.snow_opacity, cover.snow));
+    data.texel.base_color = mix(base.rgb, material.water_color.rgb, murk);
+    data.texel.occlusion = mix(occlusion, 1.0, murk);
+    data.texel.base_normal = normal;
+    data.texel.cover_normal = SURFACE_WEATHER != 0 ? cover.normal : normal;
+    data.texel.roughness = roughness;
+    data.texel.metallic = metallic * (1.0 - murk);
+    data.texel.porosity = porosity * (1.0 - murk);
+    data.texel.f0 = material.f0;
+    data.texel.model = (material.flags & MATERIAL_UNLIT) != 0u ? MODEL_UNLIT : MODEL_STANDARD;
+    data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
+    return data;
+}
+
+#endif

@@ -1,0 +1,57 @@
+// What a surface point is asked with, and what it answers. The same for a fragment shader and for a
+// compute shader that resolves ids and barycentrics: derivatives are given, never taken.
+#ifndef PETRICHOR_SURFACE_DATA_GLSL
+#define PETRICHOR_SURFACE_DATA_GLSL
+
+#include "gpu/frame/gbuffer.glsl"
+
+// dx, dy: change to the next pixel to the right and below.
+struct SurfaceInput {
+    vec3 position;  // world, metres
+    vec3 position_dx;
+    vec3 position_dy;
+    vec3 normal;  // of the geometry, unit, towards the eye
+    vec3 normal_dx;
+    vec3 normal_dy;
+    vec4 tangent;  // along u, of any length; w: side of the bitangent, for the side that is seen
+    vec4 uv;       // texture coordinates 0 and 1
+    vec4 uv_dx;
+    vec4 uv_dy;
+    vec4 color;        // of the vertices, linear
+    vec4 weather;      // of the vertices: mix, puddle mask, snow mask, -
+    ivec2 pixel;       // seeds what is drawn by chance
+    uint instance_id;  // likewise
+};
+
+struct SurfaceData {
+    GBufferTexel texel;
+    vec3 emission;  // radiance
+    bool hole;      // nothing is here: cut out, or let through by chance
+};
+
+// Unit axes of the texture coordinates on the surface.
+struct TangentFrame {
+    vec3 tangent;
+    vec3 bitangent;
+    vec3 normal;
+};
+
+TangentFrame tangent_frame(SurfaceInput at)
+{
+    TangentFrame f;
+    f.normal = at.normal;
+    const vec3 along = at.tangent.xyz - at.normal * dot(at.tangent.xyz, at.normal);
+    const float size = length(along);
+    f.tangent = size > 1.0e-6 ? along / size
+                              : normalize(abs(at.normal.y) < 0.9 ? cross(at.normal, vec3(0, 1, 0))
+                                                                 : cross(at.normal, vec3(1, 0, 0)));
+    f.bitangent = cross(f.normal, f.tangent) * at.tangent.w;
+    return f;
+}
+
+vec3 to_world(TangentFrame f, vec3 n)
+{
+    return n.x * f.tangent + n.y * f.bitangent + n.z * f.normal;
+}
+
+#endif
