@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "formulas/color/srgb.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/generate/generate.h"
 #include "texproc/generate/noise.h"
@@ -25,9 +26,8 @@ std::vector<std::uint8_t> srgb_table()
 {
     std::vector<std::uint8_t> table(65536);
     for (std::size_t i = 0; i < table.size(); ++i) {
-        const double x = static_cast<double>(i) / 65535.0;
-        const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-        table[i] = static_cast<std::uint8_t>(std::lround(255.0 * y));
+        const float code = shared::srgb_from_linear(static_cast<float>(i) / 65535.0f);
+        table[i] = static_cast<std::uint8_t>(std::lround(255.0f * code));
     }
     return table;
 }

@@ -7,12 +7,13 @@
 #include "formulas/color/tone_map.h"
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 15;
+SHARED_CONST int kProbeKinds = 16;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -89,6 +90,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 13) {
         const vec3 t = air_transmittance(2000.0f * a.x, a.y, 1.5f + 8.0f * a.z);
         return vec4(t.x, t.y, t.z, 0.0f);
+    }
+    if (kind == 14) {
+        const vec3 d = probe_direction(a.x, a.y);
+        const int i = int(8.999f * a.z);
+        return vec4(harmonic(i, d), cosine_band(i), srgb_from_linear(b.x), linear_from_srgb(b.y));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -1,8 +1,10 @@
 // From exposed scene-referred light to a display: a filmic shoulder and toe, then the sRGB curve.
+// The rational curve is Narkowicz 2015 ("ACES filmic tone mapping curve"), with its toe weakened.
 #ifndef PETRICHOR_FORMULAS_COLOR_TONE_MAP_H
 #define PETRICHOR_FORMULAS_COLOR_TONE_MAP_H
 
 #include "base/interop.h"
+#include "formulas/color/srgb.h"
 
 SHARED_BEGIN
 
@@ -22,12 +24,6 @@ SHARED_FN vec3 tone_map(vec3 exposed)
     const float grey = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
     const vec3 c = mix(exposed, vec3(grey), to_white * 0.6f);
     return vec3(filmic_channel(c.x), filmic_channel(c.y), filmic_channel(c.z));
-}
-
-SHARED_FN float srgb_encode(float x)
-{
-    const float c = clamp(x, 0.0f, 1.0f);
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * pow(c, 1.0f / 2.4f) - 0.055f;
 }
 
 SHARED_END

@@ -8,6 +8,7 @@
 #include "formulas/color/tone_map.h"
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 
@@ -244,6 +245,33 @@ TEST(Flow, APhaseJumpsOnlyWhereItDoesNotShow)
         }
     }
     EXPECT_EQ(flow_phases(5.0f, 0.0f).first, 0.0f) << "interval 0 is a still surface";
+}
+
+// Orthonormal over the sphere, and a constant sky of radiance 1 sends 1 in every direction.
+TEST(Harmonics, AreOrthonormalAndKeepAConstantSky)
+{
+    for (int i = 0; i < kHarmonics; ++i) {
+        for (int j = 0; j < kHarmonics; ++j) {
+            const double both = over_hemisphere(64, [&](const glm::vec3& d) {
+                return harmonic(i, d) * harmonic(j, d) + harmonic(i, -d) * harmonic(j, -d);
+            });
+            EXPECT_NEAR(both, i == j ? 1.0 : 0.0, 2e-3) << i << " " << j;
+        }
+    }
+    const double constant =
+        over_hemisphere(64, [&](const glm::vec3& d) { return harmonic(0, d) + harmonic(0, -d); });
+    const float returned = harmonic(0, glm::vec3(0, 0, 1)) * cosine_band(0);
+    EXPECT_NEAR(constant * static_cast<double>(returned), 1.0, 1e-3);
+}
+
+TEST(Srgb, ThereAndBackIsTheSameLight)
+{
+    for (int i = 0; i <= 1000; ++i) {
+        const float x = static_cast<float>(i) / 1000.0f;
+        EXPECT_NEAR(linear_from_srgb(srgb_from_linear(x)), x, 2e-6f);
+    }
+    EXPECT_NEAR(srgb_from_linear(0.2140f), 0.5f, 1e-4f);
+    EXPECT_EQ(srgb_encode(7.0f), srgb_from_linear(1.0f));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/portable_math.h"
 #include "texproc/filter/detail/morphology.h"
-#include "texproc/image/portable_math.h"
 
 namespace petrichor::texproc {
 
@@ -147,8 +147,8 @@ Image ambient_occlusion(const Image& height, const BakeOptions& options)
             const float share = static_cast<float>(s) / kSteps;
             const float r = std::max(static_cast<float>(s), reach * share * share);
             if (r > reach) break;
-            samples[d].push_back({static_cast<int>(std::lround(r * detail::portable_cos(angle))),
-                                  static_cast<int>(std::lround(r * detail::portable_sin(angle))),
+            samples[d].push_back({static_cast<int>(std::lround(r * portable_cos(angle))),
+                                  static_cast<int>(std::lround(r * portable_sin(angle))),
                                   rise / r});
         }
     }

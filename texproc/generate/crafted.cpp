@@ -1,8 +1,8 @@
 // Wood and metal.
 #include <array>
 
+#include "base/portable_math.h"
 #include "texproc/generate/detail/material_texels.h"
-#include "texproc/image/portable_math.h"
 
 namespace petrichor::texproc::detail {
 

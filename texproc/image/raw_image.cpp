@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "formulas/color/srgb.h"
+
 namespace petrichor::texproc {
 
 namespace {
@@ -99,12 +101,12 @@ void float_to_codes(const Image& image, Rounding rounding, std::byte* to)
 
 float srgb_to_linear(float encoded)
 {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return shared::linear_from_srgb(encoded);
 }
 
 float linear_to_srgb(float linear)
 {
-    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return shared::srgb_from_linear(linear);
 }
 
 void to_float(const std::byte* from, PixelType type, std::size_t values, int channels,

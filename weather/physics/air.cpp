@@ -1,5 +1,6 @@
 #include "weather/physics/air.h"
 
+#include "formulas/weather/visibility.h"
 #include "weather/physics/detail/formulas.h"
 
 namespace petrichor::weather {
@@ -8,7 +9,7 @@ namespace {
 
 double optical_depth(VisibilityKind kind)
 {
-    return kind == VisibilityKind::Contrast2Percent ? 3.912 : 2.996;
+    return kind == VisibilityKind::Contrast2Percent ? KOSCHMIEDER_2_PERCENT : KOSCHMIEDER_5_PERCENT;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/brdf.h"
+#include "formulas/light/spherical_harmonics.h"
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/upload/material_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
@@ -44,14 +45,8 @@ const float kMirrorRoughness = 0.32;
 
 vec3 sky_irradiance(vec3 n)
 {
-    // Divided by pi: what a white Lambert surface sends out.
-    vec3 e = sky_light.harmonics[0].xyz * 0.282095;
-    e += (sky_light.harmonics[1].xyz * n.y + sky_light.harmonics[2].xyz * n.z +
-          sky_light.harmonics[3].xyz * n.x) * 0.488603;
-    e += (sky_light.harmonics[4].xyz * (n.x * n.y) + sky_light.harmonics[5].xyz * (n.y * n.z) +
-          sky_light.harmonics[7].xyz * (n.x * n.z)) * 1.092548;
-    e += sky_light.harmonics[6].xyz * (0.315392 * (3.0 * n.z * n.z - 1.0));
-    e += sky_light.harmonics[8].xyz * (0.546274 * (n.x * n.x - n.y * n.y));
+    vec3 e = vec3(0.0);  // divided by pi: what a white Lambert surface sends out
+    for (int i = 0; i < kHarmonics; ++i) e += sky_light.harmonics[i].xyz * harmonic(i, n);
     return max(e, vec3(0.0));
 }
 

@@ -2,6 +2,7 @@
 // Irradiance of the sky as spherical harmonics, and the exposure that follows from it and the sun.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/spherical_harmonics.h"
 #include "gpu/passes/sky/cube.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
 
@@ -21,19 +22,6 @@ struct SkyLightParams {
 };
 layout(push_constant, scalar) uniform Push { SkyLightParams params; };
 
-float basis(int i, vec3 d)
-{
-    if (i == 0) return 0.282095;
-    if (i == 1) return 0.488603 * d.y;
-    if (i == 2) return 0.488603 * d.z;
-    if (i == 3) return 0.488603 * d.x;
-    if (i == 4) return 1.092548 * d.x * d.y;
-    if (i == 5) return 1.092548 * d.y * d.z;
-    if (i == 6) return 0.315392 * (3.0 * d.z * d.z - 1.0);
-    if (i == 7) return 1.092548 * d.x * d.z;
-    return 0.546274 * (d.x * d.x - d.y * d.y);
-}
-
 shared vec3 coefficients[9];
 
 void main()
@@ -48,14 +36,12 @@ void main()
                 const vec2 st = (vec2(x, y) + 0.5) / params.face_size * 2.0 - 1.0;
                 const float w = cube_texel_weight(st);
                 const vec3 d = normalize(cube_direction(face, st));
-                sum += textureLod(sky, d, params.mip).rgb * (w * basis(i, d));
+                sum += textureLod(sky, d, params.mip).rgb * (w * harmonic(i, d));
                 weight += w;
             }
         }
     }
-    // Convolution with the cosine, divided by pi: 1, 2/3, 1/4.
-    const float band = i == 0 ? 1.0 : i < 4 ? 2.0 / 3.0 : 0.25;
-    const vec3 coefficient = sum * (12.566371 / weight) * band;
+    const vec3 coefficient = sum * (12.566371 / weight) * cosine_band(i);
     coefficients[i] = coefficient;
     result.harmonics[i] = vec4(coefficient, 0.0);
     barrier();
@@ -63,7 +49,7 @@ void main()
 
     // What falls on level ground: the sky's irradiance along +y and the sun.
     vec3 up = vec3(0.0);
-    for (int k = 0; k < 9; ++k) up += coefficients[k] * basis(k, vec3(0.0, 1.0, 0.0));
+    for (int k = 0; k < kHarmonics; ++k) up += coefficients[k] * harmonic(k, vec3(0.0, 1.0, 0.0));
     const vec3 weights = vec3(0.2126, 0.7152, 0.0722);
     const float sky_lux = max(dot(up, weights), 0.0) * 3.14159265 * params.ambient_scale;
     const float lux =

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "texproc/image/portable_math.h"
+#include "base/portable_math.h"
 
 namespace petrichor::texproc::detail {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "texproc/image/portable_math.h"
+#include "base/portable_math.h"
 #include "texproc/prefilter/detail/simplex.h"
 
 namespace petrichor::texproc::detail {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "texproc/image/portable_math.h"
+#include "base/portable_math.h"
 
 namespace petrichor::texproc::detail {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "texproc/image/portable_math.h"
+#include "base/portable_math.h"
 #include "texproc/prefilter/detail/elliptic_fit.h"
 #include "texproc/prefilter/detail/lobe_cost.h"
 #include "texproc/prefilter/detail/simplex.h"

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "formulas/light/brdf.h"
 
 namespace petrichor::texproc {
 
@@ -80,15 +81,12 @@ vec3 shade(const Texel& texel, const Frame& frame, const vec3& view, const vec3&
     const vec3 h = glm::normalize(view + light);
     const float nh = std::max(glm::dot(n, h), 0.0f), vh = std::max(glm::dot(view, h), 0.0f);
     const float p = std::clamp(texel.roughness, 0.02f, 1.0f);
-    const float a2 = p * p * p * p + o.light * o.light;
-    const float d = nh * nh * (a2 - 1.0f) + 1.0f;
-    const float distribution = a2 / (kPi * d * d);
-    const float smith = 0.5f / (nl * std::sqrt(nv * nv * (1.0f - a2) + a2) +
-                                nv * std::sqrt(nl * nl * (1.0f - a2) + a2));
+    const float alpha = std::sqrt(p * p * p * p + o.light * o.light);
+    const float lobe = shared::ggx_distribution(nh, alpha) * shared::ggx_visibility(nl, nv, alpha);
     const vec3 f0 = glm::mix(vec3(0.04f), texel.albedo, texel.metallic);
-    const vec3 fresnel = f0 + (1.0f - f0) * std::pow(1.0f - vh, 5.0f);
+    const vec3 fresnel = shared::schlick_fresnel(f0, vh);
     const vec3 diffuse = texel.albedo * (1.0f - texel.metallic) / kPi;
-    const vec3 out = diffuse * (1.0f - fresnel) + fresnel * (distribution * smith);
+    const vec3 out = diffuse * (1.0f - fresnel) + fresnel * lobe;
     return o.exposure * (sky + kPi * nl * out);
 }
 

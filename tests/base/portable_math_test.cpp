@@ -1,11 +1,11 @@
-#include "texproc/image/portable_math.h"
+#include "base/portable_math.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace petrichor::texproc::detail {
+namespace petrichor {
 namespace {
 
 // The libraries are right to their last bit or two; so are these, to 1e-11.
@@ -58,4 +58,4 @@ TEST(PortableMath, KnownBits)
 }
 
 }  // namespace
-}  // namespace petrichor::texproc::detail
+}  // namespace petrichor

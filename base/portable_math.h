@@ -2,13 +2,13 @@
 // in the last bit from processor to processor and from version to version, additions and
 // multiplications do not. All are worked out in double precision, by series whose first dropped
 // term is below 1e-11 of the value, so that a float that is made of one is off by half a step.
-#ifndef PETRICHOR_TEXPROC_IMAGE_PORTABLE_MATH_H
-#define PETRICHOR_TEXPROC_IMAGE_PORTABLE_MATH_H
+#ifndef PETRICHOR_BASE_PORTABLE_MATH_H
+#define PETRICHOR_BASE_PORTABLE_MATH_H
 
 #include <bit>
 #include <cstdint>
 
-namespace petrichor::texproc::detail {
+namespace petrichor {
 
 /// To the nearest whole number, without the call that rounding costs on plain x86-64.
 inline std::int64_t nearest_whole(double x)
@@ -124,6 +124,6 @@ inline float portable_cos(float angle)
     return static_cast<float>(portable_sin_cos(static_cast<double>(angle)).cosine);
 }
 
-}  // namespace petrichor::texproc::detail
+}  // namespace petrichor
 
 #endif

@@ -1,0 +1,28 @@
+// The transfer curve of sRGB (IEC 61966-2-1), both ways, on one channel of 0..1.
+#ifndef PETRICHOR_FORMULAS_COLOR_SRGB_H
+#define PETRICHOR_FORMULAS_COLOR_SRGB_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+// Linear light to the code of a display. The argument is taken as it is: clamp it first.
+SHARED_FN float srgb_from_linear(float x)
+{
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
+SHARED_FN float linear_from_srgb(float code)
+{
+    return code <= 0.04045f ? code / 12.92f : pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
+// The same, clamped to what a display shows.
+SHARED_FN float srgb_encode(float x)
+{
+    return srgb_from_linear(clamp(x, 0.0f, 1.0f));
+}
+
+SHARED_END
+
+#endif
