@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "weather/models/artist/math.h"
+#include "weather/models/artist/detail/math.h"
 
 namespace petrichor::weather {
 namespace {

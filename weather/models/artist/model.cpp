@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "weather/models/artist/math.h"
+#include "weather/models/artist/detail/math.h"
 
 namespace petrichor::weather {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "weather/models/artist/math.h"
+#include "weather/models/artist/detail/math.h"
 
 namespace petrichor::weather::detail {
 namespace {
