@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "cli/texture/maps/normal_channels.h"
+#include "texproc/material/normal_channels.h"
 #include "texproc/prefilter/stored.h"
 #include "texproc/study/score.h"
 
@@ -37,13 +37,13 @@ std::vector<Image> normals_through(const std::vector<Image>& normals,
 {
     std::vector<Image> laid_out(normals.size());
     for (std::size_t k = 1; k < normals.size(); ++k) {
-        laid_out[k] = lay_out_normals(normals[k], options, formats.normal_channels);
+        laid_out[k] = texproc::lay_out_normals(normals[k], options, formats.normal_channels);
     }
     std::vector<Image> read =
         texproc::through_blocks(laid_out, weights, {*formats.normal, {}, options.threads});
     options.rebuild_z = options.rebuild_z || formats.normal == Block::Bc5;
     for (std::size_t k = 1; k < read.size(); ++k) {
-        read[k] = read_out_normals(read[k], options, static_cast<int>(k));
+        read[k] = texproc::read_out_normals(read[k], options, static_cast<int>(k));
     }
     return read;
 }

@@ -10,6 +10,8 @@
 #include "cli/rooms.h"
 #include "cli/signals.h"
 #include "cli/texture/build/build.h"
+#include "cli/texture/build/plan_build.h"
+#include "cli/texture/build/recipe_file.h"
 #include "cli/texture/build/watch.h"
 #include "cli/texture/cmd_texture.h"
 #include "film/data/folders.h"
@@ -32,7 +34,7 @@ void list_engines()
 {
     for (const EngineInfo& engine : engines()) {
         std::cout << engine.name << ": " << engine.note << "\n";
-        for (const OutputRule& output : engine.outputs) {
+        for (const texproc::OutputRule& output : engine.outputs) {
             std::cout << "    " << output.file << "." << output.format
                       << (output.compression == "none" ? "" : " " + output.compression);
             for (std::size_t c = 0; c < output.channels.channels.size(); ++c) {
@@ -66,7 +68,7 @@ void report_unnamed(const Arguments& a)
     constexpr std::size_t kShown = 20;
     for (const fs::path& input : input_paths(a)) {
         if (input.extension() == ".toml") continue;
-        const std::vector<fs::path> images = unnamed_images(input);
+        const std::vector<fs::path> images = texproc::unnamed_images(input);
         if (!images.empty()) std::cout << "passed over: the names do not say what these are\n";
         for (std::size_t i = 0; i < std::min(images.size(), kShown); ++i)
             std::cout << "  " << images[i].string() << "\n";
@@ -94,7 +96,7 @@ std::set<fs::path> watched_folders(const Arguments& a)
         (input.extension() == ".toml" ? files : trees).push_back(input);
     }
     try {
-        for (const PlannedMaterial& material : plan_build(input_paths(a), a.choice)) {
+        for (const texproc::PlannedMaterial& material : plan_build(input_paths(a), a.choice)) {
             if (!material.recipe->folder.empty()) trees.push_back(material.recipe->folder);
             for (const auto& [role, map] : material.files.inputs) files.push_back(map.path);
         }

@@ -10,9 +10,9 @@
 #include "base/words.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
-#include "cli/texture/maps/normal_channels.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/mips.h"
+#include "texproc/material/normal_channels.h"
 
 namespace petrichor::cli {
 
@@ -120,7 +120,8 @@ void run(const Arguments& a)
 {
     check(a);
     texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
-    if (a.normals && raw.channels == 3 && drops_z(a.format)) raw = unit_normals(raw, raw.type);
+    if (a.normals && raw.channels == 3 && texproc::drops_z(a.format))
+        raw = texproc::unit_normals(raw, raw.type);
     const std::string extension = extension_of(a.out);
     const texproc::PixelType type = type_for(extension, a.bits, raw.type);
     const texproc::Rounding rounding =

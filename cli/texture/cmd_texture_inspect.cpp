@@ -10,12 +10,12 @@
 
 #include "base/error.h"
 #include "cli/exit.h"
-#include "cli/texture/build/material_names.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
 #include "cli/texture/sparkle_sheet.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/normal.h"
+#include "texproc/material/material_names.h"
 #include "texproc/study/compare/inspect.h"
 
 namespace petrichor::cli {
@@ -160,13 +160,13 @@ Image first_channel(const RawImage& raw, bool inverted)
 void find_roles(Arguments& a)
 {
     for (const std::string& file : a.files) {
-        const NamedMaps named = maps_named(fs::path(file).stem().string());
+        const texproc::NamedMaps named = texproc::maps_named(fs::path(file).stem().string());
         for (const auto& [role, channels] : named.roles) {
             const std::string map = channels.size() == 1 ? file + ":" + channels : file;
             if (role == "normal" && a.normal.empty()) {
                 a.normal = file;
-                a.green_down = a.green_down || named.green == Green::Down;
-                a.green_known = named.green != Green::Auto;
+                a.green_down = a.green_down || named.green == texproc::Green::Down;
+                a.green_known = named.green != texproc::Green::Auto;
             }
             if (role == "roughness" && a.roughness.empty()) a.roughness = map;
             if (role == "smoothness" && a.smoothness.empty()) a.smoothness = map;

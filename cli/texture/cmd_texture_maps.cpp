@@ -10,12 +10,12 @@
 #include "base/output_file.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
-#include "cli/texture/maps/normal_channels.h"
 #include "cli/texture/maps/pack_file.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/bake.h"
 #include "texproc/filter/mips.h"
 #include "texproc/filter/normal.h"
+#include "texproc/material/normal_channels.h"
 #include "texproc/material/pack.h"
 
 namespace petrichor::cli {
@@ -89,8 +89,8 @@ void run_mips(MipsArguments& a)
     a.options.alpha_weighted = !a.alpha_data;
     a.options.filter = kFilters.at(a.filter);
     Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
-    if (a.options.normals && image.channels == 3 && drops_z(a.format))
-        texproc::renormalize(image, kUnitRounding);
+    if (a.options.normals && image.channels == 3 && texproc::drops_z(a.format))
+        texproc::renormalize(image, texproc::kUnitRounding);
     const std::vector<Image> chain = texproc::mip_chain(image, a.options);
     write_mips(a, chain);
     std::cout << chain.size() << " levels\n";
@@ -136,7 +136,7 @@ void run_normal(const NormalArguments& a)
         return;
     }
     // Whoever reads two channels makes z from them.
-    if (a.to != "rgb" && a.to != "rxgb") texproc::renormalize(normal, kUnitRounding);
+    if (a.to != "rgb" && a.to != "rxgb") texproc::renormalize(normal, texproc::kUnitRounding);
     texproc::write_image(a.out, texproc::to_layout(normal, texproc::normal_layout(a.to)),
                          {.bits = a.bits});
 }

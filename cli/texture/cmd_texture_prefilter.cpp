@@ -8,10 +8,10 @@
 #include "cli/texture/chain_output.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
-#include "cli/texture/maps/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/prefilter_timings.h"
 #include "texproc/codecs/files/texture.h"
+#include "texproc/material/normal_channels.h"
 #include "texproc/material/pack.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/prefilter/rules.h"
@@ -83,12 +83,12 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
     if (!a.normal_out.empty()) {
         for (std::size_t k = 1; k < chains.normal.size(); ++k) {
             chains.normal[k] =
-                lay_out_normals(std::move(chains.normal[k]), o, maps.normal.channels);
+                texproc::lay_out_normals(std::move(chains.normal[k]), o, maps.normal.channels);
         }
         const bool xyz = maps.normal.channels == 3 && o.normal_x == 0 && !o.rebuild_z;
         texproc::RawImage unit;
-        if (xyz && drops_z(a.normal_format)) {
-            unit = unit_normals(maps.normal, texproc::PixelType::U16);
+        if (xyz && texproc::drops_z(a.normal_format)) {
+            unit = texproc::unit_normals(maps.normal, texproc::PixelType::U16);
         }
         write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
                     unit.bytes.empty() ? maps.normal : unit, a.input.normal, chains.normal);

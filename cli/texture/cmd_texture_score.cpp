@@ -9,10 +9,10 @@
 #include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
-#include "cli/texture/maps/normal_channels.h"
 #include "cli/texture/prefilter_options.h"
 #include "cli/texture/score_protocol.h"
 #include "texproc/codecs/files/texture.h"
+#include "texproc/material/normal_channels.h"
 #include "texproc/study/score.h"
 
 namespace petrichor::cli {
@@ -119,7 +119,8 @@ void run(Arguments& a)
     }
     if (!a.normal_chain.empty()) chain.normal = read_chain(a.normal_chain, a.input.reading);
     for (std::size_t k = 1; k < chain.normal.size(); ++k) {
-        chain.normal[k] = read_out_normals(chain.normal[k], a.input.options, static_cast<int>(k));
+        chain.normal[k] =
+            texproc::read_out_normals(chain.normal[k], a.input.options, static_cast<int>(k));
     }
     const texproc::Score s =
         texproc::score(maps.normal, maps.map, chain, a.input.options, a.scoring);

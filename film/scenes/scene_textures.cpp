@@ -187,8 +187,7 @@ std::vector<Image> surface_levels(const Image& surface, const scene::Scene& scen
     if (normals.width != surface.width || normals.height != surface.height) return levels;
     scale_normals(normals, recipe.normal_scale);
     const auto filtered =
-        texproc::prefilter(normals, channel_of(factored, 1, 1.0f),
-                           {.wrap_u = mips.wrap_u, .wrap_v = mips.wrap_v, .threads = 1});
+        texproc::prefilter(normals, channel_of(factored, 1, 1.0f), {.threads = 1});
     for (std::size_t level = 1; level < levels.size(); ++level) {
         const Image& roughness = filtered.roughness[level];
         for (std::size_t i = 0; i < roughness.pixels.size(); ++i) {

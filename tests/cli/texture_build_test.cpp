@@ -8,10 +8,10 @@
 #include <set>
 #include <thread>
 
-#include "cli/texture/build/material_names.h"
 #include "cli/texture/build/sha256.h"
 #include "tests/support/program.h"
 #include "texproc/generate/generate.h"
+#include "texproc/material/material_names.h"
 #include "texproc/material/pack.h"
 
 namespace petrichor::cli {
@@ -71,7 +71,7 @@ struct NameCase {
     const char* stem;
     const char* material;
     const char* roles;  // "role=channels "
-    Green green = Green::Auto;
+    texproc::Green green = texproc::Green::Auto;
 };
 void PrintTo(const NameCase& c, std::ostream* out)
 {
@@ -81,7 +81,7 @@ void PrintTo(const NameCase& c, std::ostream* out)
 class MapNames : public testing::TestWithParam<NameCase> {};
 TEST_P(MapNames, SayWhatTheyAre)
 {
-    const NamedMaps named = maps_named(GetParam().stem);
+    const texproc::NamedMaps named = texproc::maps_named(GetParam().stem);
     EXPECT_EQ(named.short_name, GetParam().material);
     std::string roles;
     for (const auto& [role, channels] : named.roles) roles += role + "=" + channels + " ";
@@ -90,10 +90,11 @@ TEST_P(MapNames, SayWhatTheyAre)
 }
 INSTANTIATE_TEST_SUITE_P(
     Table, MapNames,
-    testing::Values(NameCase{"Bricks102_1K-JPG_NormalDX", "Bricks102", "normal= ", Green::Down},
+    testing::Values(NameCase{"Bricks102_1K-JPG_NormalDX", "Bricks102",
+                             "normal= ", texproc::Green::Down},
                     NameCase{"Bricks102_1K-JPG_AmbientOcclusion", "Bricks102", "occlusion= "},
                     NameCase{"cobblestone_pavement_nor_gl_2k", "cobblestone_pavement",
-                             "normal= ", Green::Up},
+                             "normal= ", texproc::Green::Up},
                     NameCase{"cobblestone_pavement_arm_2k", "cobblestone_pavement",
                              "metallic=b occlusion=r roughness=g "},
                     NameCase{"Old_Wall_LuxSPEC", "Old_Wall", "smoothness=a specular=rgb "},

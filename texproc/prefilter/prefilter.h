@@ -12,8 +12,6 @@ namespace petrichor::texproc {
 
 struct PrefilterOptions {
     std::string rule = "moments";  ///< a name of rules(); "overlap" is the best
-    bool wrap_u = true;            ///< tileable along u (boxes never look past the edge)
-    bool wrap_v = true;
     bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
     int threads = 0;          ///< 0: all cores; the bytes do not depend on it
 
@@ -41,6 +39,9 @@ struct Prefiltered {
     /// then holds the one across.
     std::vector<Image> anisotropy;
 };
+
+// A texel is made from its exact area of level 0 and never looks past an edge: maps that wrap,
+// mirror or clamp give the same levels, so there is nothing to choose.
 
 /// Builds both chains down to 1 x 1 so that what minification takes from the normals is added to
 /// the roughness. normal: 3 channels encoded 0.5 + 0.5 n; roughness: 1 channel of the same size.

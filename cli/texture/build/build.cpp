@@ -16,10 +16,10 @@
 #include "cli/progress.h"
 #include "cli/rooms.h"
 #include "cli/signals.h"
-#include "cli/texture/build/material.h"
 #include "cli/texture/build/sha256.h"
 #include "cli/texture/build/state.h"
 #include "film/data/folders.h"
+#include "texproc/material/material.h"
 
 namespace petrichor::cli {
 
@@ -36,16 +36,17 @@ std::string program()
     return "petrichor " PETRICHOR_VERSION " encoder " + std::to_string(kEncoder);
 }
 
-BuildState::SetName set_name(const PlannedMaterial& material)
+BuildState::SetName set_name(const texproc::PlannedMaterial& material)
 {
     return {material.name, join_words(material.recipe->engines)};
 }
 
 // Sources, options and program decide the outputs, and so the key.
-std::string key_of(const PlannedMaterial& material, BuildState& state)
+std::string key_of(const texproc::PlannedMaterial& material, BuildState& state)
 {
-    std::string text = program() + "\n" + material.name + "\n" + options_text(*material.recipe) +
-                       "green " + std::to_string(static_cast<int>(material.files.green)) + "\n";
+    std::string text = program() + "\n" + material.name + "\n" +
+                       texproc::options_text(*material.recipe) + "green " +
+                       std::to_string(static_cast<int>(material.files.green)) + "\n";
     for (const auto& [role, map] : material.files.inputs) {
         text += role + " " + state.hash_of(map.path) + " " + map.channels + "\n";
     }
@@ -60,12 +61,13 @@ ordered_json error_json(const texproc::RangeScore& range)
             {"shipped", range.tested}};
 }
 
-std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& made,
-                           BuildState& state, const fs::path& out)
+std::string manifest_entry(const texproc::PlannedMaterial& material,
+                           const texproc::MadeMaterial& made, BuildState& state,
+                           const fs::path& out)
 {
     ordered_json entry{{"name", material.name}, {"engines", material.recipe->engines}};
-    for (const MadeSource& source : made.sources) {
-        const InputMap& map = material.files.inputs.at(source.role);
+    for (const texproc::MadeSource& source : made.sources) {
+        const texproc::InputMap& map = material.files.inputs.at(source.role);
         entry["sources"].push_back({{"role", source.role},
                                     {"file", map.path.filename().string()},
                                     {"part", map.channels.empty() ? "all" : map.channels},
@@ -77,9 +79,9 @@ std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& 
     }
     if (!made.green.empty()) entry["normal_green"] = made.green;
     entry["baked"] = material.baked;
-    entry["options"] = options_text(*material.recipe);
+    entry["options"] = texproc::options_text(*material.recipe);
     for (std::size_t i = 0; i < made.outputs.size(); ++i) {
-        const OutputRule& rule = material.outputs[i].rule;
+        const texproc::OutputRule& rule = material.outputs[i].rule;
         ordered_json output{{"format", rule.format},
                             {"compression", rule.compression},
                             {"bits", rule.bits},
@@ -97,7 +99,7 @@ std::string manifest_entry(const PlannedMaterial& material, const MadeMaterial& 
         entry["outputs"].push_back(output);
     }
     if (made.lobe_error) {
-        entry["lobe_error"] = {{"rule", material.recipe->rule},
+        entry["lobe_error"] = {{"rule", material.recipe->prefilter.rule},
                                {"levels_1_to_5", error_json(made.lobe_error->fine())},
                                {"levels_6_up", error_json(made.lobe_error->coarse())}};
     }
@@ -149,14 +151,14 @@ void publish(const fs::path& staging, const fs::path& out, const std::vector<std
 
 class Builder {
 public:
-    Builder(const std::vector<PlannedMaterial>& plan, const BuildOptions& options)
+    Builder(const std::vector<texproc::PlannedMaterial>& plan, const BuildOptions& options)
         : plan_(plan), options_(options), state_(options.out)
     {
     }
 
     BuildResult run()
     {
-        for (const PlannedMaterial& material : plan_) check(material);
+        for (const texproc::PlannedMaterial& material : plan_) check(material);
         if (options_.dry_run) return result_;
         if (!waiting_.empty()) require_writable_folder(options_.out);
         work();
@@ -166,11 +168,11 @@ public:
 
 private:
     struct Waiting {
-        const PlannedMaterial* material;
+        const texproc::PlannedMaterial* material;
         std::string key;
     };
 
-    void check(const PlannedMaterial& material)
+    void check(const texproc::PlannedMaterial& material)
     {
         std::string status = "up to date";
         try {
@@ -185,7 +187,7 @@ private:
             fail(material, error);
             status = "cannot be built";
         }
-        if (options_.dry_run) std::cout << to_text(material) << "  " << status << "\n";
+        if (options_.dry_run) std::cout << texproc::to_text(material) << "  " << status << "\n";
     }
 
     void work()
@@ -216,12 +218,13 @@ private:
 
     void make(std::size_t number, int threads)
     {
-        const PlannedMaterial& material = *waiting_[number].material;
+        const texproc::PlannedMaterial& material = *waiting_[number].material;
         const Staging staging(options_.out, number);
         try {
-            const MadeMaterial made = make_material(material, staging.path(), threads);
+            const texproc::MadeMaterial made =
+                texproc::make_material(material, staging.path(), threads);
             BuiltSet set{waiting_[number].key, {}, ""};
-            for (const MadeOutput& output : made.outputs) {
+            for (const texproc::MadeOutput& output : made.outputs) {
                 set.outputs.insert(set.outputs.end(), output.files.begin(), output.files.end());
             }
             publish(staging.path(), options_.out, set.outputs);
@@ -239,7 +242,7 @@ private:
         }
     }
 
-    void fail(const PlannedMaterial& material, const Error& error)
+    void fail(const texproc::PlannedMaterial& material, const Error& error)
     {
         result_.failures.push_back(material.name + ": " + error.what() + "\n  " + error.fix());
     }
@@ -247,7 +250,7 @@ private:
     void finish()
     {
         std::vector<BuildState::SetName> names;
-        for (const PlannedMaterial& material : plan_) names.push_back(set_name(material));
+        for (const texproc::PlannedMaterial& material : plan_) names.push_back(set_name(material));
         std::sort(result_.failures.begin(), result_.failures.end());
         if (result_.built == 0 && state_.sets().empty()) return;
         const bool changed = state_.save(names);
@@ -259,7 +262,7 @@ private:
         if (changed || !fs::exists(file)) write_text_file(file, manifest.dump(1) + "\n");
     }
 
-    const std::vector<PlannedMaterial>& plan_;
+    const std::vector<texproc::PlannedMaterial>& plan_;
     const BuildOptions& options_;
     BuildState state_;
     std::vector<Waiting> waiting_;
@@ -269,7 +272,7 @@ private:
 
 }  // namespace
 
-BuildResult build(const std::vector<PlannedMaterial>& plan, const BuildOptions& options)
+BuildResult build(const std::vector<texproc::PlannedMaterial>& plan, const BuildOptions& options)
 {
     return Builder(plan, options).run();
 }

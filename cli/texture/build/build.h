@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/plan.h"
+#include "texproc/material/plan.h"
 
 namespace petrichor::cli {
 
@@ -26,7 +26,7 @@ struct BuildResult {
 /// Makes what is not up to date, materials side by side. A material's files appear together or not
 /// at all; one that fails leaves its old files and does not keep the others from being made. Writes
 /// OUT/manifest.json. dry_run: prints what would be done. Throws Error when OUT cannot be written.
-BuildResult build(const std::vector<PlannedMaterial>& plan, const BuildOptions& options);
+BuildResult build(const std::vector<texproc::PlannedMaterial>& plan, const BuildOptions& options);
 
 }  // namespace petrichor::cli
 

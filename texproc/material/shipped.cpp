@@ -1,4 +1,4 @@
-#include "cli/texture/build/shipped.h"
+#include "texproc/material/shipped.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "texproc/codecs/files/texture.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
 
@@ -18,14 +18,14 @@ struct Place {
 
 using Has = std::function<bool(const std::string&)>;
 
-std::optional<Place> place_of(const texproc::PackPreset& preset, const std::string& role,
-                              int channel, const Has& has)
+std::optional<Place> place_of(const PackPreset& preset, const std::string& role, int channel,
+                              const Has& has)
 {
     for (std::size_t c = 0; c < preset.channels.size(); ++c) {
-        const texproc::PackChannel sources = texproc::parse_pack_channel(preset.channels[c]);
-        const auto used = std::find_if(
-            sources.begin(), sources.end(),
-            [&](const texproc::PackSource& s) { return s.role.empty() || has(s.role); });
+        const PackChannel sources = parse_pack_channel(preset.channels[c]);
+        const auto used = std::find_if(sources.begin(), sources.end(), [&](const PackSource& s) {
+            return s.role.empty() || has(s.role);
+        });
         if (used != sources.end() && used->role == role && used->channel == channel) {
             return Place{static_cast<int>(c), used->invert};
         }
@@ -61,14 +61,14 @@ std::vector<Image> packed_levels(const std::filesystem::path& folder, const Plan
 {
     std::vector<Image> levels;
     if (output.rule.format == "dds" || output.rule.format == "ktx2") {
-        const texproc::MipTexture texture = texproc::read_texture(folder / made.files.front());
+        const MipTexture texture = read_texture(folder / made.files.front());
         for (std::size_t k = 0; k < texture.levels.size(); ++k) {
-            levels.push_back(texproc::to_image(
-                texproc::decode_level(texture, static_cast<int>(k), 0, true), ColorSpace::Data));
+            levels.push_back(
+                to_image(decode_level(texture, static_cast<int>(k), 0, true), ColorSpace::Data));
         }
     } else if (output.rule.level_files && output.rule.format != "exr") {
         for (const std::string& file : made.files) {
-            levels.push_back(texproc::read_image(folder / file));
+            levels.push_back(read_image(folder / file));
         }
     }
     return levels;
@@ -95,4 +95,4 @@ std::vector<Image> shipped_levels(const std::filesystem::path& folder, const Pla
     return levels;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

@@ -1,12 +1,12 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_NAMES_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_NAMES_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_MATERIAL_NAMES_H
+#define PETRICHOR_TEXPROC_MATERIAL_MATERIAL_NAMES_H
 
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 /// A file and, after the last colon, some of its channels: "wall.png", "arm.png:g", "spec.png:rgb".
 struct InputMap {
@@ -50,6 +50,6 @@ std::vector<std::filesystem::path> unnamed_images(const std::filesystem::path& f
 /// The roles that maps can have, for messages and completion.
 const std::vector<std::string>& map_roles();
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_RECIPE_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_RECIPE_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_RECIPE_H
+#define PETRICHOR_TEXPROC_MATERIAL_RECIPE_H
 
 #include <filesystem>
 #include <map>
@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/material_names.h"
 #include "texproc/filter/bake.h"
 #include "texproc/filter/mips.h"
+#include "texproc/material/chains.h"
+#include "texproc/material/material_names.h"
 #include "texproc/material/pack.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 /// One file that a recipe makes.
 struct OutputRule {
     std::string folder;           ///< below the output folder: the engine, where there are several
     std::string file = "{name}";  ///< without extension; {name} becomes the name of the material
-    texproc::PackPreset
-        channels;                ///< what goes where; srgb_channels: RGB is written as sRGB colour
-    std::string format = "png";  ///< png, tga, tif, exr, dds, ktx2
+    PackPreset channels;          ///< what goes where; srgb_channels: RGB is written as sRGB colour
+    std::string format = "png";   ///< png, tga, tif, exr, dds, ktx2
     std::string compression = "none";  ///< dds, ktx2: none, bc1, bc3, bc4, bc5, bc7
     int bits = 8;                      ///< 8 or 16; exr: 16 or 32
     bool mips = true;                  ///< dds, ktx2, exr: all levels
@@ -44,35 +44,19 @@ struct Recipe {
     std::map<std::string, InputMap> inputs;  ///< by role
     Green green = Green::Auto;               ///< Auto: what the name says, else what the map says
     std::string layout = "rgb";              ///< of the normal map
-    std::string rule = "overlap";            ///< of the prefilter; "none" for plain mips
-    bool quick = true;
-    float design_light = 0.0f;
-    bool score = true;                                 ///< measure the lobe error for the manifest
-    texproc::MipOptions mips{.alpha_weighted = true};  ///< filter, wrap, alpha_cutoff
+    PrefilterChoice prefilter;
+    bool score = true;                        ///< measure the lobe error for the manifest
+    MipOptions mips{.alpha_weighted = true};  ///< filter, wrap, alpha_cutoff
     std::vector<std::string> bake{"porosity", "puddle",
                                   "cavity"};  ///< roles made where none is given
-    texproc::BakeOptions baking;
+    BakeOptions baking;
     std::vector<OutputRule> outputs;
 };
-
-/// Reads a recipe; paths in it are relative to its folder. Throws Error with file and line.
-Recipe read_recipe(const std::filesystem::path& file);
-
-/// The outputs of an engine, from data/recipes/NAME.toml. Throws Error that lists the names.
-std::vector<OutputRule> engine_outputs(const std::string& name);
-/// Those of several, each in a folder of its own when there is more than one.
-std::vector<OutputRule> engine_outputs(const std::vector<std::string>& names);
-
-struct EngineInfo {
-    std::string name, note;
-    std::vector<OutputRule> outputs;
-};
-std::vector<EngineInfo> engines();
 
 /// Everything that decides the bytes of the outputs, as text: equal texts, equal outputs.
 std::string options_text(const Recipe& recipe);
 std::string options_text(const OutputRule& output);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

@@ -1,22 +1,19 @@
-#include "cli/texture/build/material.h"
+#include "texproc/material/material.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
-#include "cli/texture/build/prefiltered_maps.h"
-#include "cli/texture/build/write_levels.h"
-#include "cli/texture/maps/normal_channels.h"
 #include "texproc/filter/area.h"
 #include "texproc/filter/mips.h"
+#include "texproc/material/normal_channels.h"
+#include "texproc/material/prefiltered_maps.h"
+#include "texproc/material/write_levels.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
-
-using texproc::PixelType;
-using texproc::RawImage;
 
 Image with_alpha(const Image& color, const Image& alpha)
 {
@@ -50,7 +47,7 @@ bool has_cutout(const SourceMaps& maps)
 }
 
 // The level to start with: the largest whose sides are at most `size`.
-std::size_t first_level(const std::vector<texproc::LevelSize>& sizes, int size)
+std::size_t first_level(const std::vector<LevelSize>& sizes, int size)
 {
     std::size_t k = 0;
     while (size > 0 && k + 1 < sizes.size() && std::max(sizes[k].width, sizes[k].height) > size)
@@ -70,7 +67,7 @@ PixelType working_type(const OutputRule& rule)
 bool leaves_out_z(const OutputRule& rule)
 {
     for (const std::string& text : rule.channels.channels) {
-        for (const texproc::PackSource& source : texproc::parse_pack_channel(text)) {
+        for (const PackSource& source : parse_pack_channel(text)) {
             if (source.role == "normal" && source.channel == 2) return false;
         }
     }
@@ -106,7 +103,7 @@ private:
     void check_sizes(const PlannedOutput& output) const;
     std::vector<RawImage> levels(std::size_t number, const std::string& role, std::size_t first,
                                  std::size_t last) const;
-    std::vector<Image> plain_levels(const std::string& role, ColorSpace space) const;
+    std::vector<Image> levels_without_prefilter(const std::string& role, ColorSpace space) const;
 
     const PlannedMaterial& plan_;
     const std::filesystem::path& folder_;
@@ -120,7 +117,7 @@ MadeOutput Maker::make_output(std::size_t number) const
     const PlannedOutput& output = plan_.outputs[number];
     check_sizes(output);
     const RawImage& like = maps_.images.at(output.roles.front());
-    const std::vector<texproc::LevelSize> sizes = texproc::level_sizes(like.width, like.height);
+    const std::vector<LevelSize> sizes = level_sizes(like.width, like.height);
     const std::size_t first = first_level(sizes, output.rule.size);
     const std::size_t last = output.rule.has_levels() ? sizes.size() - 1 : first;
     std::map<std::string, std::vector<RawImage>> by_role;
@@ -133,7 +130,7 @@ MadeOutput Maker::make_output(std::size_t number) const
     for (std::size_t k = 0; k <= last - first; ++k) {
         std::map<std::string, RawImage> level;
         for (auto& [role, images] : by_role) level.emplace(role, std::move(images[k]));
-        packed.push_back(texproc::pack(output.rule.channels, level, bits, threads_));
+        packed.push_back(pack(output.rule.channels, level, bits, threads_));
     }
     MadeOutput made;
     made.width = packed.front().width;
@@ -176,37 +173,33 @@ std::vector<RawImage> Maker::levels(std::size_t number, const std::string& role,
         const bool keep = integers && (type != PixelType::F32 || !color);
         levels.push_back(role == "normal" && leaves_out_z(rule) ? unit_normals(raw, type)
                          : keep                                 ? raw
-                                : texproc::to_raw(texproc::to_image(raw, space), type));
+                                : to_raw(to_image(raw, space), type));
     }
     if (last == 0) return levels;
     std::vector<Image> plain;
     const std::vector<Image>* chain = prefiltered_.levels(number, role);
     if (!chain) {
-        plain = plain_levels(role, space);
+        plain = levels_without_prefilter(role, space);
         chain = &plain;
     }
     for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k)
-        levels.push_back(texproc::to_raw((*chain)[k], type));
+        levels.push_back(to_raw((*chain)[k], type));
     return levels;
 }
 
-std::vector<Image> Maker::plain_levels(const std::string& role, ColorSpace space) const
+std::vector<Image> Maker::levels_without_prefilter(const std::string& role, ColorSpace space) const
 {
-    texproc::MipOptions options = plan_.recipe->mips;
-    options.normals = role == "normal";
+    MipOptions options = plan_.recipe->mips;
     options.threads = threads_;
     if (has_cutout(maps_) &&
         (role == "opacity" || (role == "albedo" && space == ColorSpace::Linear))) {
-        const Image joined =
-            with_alpha(texproc::to_image(maps_.images.at("albedo"), ColorSpace::Linear),
-                       maps_.data("opacity"));
-        std::vector<Image> chain = texproc::mip_chain(joined, options);
+        const Image joined = with_alpha(to_image(maps_.images.at("albedo"), ColorSpace::Linear),
+                                        maps_.data("opacity"));
+        std::vector<Image> chain = plain_levels(joined, "albedo", options);
         for (Image& level : chain) level = part_of(level, role == "opacity" ? 3 : 0);
         return chain;
     }
-    const RawImage& raw = maps_.images.at(role);
-    if (raw.channels != 4 || role != "albedo") options.alpha_cutoff = -1.0f;
-    return texproc::mip_chain(texproc::to_image(raw, space), options);
+    return plain_levels(to_image(maps_.images.at(role), space), role, options);
 }
 
 }  // namespace
@@ -217,4 +210,4 @@ MadeMaterial make_material(const PlannedMaterial& material, const std::filesyste
     return Maker(material, folder, threads).make();
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

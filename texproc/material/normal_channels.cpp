@@ -1,4 +1,4 @@
-#include "cli/texture/maps/normal_channels.h"
+#include "texproc/material/normal_channels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/normal.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
-Image lay_out_normals(Image normals, const texproc::PrefilterOptions& o, int channels)
+Image lay_out_normals(Image normals, const PrefilterOptions& o, int channels)
 {
     if (channels == 3 && o.normal_x == 0 && !o.rebuild_z) return normals;
     Image to(normals.width, normals.height, channels, ColorSpace::Data, 1.0f);
@@ -24,7 +24,7 @@ Image lay_out_normals(Image normals, const texproc::PrefilterOptions& o, int cha
     return to;
 }
 
-Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, int number)
+Image read_out_normals(const Image& level, const PrefilterOptions& o, int number)
 {
     // BC5 holds x and y whatever the layout of the map was.
     const bool rebuild_z = o.rebuild_z || (level.channels == 2 && o.normal_x == 0);
@@ -50,19 +50,19 @@ Image read_out_normals(const Image& level, const texproc::PrefilterOptions& o, i
     return to;
 }
 
-texproc::RawImage unit_normals(const texproc::RawImage& normal, texproc::PixelType type)
+RawImage unit_normals(const RawImage& normal, PixelType type)
 {
-    Image xyz = texproc::to_image(normal, ColorSpace::Data);
-    if (xyz.channels > 3) xyz = texproc::from_layout(xyz, texproc::NormalLayout::Rgb);
-    texproc::renormalize(xyz, kUnitRounding);
-    return texproc::to_raw(xyz, type);
+    Image xyz = to_image(normal, ColorSpace::Data);
+    if (xyz.channels > 3) xyz = from_layout(xyz, NormalLayout::Rgb);
+    renormalize(xyz, kUnitRounding);
+    return to_raw(xyz, type);
 }
 
 bool drops_z(const std::string& format)
 {
     if (format.empty()) return false;
-    const texproc::TextureFormat known = texproc::texture_format(format);
-    return known.block ? known.block == texproc::Block::Bc5 : known.channels == 2;
+    const TextureFormat known = texture_format(format);
+    return known.block ? known.block == Block::Bc5 : known.channels == 2;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

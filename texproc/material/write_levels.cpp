@@ -1,22 +1,19 @@
-#include "cli/texture/build/write_levels.h"
+#include "texproc/material/write_levels.h"
 
 #include <utility>
 
 #include "texproc/codecs/files/io.h"
 #include "texproc/codecs/files/texture.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
-
-using texproc::PixelType;
-using texproc::RawImage;
 
 // The float type that an EXR file holds.
 RawImage as_exr(const RawImage& level, int bits)
 {
     if (bits == 32) return level;
-    return texproc::to_raw(texproc::to_image(level, ColorSpace::Data), PixelType::F16);
+    return to_raw(to_image(level, ColorSpace::Data), PixelType::F16);
 }
 
 }  // namespace
@@ -35,21 +32,21 @@ std::vector<std::string> write_levels(const std::filesystem::path& folder, const
     if (rule.format == "dds" || rule.format == "ktx2" ||
         (rule.format == "exr" && rule.has_levels() && !rule.level_files)) {
         const auto [path, file] = path_of("");
-        texproc::TextureWriteOptions options;
+        TextureWriteOptions options;
         if (rule.compression != "none") options.format = rule.compression;
         options.srgb = rule.srgb();
         options.threads = threads;
         options.texel_weights = std::move(texel_weights);
-        texproc::write_mip_chain(path, levels, options);
+        write_mip_chain(path, levels, options);
         return {file};
     }
     std::vector<std::string> files;
     for (std::size_t k = 0; k < levels.size(); ++k) {
         const auto [path, file] = path_of(rule.level_files ? "_" + std::to_string(k) : "");
-        texproc::write_raw(path, levels[k], {.bits = rule.bits, .threads = threads});
+        write_raw(path, levels[k], {.bits = rule.bits, .threads = threads});
         files.push_back(file);
     }
     return files;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

@@ -1,21 +1,20 @@
-#include "cli/texture/build/source_maps.h"
+#include "texproc/material/source_maps.h"
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <utility>
 
 #include "base/error.h"
-#include "cli/texture/maps/files.h"
+#include "texproc/codecs/files/io.h"
 #include "texproc/filter/bake.h"
 #include "texproc/filter/normal.h"
+#include "texproc/material/chains.h"
 #include "texproc/material/pack.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
-
-using texproc::PixelType;
-using texproc::RawImage;
 
 int bits_of(const RawImage& image)
 {
@@ -25,15 +24,15 @@ int bits_of(const RawImage& image)
 // Grey paint is colour too.
 RawImage widened(const RawImage& image)
 {
-    const texproc::PackPreset grey{"grey", "", {"m.r", "m.r", "m.r"}, {}};
-    return texproc::pack(grey, {{"m", image}}, bits_of(image), 1);
+    const PackPreset grey{"grey", "", {"m.r", "m.r", "m.r"}, {}};
+    return pack(grey, {{"m", image}}, bits_of(image), 1);
 }
 
 // Some channels of an image, in its own numbers.
 RawImage channels_of(const RawImage& image, const InputMap& map)
 {
     if (map.channels.empty()) return image;
-    texproc::PackPreset preset{"channels", "", {}, {}};
+    PackPreset preset{"channels", "", {}, {}};
     for (const char letter : map.channels) {
         const int channel = static_cast<int>(std::string("rgba").find(letter));
         if (channel >= image.channels) {
@@ -45,16 +44,15 @@ RawImage channels_of(const RawImage& image, const InputMap& map)
         preset.channels.push_back(std::string("map.") + letter);
     }
     if (preset.channels.size() == 1) {
-        return texproc::channel_of(image,
-                                   static_cast<int>(std::string("rgba").find(map.channels[0])));
+        return channel_of(image, static_cast<int>(std::string("rgba").find(map.channels[0])));
     }
-    return texproc::pack(preset, {{"map", image}}, bits_of(image), 1);
+    return pack(preset, {{"map", image}}, bits_of(image), 1);
 }
 
 void check_numbers(const RawImage& image, const InputMap& map)
 {
     if (image.type != PixelType::F16 && image.type != PixelType::F32) return;
-    for (const float v : texproc::to_image(image, ColorSpace::Data).pixels) {
+    for (const float v : to_image(image, ColorSpace::Data).pixels) {
         if (std::isfinite(v)) continue;
         throw Error("texture build: " + map.path.string() + " holds values that are not numbers",
                     "Repair the NaN or infinite pixels first.");
@@ -69,8 +67,8 @@ bool has_word(const std::vector<std::string>& words, const std::string& word)
 // Turns green in place: codes are subtracted from the largest, which is exact.
 void turn_green(RawImage& normal)
 {
-    texproc::PackPreset turned{"turned", "", {"n.r", "1 - n.g", "n.b"}, {}};
-    normal = texproc::pack(turned, {{"n", normal}}, bits_of(normal));
+    PackPreset turned{"turned", "", {"n.r", "1 - n.g", "n.b"}, {}};
+    normal = pack(turned, {{"n", normal}}, bits_of(normal));
 }
 
 std::string percent(double share)
@@ -96,6 +94,24 @@ bool is_wanted(const PlannedMaterial& plan, const std::string& role)
     return false;
 }
 
+// Two at a time: a reading process costs a fifth of a second to start, more of them would cost more
+// than they bring.
+std::vector<RawImage> read_files(const std::vector<std::string>& names, int threads)
+{
+    std::vector<RawImage> images(names.size());
+    const auto read_from = [&](std::size_t first, std::size_t step) {
+        for (std::size_t i = first; i < names.size(); i += step) images[i] = read_raw(names[i]);
+    };
+    if (threads == 1 || names.size() < 2) {
+        read_from(0, 1);
+        return images;
+    }
+    std::future<void> other = std::async(std::launch::async, read_from, 1, 2);
+    read_from(0, 2);
+    other.get();
+    return images;
+}
+
 void read(const PlannedMaterial& plan, int threads, SourceMaps& maps)
 {
     std::vector<std::string> names;  // a packed file is read once
@@ -103,13 +119,13 @@ void read(const PlannedMaterial& plan, int threads, SourceMaps& maps)
         const std::string name = map.path.string();
         if (is_wanted(plan, role) && !has_word(names, name)) names.push_back(name);
     }
-    const std::vector<RawImage> images = read_maps(names, {}, threads);
+    const std::vector<RawImage> images = read_files(names, threads);
     for (const auto& [role, map] : plan.files.inputs) {
         if (!is_wanted(plan, role)) continue;
         const auto at = std::find(names.begin(), names.end(), map.path.string());
         const RawImage& whole = images[static_cast<std::size_t>(at - names.begin())];
         maps.sources.push_back({role, whole.width, whole.height, whole.channels,
-                                static_cast<int>(8 * texproc::size_of(whole.type))});
+                                static_cast<int>(8 * size_of(whole.type))});
         RawImage& image = maps.images[role] = channels_of(whole, map);
         if (is_color(role) && image.channels < 3) image = widened(image);
         check_numbers(image, map);
@@ -119,8 +135,7 @@ void read(const PlannedMaterial& plan, int threads, SourceMaps& maps)
 // Three channels that hold x, y and z.
 Image as_rgb(Image normal)
 {
-    return normal.channels > 3 ? texproc::from_layout(normal, texproc::NormalLayout::Rgb)
-                               : std::move(normal);
+    return normal.channels > 3 ? from_layout(normal, NormalLayout::Rgb) : std::move(normal);
 }
 
 void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
@@ -128,11 +143,10 @@ void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
     const auto at = maps.images.find("normal");
     if (at == maps.images.end()) return;
     RawImage& normal = at->second;
-    const texproc::NormalLayout layout = texproc::normal_layout(plan.recipe->layout);
-    if (layout != texproc::NormalLayout::Rgb) {
-        normal = texproc::to_raw(
-            texproc::from_layout(texproc::to_image(normal, ColorSpace::Data), layout),
-            normal.type == PixelType::U8 ? PixelType::U16 : normal.type);
+    const NormalLayout layout = normal_layout(plan.recipe->layout);
+    if (layout != NormalLayout::Rgb) {
+        normal = to_raw(from_layout(to_image(normal, ColorSpace::Data), layout),
+                        normal.type == PixelType::U8 ? PixelType::U16 : normal.type);
     }
     if (normal.channels < 3) {
         throw Error("texture build: the normal map " + file_of(plan, "normal") + " has " +
@@ -145,9 +159,9 @@ void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
         const RawImage* height = maps.find("height");
         const bool same =
             height && height->width == normal.width && height->height == normal.height;
-        const Image rgb = as_rgb(texproc::to_image(normal, ColorSpace::Data));
-        const texproc::GreenDirection found =
-            same ? texproc::detect_green(rgb, maps.data("height")) : texproc::detect_green(rgb);
+        const Image rgb = as_rgb(to_image(normal, ColorSpace::Data));
+        const GreenDirection found =
+            same ? detect_green(rgb, maps.data("height")) : detect_green(rgb);
         // A map that says little is left as it is: up is what most tools write.
         const bool down = found.down && found.confidence > 0.25;
         green = down ? Green::Down : Green::Up;
@@ -161,35 +175,27 @@ void bake(const PlannedMaterial& plan, int threads, SourceMaps& maps)
 {
     const auto missing = [&](const char* role) { return has_word(plan.baked, role); };
     const auto put = [&](const char* role, const Image& image) {
-        maps.images[role] = texproc::to_raw(image, PixelType::U16);
+        maps.images[role] = to_raw(image, PixelType::U16);
     };
-    texproc::BakeOptions options = plan.recipe->baking;
+    BakeOptions options = plan.recipe->baking;
     options.threads = threads;
-    if (missing("height"))
-        put("height", texproc::height_from_normal(as_rgb(maps.data("normal"))).height);
+    if (missing("height")) put("height", height_from_normal(as_rgb(maps.data("normal"))).height);
     const auto height = [&] { return maps.data("height"); };
-    if (missing("normal"))
-        put("normal", texproc::normal_from_height(height(), {.depth = options.depth}));
-    if (missing("occlusion")) put("occlusion", texproc::ambient_occlusion(height(), options));
-    if (missing("cavity")) put("cavity", texproc::cavity(height(), options));
-    if (missing("puddle")) put("puddle", texproc::puddles(height(), options).depth);
-    if (missing("crack")) put("crack", texproc::cracks(height(), options).depth);
+    if (missing("normal")) put("normal", normal_from_height(height(), {.depth = options.depth}));
+    if (missing("occlusion")) put("occlusion", ambient_occlusion(height(), options));
+    if (missing("cavity")) put("cavity", cavity(height(), options));
+    if (missing("puddle")) put("puddle", puddles(height(), options).depth);
+    if (missing("crack")) put("crack", cracks(height(), options).depth);
     if (missing("porosity")) {
         Image rough = maps.data(maps.rough_role());
         if (maps.rough_role() == "smoothness") {
             for (float& v : rough.pixels) v = 1.0f - v;
         }
-        put("porosity",
-            texproc::porosity(rough, maps.find("metallic") ? maps.data("metallic") : Image()));
+        put("porosity", porosity(rough, maps.find("metallic") ? maps.data("metallic") : Image()));
     }
 }
 
 }  // namespace
-
-bool is_color(const std::string& role)
-{
-    return role == "albedo" || role == "specular" || role == "emission";
-}
 
 std::string file_of(const PlannedMaterial& plan, const std::string& role)
 {
@@ -206,4 +212,4 @@ SourceMaps read_source_maps(const PlannedMaterial& plan, int threads)
     return maps;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

@@ -1,14 +1,14 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_SOURCE_MAPS_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_SOURCE_MAPS_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_SOURCE_MAPS_H
+#define PETRICHOR_TEXPROC_MATERIAL_SOURCE_MAPS_H
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/plan.h"
 #include "texproc/image/raw_image.h"
+#include "texproc/material/plan.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 /// One map as its file holds it.
 struct MadeSource {
@@ -18,11 +18,11 @@ struct MadeSource {
 
 /// Level 0 of everything that the outputs of a material draw from, by role.
 struct SourceMaps {
-    std::map<std::string, texproc::RawImage> images;
+    std::map<std::string, RawImage> images;
     std::vector<MadeSource> sources;  ///< the maps that were read
     std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
 
-    const texproc::RawImage* find(const std::string& role) const
+    const RawImage* find(const std::string& role) const
     {
         const auto at = images.find(role);
         return at == images.end() ? nullptr : &at->second;
@@ -30,7 +30,7 @@ struct SourceMaps {
     /// A role that is there, as numbers.
     Image data(const std::string& role) const
     {
-        return texproc::to_image(images.at(role), ColorSpace::Data);
+        return to_image(images.at(role), ColorSpace::Data);
     }
     /// The roughness, or the smoothness where that is what there is.
     std::string rough_role() const { return find("roughness") ? "roughness" : "smoothness"; }
@@ -40,12 +40,9 @@ struct SourceMaps {
 /// Throws Error that names the file at fault.
 SourceMaps read_source_maps(const PlannedMaterial& plan, int threads);
 
-/// Roles that hold colour, which files keep as sRGB.
-bool is_color(const std::string& role);
-
 /// Where a role came from, for people: a file, or "the baked height".
 std::string file_of(const PlannedMaterial& plan, const std::string& role);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

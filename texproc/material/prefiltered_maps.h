@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_PREFILTERED_MAPS_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_PREFILTERED_MAPS_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_PREFILTERED_MAPS_H
+#define PETRICHOR_TEXPROC_MATERIAL_PREFILTERED_MAPS_H
 
 #include <cstddef>
 #include <filesystem>
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/material.h"
-#include "cli/texture/build/source_maps.h"
+#include "texproc/material/material.h"
+#include "texproc/material/source_maps.h"
 #include "texproc/prefilter/prefilter.h"
 #include "texproc/study/score.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 /// The prefiltered levels of a material on their way into its files. Normals are written first;
 /// where a file changes them (blocks, few bits), the roughness that goes with it is chosen anew for
@@ -35,8 +35,8 @@ public:
     /// prefiltered map alone in BC4 or BC5; empty for others.
     std::vector<Image> texel_weights(std::size_t number, std::size_t first) const;
     /// The lobe error of what engines read from the first outputs that hold the maps.
-    std::optional<texproc::Score> lobe_error(const std::vector<MadeOutput>& made,
-                                             const std::filesystem::path& folder) const;
+    std::optional<Score> lobe_error(const std::vector<MadeOutput>& made,
+                                    const std::filesystem::path& folder) const;
 
 private:
     void check_sizes() const;
@@ -51,12 +51,12 @@ private:
     const PlannedMaterial& plan_;
     const SourceMaps& maps_;
     std::string rough_role_;  // empty: nothing is prefiltered
-    texproc::PrefilterOptions options_;
+    PrefilterOptions options_;
     int bits_ = 8;  // of the finest file
-    texproc::Prefiltered chains_;
+    Prefiltered chains_;
     std::map<std::size_t, std::vector<Image>> aimed_;  // roughness, by the output of its normals
 };
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

@@ -1,13 +1,13 @@
-#include "cli/texture/build/prefiltered_maps.h"
+#include "texproc/material/prefiltered_maps.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/error.h"
-#include "cli/texture/build/shipped.h"
+#include "texproc/material/shipped.h"
 #include "texproc/prefilter/stored.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
 
@@ -27,14 +27,12 @@ PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& 
     rough_role_ = maps.rough_role();
     check_sizes();
     choose_options(threads);
-    chains_ =
-        texproc::prefilter_raw(maps.images.at("normal"), maps.images.at(rough_role_), options_);
+    chains_ = prefilter_raw(maps.images.at("normal"), maps.images.at(rough_role_), options_);
 }
 
 void PrefilteredMaps::check_sizes() const
 {
-    const texproc::RawImage &normal = maps_.images.at("normal"),
-                            &rough = maps_.images.at(rough_role_);
+    const RawImage &normal = maps_.images.at("normal"), &rough = maps_.images.at(rough_role_);
     if (normal.width == rough.width && normal.height == rough.height) return;
     throw Error("texture build: " + file_of(plan_, "normal") + " is " +
                     std::to_string(normal.width) + " x " + std::to_string(normal.height) + ", " +
@@ -54,16 +52,11 @@ void PrefilteredMaps::choose_options(int threads)
         bits = std::max(bits, output.rule.bits);
         all_eight = all_eight && output.rule.bits == 8 && !between_codes(output.rule);
     }
-    const Recipe& recipe = *plan_.recipe;
-    options_.rule = recipe.rule;
-    options_.smoothness = rough_role_ == "smoothness";
-    options_.design_light = recipe.design_light;
-    options_.quick = recipe.quick;
-    options_.joint = joint;
-    options_.bits = all_eight ? 8 : 0;  // codes chosen for the files that ship
-    options_.wrap_u = recipe.mips.wrap_u;
-    options_.wrap_v = recipe.mips.wrap_v;
-    options_.threads = threads;
+    options_ =
+        prefilter_options(plan_.recipe->prefilter, {.joint = joint,
+                                                    .bits = all_eight ? 8 : 16,
+                                                    .smoothness = rough_role_ == "smoothness",
+                                                    .threads = threads});
     bits_ = std::min(bits, 16);
 }
 
@@ -131,9 +124,8 @@ void PrefilteredMaps::aim(std::size_t number, const std::vector<MadeOutput>& mad
     for (std::size_t k = 1; k < read.size(); ++k) {  // above the first level of a smaller output
         if (read[k].empty()) read[k] = chains_.normal[k];
     }
-    aimed_[*normals] =
-        texproc::aim_roughness(maps_.images.at("normal"), maps_.images.at(rough_role_),
-                               {std::move(read), chains_.roughness, {}}, options_);
+    aimed_[*normals] = aim_roughness(maps_.images.at("normal"), maps_.images.at(rough_role_),
+                                     {std::move(read), chains_.roughness, {}}, options_);
 }
 
 const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std::string& role) const
@@ -150,7 +142,7 @@ std::vector<Image> PrefilteredMaps::texel_weights(std::size_t number, std::size_
 {
     const PlannedOutput& output = plan_.outputs[number];
     if (!output.prefiltered || !between_codes(output.rule) || options_.rule != "overlap") return {};
-    texproc::LobeWeights both = texproc::lobe_weights(chains_, options_);
+    LobeWeights both = lobe_weights(chains_, options_);
     std::vector<Image> weights;
     if (output.roles == std::vector<std::string>{"normal"}) {
         weights = std::move(both.normal);
@@ -163,11 +155,11 @@ std::vector<Image> PrefilteredMaps::texel_weights(std::size_t number, std::size_
     return weights;
 }
 
-std::optional<texproc::Score> PrefilteredMaps::lobe_error(const std::vector<MadeOutput>& made,
-                                                          const std::filesystem::path& folder) const
+std::optional<Score> PrefilteredMaps::lobe_error(const std::vector<MadeOutput>& made,
+                                                 const std::filesystem::path& folder) const
 {
     if (rough_role_.empty() || !plan_.recipe->score) return {};
-    texproc::Prefiltered read;
+    Prefiltered read;
     for (std::size_t i = 0; i < made.size() && read.roughness.empty(); ++i) {
         if (!holds(plan_.outputs[i], rough_role_)) continue;
         read.roughness = read_back(i, rough_role_, made, folder);
@@ -178,12 +170,12 @@ std::optional<texproc::Score> PrefilteredMaps::lobe_error(const std::vector<Made
     }
     if (read.roughness.empty()) {  // files that are not read back: as their numbers are rounded
         read = chains_;
-        texproc::quantize(read, bits_);
+        quantize(read, bits_);
     }
     if (!options_.joint) read.normal.clear();
     return texproc::score(
         maps_.images.at("normal"), maps_.images.at(rough_role_), read, options_,
-        {.light = plan_.recipe->design_light, .texels = 16, .threads = options_.threads});
+        {.light = plan_.recipe->prefilter.design_light, .texels = 16, .threads = options_.threads});
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

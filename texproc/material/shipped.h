@@ -1,14 +1,14 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_SHIPPED_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_SHIPPED_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_SHIPPED_H
+#define PETRICHOR_TEXPROC_MATERIAL_SHIPPED_H
 
 #include <filesystem>
 #include <functional>
 #include <vector>
 
 #include "base/image.h"
-#include "cli/texture/build/material.h"
+#include "texproc/material/material.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 /// The levels of a role read back from the files of an output, as an engine gets them (block
 /// formats: as a shader does), by their number in the full chain: levels of 1.. that the files do
@@ -21,6 +21,6 @@ std::vector<Image> shipped_levels(const std::filesystem::path& folder, const Pla
                                   const MadeOutput& made, const std::string& role, int channels,
                                   int width, const std::function<bool(const std::string&)>& has);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

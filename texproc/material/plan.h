@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_PLAN_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_PLAN_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_PLAN_H
+#define PETRICHOR_TEXPROC_MATERIAL_PLAN_H
 
 #include <filesystem>
 #include <memory>
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/recipe.h"
+#include "texproc/material/recipe.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 struct PlannedOutput {
     OutputRule rule;
@@ -30,23 +30,17 @@ struct PlannedMaterial {
     std::vector<std::string> baked;  ///< roles made from other maps
 };
 
-/// What the command line says over the recipes.
-struct BuildChoice {
-    std::vector<std::string> engines;
-    std::string rule, quality, format;  ///< empty: as the recipe says
-    int size = 0;
-    bool no_score = false;
-};
+/// What a recipe makes of the maps of a material: outputs whose maps are not there are left out.
+/// Reads no pixels. Throws Error for a map that does not exist.
+PlannedMaterial plan_material(const MaterialFiles& files,
+                              const std::shared_ptr<const Recipe>& recipe);
 
-/// Everything that `inputs` (recipes and folders) ask for, in order. Reads recipes and the names of
-/// files, no pixels. Throws Error for a bad recipe, a map that does not exist, a material without
-/// outputs, and two outputs of one name.
-std::vector<PlannedMaterial> plan_build(const std::vector<std::filesystem::path>& inputs,
-                                        const BuildChoice& choice);
+/// Throws Error when two materials have one name, or two outputs are one file.
+void check_output_names(const std::vector<PlannedMaterial>& plan);
 
 /// The plan for people: sources, outputs, channels.
 std::string to_text(const PlannedMaterial& material);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

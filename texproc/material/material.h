@@ -1,16 +1,16 @@
-#ifndef PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_H
-#define PETRICHOR_CLI_TEXTURE_BUILD_MATERIAL_H
+#ifndef PETRICHOR_TEXPROC_MATERIAL_MATERIAL_H
+#define PETRICHOR_TEXPROC_MATERIAL_MATERIAL_H
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/texture/build/plan.h"
-#include "cli/texture/build/source_maps.h"
+#include "texproc/material/plan.h"
+#include "texproc/material/source_maps.h"
 #include "texproc/study/score.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 struct MadeOutput {
     std::vector<std::string> files;  ///< relative to the folder; one, or one a level
@@ -20,7 +20,7 @@ struct MadeMaterial {
     std::vector<MadeSource> sources;  ///< the maps that were read
     std::vector<MadeOutput> outputs;  ///< in the order of the plan
     std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
-    std::optional<texproc::Score> lobe_error;
+    std::optional<Score> lobe_error;
 };
 
 /// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread
@@ -28,6 +28,6 @@ struct MadeMaterial {
 MadeMaterial make_material(const PlannedMaterial& material, const std::filesystem::path& folder,
                            int threads);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc
 
 #endif

@@ -1,4 +1,4 @@
-#include "cli/texture/build/recipe.h"
+#include "cli/texture/build/recipe_file.h"
 
 #include <algorithm>
 #include <fstream>
@@ -35,9 +35,9 @@ std::string text_of(const fs::path& file)
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-OutputRule read_output(const TomlValue& table, const fs::path& folder)
+texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
 {
-    OutputRule out;
+    texproc::OutputRule out;
     bool named = false;
     std::optional<bool> srgb;
     const auto entries =
@@ -100,31 +100,32 @@ OutputRule read_output(const TomlValue& table, const fs::path& folder)
     return out;
 }
 
-std::vector<OutputRule> read_outputs(const TomlValue& array, const fs::path& folder)
+std::vector<texproc::OutputRule> read_outputs(const TomlValue& array, const fs::path& folder)
 {
-    std::vector<OutputRule> outputs;
+    std::vector<texproc::OutputRule> outputs;
     for (const TomlValue& table : array.elements()) outputs.push_back(read_output(table, folder));
     return outputs;
 }
 
-void read_inputs(const TomlValue& table, const fs::path& folder, Recipe& recipe)
+void read_inputs(const TomlValue& table, const fs::path& folder, texproc::Recipe& recipe)
 {
-    for (const auto& [role, value] : table.entries(map_roles())) {
-        InputMap map = parse_input_map(value.text());
+    for (const auto& [role, value] : table.entries(texproc::map_roles())) {
+        texproc::InputMap map = texproc::parse_input_map(value.text());
         map.path = folder / map.path;
         recipe.inputs[role] = map;
     }
 }
 
-void read_prefilter(const TomlValue& table, Recipe& recipe)
+void read_prefilter(const TomlValue& table, texproc::Recipe& recipe)
 {
     for (const auto& [key, value] : table.entries({"rule", "quality", "design_light", "score"})) {
         if (key == "rule") {
-            recipe.rule = value.text();
-            if (recipe.rule != "none") texproc::rule_named(recipe.rule);
+            recipe.prefilter.rule = value.text();
+            if (recipe.prefilter.rule != "none") texproc::rule_named(recipe.prefilter.rule);
         }
-        if (key == "quality") recipe.quick = value.choice({"full", "quick"}) == 1;
-        if (key == "design_light") recipe.design_light = static_cast<float>(value.number(0.0, 1.0));
+        if (key == "quality") recipe.prefilter.quick = value.choice({"full", "quick"}) == 1;
+        if (key == "design_light")
+            recipe.prefilter.design_light = static_cast<float>(value.number(0.0, 1.0));
         if (key == "score") recipe.score = value.boolean();
     }
 }
@@ -147,7 +148,7 @@ void read_mips(const TomlValue& table, texproc::MipOptions& mips)
     }
 }
 
-void read_bake(const TomlValue& table, Recipe& recipe)
+void read_bake(const TomlValue& table, texproc::Recipe& recipe)
 {
     static const std::vector<std::string> kRoles{"occlusion", "cavity", "porosity", "puddle",
                                                  "crack",     "height", "normal"};
@@ -160,11 +161,11 @@ void read_bake(const TomlValue& table, Recipe& recipe)
     }
 }
 
-Recipe recipe_from(const fs::path& file)
+texproc::Recipe recipe_from(const fs::path& file)
 {
     const toml::table table = parse_toml(text_of(file), file.string());
     const fs::path folder = file.parent_path();
-    Recipe recipe;
+    texproc::Recipe recipe;
     recipe.file = file;
     const auto entries = TomlValue(table, file.string(), "recipe")
                              .entries({"name", "note", "engines", "folder", "inputs", "normal",
@@ -177,7 +178,7 @@ Recipe recipe_from(const fs::path& file)
         if (key == "normal") {
             for (const auto& [name, v] : value.entries({"green", "layout"})) {
                 if (name == "green")
-                    recipe.green = static_cast<Green>(v.choice({"auto", "up", "down"}));
+                    recipe.green = static_cast<texproc::Green>(v.choice({"auto", "up", "down"}));
                 if (name == "layout") recipe.layout = v.text();
             }
             texproc::normal_layout(recipe.layout);
@@ -187,16 +188,16 @@ Recipe recipe_from(const fs::path& file)
         if (key == "bake") read_bake(value, recipe);
         if (key == "output") recipe.outputs = read_outputs(value, folder);
     }
-    const std::vector<OutputRule> more = engine_outputs(recipe.engines);
+    const std::vector<texproc::OutputRule> more = engine_outputs(recipe.engines);
     recipe.outputs.insert(recipe.outputs.end(), more.begin(), more.end());
     return recipe;
 }
 
 }  // namespace
 
-Recipe read_recipe(const fs::path& file)
+texproc::Recipe read_recipe(const fs::path& file)
 {
-    Recipe recipe;
+    texproc::Recipe recipe;
     try {
         recipe = recipe_from(file);
     } catch (const Error& wrong) {
@@ -216,7 +217,7 @@ Recipe read_recipe(const fs::path& file)
     return recipe;
 }
 
-std::vector<OutputRule> engine_outputs(const std::string& name)
+std::vector<texproc::OutputRule> engine_outputs(const std::string& name)
 {
     const std::vector<std::string> names = preset_names("recipes");
     if (std::find(names.begin(), names.end(), name) == names.end()) {
@@ -232,11 +233,11 @@ std::vector<OutputRule> engine_outputs(const std::string& name)
     throw Error(file.string() + ": no [[output]]", "Add at least one.");
 }
 
-std::vector<OutputRule> engine_outputs(const std::vector<std::string>& names)
+std::vector<texproc::OutputRule> engine_outputs(const std::vector<std::string>& names)
 {
-    std::vector<OutputRule> all;
+    std::vector<texproc::OutputRule> all;
     for (const std::string& name : names) {
-        for (OutputRule output : engine_outputs(name)) {
+        for (texproc::OutputRule output : engine_outputs(name)) {
             if (names.size() > 1) output.folder = name;
             all.push_back(std::move(output));
         }
@@ -254,38 +255,6 @@ std::vector<EngineInfo> engines()
         all.push_back(std::move(info));
     }
     return all;
-}
-
-std::string options_text(const OutputRule& output)
-{
-    std::string text = output.folder + "/" + output.file + "." + output.format + " [" +
-                       join_words(output.channels.channels) + "]";
-    text += output.srgb() ? " srgb" : " linear";
-    text += " " + std::to_string(output.bits) + " bits";
-    if (output.compression != "none") text += " " + output.compression;
-    if (output.level_files) text += " level files";
-    if (output.has_levels()) text += " mips";
-    if (output.size > 0) text += " size " + std::to_string(output.size);
-    if (!output.prefilter) text += " plain";
-    return text;
-}
-
-std::string options_text(const Recipe& recipe)
-{
-    const texproc::MipOptions& m = recipe.mips;
-    std::string text =
-        "green " + std::to_string(static_cast<int>(recipe.green)) + ", layout " + recipe.layout +
-        "\nprefilter " + recipe.rule + (recipe.quick ? " quick" : " full") + " light " +
-        number_text(static_cast<double>(recipe.design_light)) + (recipe.score ? " scored" : "") +
-        "\nmips " + kFilters[static_cast<std::size_t>(m.filter)] + " wrap " +
-        std::to_string(m.wrap_u) + std::to_string(m.wrap_v) + " mirror " +
-        std::to_string(m.mirror_u) + std::to_string(m.mirror_v) + " cutoff " +
-        number_text(static_cast<double>(m.alpha_cutoff)) + (m.alpha_weighted ? "" : " alpha data") +
-        "\nbake " + join_words(recipe.bake) + " depth " +
-        number_text(static_cast<double>(recipe.baking.depth)) + " reach " +
-        number_text(static_cast<double>(recipe.baking.reach)) + "\n";
-    for (const OutputRule& output : recipe.outputs) text += options_text(output) + "\n";
-    return text;
 }
 
 }  // namespace petrichor::cli

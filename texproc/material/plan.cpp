@@ -1,4 +1,4 @@
-#include "cli/texture/build/plan.h"
+#include "texproc/material/plan.h"
 
 #include <algorithm>
 #include <map>
@@ -6,9 +6,8 @@
 
 #include "base/error.h"
 #include "base/words.h"
-#include "texproc/prefilter/rules.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
 
@@ -40,12 +39,11 @@ Roles roles_of(const OutputRule& rule, const PlannedMaterial& material)
     Roles roles;
     std::string first;
     for (const std::string& text : rule.channels.channels) {
-        const texproc::PackChannel sources = texproc::parse_pack_channel(text);
-        const auto used =
-            std::find_if(sources.begin(), sources.end(), [&](const texproc::PackSource& s) {
-                return s.role.empty() || material.files.inputs.count(s.role) > 0 ||
-                       can_bake(s.role, material.files, *material.recipe);
-            });
+        const PackChannel sources = parse_pack_channel(text);
+        const auto used = std::find_if(sources.begin(), sources.end(), [&](const PackSource& s) {
+            return s.role.empty() || material.files.inputs.count(s.role) > 0 ||
+                   can_bake(s.role, material.files, *material.recipe);
+        });
         if (first.empty()) first = sources.front().role;
         if (used == sources.end()) {
             if (roles.missing.empty()) roles.missing = sources.front().role;
@@ -71,7 +69,7 @@ PlannedOutput planned(const OutputRule& rule, const PlannedMaterial& material,
     const auto& inputs = material.files.inputs;
     const bool pair =
         inputs.count("normal") && (inputs.count("roughness") || inputs.count("smoothness"));
-    out.prefiltered = rule.prefilter && recipe.rule != "none" && pair &&
+    out.prefiltered = rule.prefilter && recipe.prefilter.rule != "none" && pair &&
                       (rule.has_levels() || rule.size > 0) &&
                       (contains(out.roles, "roughness") || contains(out.roles, "smoothness") ||
                        contains(out.roles, "normal"));
@@ -91,6 +89,8 @@ void check_files(const PlannedMaterial& material)
                         "; it is relative to the recipe.");
     }
 }
+
+}  // namespace
 
 PlannedMaterial plan_material(const MaterialFiles& files,
                               const std::shared_ptr<const Recipe>& recipe)
@@ -116,42 +116,7 @@ PlannedMaterial plan_material(const MaterialFiles& files,
     return material;
 }
 
-void apply(const BuildChoice& choice, Recipe& recipe)
-{
-    if (!choice.engines.empty()) {
-        recipe.engines = choice.engines;
-        recipe.outputs = engine_outputs(choice.engines);
-    }
-    if (!choice.rule.empty()) {
-        if (choice.rule != "none") texproc::rule_named(choice.rule);
-        recipe.rule = choice.rule;
-    }
-    if (!choice.quality.empty()) recipe.quick = choice.quality == "quick";
-    if (choice.no_score) recipe.score = false;
-    for (OutputRule& output : recipe.outputs) {
-        if (choice.size > 0) output.size = choice.size;
-        if (choice.format.empty()) continue;
-        output.format = choice.format;
-        if (choice.format != "dds" && choice.format != "ktx2") output.compression = "none";
-        if (choice.format == "exr") output.bits = std::max(output.bits, 16);
-        if (choice.format == "tga") output.bits = 8;
-    }
-}
-
-std::vector<MaterialFiles> materials_of(const Recipe& recipe)
-{
-    if (!recipe.folder.empty()) return find_materials(recipe.folder);
-    MaterialFiles files;
-    files.name = recipe.name;
-    files.inputs = recipe.inputs;
-    const auto normal = files.inputs.find("normal");
-    if (normal != files.inputs.end()) {
-        files.green = maps_named(normal->second.path.stem().string()).green;
-    }
-    return {files};
-}
-
-void check_names(const std::vector<PlannedMaterial>& plan)
+void check_output_names(const std::vector<PlannedMaterial>& plan)
 {
     std::map<std::string, std::string> owner;
     std::set<std::string> names;
@@ -168,45 +133,6 @@ void check_names(const std::vector<PlannedMaterial>& plan)
                         "Give the outputs or the materials different names.");
         }
     }
-}
-
-}  // namespace
-
-std::vector<PlannedMaterial> plan_build(const std::vector<fs::path>& inputs,
-                                        const BuildChoice& choice)
-{
-    std::vector<PlannedMaterial> plan;
-    for (const fs::path& input : inputs) {
-        Recipe recipe;
-        if (input.extension() == ".toml") {
-            recipe = read_recipe(input);
-        } else {
-            recipe.folder = input;
-        }
-        apply(choice, recipe);
-        if (recipe.outputs.empty()) {
-            throw Error(
-                "texture build: " + input.string() + ": nothing says what to make",
-                "Give --engine NAME (see --list), or write engines = [\"...\"] or [[output]] "
-                "into a recipe.");
-        }
-        const auto shared = std::make_shared<const Recipe>(recipe);
-        for (const MaterialFiles& files : materials_of(recipe)) {
-            PlannedMaterial material = plan_material(files, shared);
-            if (material.outputs.empty() && recipe.folder.empty()) {
-                throw Error("texture build: " + input.string() + ": none of its outputs has a map",
-                            "Name the maps that the outputs take, or choose other outputs.");
-            }
-            if (!material.outputs.empty()) plan.push_back(std::move(material));
-        }
-        if (plan.empty()) {
-            throw Error(
-                "texture build: no material in " + input.string() + " has maps for these outputs",
-                "Choose another engine or other outputs.");
-        }
-    }
-    check_names(plan);
-    return plan;
 }
 
 std::string to_text(const PlannedMaterial& material)
@@ -236,4 +162,4 @@ std::string to_text(const PlannedMaterial& material)
     return text;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

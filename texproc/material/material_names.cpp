@@ -1,4 +1,4 @@
-#include "cli/texture/build/material_names.h"
+#include "texproc/material/material_names.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace petrichor::cli {
+namespace petrichor::texproc {
 
 namespace {
 
@@ -350,4 +350,4 @@ std::vector<fs::path> unnamed_images(const fs::path& folder)
     return images;
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::texproc

@@ -1,0 +1,91 @@
+#include "cli/texture/build/plan_build.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "cli/texture/build/recipe_file.h"
+#include "texproc/prefilter/rules.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void apply(const BuildChoice& choice, texproc::Recipe& recipe)
+{
+    if (!choice.engines.empty()) {
+        recipe.engines = choice.engines;
+        recipe.outputs = engine_outputs(choice.engines);
+    }
+    if (!choice.rule.empty()) {
+        if (choice.rule != "none") texproc::rule_named(choice.rule);
+        recipe.prefilter.rule = choice.rule;
+    }
+    if (!choice.quality.empty()) recipe.prefilter.quick = choice.quality == "quick";
+    if (choice.no_score) recipe.score = false;
+    for (texproc::OutputRule& output : recipe.outputs) {
+        if (choice.size > 0) output.size = choice.size;
+        if (choice.format.empty()) continue;
+        output.format = choice.format;
+        if (choice.format != "dds" && choice.format != "ktx2") output.compression = "none";
+        if (choice.format == "exr") output.bits = std::max(output.bits, 16);
+        if (choice.format == "tga") output.bits = 8;
+    }
+}
+
+std::vector<texproc::MaterialFiles> materials_of(const texproc::Recipe& recipe)
+{
+    if (!recipe.folder.empty()) return texproc::find_materials(recipe.folder);
+    texproc::MaterialFiles files;
+    files.name = recipe.name;
+    files.inputs = recipe.inputs;
+    const auto normal = files.inputs.find("normal");
+    if (normal != files.inputs.end()) {
+        files.green = texproc::maps_named(normal->second.path.stem().string()).green;
+    }
+    return {files};
+}
+
+}  // namespace
+
+std::vector<texproc::PlannedMaterial> plan_build(const std::vector<fs::path>& inputs,
+                                                 const BuildChoice& choice)
+{
+    std::vector<texproc::PlannedMaterial> plan;
+    for (const fs::path& input : inputs) {
+        texproc::Recipe recipe;
+        if (input.extension() == ".toml") {
+            recipe = read_recipe(input);
+        } else {
+            recipe.folder = input;
+        }
+        apply(choice, recipe);
+        if (recipe.outputs.empty()) {
+            throw Error(
+                "texture build: " + input.string() + ": nothing says what to make",
+                "Give --engine NAME (see --list), or write engines = [\"...\"] or [[output]] "
+                "into a recipe.");
+        }
+        const auto shared = std::make_shared<const texproc::Recipe>(recipe);
+        for (const texproc::MaterialFiles& files : materials_of(recipe)) {
+            texproc::PlannedMaterial material = texproc::plan_material(files, shared);
+            if (material.outputs.empty() && recipe.folder.empty()) {
+                throw Error("texture build: " + input.string() + ": none of its outputs has a map",
+                            "Name the maps that the outputs take, or choose other outputs.");
+            }
+            if (!material.outputs.empty()) plan.push_back(std::move(material));
+        }
+        if (plan.empty()) {
+            throw Error(
+                "texture build: no material in " + input.string() + " has maps for these outputs",
+                "Choose another engine or other outputs.");
+        }
+    }
+    texproc::check_output_names(plan);
+    return plan;
+}
+
+}  // namespace petrichor::cli

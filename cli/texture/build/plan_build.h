@@ -1,0 +1,28 @@
+#ifndef PETRICHOR_CLI_TEXTURE_BUILD_PLAN_BUILD_H
+#define PETRICHOR_CLI_TEXTURE_BUILD_PLAN_BUILD_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "texproc/material/plan.h"
+
+namespace petrichor::cli {
+
+/// What the command line says over the recipes.
+struct BuildChoice {
+    std::vector<std::string> engines;
+    std::string rule, quality, format;  ///< empty: as the recipe says
+    int size = 0;
+    bool no_score = false;
+};
+
+/// Everything that `inputs` (recipes and folders) ask for, in order. Reads recipes and the names of
+/// files, no pixels. Throws Error for a bad recipe, a map that does not exist, a material without
+/// outputs, and two outputs of one name.
+std::vector<texproc::PlannedMaterial> plan_build(const std::vector<std::filesystem::path>& inputs,
+                                                 const BuildChoice& choice);
+
+}  // namespace petrichor::cli
+
+#endif
