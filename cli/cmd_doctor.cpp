@@ -17,6 +17,7 @@
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "gpu/renderer.h"
+#include "weather/readers/formats.h"
 
 namespace petrichor::cli {
 namespace {
@@ -78,6 +79,13 @@ Finding check_cache()
     }
 }
 
+std::vector<std::string> weather_kinds()
+{
+    std::vector<std::string> names;
+    for (const weather::Reader* reader : weather::weather_readers()) names.push_back(reader->name);
+    return names;
+}
+
 void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,
                 bool can_render)
 {
@@ -104,6 +112,7 @@ void print_json(const std::vector<Finding>& findings, const std::vector<gpu::Dev
     }
     report["weather_presets"] = preset_names("weather");
     report["scenarios"] = preset_names("scenarios");
+    report["weather_files"] = weather_kinds();
     std::cout << report.dump(2) << "\n";
 }
 
@@ -128,7 +137,8 @@ void print_text(const std::vector<Finding>& findings, const std::vector<gpu::Dev
         if (!one.works) std::cout << "        " << one.fix << "\n";
     }
     std::cout << "  weather presets: " << join_words(preset_names("weather"))
-              << "\n  scenarios: " << join_words(preset_names("scenarios")) << "\n"
+              << "\n  scenarios: " << join_words(preset_names("scenarios"))
+              << "\n  weather files: " << join_words(weather_kinds()) << "\n"
               << (can_render ? "ready to render\n" : "cannot render: see above\n");
 }
 

@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "tests/fuzz/read_bytes.h"
-#include "weather/readers/read_weather.h"
+#include "weather/readers/formats.h"
 
 namespace petrichor::weather {
 namespace {
@@ -40,14 +40,12 @@ TEST(ReadersCorpus, HoldsEveryKindOfFile)
     std::set<std::string> kinds;
     for (const auto& file : corpus()) {
         try {
-            kinds.insert(format_name(recognise_weather(bytes_of(file))));
+            kinds.insert(recognise_weather(bytes_of(file)).name);
         } catch (const Error&) {  // files that were found by the fuzzer need not be recognised
         }
     }
-    for (int i = 0; i <= static_cast<int>(WeatherFormat::Nsrdb); ++i) {
-        EXPECT_TRUE(kinds.count(format_name(static_cast<WeatherFormat>(i))))
-            << format_name(static_cast<WeatherFormat>(i));
-    }
+    for (const Reader* reader : weather_readers())
+        EXPECT_TRUE(kinds.count(reader->name)) << reader->name;
 }
 
 TEST(ReadersCorpus, IsSmall)

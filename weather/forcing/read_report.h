@@ -31,6 +31,7 @@ struct ReadReport {
     std::string format;  ///< as recognised
     std::size_t rows = 0;
     std::size_t bad_rows = 0;  ///< dropped and bridged
+    bool typical_year = false;  ///< months of different years, placed in one
     std::vector<FieldReport> fields;
     std::vector<ReadNote> notes;  ///< at most kMostNotes, then a count
     std::size_t notes_dropped = 0;

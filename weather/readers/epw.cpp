@@ -48,7 +48,7 @@ bool is_missing_code(const Column& column, std::string_view text, double value)
 
 }  // namespace
 
-void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     const auto first = lines.next();
@@ -141,5 +141,17 @@ void read_epw(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    return head.begins("LOCATION,");
+}
+
+}  // namespace
+
+extern const Reader epw_reader;
+const Reader epw_reader{"EPW", "EnergyPlus weather", recognise, read_epw};
 
 }  // namespace petrichor::weather

@@ -223,7 +223,7 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
 
 }  // namespace
 
-void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     const Header h = read_header(lines, rows);
@@ -276,5 +276,31 @@ void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptio
                       .append(" times"));
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    for (std::size_t i = 0; i < head.lines.size(); ++i) {
+        const std::string low = lower(trimmed(head.lines[i]));
+        if (low.rfind("#", 0) == 0) continue;
+        // A table with unnamed times: its header begins with a separator.
+        if (head.lines[i].find_first_of(",;\t") == 0 && i + 1 < head.lines.size() &&
+            head.lines[i + 1].find_first_of("0123456789") == 0) {
+            return true;
+        }
+        const bool dated = low.find("time") != std::string::npos ||
+                           low.find("date") != std::string::npos || low.rfind("year", 0) == 0;
+        return dated && low.find_first_of(",;\t") != std::string::npos;
+    }
+    return false;
+}
+
+}  // namespace
+
+extern const Reader forcing_csv_reader;
+const Reader forcing_csv_reader{"forcing CSV",
+                                "any table with a time column and units in its header", recognise,
+                                read_forcing_csv};
 
 }  // namespace petrichor::weather

@@ -1,28 +1,48 @@
 #ifndef PETRICHOR_WEATHER_READERS_FORMATS_H
 #define PETRICHOR_WEATHER_READERS_FORMATS_H
 
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "weather/readers/collector.h"
 #include "weather/readers/read_weather.h"
 
-// One reader a format, each in its own file. A reader puts rows into the collector and throws Error
-// only for a header that cannot be understood.
+// The kinds of weather files. A new kind is one file that defines a `const Reader name_reader`, its
+// line in CMakeLists.txt and its name in the list of formats.cpp; what reads, lists, tests and
+// fuzzes weather files finds it there.
 namespace petrichor::weather {
 
-void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_epw(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_smet(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOptions& options);
-void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions& options);
+/// The beginning of a text, prepared once for all that want to recognise it.
+struct FileHead {
+    /// `text` without a byte order mark, not empty.
+    explicit FileHead(std::string_view text);
+    std::string_view text;                ///< at most 64 KiB
+    std::vector<std::string_view> lines;  ///< the first 40 that are not blank, as they stand
+    std::string first;                    ///< the first of them: trimmed, lower case, no quotes
+
+    /// Whether the first line, blanks before it left out, begins so.
+    bool begins(std::string_view prefix) const;
+    /// Whether the first line has all of these words as whole cells between , ; | or tabs.
+    bool has_columns(std::initializer_list<std::string_view> names) const;
+};
+
+/// One kind of weather file. `read` puts rows into the collector and throws Error only for a header
+/// that cannot be understood.
+struct Reader {
+    const char* name;   ///< in reports
+    const char* about;  ///< who makes such files, for lists
+    bool (*recognise)(const FileHead& head);
+    void (*read)(std::string_view text, RowCollector& rows, const ReadOptions& options);
+};
+
+/// All kinds, in the order in which they are asked whether a text is theirs: those with a clear
+/// mark first, those that are only numbers or any table last.
+std::span<const Reader* const> weather_readers();
+
+/// Whether every one of the words is a number.
+bool all_numbers(const std::vector<std::string_view>& fields);
 
 /// Months of a typical year come from different years; they are placed in one year without a leap
 /// day.

@@ -1,11 +1,13 @@
 // Twelve columns of numbers: year month day hour SW LW snowfall rainfall T RH wind pressure; SI,
 // UTC.
+#include <algorithm>
+
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
 
-void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     constexpr Field kFields[] = {Field::Shortwave, Field::Longwave, Field::Snow,
                                  Field::Rain,      Field::AirTemp,  Field::RelHumidity,
@@ -50,5 +52,22 @@ void read_fsm(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+// Twelve numbers a row, as ISD-Lite, but not whole ones. The first rows may be the bad ones.
+bool recognise(const FileHead& head)
+{
+    return std::any_of(head.lines.begin(), head.lines.end(), [](std::string_view line) {
+        const auto columns = words(line, 64);
+        return columns.size() == 12 && all_numbers(columns);
+    });
+}
+
+}  // namespace
+
+extern const Reader fsm_reader;
+const Reader fsm_reader{"FSM 12 columns", "driving data of FSM and FSM2, no header", recognise,
+                        read_fsm};
 
 }  // namespace petrichor::weather

@@ -229,7 +229,7 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
 
 }  // namespace
 
-void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options)
+static void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Days days;
     const auto first = Lines(text).next().value_or("");
@@ -280,5 +280,30 @@ void read_ghcn_daily(std::string_view text, RowCollector& rows, const ReadOption
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    const auto line = head.lines.front();
+    if (line.size() >= 21 && line.find(',') == std::string_view::npos &&
+        to_integer(line.substr(11, 4)) && to_integer(line.substr(15, 2)) &&
+        !to_number(line.substr(0, 3))) {
+        return true;
+    }
+    const auto f = split(line, ',', 8);
+    if (f.size() >= 4 && f[0].size() == 11 && f[1].size() == 8 && to_integer(f[1]) &&
+        f[2].size() == 4) {
+        return true;
+    }
+    return head.first.find("station") != std::string::npos &&
+           head.first.find("tmax") != std::string::npos;
+}
+
+}  // namespace
+
+extern const Reader ghcn_daily_reader;
+const Reader ghcn_daily_reader{"GHCN-daily", "NOAA, .dly or CSV by station or year", recognise,
+                               read_ghcn_daily};
 
 }  // namespace petrichor::weather

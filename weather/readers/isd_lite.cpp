@@ -1,6 +1,7 @@
 // NOAA ISD-Lite: year month day hour, T and dew point (0.1 C), pressure at sea level (0.1 hPa),
 // wind direction, wind (0.1 m/s), sky code, precipitation of 1 h and 6 h (0.1 mm). -9999 is
 // missing, -1 is a trace. UTC.
+#include <algorithm>
 #include <cmath>
 
 #include "weather/physics/constants.h"
@@ -26,7 +27,7 @@ double cloud_of_code(long long code)
 
 }  // namespace
 
-void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions& options)
+static void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     const double z = std::isnan(options.site.elevation_m) ? 0.0 : options.site.elevation_m;
     rows.note(ReadNote::Kind::Info, 0, "pressure",
@@ -99,5 +100,24 @@ void read_isd_lite(std::string_view text, RowCollector& rows, const ReadOptions&
         rows.note(ReadNote::Kind::Info, 0, "precip",
                   std::to_string(traces) + " traces (-1), taken as 0");
 }
+
+namespace {
+
+// The first row of twelve numbers has whole ones.
+bool recognise(const FileHead& head)
+{
+    for (const auto line : head.lines) {
+        const auto columns = words(line, 64);
+        if (columns.size() != 12 || !all_numbers(columns)) continue;
+        return std::all_of(columns.begin(), columns.end(),
+                           [](std::string_view c) { return to_integer(c).has_value(); });
+    }
+    return false;
+}
+
+}  // namespace
+
+extern const Reader isd_lite_reader;
+const Reader isd_lite_reader{"ISD-Lite", "NOAA, hourly", recognise, read_isd_lite};
 
 }  // namespace petrichor::weather

@@ -10,6 +10,7 @@
 #include "weather/physics/constants.h"
 #include "weather/readers/bulletin.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/report_lines.h"
 #include "weather/readers/station_regions.h"
 #include "weather/readers/text.h"
 
@@ -294,7 +295,7 @@ void put_forecasts(RowCollector& rows, const std::vector<TafForecast>& placed, T
 
 }  // namespace
 
-void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options)
+static void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     const Bulletin bulletin = read_bulletin(text, rows);
     const std::string station = chosen_station(bulletin, options.station, rows);
@@ -323,5 +324,42 @@ void read_metar(std::string_view text, RowCollector& rows, const ReadOptions& op
     put_forecasts(rows, placed_forecasts(bulletin, station, kept, dates, rows), options.taf, kept,
                   amounts, elevation);
 }
+
+namespace {
+
+bool is_station_code(std::string_view w)
+{
+    if (w.size() != 4 || w[0] < 'A' || w[0] > 'Z') return false;
+    return std::all_of(w.begin(), w.end(),
+                       [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+}
+
+bool looks_like_report(std::string_view line)
+{
+    const auto is_day_time = [](std::string_view w) {
+        return w.size() == 7 && w.back() == 'Z' && to_integer(w.substr(0, 6)).has_value();
+    };
+    const auto w = words(line, 8);
+    for (std::size_t i = 0; i + 1 < w.size(); ++i) {
+        if (is_station_code(w[i]) &&
+            (is_day_time(w[i + 1]) || w[i + 1] == "NIL=" || w[i + 1] == "NIL"))
+            return true;
+    }
+    return false;
+}
+
+bool recognise(const FileHead& head)
+{
+    return std::any_of(head.lines.begin(), head.lines.end(), looks_like_report) ||
+           std::any_of(head.lines.begin(), head.lines.end(), is_ogimet_row) ||
+           ReportLines(head.text).is_table();
+}
+
+}  // namespace
+
+extern const Reader metar_reader;
+const Reader metar_reader{"METAR",
+                          "reports and forecasts of airports, bare or as tables of archives",
+                          recognise, read_metar};
 
 }  // namespace petrichor::weather

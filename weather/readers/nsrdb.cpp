@@ -56,7 +56,7 @@ Table read_names(std::string_view line, std::size_t number, const About& about)
 
 }  // namespace
 
-void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     About about;
@@ -133,5 +133,18 @@ void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    return head.begins("Source,Location ID,");
+}
+
+}  // namespace
+
+extern const Reader nsrdb_reader;
+const Reader nsrdb_reader{"NSRDB CSV", "NREL solar radiation database, also its typical years",
+                          recognise, read_nsrdb};
 
 }  // namespace petrichor::weather

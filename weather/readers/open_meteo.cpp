@@ -101,7 +101,7 @@ void past_means(RowCollector& rows)
 
 }  // namespace
 
-void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     const Json whole = parse_json(text);
     const Json* root = &whole;
@@ -187,7 +187,7 @@ void read_open_meteo_json(std::string_view text, RowCollector& rows, const ReadO
     }
 }
 
-void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     const auto place_names = split(lines.next().value_or(""), ',', 16);
@@ -271,5 +271,31 @@ void read_open_meteo_csv(std::string_view text, RowCollector& rows, const ReadOp
         throw Error("weather: Open-Meteo CSV has no table",
                     "Download the file again as CSV with hourly values.");
 }
+
+namespace {
+
+bool recognise_open_meteo_json(const FileHead& head)
+{
+    return head.begins("{") || head.begins("[");
+}
+
+}  // namespace
+
+extern const Reader open_meteo_json_reader;
+const Reader open_meteo_json_reader{"Open-Meteo JSON", "Open-Meteo", recognise_open_meteo_json,
+                                    read_open_meteo_json};
+
+namespace {
+
+bool recognise_open_meteo_csv(const FileHead& head)
+{
+    return head.first.rfind("latitude,longitude,elevation", 0) == 0 || head.begins("\"latitude\",");
+}
+
+}  // namespace
+
+extern const Reader open_meteo_csv_reader;
+const Reader open_meteo_csv_reader{"Open-Meteo CSV", "Open-Meteo", recognise_open_meteo_csv,
+                                   read_open_meteo_csv};
 
 }  // namespace petrichor::weather

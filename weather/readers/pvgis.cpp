@@ -48,7 +48,7 @@ bool parse_when(std::string_view text, CivilTime& when)
 
 }  // namespace
 
-void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     std::vector<std::string_view> names;
@@ -136,5 +136,18 @@ void read_pvgis(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    return head.begins("Latitude (decimal degrees)");
+}
+
+}  // namespace
+
+extern const Reader pvgis_reader;
+const Reader pvgis_reader{"PVGIS CSV", "European Commission, typical year or series", recognise,
+                          read_pvgis};
 
 }  // namespace petrichor::weather

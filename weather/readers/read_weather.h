@@ -10,23 +10,7 @@
 
 namespace petrichor::weather {
 
-/// Weather files that are recognised by their content.
-enum class WeatherFormat {
-    Fsm,         ///< 12 columns of numbers, no header
-    ForcingCsv,  ///< comma, semicolon or tab; a `time` column and units in the header
-    Epw,         ///< EnergyPlus
-    Tmy3,        ///< NREL typical year, CSV
-    Pvgis,       ///< European Commission typical year or series, CSV
-    OpenMeteoJson,
-    OpenMeteoCsv,
-    Metar,      ///< reports, with remarks, runway state and TAF
-    Smet,       ///< WSL
-    IsdLite,    ///< NOAA
-    GhcnDaily,  ///< NOAA, .dly or by-station CSV
-    Surfrad,    ///< NOAA
-    Nsrdb,      ///< NREL, also its typical years
-};
-const char* format_name(WeatherFormat format);
+struct Reader;  // formats.h: one kind of weather file
 
 struct ReadOptions {
     Site site{};                    ///< values that are given (not NaN) replace those of the file
@@ -46,7 +30,7 @@ struct ReadResult {
 
 /// The kind of a text, by its first lines.
 ///   throws  Error when it is empty, binary, or of no known kind (names the kinds)
-WeatherFormat recognise_weather(std::string_view text);
+const Reader& recognise_weather(std::string_view text);
 
 /// Reads a weather file of any known kind. Never opens files; memory is a small multiple of the
 /// text.

@@ -29,7 +29,7 @@ constexpr Column kColumns[] = {
 
 }  // namespace
 
-void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     double nodata = -999.0, zone_h = 0.0;
@@ -138,5 +138,17 @@ void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    return head.begins("SMET");
+}
+
+}  // namespace
+
+extern const Reader smet_reader;
+const Reader smet_reader{"SMET", "WSL, MeteoIO", recognise, read_smet};
 
 }  // namespace petrichor::weather

@@ -11,7 +11,7 @@
 
 namespace petrichor::weather {
 
-void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     struct Column {
         Field field;
@@ -78,5 +78,21 @@ void read_surfrad(std::string_view text, RowCollector& rows, const ReadOptions&)
     }
     rows.note(ReadNote::Kind::Info, 0, "precip", "SURFRAD has no precipitation");
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    if (head.lines.size() < 3) return false;
+    const auto data = words(head.lines[2], 64);
+    const auto place = words(head.lines[1], 8);
+    return data.size() >= 40 && all_numbers(data) && place.size() >= 3 && to_number(place[0]) &&
+           !all_numbers(words(head.lines[0], 8));
+}
+
+}  // namespace
+
+extern const Reader surfrad_reader;
+const Reader surfrad_reader{"SURFRAD", "NOAA, radiation stations", recognise, read_surfrad};
 
 }  // namespace petrichor::weather

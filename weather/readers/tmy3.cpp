@@ -53,7 +53,7 @@ bool parse_when(std::string_view date, std::string_view time, When& when)
 
 }  // namespace
 
-void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
     const auto place = split(lines.next().value_or(""), ',', 16);
@@ -140,5 +140,17 @@ void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptions&)
         }
     }
 }
+
+namespace {
+
+bool recognise(const FileHead& head)
+{
+    return head.lines.size() >= 2 && trimmed(head.lines[1]).rfind("Date (MM/DD/YYYY)", 0) == 0;
+}
+
+}  // namespace
+
+extern const Reader tmy3_reader;
+const Reader tmy3_reader{"TMY3 CSV", "NREL typical year", recognise, read_tmy3};
 
 }  // namespace petrichor::weather
