@@ -124,7 +124,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         r.surface_maps->generated = true;
     }
     if (weather.any) {
-        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s);
+        add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
     add_depth_maps(graph, frame, sun, r, weather.any);

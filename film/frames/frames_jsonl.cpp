@@ -92,25 +92,22 @@ Json sky_json(const gpu::Sky& sky)
 
 Json weather_json(const FrameFacts& facts)
 {
-    const gpu::SurfaceWeather& w = facts.input.weather;
-    return {{"name", facts.weather},
-            {"temperature_c", facts.temperature_c},
-            {"rain", shortest(w.rain)},
-            {"snowfall", shortest(w.snowfall)},
-            {"flood_cracks", shortest(w.flood_cracks)},
-            {"flood_puddles", shortest(w.flood_puddles)},
-            {"film_albedo", shortest(w.film_albedo)},
-            {"film_smoothness", shortest(w.film_smoothness)},
-            {"snow_amount", shortest(w.snow_amount)},
-            {"water_to_snow", shortest(w.water_to_snow)},
-            {"freeze_exp", shortest(w.freeze_exp)},
-            {"melt", shortest(w.melt)},
-            {"melt_exp", shortest(w.melt_exp)},
-            {"snow_start_height_m", shortest(w.snow_start_height_m)},
-            {"snow_height_blend_m", shortest(w.snow_height_blend_m)},
-            {"frost", shortest(w.frost)},
-            {"wind_m_s", {shortest(w.wind_m_s.x), shortest(w.wind_m_s.y)}},
-            {"visibility_m", shortest(w.visibility_m)}};
+    const shared::WeatherMoment& moment = facts.input.weather;
+    Json json{{"name", facts.weather}};
+    for (const shared::MomentRow& row : shared::kMomentRows) {
+        const float* numbers = shared::numbers_of(moment, row);
+        const auto value = [&](std::size_t i) {
+            const bool unknown = row.may_be_unknown && numbers[i] < 0.0f;
+            return unknown ? Json(nullptr) : Json(shortest(numbers[i]));
+        };
+        Json& entry = json[row.name];
+        if (row.numbers == 1) {
+            entry = value(0);
+        } else {
+            for (std::size_t i = 0; i < row.numbers; ++i) entry.push_back(value(i));
+        }
+    }
+    return json;
 }
 
 // Holds the folder itself locked, so that no lock file is left behind.

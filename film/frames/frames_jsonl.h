@@ -14,8 +14,7 @@ namespace petrichor::film {
 /// same frame gives the same line on every run.
 struct FrameFacts {
     int frame = 0;
-    double time_s = 0.0;  ///< on the clock of weather, sun and camera
-    double temperature_c = 0.0;
+    double time_s = 0.0;      ///< on the clock of weather, sun and camera
     std::string weather;      ///< name of the preset or file, for the reader
     std::string settings;     ///< fingerprint of everything that decides the picture
     std::string beauty_hash;  ///< of the half-float pixels

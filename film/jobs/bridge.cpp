@@ -7,6 +7,7 @@ namespace petrichor::film {
 namespace {
 
 constexpr double kMicroseconds = 1e6;
+constexpr double kZeroCelsiusK = 273.15;
 
 double saturate(double x)
 {
@@ -97,12 +98,12 @@ WeatherMoment weather_moment(const WeatherScript& script, const weather::ArtistT
     };
     const WeatherScript defaults;
     WeatherMoment moment;
-    moment.temperature_c = published.temperature_c;
-    moment.cloud_cover = same(script.cloud_cover, defaults.cloud_cover)
-                             ? cloud_cover_at(script.timeline, time_s)
-                             : now(script.cloud_cover);
     const auto narrow = [](double value) { return static_cast<float>(value); };
-    gpu::SurfaceWeather& surface = moment.surface;
+    shared::WeatherMoment& surface = moment.surface;
+    surface.air_temperature_k = narrow(published.temperature_c + kZeroCelsiusK);
+    surface.cloud_fraction = narrow(same(script.cloud_cover, defaults.cloud_cover)
+                                        ? cloud_cover_at(script.timeline, time_s)
+                                        : now(script.cloud_cover));
     surface.rain = narrow(state.rain);
     surface.snowfall = narrow(state.snowfall);
     surface.flood_cracks = narrow(published.flood_cracks);

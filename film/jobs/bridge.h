@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "film/scenario/weather_script.h"
-#include "gpu/renderer.h"
+#include "formulas/weather/moment.h"
 #include "weather/models/artist/exact.h"
 #include "weather/models/artist/timeline.h"
 
@@ -16,9 +16,7 @@ namespace petrichor::film {
 
 /// What a frame needs to know about its weather.
 struct WeatherMoment {
-    gpu::SurfaceWeather surface;
-    double temperature_c = 15.0;
-    double cloud_cover = 0.1;  ///< 0..1, where the scenario does not say
+    shared::WeatherMoment surface{.cloud_fraction = 0.1f};
 };
 
 /// Hoar frost, 0..1: grows in the cold while nothing falls, faster the colder (full after about 12

@@ -126,7 +126,6 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
             FrameFacts facts;
             facts.frame = one.index;
             facts.time_s = one.frame.time_s;
-            facts.temperature_c = one.frame.temperature_c;
             facts.weather = request.weather_name;
             facts.settings = one.fingerprint;
             facts.input = one.frame.frame;

@@ -169,7 +169,6 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     result.time_s = frame_time_s(sequence, frame);
     const double time_s = result.time_s;
     const WeatherMoment moment = sequence.weather(time_s);
-    result.temperature_c = moment.temperature_c;
 
     gpu::Frame& out = result.frame;
     const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
@@ -180,7 +179,8 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
     out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad);
     out.sky.sun_illuminance = narrow(scenario.sun.illuminance_lux);
-    out.sky.cloud_cover = narrow(value_at(scenario.sky.cloud_cover, time_s, moment.cloud_cover));
+    out.weather.cloud_fraction = out.sky.cloud_cover =
+        narrow(value_at(scenario.sky.cloud_cover, time_s, out.weather.cloud_fraction));
     out.sky.turbidity = narrow(value_at(scenario.sky.turbidity, time_s, 2.5));
     out.sky.ground_albedo = narrow(scenario.sky.ground_albedo);
     out.sky.environment_scale = narrow(scenario.sky.environment_scale);
@@ -225,10 +225,11 @@ std::string frame_fingerprint(const Sequence& sequence, const gpu::Frame& frame)
     }
     add_camera(hasher, frame.camera);
     add_sky(hasher, frame.sky);
-    static_assert(std::is_trivially_copyable_v<gpu::SurfaceWeather> &&
-                      sizeof(gpu::SurfaceWeather) % sizeof(float) == 0,
-                  "all floats: hashed as one run");
     hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
+    static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
+                      sizeof(shared::WeatherLook) % sizeof(float) == 0,
+                  "all floats: hashed as one run");
+    hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
     for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
     hasher.add(frame.scene_light_scale);
     hasher.add(frame.emissive_scale);

@@ -46,7 +46,6 @@ double frame_time_s(const Sequence& sequence, int frame);
 
 struct SequenceFrame {
     double time_s = 0.0;
-    double temperature_c = 0.0;
     gpu::Frame frame;
 };
 

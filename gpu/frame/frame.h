@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formulas/weather/moment.h"
 #include "gpu/upload/scene_names.h"
 
 namespace petrichor::gpu {
@@ -33,27 +34,6 @@ struct Sky {
     bool analytic_sun = true;  ///< false: the scene's own directional lights replace the sun
 };
 
-/// The weather of one frame in the 0..1 terms of the renderer (Lux 2.02 "published values").
-struct SurfaceWeather {
-    float rain = 0.0f;             ///< intensity r
-    float snowfall = 0.0f;         ///< intensity f
-    float flood_cracks = 0.0f;     ///< c
-    float flood_puddles = 0.0f;    ///< p
-    float film_albedo = 0.0f;      ///< m ka (1 - W)
-    float film_smoothness = 0.0f;  ///< m ks (1 - W)
-    float snow_amount = 0.0f;      ///< s W
-    float water_to_snow = 0.0f;    ///< W
-    float freeze_exp = 0.0f;       ///< 1 - 2^(-10 W)
-    float melt = 0.0f;             ///< 1 - C(W)
-    float melt_exp = 0.0f;         ///< 1 - 2^(-10 melt)
-    float snow_start_height_m = -100.0f;
-    float snow_height_blend_m = 10.0f;
-    float frost = 0.0f;  ///< hoar frost on cold, dry, exposed surfaces, 0..1
-    glm::vec3 snow_color{0.92f, 0.94f, 0.97f};
-    glm::vec2 wind_m_s{0.0f};       ///< where the air goes, x and z
-    float visibility_m = 20000.0f;  ///< 2 % contrast; > 0
-};
-
 /// How a frame is taken.
 struct FrameSettings {
     int width = 640;
@@ -76,7 +56,8 @@ struct FrameSettings {
 struct Frame {
     Camera camera;
     Sky sky;
-    SurfaceWeather weather;
+    shared::WeatherMoment weather;    ///< all of it: what is seen, and the SI values beside it
+    shared::WeatherLook look;         ///< how weather is drawn
     std::vector<Light> extra_lights;  ///< added to the scene's own (a lamp lit at dusk)
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials

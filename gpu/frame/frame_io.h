@@ -3,6 +3,7 @@
 #define PETRICHOR_GPU_FRAME_FRAME_IO_H
 
 #include "base/interop.h"
+#include "formulas/weather/moment.h"
 
 #define SHADOW_CASCADES 3
 #define LIGHT_TILE 16         // pixels a side of a light list
@@ -38,22 +39,8 @@ struct FrameConstants {
     vec4 cascade_end_m;    // view distance where cascade i ends
     vec4 cascade_scale;    // texel size of cascade i relative to the first
 
-    vec2 flood;  // published levels: cracks, puddles
-    vec2 film;   // published film: albedo, smoothness
-    float rain;
-    float snow_amount;
-    float water_to_snow;
-    float freeze_exp;
-    float melt;
-    float melt_exp;
-    float snow_start_m;
-    float snow_blend_m;
-    float frost;
-    vec3 snow_color;
-    float ripple_tiling;  // repeats per metre
-    float ripple_refraction;
-    vec4 snow_tiling;  // per metre: snow, detail, mask, mask detail
-    vec2 wind_m_s;
+    WeatherMoment weather;
+    WeatherLook look;
 
     ivec2 size;  // pixels
     ivec2 light_tiles;

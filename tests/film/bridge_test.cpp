@@ -25,7 +25,8 @@ TEST(WeatherMoment, PublishesTheStateOfTheModel)
         EXPECT_FLOAT_EQ(moment.surface.snow_amount,
                         static_cast<float>(state.snow * state.water_to_snow));
         EXPECT_FLOAT_EQ(moment.surface.water_to_snow, static_cast<float>(state.water_to_snow));
-        EXPECT_DOUBLE_EQ(moment.temperature_c, published.temperature_c);
+        EXPECT_FLOAT_EQ(moment.surface.air_temperature_k,
+                        static_cast<float>(published.temperature_c + 273.15));
     }
     EXPECT_FLOAT_EQ(weather_moment(script, weather, 1.0).surface.snow_height_blend_m, 10.0f);
 }
@@ -63,7 +64,7 @@ TEST(CloudCover, ComesBeforeTheRainAndFollowsKeysWhenThereAreSome)
     const WeatherScript keyed =
         script_of(keys + ", { time_s = 41, cloud_cover = 0.5, visibility_m = 900 }");
     const auto weather = keyed.solve();
-    EXPECT_DOUBLE_EQ(weather_moment(keyed, weather, 30.0).cloud_cover, 0.5);
+    EXPECT_FLOAT_EQ(weather_moment(keyed, weather, 30.0).surface.cloud_fraction, 0.5f);
     EXPECT_FLOAT_EQ(weather_moment(keyed, weather, 30.0).surface.visibility_m, 900.0f);
 }
 

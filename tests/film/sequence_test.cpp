@@ -44,7 +44,7 @@ Sequence sequence_of(const std::string& text)
     sequence.weather = [](double time_s) {
         WeatherMoment moment;
         moment.surface.rain = static_cast<float>(time_s / 48.0);
-        moment.cloud_cover = 0.4;
+        moment.surface.cloud_fraction = 0.4f;
         return moment;
     };
     sequence.content = "content";

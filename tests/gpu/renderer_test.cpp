@@ -23,9 +23,9 @@ Frame small_frame(const Camera& camera, int width = 64, int height = 36, int sam
     return frame;
 }
 
-SurfaceWeather downpour()
+shared::WeatherMoment downpour()
 {
-    SurfaceWeather w;
+    shared::WeatherMoment w;
     w.rain = 1.0f;
     w.flood_cracks = 0.8f;
     w.flood_puddles = 1.0f;
@@ -34,9 +34,9 @@ SurfaceWeather downpour()
     return w;
 }
 
-SurfaceWeather deep_snow()
+shared::WeatherMoment deep_snow()
 {
-    SurfaceWeather w;
+    shared::WeatherMoment w;
     w.snow_amount = 1.0f;
     w.water_to_snow = 1.0f;
     w.freeze_exp = 0.999f;

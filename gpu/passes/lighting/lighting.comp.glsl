@@ -151,8 +151,8 @@ void main()
             m = apply_frost(m, g.weather.w);
             // Murk (the opacity of standing water) is part of the base colour already, and emission has
             // been dimmed by it and by snow: both are the material's own business.
-            m = apply_water(m, film * frame.film, g.weather.y, vec4(0.0), g.porosity);
-            m = apply_snow(m, g.weather.z, frame.snow_color, vec3(0.02), 0.35, 0.0);
+            m = apply_water(m, film * vec2(frame.weather.film_albedo, frame.weather.film_smoothness), g.weather.y, vec4(0.0), g.porosity);
+            m = apply_snow(m, g.weather.z, frame.look.snow_color, frame.look.snow_specular, 0.35, 0.0);
             // A thin film follows the bumps, water that stands closes over them to a mirror.
             closed = smooth_edge(0.08, 0.55, g.weather.y) * (1.0 - g.weather.z);
             m.smoothness = mix(m.smoothness, 0.94, closed);

@@ -50,12 +50,13 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     water.deep = 0.0;
     if (WATER != 0u) water = water_on(at, flood);
     c.film = damp * saturate(smoothed.y + 1.0 - material.water_slope_damp);
-    c.frost = frame.frost * open * saturate(at.normal.y * 0.6 + 0.5) * (1.0 - water.anywhere);
+    c.frost = frame.weather.frost * open * saturate(at.normal.y * 0.6 + 0.5) * (1.0 - water.anywhere);
 
-    const float fade = pow(saturate((50.0 - length(at.position - frame.camera_m)) / 15.0), 2.0);
+    const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
+    const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
     vec3 ripple = vec3(0.0, 0.0, 1.0);
     vec3 flow = vec3(0.0, 0.0, 1.0);
-    if (WATER != 0u && frame.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
+    if (WATER != 0u && frame.weather.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
         ripple = ripple_normal(at, water, open);
     }
     if (WATER != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
@@ -63,15 +64,16 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     }
     const vec3 bent = mix(vec3(0.0, 0.0, 1.0),
                           normalize(vec3(ripple.xy + flow.xy, ripple.z * flow.z)), fade);
-    c.refraction = (ripple.xy * frame.ripple_refraction + flow.xy * material.flow_refraction) *
-                   water.deep * (1.0 - saturate(2.0 * snow.snow)) *
-                   saturate(1.0 - frame.water_to_snow + material.water_accumulation.z) * fade * 0.1;
+    c.refraction =
+        (ripple.xy * frame.look.ripple_refraction + flow.xy * material.flow_refraction) *
+        water.deep * (1.0 - saturate(2.0 * snow.snow)) *
+        saturate(1.0 - frame.weather.water_to_snow + material.water_accumulation.z) * fade * 0.1;
     c.normal = normalize(vec3(bent.x, 0.0, bent.y) + at.normal * max(bent.z, 0.05));
 
     c.water = water.anywhere;
     c.snow = snow.snow;
     if (SNOW != 0u) {
-        c.water = melt_wetness(water.anywhere, snow.melt, frame.melt_exp);
+        c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);
         const float snow_share = snow.snow / max(snow.snow + c.water, 1.0e-4);
         c.normal = normalize(
             mix(c.normal, snow_normal(at, amount, smoothed, fade), saturate(snow_share)));

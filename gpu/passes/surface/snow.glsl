@@ -10,7 +10,7 @@ float snow_amount_raw(SurfaceInput at, float open)
 {
     // What falls does not cling to walls, whatever the slope damp of the material.
     const float clinging = smooth_edge(0.0, 0.4, at.normal.y);
-    return frame.snow_amount * open * clinging * material.snow_accumulation.y +
+    return frame.weather.snow_amount * open * clinging * material.snow_accumulation.y +
            material.snow_accumulation.x;
 }
 
@@ -21,21 +21,23 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
     if (has(TEXTURE_SNOW_MASK)) {
         unique *= texel(snow_mask_map, coordinates(TEXTURE_SNOW_MASK, at, vec2(0.0))).r;
     }
-    const float mask = texel_from_above(snow_map, at, frame.snow_tiling.z, vec2(0.0)).b;
-    const float detail = texel_from_above(snow_map, at, frame.snow_tiling.w, vec2(0.0)).b;
+    const float mask = texel_from_above(snow_map, at, frame.look.snow_tiling.z, vec2(0.0)).b;
+    const float detail = texel_from_above(snow_map, at, frame.look.snow_tiling.w, vec2(0.0)).b;
     return snow_cover(amount,
-                      snow_height_factor(at.position.y, frame.snow_start_m, frame.snow_blend_m),
+                      snow_height_factor(at.position.y, frame.weather.snow_start_height_m,
+                                         frame.weather.snow_height_blend_m),
                       smoothed_up, material.snow_slope_damp, unique, mask, detail,
-                      frame.melt * material.snow_accumulation.y);
+                      frame.weather.melt * material.snow_accumulation.y);
 }
 
 // A snow cover has its own, softer relief over that of the ground. smoothed: world.
 vec3 snow_normal(SurfaceInput at, float amount, vec3 smoothed, float fade)
 {
-    const vec2 coarse_xy = texel_from_above(snow_map, at, frame.snow_tiling.x, vec2(0.0)).xy;
-    const vec2 detail_xy = texel_from_above(snow_map, at, frame.snow_tiling.y, vec2(0.0)).xy;
-    const vec3 coarse = unpack_normal(coarse_xy, material.snow_normal_strength);
-    const vec3 detail = unpack_normal(detail_xy, material.snow_detail_strength * fade);
+    const vec2 coarse_xy = texel_from_above(snow_map, at, frame.look.snow_tiling.x, vec2(0.0)).xy;
+    const vec2 detail_xy = texel_from_above(snow_map, at, frame.look.snow_tiling.y, vec2(0.0)).xy;
+    const vec3 coarse = unpack_normal(coarse_xy, material.snow_normal_strength * frame.look.snow_strength.x);
+    const vec3 detail = unpack_normal(
+        detail_xy, material.snow_detail_strength * frame.look.snow_strength.y * fade);
     return normalize(vec3(coarse.x + detail.x, 0.0, coarse.y + detail.y) +
                      mix(smoothed, at.normal, 0.3 + 0.7 * amount) * (coarse.z * detail.z));
 }

@@ -9,7 +9,9 @@
 // (cracks, puddles): the level of the weather by the material's influence, and its constant.
 vec2 flood_level(float open)
 {
-    return frame.flood * open * material.water_accumulation.yw + material.water_accumulation.xz;
+    return vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * open *
+               material.water_accumulation.yw +
+           material.water_accumulation.xz;
 }
 
 WaterCover water_on(SurfaceInput at, vec2 flood)
@@ -28,9 +30,8 @@ WaterCover water_on(SurfaceInput at, vec2 flood)
 // Rings of drops. Normals of the water are laid out in world x and z.
 vec3 ripple_normal(SurfaceInput at, WaterCover water, float open)
 {
-    const vec2 xy = texel_from_above(ripple_map, at, frame.ripple_tiling, vec2(0.0)).xy;
-    // A third of the slope in the map, as rings on a real puddle have (Lagarde 2013, 2b).
-    return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, 0.35),
+    const vec2 xy = texel_from_above(ripple_map, at, frame.look.ripple_tiling, vec2(0.0)).xy;
+    return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
                water.deep * saturate(at.normal.y) * saturate(open * 2.0));
 }
 
@@ -39,14 +40,14 @@ vec3 flow_normal(SurfaceInput at, TangentFrame f, WaterCover water)
 {
     const vec2 down = vec2(f.tangent.y, f.bitangent.y);
     const vec2 v = down * material.flow_speed *
-                   saturate(1.0 - frame.freeze_exp + material.water_accumulation.z);
+                   saturate(1.0 - frame.weather.freeze_exp + material.water_accumulation.z);
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
     const float t = material.flow_tiling;
     const vec2 first = texel_from_above(flow_map, at, t, phases.first * v).xy;
     const vec2 second = texel_from_above(flow_map, at, t, phases.second * v).xy;
     const float slope = 1.0 - saturate(at.normal.y) * saturate(at.normal.y);
     // On flat ground only the wind moves the water, a little.
-    const float breeze = 0.05 + 0.03 * min(length(frame.wind_m_s), 6.0);
+    const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
     return mix(vec3(0.0, 0.0, 1.0),
                unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength),
                max(slope, breeze * saturate(at.normal.y)) * water.anywhere);

@@ -64,15 +64,15 @@ void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
     add_mips(graph, "snow_mask_mips", *maps.snow);
 }
 
-void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s)
+void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed)
 {
     graph.add({.name = "ripple",
                .uses = {{maps.ripple_source, Use::Sampled}, {maps.ripple, Use::StorageWrite}},
-               .record = [&maps, rain, time_s](PassContext& pass) {
+               .record = [&maps, rain, time_s, speed](PassContext& pass) {
                    pass.bind_compute(
                        "ripple.comp", {},
                        {sampled(*maps.ripple_source, maps.trilinear), storage(*maps.ripple, 0)});
-                   pass.push(RippleParams{rain, time_s, 1.0f});
+                   pass.push(RippleParams{rain, time_s, speed});
                    pass.dispatch_over(kRippleSize, kRippleSize, kTile);
                }});
     add_mips(graph, "ripple_mips", *maps.ripple);

@@ -22,11 +22,11 @@ struct SurfaceMaps {
 //   writes   ripple_source, snow
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 
-// Rings of rain drops at `time_s`.
+// Rings of rain drops at `time_s`; speed 1 is as photographed.
 //
 //   reads    ripple_source
 //   writes   ripple, with mips
-void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s);
+void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed);
 
 // Waves of flowing and wind-blown water at `time_s`.
 //
