@@ -3,6 +3,10 @@
 #include <cstring>
 
 #include "gpu/build_frame.h"
+#include "gpu/outputs/aov.h"
+#include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
+#include "gpu/passes/reflections/reflections.h"
+#include "gpu/passes/resolve/resolve.h"
 
 namespace petrichor::gpu {
 
@@ -147,7 +151,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                     c.world_to_clip, c.camera_m, weather);
         if (i == 0) {
             for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
-                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot], variant);
+                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot], variant.weather,
+                        variant.emission);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
@@ -160,6 +165,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
     }
     add_resolve(graph, *r.targets, *r.sky, constants);
+    graph.read_back({r.targets->light_lists.get()});
     return graph;
 }
 

@@ -1,121 +1,53 @@
 #include "gpu/device/graph.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <stdexcept>
 
 namespace petrichor::gpu {
 
 namespace {
-
-struct Needs {
-    VkImageLayout layout;
-    VkPipelineStageFlags2 stages;
-    VkAccessFlags2 access;
-    bool writes;
-};
-
-Needs needs_of(Use use)
-{
-    constexpr VkPipelineStageFlags2 shaders = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                                              VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
-    switch (use) {
-        case Use::ColorTarget:
-            return {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
-                    true};
-        case Use::DepthTarget:
-            return {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
-                        VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
-                    true};
-        case Use::Sampled:
-            return {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaders,
-                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
-        case Use::StorageRead:
-            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT, false};
-        case Use::StorageWrite:
-            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                    true};
-        case Use::TexelRead:
-            return {VK_IMAGE_LAYOUT_UNDEFINED, shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
-        case Use::UniformRead:
-            return {VK_IMAGE_LAYOUT_UNDEFINED, shaders, VK_ACCESS_2_UNIFORM_READ_BIT, false};
-        case Use::TransferSource:
-            return {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                    VK_ACCESS_2_TRANSFER_READ_BIT, false};
-        case Use::TransferTarget:
-            return {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT, true};
-        case Use::HostRead:
-            return {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_HOST_BIT,
-                    VK_ACCESS_2_HOST_READ_BIT, false};
-    }
-    return {};
-}
-
-bool writes(Use use)
-{
-    return needs_of(use).writes;
-}
-
-const std::string& name_of(const ResourceUse& use)
-{
-    return use.image ? use.image->name : use.buffer->name;
-}
 
 // Barriers that bring every resource of a pass into the state it needs.
 struct Barriers {
     std::vector<VkImageMemoryBarrier2> images;
     std::vector<VkBufferMemoryBarrier2> buffers;
 
-    void add(const ResourceUse& use)
+    void add(GpuImage& image, Use use)
     {
-        const Needs needs = needs_of(use.use);
-        ResourceState& state = use.image ? use.image->state : use.buffer->state;
-        const bool layout_changes = use.image && state.layout != needs.layout;
-        const bool hazard = state.written || (needs.writes && state.stages != 0);
-        if (!layout_changes && !hazard) {
-            state.stages |= needs.stages;
-            state.access |= needs.access;
-            state.written = needs.writes;
-            return;
-        }
-        if (use.image) {
-            VkImageMemoryBarrier2 barrier{};
-            barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-            barrier.srcStageMask = state.stages;
-            barrier.srcAccessMask = state.written ? state.access : VkAccessFlags2{0};
-            barrier.dstStageMask = needs.stages;
-            barrier.dstAccessMask = needs.access;
-            barrier.oldLayout = state.layout;
-            barrier.newLayout = needs.layout;
-            barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.image = use.image->image.get();
-            barrier.subresourceRange = {use.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
-                                        VK_REMAINING_ARRAY_LAYERS};
-            images.push_back(barrier);
-        } else {
-            VkBufferMemoryBarrier2 barrier{};
-            barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
-            barrier.srcStageMask = state.stages;
-            barrier.srcAccessMask = state.written ? state.access : VkAccessFlags2{0};
-            barrier.dstStageMask = needs.stages;
-            barrier.dstAccessMask = needs.access;
-            barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-            barrier.buffer = use.buffer->buffer.get();
-            barrier.size = VK_WHOLE_SIZE;
-            buffers.push_back(barrier);
-        }
-        state = {needs.layout, needs.stages, needs.access, needs.writes};
+        const auto needed = advance(image.state, use, true);
+        if (!needed) return;
+        VkImageMemoryBarrier2 barrier{};
+        barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+        barrier.srcStageMask = needed->from_stages;
+        barrier.srcAccessMask = needed->from_access;
+        barrier.dstStageMask = needed->to_stages;
+        barrier.dstAccessMask = needed->to_access;
+        barrier.oldLayout = needed->from_layout;
+        barrier.newLayout = needed->to_layout;
+        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.image = image.image.get();
+        barrier.subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
+                                    VK_REMAINING_ARRAY_LAYERS};
+        images.push_back(barrier);
+    }
+
+    void add(GpuBuffer& buffer, Use use)
+    {
+        const auto needed = advance(buffer.state, use, false);
+        if (!needed) return;
+        VkBufferMemoryBarrier2 barrier{};
+        barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+        barrier.srcStageMask = needed->from_stages;
+        barrier.srcAccessMask = needed->from_access;
+        barrier.dstStageMask = needed->to_stages;
+        barrier.dstAccessMask = needed->to_access;
+        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.buffer = buffer.buffer.get();
+        barrier.size = VK_WHOLE_SIZE;
+        buffers.push_back(barrier);
     }
 
     void record(VkCommandBuffer commands) const
@@ -143,39 +75,172 @@ QueryPoolHandle make_query_pool(const Device& device, std::uint32_t count)
     return {device.handle(), pool};
 }
 
+VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, Use use)
+{
+    VkRenderingAttachmentInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    if (!attachment.image) return info;
+    info.imageView = attachment.view ? attachment.view : attachment.image->view.get();
+    info.imageLayout = needs_of(use).layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+}
+
+void record_draws(const DrawPass& pass, VkCommandBuffer commands, PipelineCache& pipelines,
+                  DescriptorArena& descriptors)
+{
+    std::vector<VkRenderingAttachmentInfo> colors;
+    for (const Attachment& color : pass.colors) {
+        colors.push_back(attachment_info(color, Use::ColorTarget));
+    }
+    const VkRenderingAttachmentInfo depth = attachment_info(pass.depth, Use::DepthTarget);
+    const VkExtent2D extent{static_cast<std::uint32_t>(pass.width),
+                            static_cast<std::uint32_t>(pass.height)};
+    VkRenderingInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    rendering.renderArea.extent = extent;
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
+    rendering.pColorAttachments = colors.data();
+    rendering.pDepthAttachment = pass.depth.image ? &depth : nullptr;
+    PassContext context(pipelines, descriptors, commands, pass);
+    vkCmdBeginRendering(commands, &rendering);
+    const VkViewport viewport{
+        0.0f, 0.0f, static_cast<float>(pass.width), static_cast<float>(pass.height), 0.0f, 1.0f};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewportWithCount(commands, 1, &viewport);
+    vkCmdSetScissorWithCount(commands, 1, &scissor);
+    pass.record(context);
+    vkCmdEndRendering(commands);
+}
+
+void record_dispatch(const ComputePass& pass, VkCommandBuffer commands, PipelineCache& pipelines,
+                     DescriptorArena& descriptors)
+{
+    const Pipeline& pipeline =
+        pipelines.compute(pass.shader, pass.constants, types_of(pass.bindings));
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+    const VkDescriptorSet set = descriptors.set(pipeline.set_layouts[0], pass.bindings);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set,
+                            0, nullptr);
+    vkCmdPushConstants(commands, pipeline.layout, kAllStages, 0, kPushBytes,
+                       pass.push.bytes.data());
+    vkCmdDispatch(commands, pass.groups.x, pass.groups.y, pass.groups.z);
+}
+
 }  // namespace
 
-void PassContext::bind_compute(const std::string& shader,
-                               const std::vector<Specialization>& specialization,
-                               const std::vector<Binding>& bindings)
+Groups groups_over(int width, int height, int tile, int layers)
 {
-    const Pipeline& pipeline = pipelines_->compute(shader, specialization, types_of(bindings));
+    return {static_cast<std::uint32_t>((width + tile - 1) / tile),
+            static_cast<std::uint32_t>((height + tile - 1) / tile),
+            static_cast<std::uint32_t>(layers)};
+}
+
+PassContext::PassContext(PipelineCache& pipelines, DescriptorArena& descriptors,
+                         VkCommandBuffer commands, const DrawPass& pass)
+    : pipelines_(&pipelines),
+      descriptors_(&descriptors),
+      commands_(commands),
+      set_types_(types_of(pass.bindings))
+{
+    if (!pass.bindings.empty()) {
+        set_ = descriptors.set(pipelines.set_layout(set_types_), pass.bindings);
+    }
+    for (const Attachment& color : pass.colors) color_formats_.push_back(color.format());
+}
+
+void PassContext::bind(const Pipeline& pipeline)
+{
+    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline.get());
     layout_ = pipeline.layout;
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-    const VkDescriptorSet set = descriptors_->set(pipeline.set_layouts[0], bindings);
-    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set,
-                            0, nullptr);
+    if (set_) bind_set(0, set_);
 }
 
-void PassContext::push_bytes(const void* bytes, std::size_t size)
+void PassContext::bind_set(std::uint32_t index, VkDescriptorSet set)
 {
-    std::array<std::byte, kPushBytes> block{};
-    std::memcpy(block.data(), bytes, size);
-    vkCmdPushConstants(
-        commands_, layout_,
-        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, 0,
-        kPushBytes, block.data());
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, index, 1, &set, 0,
+                            nullptr);
 }
 
-void PassContext::dispatch(int groups_x, int groups_y, int groups_z)
+void PassContext::push_block(const PushBlock& block)
 {
-    vkCmdDispatch(commands_, static_cast<std::uint32_t>(groups_x),
-                  static_cast<std::uint32_t>(groups_y), static_cast<std::uint32_t>(groups_z));
+    vkCmdPushConstants(commands_, layout_, kAllStages, 0, kPushBytes, block.bytes.data());
 }
 
-void PassContext::dispatch_over(int width, int height, int tile, int depth)
+// One touch a resource. A pass cannot both read and write one through two bindings, nor see one
+// image in two layouts.
+void FrameGraph::touch(Pass& pass, const Touch& touch)
 {
-    dispatch((width + tile - 1) / tile, (height + tile - 1) / tile, depth);
+    for (const Touch& other : pass.touches) {
+        if (other.image != touch.image || other.buffer != touch.buffer) continue;
+        if (other.use == touch.use) return;
+        const Needs a = needs_of(other.use);
+        const Needs b = needs_of(touch.use);
+        if (a.writes || b.writes || (touch.image && a.layout != b.layout)) {
+            throw std::logic_error("pass " + pass.name + " uses " +
+                                   (touch.image ? touch.image->name : touch.buffer->name) +
+                                   " in two ways that exclude each other");
+        }
+    }
+    pass.touches.push_back(touch);
+}
+
+void FrameGraph::touch(Pass& pass, const Bindings& bindings)
+{
+    for (const Bound& bound : bindings) {
+        touch(pass, {bound.binding.image, bound.binding.buffer, bound.binding.use});
+    }
+}
+
+void FrameGraph::add(ComputePass compute)
+{
+    Pass pass;
+    pass.name = compute.name;
+    touch(pass, compute.bindings);
+    pass.record = [compute = std::move(compute)](VkCommandBuffer commands, PipelineCache& pipelines,
+                                                 DescriptorArena& descriptors) {
+        record_dispatch(compute, commands, pipelines, descriptors);
+    };
+    passes_.push_back(std::move(pass));
+}
+
+void FrameGraph::add(DrawPass draw)
+{
+    Pass pass;
+    pass.name = draw.name;
+    touch(pass, draw.bindings);
+    for (const Attachment& color : draw.colors) {
+        if (color.image) touch(pass, {color.image, nullptr, Use::ColorTarget});
+    }
+    if (draw.depth.image) touch(pass, {draw.depth.image, nullptr, Use::DepthTarget});
+    pass.record = [draw = std::move(draw)](VkCommandBuffer commands, PipelineCache& pipelines,
+                                           DescriptorArena& descriptors) {
+        record_draws(draw, commands, pipelines, descriptors);
+    };
+    passes_.push_back(std::move(pass));
+}
+
+void FrameGraph::add(TransferPass transfer)
+{
+    Pass pass;
+    pass.name = transfer.name;
+    for (const Transfer& t : transfer.transfers) touch(pass, {t.image, t.buffer, t.use});
+    pass.record = [record = std::move(transfer.record)](VkCommandBuffer commands, PipelineCache&,
+                                                        DescriptorArena&) {
+        if (record) record(commands);
+    };
+    passes_.push_back(std::move(pass));
+}
+
+void FrameGraph::read_back(const std::vector<GpuBuffer*>& buffers)
+{
+    TransferPass pass{"read_back", {}, {}};
+    for (GpuBuffer* buffer : buffers) {
+        pass.transfers.push_back({nullptr, buffer, Use::HostRead});
+    }
+    add(std::move(pass));
 }
 
 std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& pipelines,
@@ -189,10 +254,15 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
         for (const Pass& pass : passes_) {
             device.begin_label(commands, pass.name);
             Barriers barriers;
-            for (const ResourceUse& use : pass.uses) barriers.add(use);
+            for (const Touch& touch : pass.touches) {
+                if (touch.image) {
+                    barriers.add(*touch.image, touch.use);
+                } else {
+                    barriers.add(*touch.buffer, touch.use);
+                }
+            }
             barriers.record(commands);
-            PassContext context(device, pipelines, descriptors, commands);
-            if (pass.record) pass.record(context);
+            pass.record(commands, pipelines, descriptors);
             device.end_label(commands);
             vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(),
                                  query++);
@@ -224,9 +294,10 @@ std::string FrameGraph::describe() const
         seen[pass.name] = true;
         std::string reads;
         std::string written;
-        for (const ResourceUse& use : pass.uses) {
-            std::string& list = writes(use.use) ? written : reads;
-            list += (list.empty() ? "" : ", ") + name_of(use);
+        for (const Touch& touch : pass.touches) {
+            std::string& list = needs_of(touch.use).writes ? written : reads;
+            list +=
+                (list.empty() ? "" : ", ") + (touch.image ? touch.image->name : touch.buffer->name);
         }
         text += pass.name + ": reads " + (reads.empty() ? "nothing" : reads) + "; writes " +
                 (written.empty() ? "nothing" : written) + "\n";

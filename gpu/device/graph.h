@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_DEVICE_GRAPH_H
 #define PETRICHOR_GPU_DEVICE_GRAPH_H
 
+#include <array>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -10,78 +11,118 @@
 
 namespace petrichor::gpu {
 
-/// How a pass touches a resource. Barriers and layouts follow from it.
-enum class Use {
-    ColorTarget,
-    DepthTarget,
-    Sampled,       ///< image read through a sampler or texelFetch
-    StorageRead,   ///< image or buffer in a compute shader
-    StorageWrite,  ///< image or buffer in a compute shader, all or part, read allowed
-    TexelRead,     ///< buffer through a texel view
-    UniformRead,   ///< buffer as a uniform block
-    TransferSource,
-    TransferTarget,
-    HostRead,  ///< after the frame, by the host
+/// The push constants of a pass: a struct of at most 128 bytes, the rest zero.
+struct PushBlock {
+    std::array<std::byte, kPushBytes> bytes{};
+
+    PushBlock() = default;
+    template <class T>
+    explicit PushBlock(const T& value)
+    {
+        static_assert(sizeof(T) <= kPushBytes);
+        std::memcpy(bytes.data(), &value, sizeof(T));
+    }
 };
 
-struct ResourceUse {
+/// Workgroups of a dispatch.
+struct Groups {
+    std::uint32_t x = 1;
+    std::uint32_t y = 1;
+    std::uint32_t z = 1;
+};
+/// Enough groups of tile x tile to cover width x height.
+Groups groups_over(int width, int height, int tile, int layers = 1);
+
+/// One dispatch. What it reads and writes stands in its bindings, nowhere else.
+struct ComputePass {
+    std::string name;
+    std::string shader;
+    std::vector<Specialization> constants;
+    Bindings bindings;
+    PushBlock push;
+    Groups groups;
+};
+
+/// An image that is drawn into; cleared to zero first.
+struct Attachment {
+    GpuImage* image = nullptr;          ///< null: what a shader writes there goes nowhere
+    VkImageView view = VK_NULL_HANDLE;  ///< one layer of it; null: the whole image
+
+    Attachment() = default;
+    explicit Attachment(GpuImage& i, VkImageView v = VK_NULL_HANDLE) : image(&i), view(v) {}
+    VkFormat format() const { return image ? image->format : VK_FORMAT_UNDEFINED; }
+};
+
+class PassContext;
+
+/// Draws into attachments. Textures and vertices of the scene, which no pass writes, need no
+/// declaration; whatever a pass of the frame makes stands in `bindings` (set 0).
+struct DrawPass {
+    std::string name;
+    std::vector<Attachment> colors;  ///< by location
+    Attachment depth;
+    int width = 0;
+    int height = 0;
+    Bindings bindings;
+    std::function<void(PassContext&)> record;  ///< inside the rendering; the viewport is set
+};
+
+/// A resource that copies and blits touch; they have no bindings that could say so.
+struct Transfer {
     GpuImage* image = nullptr;
     GpuBuffer* buffer = nullptr;
-    Use use = Use::Sampled;
-
-    ResourceUse(GpuImage& i, Use u) : image(&i), use(u) {}
-    ResourceUse(GpuBuffer& b, Use u) : buffer(&b), use(u) {}
-    ResourceUse(const std::unique_ptr<GpuImage>& i, Use u) : image(i.get()), use(u) {}
-    ResourceUse(const std::unique_ptr<GpuBuffer>& b, Use u) : buffer(b.get()), use(u) {}
+    Use use = Use::TransferTarget;
+};
+struct TransferPass {
+    std::string name;
+    std::vector<Transfer> transfers;
+    std::function<void(VkCommandBuffer)> record;
 };
 
-/// What a pass records with.
+/// What a draw pass records with.
 class PassContext {
 public:
-    PassContext(const Device& device, PipelineCache& pipelines, DescriptorArena& descriptors,
-                VkCommandBuffer commands)
-        : device_(&device), pipelines_(&pipelines), descriptors_(&descriptors), commands_(commands)
-    {
-    }
+    PassContext(PipelineCache& pipelines, DescriptorArena& descriptors, VkCommandBuffer commands,
+                const DrawPass& pass);
 
     VkCommandBuffer commands() const { return commands_; }
     PipelineCache& pipelines() const { return *pipelines_; }
     DescriptorArena& descriptors() const { return *descriptors_; }
+    /// The pass's own bindings as set 0, and their types for a pipeline's description.
+    VkDescriptorSet set() const { return set_; }
+    const BindingTypes& set_types() const { return set_types_; }
+    /// Formats of the attachments, for a pipeline's description.
+    const std::vector<VkFormat>& color_formats() const { return color_formats_; }
 
-    void bind_compute(const std::string& shader, const std::vector<Specialization>& specialization,
-                      const std::vector<Binding>& bindings);
-    /// Pushes a struct of at most 128 bytes; the rest of the range is zero.
+    void bind(const Pipeline& pipeline);
+    void bind_set(std::uint32_t index, VkDescriptorSet set);
     template <class T>
     void push(const T& value)
     {
-        static_assert(sizeof(T) <= kPushBytes);
-        push_bytes(&value, sizeof(T));
+        push_block(PushBlock(value));
     }
-    void dispatch(int groups_x, int groups_y, int groups_z = 1);
-    /// Enough groups of tile x tile to cover width x height.
-    void dispatch_over(int width, int height, int tile, int depth = 1);
-    void use_layout(VkPipelineLayout layout) { layout_ = layout; }
 
 private:
-    void push_bytes(const void* bytes, std::size_t size);
+    void push_block(const PushBlock& block);
 
-    const Device* device_;
     PipelineCache* pipelines_;
     DescriptorArena* descriptors_;
     VkCommandBuffer commands_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    BindingTypes set_types_;
+    std::vector<VkFormat> color_formats_;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
 };
 
-struct Pass {
-    std::string name;
-    std::vector<ResourceUse> uses;
-    std::function<void(PassContext&)> record;
-};
-
-/// Passes of one frame, run in the order they were added.
+/// Passes of one frame, run in the order they were added. Every barrier and layout is derived from
+/// what the passes bind, attach and transfer.
 class FrameGraph {
 public:
-    void add(Pass pass) { passes_.push_back(std::move(pass)); }
+    void add(ComputePass pass);
+    void add(DrawPass pass);
+    void add(TransferPass pass);
+    /// Makes what was written visible to the host once the frame is done.
+    void read_back(const std::vector<GpuBuffer*>& buffers);
 
     /// Records all passes into one command buffer, submits, waits. Times are summed by pass name.
     std::vector<PassTime> execute(const Device& device, PipelineCache& pipelines,
@@ -90,6 +131,19 @@ public:
     std::string describe() const;
 
 private:
+    struct Touch {
+        GpuImage* image = nullptr;
+        GpuBuffer* buffer = nullptr;
+        Use use = Use::Sampled;
+    };
+    struct Pass {
+        std::string name;
+        std::vector<Touch> touches;
+        std::function<void(VkCommandBuffer, PipelineCache&, DescriptorArena&)> record;
+    };
+    static void touch(Pass& pass, const Touch& touch);
+    static void touch(Pass& pass, const Bindings& bindings);
+
     std::vector<Pass> passes_;
 };
 

@@ -9,9 +9,6 @@ namespace petrichor::gpu {
 
 namespace {
 
-constexpr VkShaderStageFlags kAllStages =
-    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
-
 // Specialization constants in the layout that Vulkan wants; must outlive the create call.
 struct SpecializationInfo {
     explicit SpecializationInfo(const std::vector<Specialization>& constants)
@@ -46,46 +43,79 @@ std::string key_of(const std::string& name, const std::vector<Specialization>& s
 
 }  // namespace
 
-Binding sampled(const GpuImage& image, const SamplerHandle& sampler)
+Binding sampled(GpuImage& image, const SamplerHandle& sampler)
 {
     Binding binding;
-    binding.image = {sampler.get(), image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    binding.image = &image;
+    binding.use = Use::Sampled;
+    binding.image_info = {sampler.get(), image.view.get(),
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     return binding;
 }
 
-Binding storage(const GpuImage& image, int mip)
+Binding storage(GpuImage& image, int mip)
 {
     Binding binding;
+    binding.image = &image;
+    binding.use = Use::StorageWrite;
     binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     const bool slice = mip >= 0 && !image.mip_views.empty();
     const VkImageView view =
         slice ? image.mip_views[static_cast<std::size_t>(mip)].get() : image.view.get();
-    binding.image = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    binding.image_info = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
     return binding;
 }
 
-Binding uniform(const GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size)
+Binding storage_read(GpuImage& image)
+{
+    Binding binding = storage(image);
+    binding.use = Use::StorageRead;
+    return binding;
+}
+
+Binding uniform(GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size)
 {
     Binding binding;
+    binding.buffer = &buffer;
+    binding.use = Use::UniformRead;
     binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    binding.buffer = {buffer.buffer.get(), offset, size};
+    binding.buffer_info = {buffer.buffer.get(), offset, size};
     return binding;
 }
 
-Binding texels(const GpuBuffer& buffer)
+Binding texels(GpuBuffer& buffer)
 {
     Binding binding;
+    binding.buffer = &buffer;
+    binding.use = Use::TexelRead;
     binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    binding.texels = buffer.texel_view.get();
+    binding.texel_view = buffer.texel_view.get();
     return binding;
 }
 
-Binding storage_buffer(const GpuBuffer& buffer)
+Binding storage_buffer(GpuBuffer& buffer)
 {
     Binding binding;
+    binding.buffer = &buffer;
+    binding.use = Use::StorageWrite;
     binding.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    binding.buffer = {buffer.buffer.get(), 0, VK_WHOLE_SIZE};
+    binding.buffer_info = {buffer.buffer.get(), 0, VK_WHOLE_SIZE};
     return binding;
+}
+
+BindingTypes types_of(const Bindings& bindings)
+{
+    BindingTypes types(bindings.size());
+    std::vector<bool> given(bindings.size(), false);
+    for (const Bound& bound : bindings) {
+        if (bound.number >= given.size() || given[bound.number]) {
+            throw std::logic_error("binding " + std::to_string(bound.number) +
+                                   " is given twice, or one before it is missing");
+        }
+        given[bound.number] = true;
+        types[bound.number] = bound.binding.type;
+    }
+    return types;
 }
 
 BindingTypes types_of(const std::vector<Binding>& bindings)
@@ -306,6 +336,15 @@ VkDescriptorPool DescriptorArena::new_pool()
 VkDescriptorSet DescriptorArena::set(VkDescriptorSetLayout layout,
                                      const std::vector<Binding>& bindings)
 {
+    Bindings numbered;
+    for (const Binding& binding : bindings) {
+        numbered.push_back({static_cast<std::uint32_t>(numbered.size()), binding});
+    }
+    return set(layout, numbered);
+}
+
+VkDescriptorSet DescriptorArena::set(VkDescriptorSetLayout layout, const Bindings& bindings)
+{
     VkDescriptorSetAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     info.descriptorSetCount = 1;
@@ -321,16 +360,16 @@ VkDescriptorSet DescriptorArena::set(VkDescriptorSetLayout layout,
         ++current_;
     }
     std::vector<VkWriteDescriptorSet> writes;
-    for (std::size_t i = 0; i < bindings.size(); ++i) {
+    for (const Bound& bound : bindings) {
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = made;
-        write.dstBinding = static_cast<std::uint32_t>(i);
+        write.dstBinding = bound.number;
         write.descriptorCount = 1;
-        write.descriptorType = bindings[i].type;
-        write.pImageInfo = &bindings[i].image;
-        write.pBufferInfo = &bindings[i].buffer;
-        write.pTexelBufferView = &bindings[i].texels;
+        write.descriptorType = bound.binding.type;
+        write.pImageInfo = &bound.binding.image_info;
+        write.pBufferInfo = &bound.binding.buffer_info;
+        write.pTexelBufferView = &bound.binding.texel_view;
         writes.push_back(write);
     }
     vkUpdateDescriptorSets(device_->handle(), static_cast<std::uint32_t>(writes.size()),

@@ -10,20 +10,32 @@
 
 namespace petrichor::gpu {
 
-/// What a shader sees at one binding. Bindings of a set are numbered in the order given.
+/// What a shader sees at one binding, and how it touches it.
 struct Binding {
+    GpuImage* image = nullptr;
+    GpuBuffer* buffer = nullptr;
+    Use use = Use::Sampled;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    VkDescriptorImageInfo image{};
-    VkDescriptorBufferInfo buffer{};
-    VkBufferView texels = VK_NULL_HANDLE;
+    VkDescriptorImageInfo image_info{};
+    VkDescriptorBufferInfo buffer_info{};
+    VkBufferView texel_view = VK_NULL_HANDLE;
 };
-Binding sampled(const GpuImage& image, const SamplerHandle& sampler);
-Binding storage(const GpuImage& image, int mip = -1);
-Binding uniform(const GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size);
-Binding texels(const GpuBuffer& buffer);
-Binding storage_buffer(const GpuBuffer& buffer);
+Binding sampled(GpuImage& image, const SamplerHandle& sampler);
+Binding storage(GpuImage& image, int mip = -1);  ///< written, all or part; may be read as well
+Binding storage_read(GpuImage& image);
+Binding uniform(GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size);
+Binding texels(GpuBuffer& buffer);
+Binding storage_buffer(GpuBuffer& buffer);  ///< written, all or part; may be read as well
+
+/// A binding at its number in the shader (a name from the pass's _io.h).
+struct Bound {
+    std::uint32_t number = 0;
+    Binding binding;
+};
+using Bindings = std::vector<Bound>;  ///< every number from 0 on, in any order
 
 using BindingTypes = std::vector<VkDescriptorType>;
+BindingTypes types_of(const Bindings& bindings);
 BindingTypes types_of(const std::vector<Binding>& bindings);
 
 /// Value of a specialization constant.
@@ -33,6 +45,8 @@ struct Specialization {
 };
 
 inline constexpr std::uint32_t kPushBytes = 128;
+inline constexpr VkShaderStageFlags kAllStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
 struct Pipeline {
     PipelineHandle pipeline;
@@ -86,6 +100,8 @@ class DescriptorArena {
 public:
     explicit DescriptorArena(const Device& device) : device_(&device) {}
 
+    VkDescriptorSet set(VkDescriptorSetLayout layout, const Bindings& bindings);
+    /// Bindings numbered in the order given.
     VkDescriptorSet set(VkDescriptorSetLayout layout, const std::vector<Binding>& bindings);
     void reset();
 

@@ -254,8 +254,10 @@ void upload_image(const Device& device, GpuImage& target,
         barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
         vkCmdPipelineBarrier2(commands, &dependency);
     });
-    target.state = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
+    target.state = {};
+    target.state.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    target.state.write_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    target.state.seen_by = 1u << static_cast<std::uint32_t>(Use::Sampled);
 }
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,

@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gpu/device/barriers.h"
 #include "gpu/device/device.h"
 
 namespace petrichor::gpu {
-
-/// What the last pass did with a resource; the frame graph derives barriers from it.
-struct ResourceState {
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
-    VkAccessFlags2 access = VK_ACCESS_2_NONE;
-    bool written = false;
-};
 
 struct GpuImage {
     std::string name;

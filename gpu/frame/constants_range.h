@@ -8,7 +8,7 @@ namespace petrichor::gpu {
 
 /// Where a sample's constants lie in the frame's uniform buffer.
 struct ConstantsRange {
-    const GpuBuffer* buffer = nullptr;
+    GpuBuffer* buffer = nullptr;
     VkDeviceSize offset = 0;
 };
 inline Binding frame_binding(const ConstantsRange& constants)

@@ -3,22 +3,18 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
+#include "gpu/outputs/aov_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform sampler2D depth_map;
-layout(binding = 2) uniform sampler2D color_map;
-layout(binding = 3) uniform sampler2D normals_map;
-layout(binding = 4) uniform sampler2D material_map;
-layout(binding = 5) uniform sampler2D weather_map;
-layout(binding = 6) uniform sampler2D emission_map;
-layout(binding = 7, scalar) writeonly buffer Output { vec4 values[]; };
+layout(local_size_x = AOV_TILE, local_size_y = AOV_TILE) in;
+layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = AOV_DEPTH) uniform sampler2D depth_map;
+layout(binding = AOV_COLOR) uniform sampler2D color_map;
+layout(binding = AOV_NORMALS) uniform sampler2D normals_map;
+layout(binding = AOV_MATERIAL) uniform sampler2D material_map;
+layout(binding = AOV_WEATHER) uniform sampler2D weather_map;
+layout(binding = AOV_EMISSION) uniform sampler2D emission_map;
+layout(binding = AOV_OUTPUT, scalar) writeonly buffer Output { vec4 values[]; };
 
-struct AovParams {
-    uint kind;
-    uint has_weather;   // 0: the target was not written in this frame
-    uint has_emission;
-};
 layout(push_constant, scalar) uniform Push { AovParams params; };
 
 void main()

@@ -24,16 +24,6 @@ bool Frustum::touches(const glm::vec3& centre_m, float radius_m) const
     return true;
 }
 
-void set_viewport(VkCommandBuffer commands, int width, int height)
-{
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(width), static_cast<float>(height),
-                              0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0},
-                           {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}};
-    vkCmdSetViewportWithCount(commands, 1, &viewport);
-    vkCmdSetScissorWithCount(commands, 1, &scissor);
-}
-
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene)
 {
     const VkBuffer buffer = scene.vertices().buffer.get();

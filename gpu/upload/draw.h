@@ -13,7 +13,6 @@ struct Frustum {
     bool touches(const glm::vec3& centre_m, float radius_m) const;
 };
 
-void set_viewport(VkCommandBuffer commands, int width, int height);
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
 void set_facing(VkCommandBuffer commands, bool double_sided, bool mirrored);
 

@@ -48,15 +48,13 @@ TEST_P(Parity, DeviceAndCpuAgree)
     auto output =
         arena.buffer({.name = "results", .size = kCount * sizeof(glm::vec4), .host = true});
     FrameGraph graph;
-    graph.add(
-        {.name = "probe",
-         .uses = {{input, Use::TexelRead}, {output, Use::StorageWrite}},
-         .record = [&](PassContext& pass) {
-             pass.bind_compute("formula_probe.comp", {}, {texels(*input), storage_buffer(*output)});
-             pass.push(kind);
-             pass.dispatch(kCount / 64, 1);
-         }});
-    graph.add({.name = "read_back", .uses = {{output, Use::HostRead}}, .record = {}});
+    graph.add(ComputePass{.name = "probe",
+                          .shader = "formula_probe.comp",
+                          .constants = {},
+                          .bindings = {{0, texels(*input)}, {1, storage_buffer(*output)}},
+                          .push = PushBlock(kind),
+                          .groups = {kCount / 64, 1, 1}});
+    graph.read_back({output.get()});
     graph.execute(device, pipelines, descriptors);
 
     int different = 0;

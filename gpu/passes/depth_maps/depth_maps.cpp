@@ -22,25 +22,10 @@ ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uin
     return {device.handle(), view};
 }
 
-// Draws every caster that the view can see into one depth image.
-void draw_depth(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
-                VkImageView view, int size)
+// Draws every caster that the view can see.
+void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world)
 {
-    VkRenderingAttachmentInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    depth.imageView = view;
-    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    VkRenderingInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    rendering.renderArea.extent = {static_cast<std::uint32_t>(size),
-                                   static_cast<std::uint32_t>(size)};
-    rendering.layerCount = 1;
-    rendering.pDepthAttachment = &depth;
     const VkCommandBuffer commands = pass.commands();
-    vkCmdBeginRendering(commands, &rendering);
-    set_viewport(commands, size, size);
     bind_geometry(commands, scene);
 
     GraphicsDesc plain;
@@ -62,16 +47,13 @@ void draw_depth(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const Pipeline& wanted = pass.pipelines().graphics(material.masked ? masked : plain);
         if (bound != &wanted) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted.pipeline.get());
-            pass.use_layout(wanted.layout);
+            pass.bind(wanted);
             bound = &wanted;
             bound_material = UINT32_MAX;
         }
         if (material.masked && bound_material != draw.material) {
-            const VkDescriptorSet set = pass.descriptors().set(
-                wanted.set_layouts[0], {material.bindings[0], material.bindings[1]});
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wanted.layout, 0, 1,
-                                    &set, 0, nullptr);
+            const std::vector<Binding> bindings{material.bindings[0], material.bindings[1]};
+            pass.bind_set(0, pass.descriptors().set(wanted.set_layouts[0], bindings));
             bound_material = draw.material;
         }
         // Thin things such as leaves and roofs of one polygon cast from both sides.
@@ -79,7 +61,20 @@ void draw_depth(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_
         pass.push(clip_from_world * draw.to_world);
         vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, draw.vertex_offset, 0);
     }
-    vkCmdEndRendering(commands);
+}
+
+void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
+                   const DepthView& view, GpuImage& map, VkImageView layer)
+{
+    graph.add(DrawPass{.name = name,
+                       .colors = {},
+                       .depth = Attachment(map, layer),
+                       .width = map.width,
+                       .height = map.height,
+                       .bindings = {},
+                       .record = [&scene, &view](PassContext& pass) {
+                           draw_casters(pass, scene, view.clip_from_world);
+                       }});
 }
 
 }  // namespace
@@ -118,36 +113,24 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
 
 void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
 {
-    graph.add({.name = "shadow",
-               .uses = {{maps.shadow, Use::DepthTarget}},
-               .record = [&maps, &scene](PassContext& pass) {
-                   for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
-                       draw_depth(pass, scene, maps.shadow_views[i].clip_from_world,
-                                  maps.shadow_layers[i].get(), kShadowMapSize);
-                   }
-               }});
+    for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
+        add_depth_map(graph, "shadow", scene, maps.shadow_views[i], *maps.shadow,
+                      maps.shadow_layers[i].get());
+    }
 }
 
 void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
 {
-    graph.add({.name = "sky_visibility",
-               .uses = {{maps.sky, Use::DepthTarget}},
-               .record = [&maps, &scene](PassContext& pass) {
-                   for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
-                       draw_depth(pass, scene, maps.sky_views[i].clip_from_world,
-                                  maps.sky_layers[i].get(), kSkyMapSize);
-                   }
-               }});
+    for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
+        add_depth_map(graph, "sky_visibility", scene, maps.sky_views[i], *maps.sky,
+                      maps.sky_layers[i].get());
+    }
 }
 
 void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
 {
-    graph.add({.name = "shelter",
-               .uses = {{maps.shelter, Use::DepthTarget}},
-               .record = [&maps, &scene](PassContext& pass) {
-                   draw_depth(pass, scene, maps.shelter_view.clip_from_world,
-                              maps.shelter->view.get(), kShelterMapSize);
-               }});
+    add_depth_map(graph, "shelter", scene, maps.shelter_view, *maps.shelter,
+                  maps.shelter->view.get());
 }
 
 }  // namespace petrichor::gpu

@@ -7,38 +7,39 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/upload/material_io.h"
+#include "gpu/passes/lighting/lighting_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.glsl"
 #include "formulas/weather/surface_weather.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint WEATHER = 1u;
-layout(constant_id = 1) const uint SHADOWS = 1u;
-layout(constant_id = 2) const uint IMAGE_BASED_LIGHT = 1u;
-layout(constant_id = 3) const uint AMBIENT_OCCLUSION = 1u;
-layout(constant_id = 4) const uint EMISSION = 1u;
-layout(constant_id = 5) const uint ALL_LIGHTS = 0u;  // 1: no lists; what they are tested against
+layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
+layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
+layout(constant_id = LIGHTING_SPEC_SHADOWS) const uint SHADOWS = 1u;
+layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIGHT = 1u;
+layout(constant_id = LIGHTING_SPEC_AMBIENT_OCCLUSION) const uint AMBIENT_OCCLUSION = 1u;
+layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
+layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
 
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
-layout(binding = 2) uniform sampler2D depth_map;
-layout(binding = 3) uniform sampler2D color_map;
-layout(binding = 4) uniform sampler2D normals_map;
-layout(binding = 5) uniform sampler2D material_map;
-layout(binding = 6) uniform sampler2D weather_map;
-layout(binding = 7) uniform sampler2D emission_map;
-layout(binding = 8) uniform sampler2D occlusion_map;
-layout(binding = 9) uniform sampler2DArrayShadow shadow_map;
-layout(binding = 10) uniform samplerCube specular_map;
-layout(binding = 11) uniform sampler2D env_brdf;
-layout(binding = 12) uniform samplerCube sky_map;
-layout(binding = 13) uniform samplerBuffer lights;
-layout(binding = 14) uniform usamplerBuffer light_lists;
-layout(binding = 15, rgba32f) uniform image2D accumulated;
-layout(binding = 16) uniform sampler2DArrayShadow sky_visibility_map;
-layout(binding = 17, rgba16f) uniform writeonly image2D radiance_out;
-layout(binding = 18, rgba16f) uniform writeonly image2D mirror_weight;
-layout(binding = 19, rgba16_snorm) uniform writeonly image2D mirror_shape;
+layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
+layout(binding = LIGHTING_DEPTH) uniform sampler2D depth_map;
+layout(binding = LIGHTING_COLOR) uniform sampler2D color_map;
+layout(binding = LIGHTING_NORMALS) uniform sampler2D normals_map;
+layout(binding = LIGHTING_MATERIAL) uniform sampler2D material_map;
+layout(binding = LIGHTING_WEATHER) uniform sampler2D weather_map;
+layout(binding = LIGHTING_EMISSION) uniform sampler2D emission_map;
+layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
+layout(binding = LIGHTING_SHADOW) uniform sampler2DArrayShadow shadow_map;
+layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
+layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
+layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
+layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
+layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
+layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
+layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
+layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
+layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
+layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
 const float kMirrorRoughness = 0.32;

@@ -17,13 +17,6 @@ struct LightingVariant {
     bool all_lights = false;  ///< without lists: what they are tested against
 };
 
-// Screen-space ambient occlusion.
-//
-//   reads    depth, normals
-//   writes   screen_occlusion
-void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants);
-
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
@@ -32,28 +25,6 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
 void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, SkyMaps& sky,
                   DepthMaps& depth_maps, const ConstantsRange& constants,
                   const LightingVariant& variant);
-
-// Adds what smooth surfaces mirror of the picture itself, else of the sky; then adds the sample to
-// the sum.
-//
-//   reads    depth, radiance, mirror_weight, mirror_shape, sky maps
-//   edits    accumulated
-void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                     const ConstantsRange& constants);
-
-// Mean of the samples, as halves and as display bytes.
-//
-//   reads    accumulated, sky_light
-//   writes   beauty, display
-void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                 const ConstantsRange& constants);
-
-// One labelled output from the G-buffer; `kind` indexes aov_table().
-//
-//   reads    the G-buffer
-//   writes   aovs[slot]
-void add_aov(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
-             std::size_t slot, std::uint32_t kind, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu
 

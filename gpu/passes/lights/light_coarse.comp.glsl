@@ -3,11 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/lights/light_volume.glsl"
+#include "gpu/passes/lights/lights_io.h"
 
-layout(local_size_x = 64) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform samplerBuffer lights;
-layout(binding = 2, scalar) writeonly buffer Words { uint words[]; };
+layout(local_size_x = LIGHT_COARSE_GROUP) in;
+layout(binding = LIGHT_COARSE_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = LIGHT_COARSE_LIGHTS) uniform samplerBuffer lights;
+layout(binding = LIGHT_COARSE_WORDS, scalar) writeonly buffer Words { uint words[]; };
 
 void main()
 {

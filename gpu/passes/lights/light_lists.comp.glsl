@@ -3,13 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/lights/light_volume.glsl"
+#include "gpu/passes/lights/lights_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform samplerBuffer lights;
-layout(binding = 2) uniform usamplerBuffer words;
-layout(binding = 3) uniform sampler2D depth_map;
-layout(binding = 4, scalar) writeonly buffer Lists { uint lists[]; };
+layout(local_size_x = LIGHT_LISTS_TILE, local_size_y = LIGHT_LISTS_TILE) in;
+layout(binding = LIGHT_LISTS_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = LIGHT_LISTS_LIGHTS) uniform samplerBuffer lights;
+layout(binding = LIGHT_LISTS_WORDS) uniform usamplerBuffer words;
+layout(binding = LIGHT_LISTS_DEPTH) uniform sampler2D depth_map;
+layout(binding = LIGHT_LISTS_LISTS, scalar) writeonly buffer Lists { uint lists[]; };
 
 void main()
 {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/lights/lights_io.h"
 
 namespace petrichor::gpu {
 
@@ -50,30 +51,29 @@ void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& light
                      const ConstantsRange& constants)
 {
     if (lights.words() > 0) {
+        const std::uint32_t groups = (lights.words() + LIGHT_COARSE_GROUP - 1) / LIGHT_COARSE_GROUP;
+        const int tiles = targets.coarse_x() * targets.coarse_y();
         graph.add(
-            {.name = "light_coarse",
-             .uses = {{lights.texels, Use::TexelRead}, {targets.coarse_lights, Use::StorageWrite}},
-             .record = [=, &targets, &lights](PassContext& pass) {
-                 pass.bind_compute("light_coarse.comp", {},
-                                   {frame_binding(constants), texels(*lights.texels),
-                                    storage_buffer(*targets.coarse_lights)});
-                 pass.dispatch(static_cast<int>((lights.words() + 63) / 64),
-                               targets.coarse_x() * targets.coarse_y());
-             }});
+            ComputePass{.name = "light_coarse",
+                        .shader = "light_coarse.comp",
+                        .constants = {},
+                        .bindings = {{LIGHT_COARSE_FRAME, frame_binding(constants)},
+                                     {LIGHT_COARSE_LIGHTS, texels(*lights.texels)},
+                                     {LIGHT_COARSE_WORDS, storage_buffer(*targets.coarse_lights)}},
+                        .push = {},
+                        .groups = {groups, static_cast<std::uint32_t>(tiles), 1}});
     }
-    graph.add({.name = "light_lists",
-               .uses = {{lights.texels, Use::TexelRead},
-                        {targets.coarse_lights, Use::TexelRead},
-                        {targets.gbuffer.depth, Use::Sampled},
-                        {targets.light_lists, Use::StorageWrite}},
-               .record = [=, &targets, &lights](PassContext& pass) {
-                   pass.bind_compute("light_lists.comp", {},
-                                     {frame_binding(constants), texels(*lights.texels),
-                                      texels(*targets.coarse_lights),
-                                      sampled(*targets.gbuffer.depth, targets.nearest),
-                                      storage_buffer(*targets.light_lists)});
-                   pass.dispatch_over(targets.tiles_x(), targets.tiles_y(), 8);
-               }});
+    graph.add(ComputePass{
+        .name = "light_lists",
+        .shader = "light_lists.comp",
+        .constants = {},
+        .bindings = {{LIGHT_LISTS_FRAME, frame_binding(constants)},
+                     {LIGHT_LISTS_LIGHTS, texels(*lights.texels)},
+                     {LIGHT_LISTS_WORDS, texels(*targets.coarse_lights)},
+                     {LIGHT_LISTS_DEPTH, sampled(*targets.gbuffer.depth, targets.nearest)},
+                     {LIGHT_LISTS_LISTS, storage_buffer(*targets.light_lists)}},
+        .push = {},
+        .groups = groups_over(targets.tiles_x(), targets.tiles_y(), LIGHT_LISTS_TILE)});
 }
 
 std::uint32_t count_overflows(const FrameTargets& targets)

@@ -3,9 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/brdf.h"
+#include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rg16f) uniform writeonly image2D target;
+layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
+layout(binding = SKY_ALONE_TARGET, rg16f) uniform writeonly image2D target;
 
 const int kSamples = 512;
 

@@ -4,15 +4,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "base/interop.h"
 #include "gpu/passes/sky/cube.glsl"
+#include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D map;
-layout(binding = 1, rgba16f) uniform writeonly image2DArray target;
+layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
+layout(binding = SKY_SOURCE) uniform sampler2D map;
+layout(binding = SKY_TARGET, rgba16f) uniform writeonly image2DArray target;
 
-struct EnvironmentParams {
-    float rotation_rad;
-    float scale;
-};
 layout(push_constant, scalar) uniform Push { EnvironmentParams params; };
 
 void main()

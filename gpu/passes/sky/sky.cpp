@@ -6,6 +6,7 @@
 #include "formulas/light/brdf.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sun.h"
+#include "gpu/passes/sky/sky_io.h"
 
 namespace petrichor::gpu {
 
@@ -20,18 +21,6 @@ constexpr int kCubeMips = 9;
 constexpr int kIrradianceMip = 4;  // 16 texels a side
 constexpr int kSpecularSize = 64;
 constexpr int kBrdfSize = 64;
-constexpr int kTile = 8;
-
-struct PrefilterParams {
-    float roughness, source_size, source_mips;
-};
-struct EnvironmentParams {
-    float rotation_rad, scale;
-};
-struct SkyLightParams {
-    glm::vec3 sun_illuminance;
-    float sun_up, mip, face_size, exposure, bias, ambient_scale, floor_lux;
-};
 
 std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int size, int mips)
 {
@@ -50,22 +39,24 @@ std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int siz
 // Mips of the cube, then the lobes that the specular light reads.
 void add_filtered(FrameGraph& graph, SkyMaps& maps)
 {
-    graph.add({.name = "sky_mips",
-               .uses = {{maps.cube, Use::TransferTarget}},
-               .record = [&maps](PassContext& pass) { record_mips(pass.commands(), *maps.cube); }});
-    graph.add({.name = "sky_specular",
-               .uses = {{maps.cube, Use::Sampled}, {maps.specular, Use::StorageWrite}},
-               .record = [&maps](PassContext& pass) {
-                   for (int mip = 0; mip < SKY_PREFILTER_MIPS; ++mip) {
-                       pass.bind_compute(
-                           "sky_specular.comp", {},
-                           {sampled(*maps.cube, maps.linear), storage(*maps.specular, mip)});
-                       pass.push(PrefilterParams{
-                           static_cast<float>(mip) / static_cast<float>(SKY_PREFILTER_MIPS - 1),
-                           static_cast<float>(kCubeSize), static_cast<float>(kCubeMips)});
-                       pass.dispatch_over(kSpecularSize >> mip, kSpecularSize >> mip, kTile, 6);
-                   }
-               }});
+    graph.add(TransferPass{
+        .name = "sky_mips",
+        .transfers = {{maps.cube.get(), nullptr, Use::TransferTarget}},
+        .record = [&maps](VkCommandBuffer commands) { record_mips(commands, *maps.cube); }});
+    for (int mip = 0; mip < SKY_PREFILTER_MIPS; ++mip) {
+        const float roughness =
+            static_cast<float>(mip) / static_cast<float>(SKY_PREFILTER_MIPS - 1);
+        const int size = kSpecularSize >> mip;
+        graph.add(ComputePass{
+            .name = "sky_specular",
+            .shader = "sky_specular.comp",
+            .constants = {},
+            .bindings = {{SKY_SOURCE, sampled(*maps.cube, maps.linear)},
+                         {SKY_TARGET, storage(*maps.specular, mip)}},
+            .push = PushBlock(shared::PrefilterParams{roughness, static_cast<float>(kCubeSize),
+                                                      static_cast<float>(kCubeMips)}),
+            .groups = groups_over(size, size, SKY_TILE, 6)});
+    }
 }
 
 }  // namespace
@@ -120,64 +111,65 @@ SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
 {
 }
 
+Binding sky_light_binding(SkyMaps& maps)
+{
+    return uniform(*maps.light, 0, sizeof(shared::SkyLight));
+}
+
 void add_env_brdf(FrameGraph& graph, SkyMaps& maps)
 {
-    graph.add({.name = "env_brdf",
-               .uses = {{maps.env_brdf, Use::StorageWrite}},
-               .record = [&maps](PassContext& pass) {
-                   pass.bind_compute("env_brdf.comp", {}, {storage(*maps.env_brdf)});
-                   pass.dispatch_over(kBrdfSize, kBrdfSize, kTile);
-               }});
+    graph.add(ComputePass{.name = "env_brdf",
+                          .shader = "env_brdf.comp",
+                          .constants = {},
+                          .bindings = {{SKY_ALONE_TARGET, storage(*maps.env_brdf)}},
+                          .push = {},
+                          .groups = groups_over(kBrdfSize, kBrdfSize, SKY_TILE)});
 }
 
 void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params)
 {
-    graph.add({.name = "sky_air",
-               .uses = {{maps.air, Use::StorageWrite}},
-               .record = [&maps, params](PassContext& pass) {
-                   pass.bind_compute("sky_air.comp", {}, {storage(*maps.air)});
-                   pass.push(params);
-                   pass.dispatch_over(kAirWidth, kAirHeight, kTile);
-               }});
-    graph.add({.name = "sky_cube",
-               .uses = {{maps.air, Use::Sampled}, {maps.cube, Use::StorageWrite}},
-               .record = [&maps, params](PassContext& pass) {
-                   pass.bind_compute("sky_cube.comp", {},
-                                     {sampled(*maps.air, maps.linear), storage(*maps.cube, 0)});
-                   pass.push(params);
-                   pass.dispatch_over(kCubeSize, kCubeSize, kTile, 6);
-               }});
+    graph.add(ComputePass{.name = "sky_air",
+                          .shader = "sky_air.comp",
+                          .constants = {},
+                          .bindings = {{SKY_ALONE_TARGET, storage(*maps.air)}},
+                          .push = PushBlock(params),
+                          .groups = groups_over(kAirWidth, kAirHeight, SKY_TILE)});
+    graph.add(ComputePass{.name = "sky_cube",
+                          .shader = "sky_cube.comp",
+                          .constants = {},
+                          .bindings = {{SKY_SOURCE, sampled(*maps.air, maps.linear)},
+                                       {SKY_TARGET, storage(*maps.cube, 0)}},
+                          .push = PushBlock(params),
+                          .groups = groups_over(kCubeSize, kCubeSize, SKY_TILE, 6)});
     add_filtered(graph, maps);
 }
 
 void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float scale,
                      float rotation_rad)
 {
-    graph.add({.name = "environment",
-               .uses = {{lat_long, Use::Sampled}, {maps.cube, Use::StorageWrite}},
-               .record = [&maps, &lat_long, scale, rotation_rad](PassContext& pass) {
-                   pass.bind_compute("environment_cube.comp", {},
-                                     {sampled(lat_long, maps.wrap_u), storage(*maps.cube, 0)});
-                   pass.push(EnvironmentParams{rotation_rad, scale});
-                   pass.dispatch_over(kCubeSize, kCubeSize, kTile, 6);
-               }});
+    graph.add(ComputePass{.name = "environment",
+                          .shader = "environment_cube.comp",
+                          .constants = {},
+                          .bindings = {{SKY_SOURCE, sampled(lat_long, maps.wrap_u)},
+                                       {SKY_TARGET, storage(*maps.cube, 0)}},
+                          .push = PushBlock(shared::EnvironmentParams{rotation_rad, scale}),
+                          .groups = groups_over(kCubeSize, kCubeSize, SKY_TILE, 6)});
     add_filtered(graph, maps);
 }
 
 void add_sky_light(FrameGraph& graph, SkyMaps& maps, const Metering& metering)
 {
-    graph.add(
-        {.name = "sky_light",
-         .uses = {{maps.cube, Use::Sampled}, {maps.light, Use::StorageWrite}},
-         .record = [&maps, metering](PassContext& pass) {
-             pass.bind_compute("sky_light.comp", {},
-                               {sampled(*maps.cube, maps.linear), storage_buffer(*maps.light)});
-             pass.push(SkyLightParams{
-                 metering.sun_illuminance, metering.sun_up, static_cast<float>(kIrradianceMip),
-                 static_cast<float>(kCubeSize >> kIrradianceMip), metering.exposure, metering.bias,
-                 metering.ambient_scale, metering.floor_lux});
-             pass.dispatch(1, 1);
-         }});
+    graph.add(ComputePass{
+        .name = "sky_light",
+        .shader = "sky_light.comp",
+        .constants = {},
+        .bindings = {{SKY_SOURCE, sampled(*maps.cube, maps.linear)},
+                     {SKY_TARGET, storage_buffer(*maps.light)}},
+        .push = PushBlock(shared::SkyLightParams{
+            metering.sun_illuminance, metering.sun_up, static_cast<float>(kIrradianceMip),
+            static_cast<float>(kCubeSize >> kIrradianceMip), metering.exposure, metering.bias,
+            metering.ambient_scale, metering.floor_lux}),
+        .groups = {}});
 }
 
 }  // namespace petrichor::gpu

@@ -26,6 +26,9 @@ struct SkyMaps {
     bool drawn_valid = false;
 };
 
+/// The light of the sky as the uniform block that shaders read.
+Binding sky_light_binding(SkyMaps& maps);
+
 // Split-sum table of GGX; once.
 void add_env_brdf(FrameGraph& graph, SkyMaps& maps);
 

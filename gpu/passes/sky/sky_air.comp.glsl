@@ -5,9 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/atmosphere.h"
 #include "gpu/passes/sky/sky_light_io.h"
+#include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba16f) uniform writeonly image2D target;
+layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
+layout(binding = SKY_ALONE_TARGET, rgba16f) uniform writeonly image2D target;
 layout(push_constant, scalar) uniform Push { SkyParams sky; };
 
 void main()

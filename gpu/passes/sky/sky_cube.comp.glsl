@@ -5,10 +5,11 @@
 #include "formulas/light/atmosphere.h"
 #include "gpu/passes/sky/clouds.glsl"
 #include "gpu/passes/sky/cube.glsl"
+#include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D air;
-layout(binding = 1, rgba16f) uniform writeonly image2DArray target;
+layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
+layout(binding = SKY_SOURCE) uniform sampler2D air;
+layout(binding = SKY_TARGET, rgba16f) uniform writeonly image2DArray target;
 layout(push_constant, scalar) uniform Push { SkyParams sky; };
 
 vec3 clear_air(vec3 direction)

@@ -5,21 +5,12 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/passes/sky/cube.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
+#include "gpu/passes/sky/sky_io.h"
 
 layout(local_size_x = 9) in;
-layout(binding = 0) uniform samplerCube sky;
-layout(binding = 1, scalar) writeonly buffer Output { SkyLight result; };
+layout(binding = SKY_SOURCE) uniform samplerCube sky;
+layout(binding = SKY_TARGET, scalar) writeonly buffer Output { SkyLight result; };
 
-struct SkyLightParams {
-    vec3 sun_illuminance;
-    float sun_up;
-    float mip;
-    float face_size;
-    float exposure;   // > 0: given
-    float bias;
-    float ambient_scale;
-    float floor_lux;
-};
 layout(push_constant, scalar) uniform Push { SkyLightParams params; };
 
 shared vec3 coefficients[9];

@@ -5,16 +5,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/brdf.h"
 #include "gpu/passes/sky/cube.glsl"
+#include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform samplerCube sky;
-layout(binding = 1, rgba16f) uniform writeonly image2DArray target;
+layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
+layout(binding = SKY_SOURCE) uniform samplerCube sky;
+layout(binding = SKY_TARGET, rgba16f) uniform writeonly image2DArray target;
 
-struct PrefilterParams {
-    float roughness;
-    float source_size;
-    float source_mips;
-};
 layout(push_constant, scalar) uniform Push { PrefilterParams params; };
 
 const int kSamples = 48;

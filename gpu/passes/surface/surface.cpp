@@ -4,22 +4,12 @@
 #include <tuple>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/surface/surface_io.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
 
 namespace {
-
-VkRenderingAttachmentInfo attachment(const GpuImage& image, VkImageLayout layout)
-{
-    VkRenderingAttachmentInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    info.imageView = image.view.get();
-    info.imageLayout = layout;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info;
-}
 
 shared::DrawConstants draw_constants(const Draw& draw)
 {
@@ -75,62 +65,37 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
 {
     GBuffer& g = targets.gbuffer;
     const bool emission = scene.emissive();
-    graph.add({
+    std::vector<Attachment> colors{Attachment(*g.color), Attachment(*g.normals),
+                                   Attachment(*g.material)};
+    if (weather.any) colors.emplace_back(*g.weather);
+    if (emission) colors.emplace_back(*g.emission);
+    const bool any_weather = weather.any;
+    graph.add(DrawPass{
         .name = "surface",
-        .uses = {{maps.ripple, Use::Sampled},
-                 {maps.flow, Use::Sampled},
-                 {maps.snow, Use::Sampled},
-                 {depth_maps.shelter, Use::Sampled},
-                 {g.color, Use::ColorTarget},
-                 {g.normals, Use::ColorTarget},
-                 {g.material, Use::ColorTarget},
-                 {g.weather, Use::ColorTarget},
-                 {g.emission, Use::ColorTarget},
-                 {g.depth, Use::DepthTarget}},
+        .colors = colors,
+        .depth = Attachment(*g.depth),
+        .width = targets.width,
+        .height = targets.height,
+        .bindings = {{SURFACE_FRAME, frame_binding(constants)},
+                     {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
+                     {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                     {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                     {SURFACE_SHELTER, sampled(*depth_maps.shelter, depth_maps.compare)}},
         .record =
-            [=, &targets, &scene, &maps, &depth_maps](PassContext& pass) {
-                GBuffer& out = targets.gbuffer;
-                std::vector<const GpuImage*> colors{out.color.get(), out.normals.get(),
-                                                    out.material.get()};
-                if (weather.any) colors.push_back(out.weather.get());
-                if (emission) colors.push_back(out.emission.get());
+            [=, &scene](PassContext& pass) {
                 GraphicsDesc desc;
                 desc.vertex = "surface.vert";
-                desc.fragment = weather.any ? (emission ? "surface.frag" : "surface_dark.frag")
+                desc.fragment = any_weather ? (emission ? "surface.frag" : "surface_dark.frag")
                                             : (emission ? "surface_dry.frag" : "surface_lean.frag");
                 desc.stride = sizeof(Vertex);
                 desc.attributes = vertex_attributes();
-                std::vector<VkRenderingAttachmentInfo> attachments;
-                for (const GpuImage* image : colors) {
-                    desc.colors.push_back(image->format);
-                    attachments.push_back(
-                        attachment(*image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
-                }
-                const VkRenderingAttachmentInfo depth =
-                    attachment(*out.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-                const std::vector<Binding> frame_bindings{
-                    frame_binding(constants), sampled(*maps.ripple, maps.trilinear),
-                    sampled(*maps.flow, maps.trilinear), sampled(*maps.snow, maps.trilinear),
-                    sampled(*depth_maps.shelter, depth_maps.compare)};
-                desc.sets.push_back(types_of(frame_bindings));
+                desc.colors = pass.color_formats();
+                desc.sets.push_back(pass.set_types());
                 BindingTypes material_types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
                 material_types.resize(1 + TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
                 desc.sets.push_back(material_types);
 
                 const VkCommandBuffer commands = pass.commands();
-                VkRenderingInfo rendering{};
-                rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-                rendering.renderArea.extent = {static_cast<std::uint32_t>(targets.width),
-                                               static_cast<std::uint32_t>(targets.height)};
-                rendering.layerCount = 1;
-                rendering.colorAttachmentCount = static_cast<std::uint32_t>(attachments.size());
-                rendering.pColorAttachments = attachments.data();
-                rendering.pDepthAttachment = &depth;
-                vkCmdBeginRendering(commands, &rendering);
-                set_viewport(commands, targets.width, targets.height);
-
-                const VkDescriptorSet frame_set = pass.descriptors().set(
-                    pass.pipelines().set_layout(desc.sets[0]), frame_bindings);
                 const VkDescriptorSetLayout material_layout =
                     pass.pipelines().set_layout(desc.sets[1]);
                 bind_geometry(commands, scene);
@@ -141,18 +106,12 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     const GpuMaterial& material = scene.materials()[draw.material];
                     const Pipeline& pipeline = pass.pipelines().graphics(wanted);
                     if (&pipeline != bound) {
-                        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                          pipeline.pipeline.get());
-                        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                                pipeline.layout, 0, 1, &frame_set, 0, nullptr);
-                        pass.use_layout(pipeline.layout);
+                        pass.bind(pipeline);
                         bound = &pipeline;
                     }
                     if (shaded && draw.material != bound_material) {
-                        const VkDescriptorSet set =
-                            pass.descriptors().set(material_layout, material.bindings);
-                        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                                pipeline.layout, 1, 1, &set, 0, nullptr);
+                        pass.bind_set(1,
+                                      pass.descriptors().set(material_layout, material.bindings));
                         bound_material = draw.material;
                     }
                     set_facing(commands, material.double_sided, draw.mirrored);
@@ -162,7 +121,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
                 // shaded once.
-                const bool depth_first = weather.any;
+                const bool depth_first = any_weather;
                 GraphicsDesc depth_only = desc;
                 depth_only.vertex = "surface_depth.vert";
                 depth_only.fragment.clear();
@@ -174,14 +133,14 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 for (const Draw* draw : draws) {
                     const bool holes = has_holes(scene, *draw);
                     GraphicsDesc shaded = desc;
-                    shaded.specialization = {{1, holes ? 1u : 0u},
-                                             {2, scene.materials()[draw->material].slots},
-                                             {3, weather.water ? 1u : 0u},
-                                             {4, weather.snow ? 1u : 0u}};
+                    shaded.specialization = {
+                        {SURFACE_SPEC_HOLES, holes},
+                        {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
+                        {SURFACE_SPEC_WATER, weather.water},
+                        {SURFACE_SPEC_SNOW, weather.snow}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);
                 }
-                vkCmdEndRendering(commands);
             },
     });
 }

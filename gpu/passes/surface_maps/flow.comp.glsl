@@ -3,14 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/noise/noise.glsl"
+#include "gpu/passes/surface_maps/surface_maps_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba8) uniform writeonly image2D target;
+layout(local_size_x = SURFACE_MAPS_TILE, local_size_y = SURFACE_MAPS_TILE) in;
+layout(binding = SURFACE_MAPS_ALONE_TARGET, rgba8) uniform writeonly image2D target;
 
-struct FlowParams {
-    float time_s;
-    float tile_m;
-};
 layout(push_constant, scalar) uniform Push { FlowParams params; };
 
 const int kWaves = 18;

@@ -3,16 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/weather/ripple.h"
+#include "gpu/passes/surface_maps/surface_maps_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D source;
-layout(binding = 1, rgba8) uniform writeonly image2D target;
+layout(local_size_x = SURFACE_MAPS_TILE, local_size_y = SURFACE_MAPS_TILE) in;
+layout(binding = RIPPLE_SOURCE) uniform sampler2D source;
+layout(binding = RIPPLE_TARGET, rgba8) uniform writeonly image2D target;
 
-struct RippleParams {
-    float rain;
-    float time_s;
-    float speed;
-};
 layout(push_constant, scalar) uniform Push { RippleParams params; };
 
 void main()

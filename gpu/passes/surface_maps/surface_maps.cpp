@@ -1,5 +1,7 @@
 #include "gpu/passes/surface_maps/surface_maps.h"
 
+#include "gpu/passes/surface_maps/surface_maps_io.h"
+
 namespace petrichor::gpu {
 
 namespace {
@@ -8,7 +10,6 @@ constexpr int kRippleSize = 512;
 constexpr int kRippleMips = 10;
 constexpr int kFlowSize = 256;
 constexpr int kFlowMips = 9;
-constexpr int kTile = 8;
 
 std::unique_ptr<GpuImage> map(MemoryArena& arena, const char* name, int size, int mips)
 {
@@ -23,17 +24,11 @@ std::unique_ptr<GpuImage> map(MemoryArena& arena, const char* name, int size, in
 
 void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
 {
-    graph.add({.name = name,
-               .uses = {{image, Use::TransferTarget}},
-               .record = [&image](PassContext& pass) { record_mips(pass.commands(), image); }});
+    graph.add(TransferPass{
+        .name = name,
+        .transfers = {{&image, nullptr, Use::TransferTarget}},
+        .record = [&image](VkCommandBuffer commands) { record_mips(commands, image); }});
 }
-
-struct RippleParams {
-    float rain, time_s, speed;
-};
-struct FlowParams {
-    float time_s, tile_m;
-};
 
 }  // namespace
 
@@ -49,44 +44,43 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena)
 
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
 {
-    graph.add({.name = "ripple_source",
-               .uses = {{maps.ripple_source, Use::StorageWrite}},
-               .record = [&maps](PassContext& pass) {
-                   pass.bind_compute("ripple_source.comp", {}, {storage(*maps.ripple_source)});
-                   pass.dispatch_over(kRippleSize, kRippleSize, kTile);
-               }});
-    graph.add({.name = "snow_mask",
-               .uses = {{maps.snow, Use::StorageWrite}},
-               .record = [&maps](PassContext& pass) {
-                   pass.bind_compute("snow_mask.comp", {}, {storage(*maps.snow, 0)});
-                   pass.dispatch_over(kRippleSize, kRippleSize, kTile);
-               }});
+    const Groups groups = groups_over(kRippleSize, kRippleSize, SURFACE_MAPS_TILE);
+    graph.add(ComputePass{.name = "ripple_source",
+                          .shader = "ripple_source.comp",
+                          .constants = {},
+                          .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.ripple_source)}},
+                          .push = {},
+                          .groups = groups});
+    graph.add(ComputePass{.name = "snow_mask",
+                          .shader = "snow_mask.comp",
+                          .constants = {},
+                          .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.snow, 0)}},
+                          .push = {},
+                          .groups = groups});
     add_mips(graph, "snow_mask_mips", *maps.snow);
 }
 
 void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed)
 {
-    graph.add({.name = "ripple",
-               .uses = {{maps.ripple_source, Use::Sampled}, {maps.ripple, Use::StorageWrite}},
-               .record = [&maps, rain, time_s, speed](PassContext& pass) {
-                   pass.bind_compute(
-                       "ripple.comp", {},
-                       {sampled(*maps.ripple_source, maps.trilinear), storage(*maps.ripple, 0)});
-                   pass.push(RippleParams{rain, time_s, speed});
-                   pass.dispatch_over(kRippleSize, kRippleSize, kTile);
-               }});
+    graph.add(
+        ComputePass{.name = "ripple",
+                    .shader = "ripple.comp",
+                    .constants = {},
+                    .bindings = {{RIPPLE_SOURCE, sampled(*maps.ripple_source, maps.trilinear)},
+                                 {RIPPLE_TARGET, storage(*maps.ripple, 0)}},
+                    .push = PushBlock(shared::RippleParams{rain, time_s, speed}),
+                    .groups = groups_over(kRippleSize, kRippleSize, SURFACE_MAPS_TILE)});
     add_mips(graph, "ripple_mips", *maps.ripple);
 }
 
 void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s)
 {
-    graph.add({.name = "flow",
-               .uses = {{maps.flow, Use::StorageWrite}},
-               .record = [&maps, time_s](PassContext& pass) {
-                   pass.bind_compute("flow.comp", {}, {storage(*maps.flow, 0)});
-                   pass.push(FlowParams{time_s, 0.5f});
-                   pass.dispatch_over(kFlowSize, kFlowSize, kTile);
-               }});
+    graph.add(ComputePass{.name = "flow",
+                          .shader = "flow.comp",
+                          .constants = {},
+                          .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.flow, 0)}},
+                          .push = PushBlock(shared::FlowParams{time_s, 0.5f}),
+                          .groups = groups_over(kFlowSize, kFlowSize, SURFACE_MAPS_TILE)});
     add_mips(graph, "flow_mips", *maps.flow);
 }
 

@@ -4,15 +4,16 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/color/tone_map.h"
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/resolve/resolve_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1, scalar) uniform Sky { SkyLight sky_light; };
-layout(binding = 2, rgba32f) uniform readonly image2D accumulated;
-layout(binding = 3, scalar) writeonly buffer Beauty { uvec2 beauty[]; };
-layout(binding = 4, scalar) writeonly buffer Display { uint display[]; };
+layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
+layout(binding = RESOLVE_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = RESOLVE_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
+layout(binding = RESOLVE_ACCUMULATED, rgba32f) uniform readonly image2D accumulated;
+layout(binding = RESOLVE_BEAUTY, scalar) writeonly buffer Beauty { uvec2 beauty[]; };
+layout(binding = RESOLVE_DISPLAY, scalar) writeonly buffer Display { uint display[]; };
 
 void main()
 {

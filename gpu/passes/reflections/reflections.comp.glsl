@@ -6,15 +6,16 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.glsl"
+#include "gpu/passes/reflections/reflections_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform sampler2D depth_map;
-layout(binding = 2) uniform sampler2D radiance_map;
-layout(binding = 3) uniform sampler2D mirror_weight;
-layout(binding = 4) uniform sampler2D mirror_shape;
-layout(binding = 5) uniform samplerCube specular_map;
-layout(binding = 6, rgba32f) uniform image2D accumulated;
+layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
+layout(binding = REFLECTIONS_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = REFLECTIONS_DEPTH) uniform sampler2D depth_map;
+layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
+layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
+layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
+layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
+layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 
 const int kSteps = 18;
 const int kRefinements = 4;

@@ -6,12 +6,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.glsl"
+#include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform sampler2D depth_map;
-layout(binding = 2) uniform sampler2D normal_map;
-layout(binding = 3, r8) uniform writeonly image2D target;
+layout(local_size_x = AMBIENT_OCCLUSION_TILE, local_size_y = AMBIENT_OCCLUSION_TILE) in;
+layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform sampler2D depth_map;
+layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform sampler2D normal_map;
+layout(binding = AMBIENT_OCCLUSION_TARGET, r8) uniform writeonly image2D target;
 
 const int kTaps = 8;
 

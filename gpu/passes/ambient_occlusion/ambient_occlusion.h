@@ -1,0 +1,19 @@
+#ifndef PETRICHOR_GPU_PASSES_AMBIENT_OCCLUSION_AMBIENT_OCCLUSION_H
+#define PETRICHOR_GPU_PASSES_AMBIENT_OCCLUSION_AMBIENT_OCCLUSION_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/targets.h"
+
+namespace petrichor::gpu {
+
+// Screen-space ambient occlusion.
+//
+//   reads    depth, normals
+//   writes   screen_occlusion
+void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
+                           const ConstantsRange& constants);
+
+}  // namespace petrichor::gpu
+
+#endif

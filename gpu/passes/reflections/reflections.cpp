@@ -1,0 +1,26 @@
+#include "gpu/passes/reflections/reflections.h"
+
+#include "gpu/passes/reflections/reflections_io.h"
+
+namespace petrichor::gpu {
+
+void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
+                     const ConstantsRange& constants)
+{
+    const SamplerHandle& nearest = targets.nearest;
+    graph.add(ComputePass{
+        .name = "reflections",
+        .shader = "reflections.comp",
+        .constants = {},
+        .bindings = {{REFLECTIONS_FRAME, frame_binding(constants)},
+                     {REFLECTIONS_DEPTH, sampled(*targets.gbuffer.depth, nearest)},
+                     {REFLECTIONS_RADIANCE, sampled(*targets.radiance, nearest)},
+                     {REFLECTIONS_MIRROR_WEIGHT, sampled(*targets.mirror_weight, nearest)},
+                     {REFLECTIONS_MIRROR_SHAPE, sampled(*targets.mirror_shape, nearest)},
+                     {REFLECTIONS_SPECULAR, sampled(*sky.specular, sky.linear)},
+                     {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)}},
+        .push = {},
+        .groups = groups_over(targets.width, targets.height, REFLECTIONS_TILE)});
+}
+
+}  // namespace petrichor::gpu

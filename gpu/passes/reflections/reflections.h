@@ -1,0 +1,20 @@
+#ifndef PETRICHOR_GPU_PASSES_REFLECTIONS_REFLECTIONS_H
+#define PETRICHOR_GPU_PASSES_REFLECTIONS_REFLECTIONS_H
+
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/targets.h"
+#include "gpu/passes/sky/sky.h"
+
+namespace petrichor::gpu {
+
+// Adds what smooth surfaces mirror of the picture itself, else of the sky; then adds the sample to
+// the sum.
+//
+//   reads    depth, radiance, mirror_weight, mirror_shape, sky_specular
+//   edits    accumulated
+void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
+                     const ConstantsRange& constants);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef PETRICHOR_GPU_PASSES_RESOLVE_RESOLVE_H
+#define PETRICHOR_GPU_PASSES_RESOLVE_RESOLVE_H
+
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/targets.h"
+#include "gpu/passes/sky/sky.h"
+
+namespace petrichor::gpu {
+
+// Mean of the samples, as halves and as display bytes; both are read by the host, as is the
+// exposure.
+//
+//   reads    accumulated, sky_light
+//   writes   beauty, display
+void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
+                 const ConstantsRange& constants);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,13 @@
+// Interface of the resolve pass.
+#ifndef PETRICHOR_GPU_PASSES_RESOLVE_RESOLVE_IO_H
+#define PETRICHOR_GPU_PASSES_RESOLVE_RESOLVE_IO_H
+
+#define RESOLVE_TILE 8
+
+#define RESOLVE_FRAME 0
+#define RESOLVE_SKY_LIGHT 1
+#define RESOLVE_ACCUMULATED 2
+#define RESOLVE_BEAUTY 3
+#define RESOLVE_DISPLAY 4
+
+#endif

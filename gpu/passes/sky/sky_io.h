@@ -1,0 +1,44 @@
+// Interface of the passes that make the sky's maps. Each shader reads at most one map and writes one.
+#ifndef PETRICHOR_GPU_PASSES_SKY_SKY_IO_H
+#define PETRICHOR_GPU_PASSES_SKY_SKY_IO_H
+
+#include "base/interop.h"
+
+#define SKY_TILE 8
+
+// sky_air, env_brdf: nothing is read
+#define SKY_ALONE_TARGET 0
+// sky_cube, environment_cube, sky_specular, sky_light
+#define SKY_SOURCE 0
+#define SKY_TARGET 1
+
+SHARED_BEGIN
+
+// sky_specular
+struct PrefilterParams {
+    float roughness;
+    float source_size;
+    float source_mips;
+};
+
+// environment_cube
+struct EnvironmentParams {
+    float rotation_rad;
+    float scale;
+};
+
+// sky_light
+struct SkyLightParams {
+    vec3 sun_illuminance;
+    float sun_up;
+    float mip;
+    float face_size;
+    float exposure;  // > 0: given
+    float bias;
+    float ambient_scale;
+    float floor_lux;
+};
+
+SHARED_END
+
+#endif

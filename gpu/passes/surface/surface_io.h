@@ -1,0 +1,19 @@
+// Interface of the surface pass.
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_SURFACE_IO_H
+#define PETRICHOR_GPU_PASSES_SURFACE_SURFACE_IO_H
+
+// Specialization constants. What a draw needs is known before it is compiled: a CPU driver runs
+// both sides of every branch.
+#define SURFACE_SPEC_HOLES 1  // 0: opaque, so that hidden pixels are never shaded
+#define SURFACE_SPEC_SLOTS 2  // texture slots that the material has, one bit each
+#define SURFACE_SPEC_WATER 3  // 0: no water stands anywhere in this frame
+#define SURFACE_SPEC_SNOW 4   // 0: no snow lies anywhere in this frame
+
+// Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
+#define SURFACE_FRAME 0
+#define SURFACE_RIPPLE 1
+#define SURFACE_FLOW 2
+#define SURFACE_SNOW 3
+#define SURFACE_SHELTER 4
+
+#endif

@@ -1,0 +1,30 @@
+// Interface of the passes that make the tileable maps of the weather.
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_MAPS_SURFACE_MAPS_IO_H
+#define PETRICHOR_GPU_PASSES_SURFACE_MAPS_SURFACE_MAPS_IO_H
+
+#include "base/interop.h"
+
+#define SURFACE_MAPS_TILE 8
+
+// ripple_source, snow_mask, flow: nothing is read
+#define SURFACE_MAPS_ALONE_TARGET 0
+// ripple
+#define RIPPLE_SOURCE 0
+#define RIPPLE_TARGET 1
+
+SHARED_BEGIN
+
+struct RippleParams {
+    float rain;
+    float time_s;
+    float speed;
+};
+
+struct FlowParams {
+    float time_s;
+    float tile_m;
+};
+
+SHARED_END
+
+#endif
