@@ -279,7 +279,7 @@ Shot every_slot()
     gpu::Primitive floor = ground(1.6f, shot.add(m));
     for (const glm::vec2& uv : floor.uv0) floor.uv1.emplace_back(1.0f - uv.y, uv.x);
     shot.add(floor);
-    gpu::SurfaceWeather& w = shot.frame.weather;
+    shared::WeatherMoment& w = shot.frame.weather;
     w.film_albedo = 0.4f;
     w.film_smoothness = 0.3f;
     w.flood_puddles = 0.9f;
@@ -303,7 +303,7 @@ Shot aovs()
     Material lamp = plain_material(glm::vec3(0.1f), 0.4f);
     lamp.emissive = {4000.0f, 2500.0f, 900.0f};
     shot.add(box({0.6f, 0, -0.6f}, {1.6f, 1.0f, 0.4f}, shot.add(lamp)));
-    gpu::SurfaceWeather& w = shot.frame.weather;
+    shared::WeatherMoment& w = shot.frame.weather;
     w.rain = 0.6f;
     w.flood_cracks = 0.5f;
     w.flood_puddles = 0.9f;

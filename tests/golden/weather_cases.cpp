@@ -10,7 +10,7 @@ using gpu::look;
 using gpu::Material;
 using gpu::plain_material;
 using gpu::quad;
-using gpu::SurfaceWeather;
+using shared::WeatherMoment;
 
 // A floor of stones with a hollow in its middle, a ramp at the left, a ball and a step at the
 // right, a plastered wall behind. The floor has a height map, a normal map and a puddle mask.
@@ -38,25 +38,25 @@ Shot courtyard()
     return shot;
 }
 
-SurfaceWeather film_only()
+WeatherMoment film_only()
 {
-    SurfaceWeather w;
+    WeatherMoment w;
     w.film_albedo = 0.85f;
     w.film_smoothness = 0.5f;
     return w;
 }
 
-SurfaceWeather puddles_only()
+WeatherMoment puddles_only()
 {
-    SurfaceWeather w = film_only();
+    WeatherMoment w = film_only();
     w.flood_cracks = 0.55f;
     w.flood_puddles = 0.95f;
     return w;
 }
 
-SurfaceWeather snow_only(float amount)
+WeatherMoment snow_only(float amount)
 {
-    SurfaceWeather w;
+    WeatherMoment w;
     w.snow_amount = amount;
     w.water_to_snow = 1.0f;
     w.freeze_exp = 0.999f;
@@ -132,7 +132,7 @@ Shot ripples_flow()
     shot.add(quad({-0.8f, 0, 1.5f}, {1.6f, 0, 0}, {0, 0, -3.0f}, id));
     shot.add(quad({-0.8f, 0, 1.5f}, {0, 0, -3.0f}, {-1.2f, 0.5f, 0}, id));
     shot.add(quad({0.8f, 0, -1.5f}, {0, 0, 3.0f}, {1.2f, 1.1f, 0}, id));
-    SurfaceWeather& w = shot.frame.weather;
+    WeatherMoment& w = shot.frame.weather;
     w = puddles_only();
     w.rain = 1.0f;
     w.flood_cracks = 0.8f;
@@ -185,18 +185,18 @@ Shot snow_line()
     lamp.weather.snow_opacity = 0.6f;
     shot.add(box({-0.8f, 0, 4.2f}, {0.8f, 1.2f, 5.4f}, shot.add(lamp)));
     shot.add(ground(12.0f, even));
-    SurfaceWeather& w = shot.frame.weather;
+    WeatherMoment& w = shot.frame.weather;
     w = snow_only(0.8f);
     w.snow_start_height_m = 0.5f;
     w.snow_height_blend_m = 4.0f;
-    w.snow_color = {0.85f, 0.9f, 1.0f};
+    shot.frame.look.snow_color = {0.85f, 0.9f, 1.0f};
     return shot;
 }
 
 Shot melt()
 {
     Shot shot = courtyard();
-    SurfaceWeather& w = shot.frame.weather;
+    WeatherMoment& w = shot.frame.weather;
     w = snow_only(0.5f);
     w.water_to_snow = 0.6f;
     w.freeze_exp = 0.98f;
@@ -218,7 +218,7 @@ Shot frost()
 Shot freezing()
 {
     Shot shot = courtyard();
-    SurfaceWeather& w = shot.frame.weather;
+    WeatherMoment& w = shot.frame.weather;
     w = puddles_only();
     w.rain = 0.4f;
     w.snowfall = 0.4f;
@@ -231,7 +231,7 @@ Shot freezing()
 }
 
 // A roof over the left half, in wind: rain is driven in below its edge.
-Shot under_a_roof(const SurfaceWeather& weather)
+Shot under_a_roof(const WeatherMoment& weather)
 {
     Shot shot = courtyard();
     const std::uint32_t tin = shot.add(plain_material({0.5f, 0.52f, 0.55f}, 0.4f, 1.0f));
@@ -244,7 +244,7 @@ Shot under_a_roof(const SurfaceWeather& weather)
 
 Shot shelter_rain()
 {
-    SurfaceWeather w = puddles_only();
+    WeatherMoment w = puddles_only();
     w.rain = 0.8f;
     w.flood_puddles = 1.2f;
     w.flood_cracks = 0.9f;
