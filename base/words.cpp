@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 
 namespace petrichor {
 namespace {
@@ -92,6 +93,72 @@ bool glob_matches(std::string_view pattern, std::string_view text)
     }
     while (p < pattern.size() && pattern[p] == '*') ++p;
     return p == pattern.size();
+}
+
+namespace {
+
+// One character of UTF-8 at the start of `text`: its length and code point; length 0 when
+// malformed.
+struct Character {
+    std::size_t length = 0;
+    std::uint32_t code = 0;
+};
+
+Character first_character(std::string_view text)
+{
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return {1, lead};
+    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc2 ? 2 : 0;
+    if (length == 0 || lead > 0xf4 || text.size() < length) return {};
+    std::uint32_t code = lead & (0x7fu >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0u) != 0x80u) return {};
+        code = code << 6 | (byte(i) & 0x3fu);
+    }
+    static constexpr std::uint32_t kLeast[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < kLeast[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
+    return {length, code};
+}
+
+// Characters that move the cursor, end a line or turn the direction of what follows.
+bool is_control(std::uint32_t code)
+{
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) ||
+           (code >= 0x2066 && code <= 0x2069);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text)
+{
+    static constexpr char kDigits[] = "0123456789abcdef";
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty()) {
+        const Character one = first_character(text);
+        const std::size_t length = std::max<std::size_t>(one.length, 1);
+        if (one.length > 0 && !is_control(one.code)) {
+            result += text.substr(0, length);
+        } else {
+            for (const char c : text.substr(0, length)) {
+                const auto byte = static_cast<unsigned char>(c);
+                result += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+            }
+        }
+        text.remove_prefix(length);
+    }
+    return result;
+}
+
+bool is_utf8(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length = first_character(text).length;
+        if (length == 0) return false;
+        text.remove_prefix(length);
+    }
+    return true;
 }
 
 std::string number_text(double value)

@@ -22,6 +22,14 @@ std::string join_words(const std::vector<std::string>& words, std::string_view s
 /// True when `text` matches `pattern` with * (any run) and ? (any one); letter case is ignored.
 bool glob_matches(std::string_view pattern, std::string_view text);
 
+/// `text` fit for a terminal, a log or JSON: control characters and bytes that are not UTF-8 become
+/// \x1b and the like, everything else stays. Names that files bring along go through this before
+/// they are printed.
+std::string printable(std::string_view text);
+
+/// True when `text` is well-formed UTF-8 (no surrogates, nothing beyond U+10FFFF, no long forms).
+bool is_utf8(std::string_view text);
+
 /// The shortest decimal text that reads back as the same number: "0.1", "-3", "1e-20".
 std::string number_text(double value);
 

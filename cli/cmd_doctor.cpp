@@ -17,6 +17,7 @@
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "gpu/renderer.h"
+#include "texproc/codecs/files/io.h"
 #include "weather/readers/formats.h"
 
 namespace petrichor::cli {
@@ -86,6 +87,20 @@ std::vector<std::string> weather_kinds()
     return names;
 }
 
+// Damaged and hostile images are read by a process of its own; how well it is locked in.
+Finding check_decoder()
+{
+    try {
+        const std::string text = texproc::decoder_confinement();
+        return {
+            "sandbox", text.rfind("seccomp", 0) == 0, false, text,
+            "Build with libseccomp (Debian: apt-get install libseccomp-dev) on a kernel that has "
+            "seccomp; until then give it only images that you trust."};
+    } catch (const Error& error) {
+        return {"sandbox", false, true, error.what(), error.fix()};
+    }
+}
+
 void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,
                 bool can_render)
 {
@@ -146,7 +161,7 @@ void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
     const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
-                                        check_cache()};
+                                        check_decoder(), check_cache()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {

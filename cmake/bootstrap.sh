@@ -9,7 +9,7 @@ sources=(base formulas weather texproc scene gpu demo film cli cmake CMakeLists.
 # To build and run the program. openimageio-tools is there because the CMake package of the image
 # library stops without it.
 packages_to_build=(g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang-tools
-    libopenimageio-dev openimageio-tools libopenexr-dev libimath-dev zlib1g-dev libpng-dev libzstd-dev libglm-dev
+    libopenimageio-dev openimageio-tools libopenexr-dev libimath-dev zlib1g-dev libpng-dev libzstd-dev libseccomp-dev libglm-dev
     libcli11-dev libtomlplusplus-dev nlohmann-json3-dev ffmpeg)
 packages_to_test=(libgtest-dev libgmock-dev vulkan-validationlayers)
 
@@ -26,16 +26,16 @@ missing_packages() {
 explain_other_distribution() {
     say "petrichor: this is not a Debian system, so nothing is installed for you. If the build stops, install:"
     say "  a C++20 compiler, CMake 3.25, Ninja, glslang, the Vulkan headers, loader and a driver"
-    say "  (Mesa's lavapipe will do), OpenImageIO 2.4, OpenEXR 3, Imath, zlib, libpng, zstd, GLM, CLI11 2, toml++ 3,"
+    say "  (Mesa's lavapipe will do), OpenImageIO 2.4, OpenEXR 3, Imath, zlib, libpng, zstd, libseccomp, GLM, CLI11 2, toml++ 3,"
     say "  nlohmann-json, ffmpeg; for the tests GoogleTest and the Vulkan validation layers."
     if command -v dnf >/dev/null; then
         say "  Fedora: dnf install gcc-c++ cmake ninja-build vulkan-loader-devel vulkan-headers \\"
         say "    mesa-vulkan-drivers glslang OpenImageIO-devel OpenImageIO-utils openexr-devel \\"
-        say "    imath-devel zlib-devel libpng-devel libzstd-devel glm-devel cli11-devel tomlplusplus-devel json-devel gtest-devel gmock-devel \\"
+        say "    imath-devel zlib-devel libpng-devel libzstd-devel libseccomp-devel glm-devel cli11-devel tomlplusplus-devel json-devel gtest-devel gmock-devel \\"
         say "    vulkan-validation-layers"
     elif command -v pacman >/dev/null; then
         say "  Arch: pacman -S gcc cmake ninja vulkan-headers vulkan-icd-loader vulkan-swrast glslang \\"
-        say "    openimageio openexr imath zlib libpng zstd glm cli11 tomlplusplus nlohmann-json ffmpeg gtest \\"
+        say "    openimageio openexr imath zlib libpng zstd libseccomp glm cli11 tomlplusplus nlohmann-json ffmpeg gtest \\"
         say "    vulkan-validation-layers"
     fi
 }

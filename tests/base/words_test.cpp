@@ -5,6 +5,24 @@
 namespace petrichor::cli {
 namespace {
 
+TEST(Printable, EscapesWhatMovesACursorOrIsNoText)
+{
+    EXPECT_EQ(printable("wall 3.png"), "wall 3.png");
+    EXPECT_EQ(printable("Stra\u00dfe \u6c34 \U0001f327"), "Stra\u00dfe \u6c34 \U0001f327");
+    EXPECT_EQ(printable("a\x1b[2Jb\n"), "a\\x1b[2Jb\\x0a");
+    EXPECT_EQ(printable("b\xff.epw"), "b\\xff.epw");
+    EXPECT_EQ(printable("\xc2\x9b"
+                        "31m"),
+              "\\xc2\\x9b"
+              "31m");                                                 // CSI as one character
+    EXPECT_EQ(printable("\u202etxt.exe"), "\\xe2\\x80\\xaetxt.exe");  // text that runs backwards
+    EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                   // a long form of '/'
+    EXPECT_EQ(printable("\xe6\xb0"), "\\xe6\\xb0");                   // cut short
+    EXPECT_TRUE(is_utf8("\u6c34"));
+    EXPECT_FALSE(is_utf8("\xed\xa0\x80"));
+    EXPECT_FALSE(is_utf8("\xf4\x90\x80\x80"));
+}
+
 TEST(NearestWord, FindsSlipsOfTheFinger)
 {
     const std::vector<std::string> known{"width", "height", "samples", "elevation_degrees"};

@@ -1,10 +1,9 @@
-// petrichor-decode: the process that touches untrusted image files. The image library (loaded when
-// a file needs it) aborts or loops on some damaged ones, so it runs here, with limits on memory and
-// time, and the program only ever sees pixels or a reason. It serves requests on socket 3 until the
-// other end closes, one at a time; the program starts several for several files.
-#include <fcntl.h>
+// petrichor-decode: the process that touches untrusted image files. The image library aborts or
+// loops on some damaged ones, so it runs here: with limits on memory and time, and, once it is
+// loaded, without the right to open a file, a socket or a program (base/confine.h). The program
+// only ever sees pixels or a reason. It serves requests on socket 3 until the other end closes, one
+// at a time; the program starts several for several files. `--library`: with the image library.
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,17 +12,18 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "base/confine.h"
 #include "texproc/codecs/decoder/image_library.h"
 #include "texproc/codecs/decoder/png.h"
 #include "texproc/codecs/decoder/psd.h"
-#include "texproc/codecs/decoder/sniff.h"
+#include "texproc/codecs/decoder/sgi.h"
 #include "texproc/codecs/decoder/texture.h"
 #include "texproc/codecs/files/detail/message.h"
 #include "texproc/codecs/files/detail/protocol.h"
@@ -39,29 +39,6 @@ constexpr std::uint64_t kMemory = 1536ull << 20;  // on top of what the librarie
 constexpr std::uint64_t kRecycleBytes = 256ull << 20;  // a process that held more is not kept
 constexpr unsigned kBaseSeconds = 4;                   // CPU seconds for any file, plus
 constexpr unsigned kMegapixelsASecond = 2;             // time in proportion to its size
-
-void limit_memory()
-{
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const std::uint64_t base = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    rlimit limit{base + kMemory,
-                 RLIM_INFINITY};  // set again when the image library has been loaded
-    setrlimit(RLIMIT_AS, &limit);
-    rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-}
-
-// From now on the process may use `seconds` more CPU seconds; then the kernel ends it.
-void limit_time(unsigned seconds)
-{
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    rlimit limit{};
-    getrlimit(RLIMIT_CPU, &limit);
-    limit.rlim_cur = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + seconds + 1;
-    setrlimit(RLIMIT_CPU, &limit);
-}
 
 struct Fd {
     int fd = -1;
@@ -113,52 +90,37 @@ void check_size(const Header& h, const Request& request)
                                  " channels, more than the limit of " +
                                  std::to_string(request.max_bytes >> 20) + " MiB decoded");
     }
-    limit_time(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
+    limit_cpu(kBaseSeconds + static_cast<unsigned>(pixels >> 20) / kMegapixelsASecond);
 }
+
+// A format that only a child with the image library reads.
+struct NeedsLibrary {};
 
 // Other readers where the image library has none, loses channels, takes damaged files for good or
 // is slow to start.
-void read_pixels(const std::string& path, int fd, const std::string& format, const Request& request,
-                 const Accept& accept)
+void read_pixels(std::span<const std::byte> file, const std::string& format, const Request& request,
+                 const ImageLibrary* library, const Accept& accept)
 {
-    if (format == "dds" || format == "ktx2" || format == "psd") {
-        struct stat status {};
-        if (fstat(fd, &status) != 0) throw std::runtime_error(std::strerror(errno));
-        const Mapping file(fd, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
-        const std::span<const std::byte> bytes(static_cast<const std::byte*>(file.at), file.size);
-        if (format != "psd") {
-            read_gpu_texture(bytes, format,
-                             {.max_pixels = request.max_pixels, .max_bytes = request.max_bytes},
-                             accept);
-            return;
-        }
-        if (read_psd(bytes, accept)) return;
-    }
-    if (format == "png") {
-        read_png(path, accept);
-    } else {
-        image_library(limit_memory).read(path, format, accept);
+    if (format == "dds" || format == "ktx2") {
+        read_gpu_texture(file, format,
+                         {.max_pixels = request.max_pixels, .max_bytes = request.max_bytes},
+                         accept);
+    } else if (format == "png") {
+        read_png(file, accept);
+    } else if (format == "sgi") {
+        read_sgi(file, accept);
+    } else if (format != "psd" || !read_psd(file, accept)) {
+        if (!library) throw NeedsLibrary{};
+        library->read(file, format, accept);
     }
 }
 
-Fd decode(const Request& request, int input_fd, Reply& reply)
+Fd decode(const Request& request, int input_fd, const ImageLibrary* library, Reply& reply)
 {
-    limit_time(kBaseSeconds);
-    const std::string name = request.text;
-    const std::string path = input_fd >= 0 ? "/proc/self/fd/" + std::to_string(input_fd) : name;
-    std::byte head[32];
-    Fd file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.fd < 0) throw std::runtime_error(std::strerror(errno));
-    const ssize_t got = pread(file.fd, head, sizeof head, 0);
-    if (got < 0) throw std::runtime_error(std::strerror(errno));
-    if (got == 0) throw std::runtime_error("it is empty");
-    const std::string format = sniff({head, static_cast<std::size_t>(got)}, name);
-    if (format.empty()) {
-        throw std::runtime_error(
-            "its content is none of PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2, "
-            "GIF, "
-            "PNM, SGI");
-    }
+    limit_cpu(kBaseSeconds);
+    struct stat status {};
+    if (fstat(input_fd, &status) != 0) throw std::runtime_error(std::strerror(errno));
+    const Mapping file(input_fd, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
     Fd pixels(memfd_create("petrichor-pixels", MFD_CLOEXEC));
     if (pixels.fd < 0) throw std::runtime_error(std::strerror(errno));
     std::unique_ptr<Mapping> mapping;
@@ -177,19 +139,28 @@ Fd decode(const Request& request, int input_fd, Reply& reply)
         set_text(reply.text, names);
         return static_cast<std::byte*>(mapping->at);
     };
-    read_pixels(path, file.fd, format, request, accept);
+    read_pixels({static_cast<const std::byte*>(file.at), file.size}, request.format, request,
+                library, accept);
     return pixels;
 }
 
-void encode(const Request& request, int input_fd)
+Fd encode(const Request& request, int input_fd, const ImageLibrary* library, Reply& reply)
 {
-    limit_time(600);
+    limit_cpu(600);
+    if (!library) throw NeedsLibrary{};
     const Header header{
         request.width, request.height, request.channels, static_cast<PixelType>(request.type), {}};
     const Mapping pixels(input_fd, header.bytes(), PROT_READ);
-    image_library(limit_memory)
-        .write(request.text, header, static_cast<const std::byte*>(pixels.at),
-               static_cast<int>(request.quality));
+    const std::vector<unsigned char> bytes =
+        library->write(request.text, header, static_cast<const std::byte*>(pixels.at),
+                       static_cast<int>(request.quality));
+    Fd file(memfd_create("petrichor-file", MFD_CLOEXEC));
+    if (file.fd < 0 || bytes.empty() || ftruncate(file.fd, static_cast<off_t>(bytes.size())) != 0)
+        throw std::bad_alloc();
+    const Mapping to(file.fd, bytes.size(), PROT_READ | PROT_WRITE);
+    std::memcpy(to.at, bytes.data(), bytes.size());
+    reply.bytes = bytes.size();
+    return file;
 }
 
 bool receive(Request& request, Fd& attached)
@@ -203,6 +174,7 @@ bool receive(Request& request, Fd& attached)
     message.msg_controllen = sizeof control;
     if (recvmsg(detail::kDecoderSocket, &message, 0) != sizeof request) return false;
     request.text[detail::kTextBytes - 1] = 0;
+    request.format[sizeof request.format - 1] = 0;
     const cmsghdr* c = CMSG_FIRSTHDR(&message);
     if (c && c->cmsg_type == SCM_RIGHTS) {
         int fd = -1;
@@ -219,40 +191,56 @@ bool answer(const Reply& reply, int fd)
 
 }  // namespace
 
-int serve()
+int serve(bool with_library)
 {
-    limit_memory();
+    const ImageLibrary* library = nullptr;
+    std::string not_loaded;
+    try {
+        if (with_library) library = &load_image_library();
+    } catch (const std::exception& error) {
+        not_loaded = error.what();
+    }
+    limit_memory(kMemory);
+    const Confinement confinement = confine();
     Request request;
     for (Fd attached; receive(request, attached); attached = Fd()) {
         Reply reply;
-        Fd pixels;
+        Fd result;
         try {
-            if (request.task == detail::Task::Encode) {
-                encode(request, attached.fd);
+            if (request.task == detail::Task::Report) {
+                set_text(reply.text, confinement_text(confinement));
+            } else if (request.task == detail::Task::Encode) {
+                result = encode(request, attached.fd, library, reply);
             } else {
-                pixels = decode(request, attached.fd, reply);
+                result = decode(request, attached.fd, library, reply);
             }
             reply.ok = 1;
+        } catch (const NeedsLibrary&) {
+            result = Fd();
+            reply = Reply{};
+            reply.needs_library = with_library ? 0 : 1;
+            set_text(reply.text, not_loaded);
         } catch (const std::bad_alloc&) {
-            pixels = Fd();
-            reply = Reply{.last = 1};
+            result = Fd();
+            reply = Reply{};
+            reply.last = 1;
             set_text(reply.text, "it needs more memory than the limit of " +
                                      std::to_string(kMemory >> 20) + " MiB");
         } catch (const std::exception& error) {
-            pixels = Fd();
+            result = Fd();
             reply = Reply{};
             std::string why = error.what();
             std::replace(why.begin(), why.end(), '\n', ' ');
             set_text(reply.text, why);
         }
-        if (!answer(reply, pixels.fd) || reply.last) break;
+        if (!answer(reply, result.fd) || reply.last) break;
     }
     return 0;
 }
 
 }  // namespace petrichor::texproc::decoder
 
-int main()
+int main(int argc, char** argv)
 {
     struct stat socket_status {};
     if (fstat(petrichor::texproc::detail::kDecoderSocket, &socket_status) != 0 ||
@@ -260,5 +248,6 @@ int main()
         std::fprintf(stderr, "petrichor-decode is started by petrichor; it has no use by hand.\n");
         return 2;
     }
-    return petrichor::texproc::decoder::serve();
+    // Without exit handlers: a library may be in any state.
+    _exit(petrichor::texproc::decoder::serve(argc > 1 && std::string_view(argv[1]) == "--library"));
 }

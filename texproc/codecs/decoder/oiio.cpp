@@ -1,5 +1,6 @@
 #include "texproc/codecs/decoder/oiio.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <stdexcept>
@@ -41,17 +42,33 @@ PixelType stored_type(const OIIO::ImageSpec& spec)
 
 }  // namespace
 
-void read_with_oiio(const std::string& path, const std::string& format, const Accept& accept)
+// Threads would only help one file; several files at a time are read, each in a process of its own.
+void warm_up_oiio()
 {
-    OIIO::attribute("threads", 1);  // several files at a time, each in a process of its own
+    OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
+    const OIIO::ImageSpec plain;
+    for (const char* format :
+         {"openexr", "tiff", "jpeg", "webp", "bmp", "hdr", "psd", "gif", "pnm", "targa"}) {
+        OIIO::ImageInput::create(format, false, &plain);
+    }
+    for (const char* name : {"a.tif", "a.tga", "a.jpg"}) OIIO::ImageOutput::create(name);
+}
+
+void read_with_oiio(std::span<const std::byte> file, const std::string& format,
+                    const Accept& accept)
+{
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(file.data()), file.size());
+    OIIO::Filesystem::IOProxy* proxy = &memory;
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);  // alpha is data here: RGB stays as stored
-    wish.attribute("oiio:ioproxy", 0);
+    wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     auto input = OIIO::ImageInput::create(format, false, &wish);
-    if (!input) throw std::runtime_error("this build cannot read " + format + " files");
+    if (!input || !input->supports("ioproxy"))
+        throw std::runtime_error("this build cannot read " + format + " files");
     OIIO::ImageSpec spec;
-    if (!input->open(path, spec, wish)) throw std::runtime_error(input->geterror());
+    // The name is not opened; some formats go by its extension.
+    if (!input->open("image." + format, spec, wish)) throw std::runtime_error(input->geterror());
     if (spec.deep) throw std::runtime_error("it holds deep samples, not one value a pixel");
     if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
@@ -65,21 +82,26 @@ void read_with_oiio(const std::string& path, const std::string& format, const Ac
     }
 }
 
-void write_with_oiio(const std::string& path, const Header& header, const std::byte* pixels,
-                     int quality)
+std::vector<unsigned char> write_with_oiio(const std::string& name, const Header& header,
+                                           const std::byte* pixels, int quality)
 {
-    auto output = OIIO::ImageOutput::create(path);
-    if (!output) throw std::runtime_error("no writer for " + path);
+    auto output = OIIO::ImageOutput::create(name);
+    if (!output || !output->supports("ioproxy")) throw std::runtime_error("no writer for " + name);
     OIIO::ImageSpec spec(header.width, header.height, header.channels, type_desc(header.type));
+    std::vector<unsigned char> file;
+    OIIO::Filesystem::IOVecOutput memory(file);
+    OIIO::Filesystem::IOProxy* proxy = &memory;
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", quality);
-    if (path.size() > 4 && path.find(".tif", path.size() - 5) != std::string::npos) {
+    if (name.size() > 4 && name.find(".tif", name.size() - 5) != std::string::npos) {
         spec.attribute("compression", "zip");
     }
-    if (!output->open(path, spec) || !output->write_image(spec.format, pixels) ||
+    if (!output->open(name, spec) || !output->write_image(spec.format, pixels) ||
         !output->close()) {
         throw std::runtime_error(output->geterror());
     }
+    return file;
 }
 
 }  // namespace petrichor::texproc::decoder
@@ -87,4 +109,5 @@ void write_with_oiio(const std::string& path, const Header& header, const std::b
 // What the program asks this module for.
 extern "C" __attribute__((visibility("default")))
 const petrichor::texproc::decoder::ImageLibrary petrichor_images{
-    petrichor::texproc::decoder::read_with_oiio, petrichor::texproc::decoder::write_with_oiio};
+    petrichor::texproc::decoder::warm_up_oiio, petrichor::texproc::decoder::read_with_oiio,
+    petrichor::texproc::decoder::write_with_oiio};

@@ -4,18 +4,14 @@
 
 #include <bit>
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
+#include <cstring>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace petrichor::texproc::decoder {
 
 namespace {
-
-struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 // libpng reports errors by a jump, which must not pass over C++ objects: the calls below are made
 // in functions that own none, and the message is kept here.
@@ -23,6 +19,7 @@ struct Reader {
     png_structp png = nullptr;
     png_infop info = nullptr;
     std::string problem;
+    std::span<const std::byte> rest;  // of the file
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
@@ -35,10 +32,18 @@ void on_warning(png_structp, png_const_charp)
 {
 }
 
-bool read_header(Reader& reader, std::FILE* file)
+void take_bytes(png_structp png, png_bytep to, std::size_t count)
+{
+    Reader& reader = *static_cast<Reader*>(png_get_io_ptr(png));
+    if (count > reader.rest.size()) png_error(png, "the file ends too early");
+    std::memcpy(to, reader.rest.data(), count);
+    reader.rest = reader.rest.subspan(count);
+}
+
+bool read_header(Reader& reader)
 {
     if (setjmp(png_jmpbuf(reader.png))) return false;
-    png_init_io(reader.png, file);
+    png_set_read_fn(reader.png, &reader, take_bytes);
     png_read_info(reader.png, reader.info);
     const int color = png_get_color_type(reader.png, reader.info);
     const int depth = png_get_bit_depth(reader.png, reader.info);
@@ -66,11 +71,10 @@ std::runtime_error undecodable(const Reader& reader)
 
 }  // namespace
 
-void read_png(const std::string& path, const Accept& accept)
+void read_png(std::span<const std::byte> file, const Accept& accept)
 {
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-    if (!file) throw std::runtime_error("it cannot be read");
     Reader reader;
+    reader.rest = file;
     reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
     if (reader.png) reader.info = png_create_info_struct(reader.png);
     if (!reader.info) throw std::bad_alloc();
@@ -80,7 +84,7 @@ void read_png(const std::string& path, const Accept& accept)
         "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0tEXt\0"
         "tIME\0zTXt";
     png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, kSkipped, sizeof kSkipped / 5);
-    if (!read_header(reader, file.get())) throw undecodable(reader);
+    if (!read_header(reader)) throw undecodable(reader);
 
     Header header;
     header.width = static_cast<int>(png_get_image_width(reader.png, reader.info));

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "texproc/codecs/files/detail/decoder_pool.h"
 #include "texproc/codecs/files/detail/png.h"
@@ -20,20 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kChunkValues = 1 << 18;
-
-void check_readable(const fs::path& path)
-{
-    std::error_code failed;
-    const fs::file_status status = fs::status(path, failed);
-    if (!fs::exists(status)) {
-        throw Error("image " + path.string() + ": there is no such file",
-                    "Check the path; it is relative to the folder that you are in.");
-    }
-    if (!fs::is_regular_file(status)) {
-        throw Error("image " + path.string() + ": it is not a file",
-                    "Name an image file, not a folder or a device.");
-    }
-}
 
 Image to_image(const detail::Decoded& decoded, ColorSpace space)
 {
@@ -142,8 +129,8 @@ void write_exr_raw(const fs::path& path, const RawImage& image)
 
 Image read_image(const fs::path& path, const ReadOptions& options)
 {
-    check_readable(path);
-    return to_image(detail::decode_in_child(path.string(), {}, options), options.space);
+    const InputFile file = open_regular_file(path, "image");
+    return to_image(detail::decode_in_child(path.string(), file.fd(), options), options.space);
 }
 
 Image decode_image(std::span<const std::byte> bytes, const std::string& name,
@@ -155,8 +142,8 @@ Image decode_image(std::span<const std::byte> bytes, const std::string& name,
 
 RawImage read_raw(const fs::path& path, const ReadOptions& options)
 {
-    check_readable(path);
-    return to_raw(detail::decode_in_child(path.string(), {}, options));
+    const InputFile file = open_regular_file(path, "image");
+    return to_raw(detail::decode_in_child(path.string(), file.fd(), options));
 }
 
 RawImage decode_raw(std::span<const std::byte> bytes, const std::string& name,
@@ -164,6 +151,11 @@ RawImage decode_raw(std::span<const std::byte> bytes, const std::string& name,
 {
     check_not_empty(bytes, name);
     return to_raw(detail::decode_in_child(name, bytes, options));
+}
+
+std::string decoder_confinement()
+{
+    return detail::decoder_confinement();
 }
 
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes)
@@ -221,9 +213,7 @@ void write_raw(const fs::path& path, const RawImage& image, const WriteOptions& 
         });
         return;
     }
-    OutputFile file(path);
-    detail::encode_in_child(fs::absolute(file.temporary()), image, options.quality);
-    file.commit();
+    write_bytes(path, detail::encode_in_child(path, image, options.quality));
 }
 
 void write_image(const fs::path& path, const Image& image, const WriteOptions& options)

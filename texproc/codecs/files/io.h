@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/interrupted.h"
 #include "texproc/image/raw_image.h"
 
 namespace petrichor::texproc {
 
 // Files of others are decoded in a process of their own (petrichor-decode) with limits on memory
-// and CPU time; the processes are kept and reused, and several threads may read at once. Alpha is
+// and CPU time, and without the right to open files, sockets or programs (base/confine.h); the
+// processes are kept and reused, and several threads may read at once. Alpha is
 // never multiplied into colour, in either direction.
 
 /// What to make of the numbers in a file.
@@ -23,6 +25,7 @@ struct ReadOptions {
     ColorSpace space = ColorSpace::Data;   ///< Linear: 8- and 16-bit colour is decoded from sRGB
     std::int64_t max_pixels = 1 << 28;     ///< larger images are refused before they are decoded
     std::uint64_t max_bytes = 2ull << 30;  ///< the same for width x height x channels x 4 bytes
+    StopRequest stop = {};  ///< asked every 50 ms; decoding then ends with Interrupted
 };
 
 /// Reads the first image of a file: PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, DDS, KTX2 and
@@ -81,6 +84,10 @@ std::vector<std::byte> encode_png8(
 void write_png8(const std::filesystem::path& path, int width, int height, int channels,
                 std::span<const std::uint8_t> pixels,
                 const std::vector<std::pair<std::string, std::string>>& metadata = {});
+
+/// How well the decoder processes are locked in on this machine: "seccomp: no files, ...". Starts
+/// one.
+std::string decoder_confinement();
 
 /// Writes bytes under a temporary name and renames. Throws Error (disk full, read-only folder).
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);

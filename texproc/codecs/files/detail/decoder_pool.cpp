@@ -1,29 +1,27 @@
 #include "texproc/codecs/files/detail/decoder_pool.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <thread>
 #include <vector>
 
 #include "base/error.h"
+#include "base/limited_child.h"
+#include "base/words.h"
 #include "texproc/codecs/files/detail/message.h"
 #include "texproc/codecs/files/detail/protocol.h"
-
-extern "C" char** environ;
+#include "texproc/codecs/files/detail/sniff.h"
 
 namespace petrichor::texproc::detail {
 
@@ -31,65 +29,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatienceMs =
-    300'000;  // the child's own CPU limit ends it long before, unless it sleeps
+constexpr double kPatienceSeconds =
+    300.0;  // the child's own CPU limit ends it long before, unless it sleeps
+// Of all files that one child reads; for each file it sets a limit that fits its size.
+constexpr ChildLimits kLimits{
+    .memory_bytes = 3ull << 30, .cpu_seconds = 24 * 3600, .file_bytes = 4ull << 30};
 
-// The decoder lies beside the program (build tree, portable copy), in its libexec folder
-// (installed), or where this library was built.
+// Beside the program (build tree, portable copy), in its libexec folder (installed), or where this
+// library was built.
 fs::path decoder_program()
 {
-    std::vector<fs::path> places;
-    if (const char* named = std::getenv("PETRICHOR_DECODER")) places.emplace_back(named);
-    std::error_code ignored;
-    const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    places.push_back(here / "petrichor-decode");
-    places.push_back(here / "../libexec/petrichor/petrichor-decode");
-    places.emplace_back(PETRICHOR_DECODER_INSTALLED);
-    places.emplace_back(PETRICHOR_DECODER_BUILT);
-    for (const fs::path& place : places) {
-        if (::access(place.c_str(), X_OK) == 0) return place;
-    }
-    std::string looked;
-    for (const fs::path& place : places) looked += (looked.empty() ? "" : ", ") + place.string();
-    throw Error("images: the program petrichor-decode is missing (looked at " + looked + ")",
-                "Install it beside petrichor, or set PETRICHOR_DECODER to its path.");
+    const char* named = std::getenv("PETRICHOR_DECODER");
+    if (named && ::access(named, X_OK) == 0) return named;
+    return find_helper("petrichor-decode", {PETRICHOR_DECODER_INSTALLED, PETRICHOR_DECODER_BUILT});
 }
 
+// One decoder process. The image library takes a fifth of a second to load, so there are two kinds.
 class Worker {
 public:
-    Worker()
+    explicit Worker(bool library) : library_(library)
     {
         int ends[2];
-        if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
-        socket_ = ends[0];
-        const std::string program = decoder_program().string();
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        // dup2 onto itself would keep close-on-exec; libc clears the flag in that case.
-        posix_spawn_file_actions_adddup2(&actions, ends[1], kDecoderSocket);
-        posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-        // Ctrl-C in the terminal is for the program; it closes the socket and the child ends.
-        posix_spawnattr_t attributes;
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        char name[] = "petrichor-decode";
-        char* arguments[] = {name, nullptr};
-        const int failed =
-            ::posix_spawn(&pid_, program.c_str(), &actions, &attributes, arguments, environ);
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&actions);
-        ::close(ends[1]);
-        if (failed) {
-            ::close(socket_);
-            errno = failed;
-            fail("starting " + program);
+        if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+            throw Error(
+                std::string("images: no socket to a decoder process: ") + std::strerror(errno),
+                "Close some programs, or raise the limit on open files (ulimit -n).");
         }
+        socket_ = ends[0];
+        try {
+            child_.emplace(
+                decoder_program(),
+                library ? std::vector<std::string>{"--library"} : std::vector<std::string>{},
+                kLimits, std::vector<std::pair<int, int>>{{ends[1], kDecoderSocket}});
+        } catch (...) {
+            ::close(ends[0]);
+            ::close(ends[1]);
+            throw;
+        }
+        ::close(ends[1]);
     }
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
-    ~Worker() { stop(false); }
+    ~Worker() { stop(true); }
+
+    bool library() const { return library_; }
 
     void send(const Request& request, int fd)
     {
@@ -98,14 +81,9 @@ public:
     }
 
     // False: the child died or said nothing in time; why() tells.
-    bool receive(Reply& reply, int& fd)
+    bool receive(Reply& reply, int& fd, const StopRequest& stop_request)
     {
-        pollfd waiting{socket_, POLLIN, 0};
-        int ready = 0;
-        do {
-            ready = ::poll(&waiting, 1, kPatienceMs);
-        } while (ready < 0 && errno == EINTR);
-        if (ready == 0) {
+        if (!wait_readable(socket_, kPatienceSeconds, stop_request)) {
             stop(true);
             why_ = "the image library gave no answer in time";
             return false;
@@ -132,32 +110,17 @@ public:
     const std::string& why() const { return why_; }
 
 private:
-    [[noreturn]] static void fail(const std::string& what)
-    {
-        throw Error("images: cannot start a decoder process: " + what + ": " + std::strerror(errno),
-                    "Close some programs, or raise the limits on processes and open files.");
-    }
-
     void stop(bool kill)
     {
-        if (pid_ <= 0) return;
-        if (kill) ::kill(pid_, SIGKILL);
+        if (!child_) return;
         ::close(socket_);
-        int status = 0;
-        while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-        }
-        pid_ = -1;
-        if (WIFSIGNALED(status)) {
-            why_ = WTERMSIG(status) == SIGXCPU
-                       ? "the image library did not finish in the time that its size allows"
-                       : "the image library crashed on it (signal " +
-                             std::to_string(WTERMSIG(status)) + ")";
-        } else {
-            why_ = "the image library gave up on it";
-        }
+        const ChildEnd end = child_->end(kill);
+        child_.reset();
+        why_ = "the image library " + end.text();
     }
 
-    pid_t pid_ = -1;
+    bool library_ = false;
+    std::optional<LimitedChild> child_;
     int socket_ = -1;
     std::string why_;
 };
@@ -166,19 +129,23 @@ private:
 // process; it holds no other state, and what a decoder did before never shows in a result.
 class Pool {
 public:
-    std::unique_ptr<Worker> take()
+    std::unique_ptr<Worker> take(bool library)
     {
         std::unique_lock lock(mutex_);
-        free_.wait(lock, [&] { return !idle_.empty() || busy_ < limit_; });
+        free_.wait(lock, [&] { return busy_ < limit_; });
         ++busy_;
-        if (!idle_.empty()) {
-            auto worker = std::move(idle_.back());
-            idle_.pop_back();
+        // One with the library reads everything.
+        const auto fits = [&](const auto& worker) { return worker->library() || !library; };
+        const auto found = std::find_if(idle_.begin(), idle_.end(), fits);
+        if (found != idle_.end()) {
+            auto worker = std::move(*found);
+            idle_.erase(found);
             return worker;
         }
+        if (busy_ + idle_.size() > limit_ && !idle_.empty()) idle_.pop_back();
         lock.unlock();
         try {
-            return std::make_unique<Worker>();
+            return std::make_unique<Worker>(library);
         } catch (...) {
             give(nullptr);
             throw;
@@ -209,19 +176,9 @@ Pool& pool()
 
 struct Memory {
     int fd = -1;
-    explicit Memory(std::span<const std::byte> bytes)
+    Memory(std::span<const std::byte> bytes, std::string_view what)
+        : fd(shared_memory_of(bytes, what))
     {
-        fd = ::memfd_create("petrichor-bytes", MFD_CLOEXEC);
-        std::size_t done = 0;
-        while (fd >= 0 && done < bytes.size()) {
-            const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-            if (n <= 0) break;
-            done += static_cast<std::size_t>(n);
-        }
-        if (fd < 0 || done < bytes.size()) {
-            throw Error(std::string("images: no shared memory: ") + std::strerror(errno),
-                        "Free some memory and try again.");
-        }
     }
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
@@ -235,21 +192,39 @@ struct Outcome {
     std::string why;
 };
 
-Outcome ask(const Request& request, int fd)
+// Gives the worker back, whatever happens; one that did not answer is ended instead.
+struct Borrowed {
+    std::unique_ptr<Worker> worker;
+    bool keep = false;
+    explicit Borrowed(bool library) : worker(pool().take(library)) {}
+    Borrowed(const Borrowed&) = delete;
+    Borrowed& operator=(const Borrowed&) = delete;
+    ~Borrowed()
+    {
+        if (!keep) worker.reset();
+        pool().give(std::move(worker));
+    }
+};
+
+Outcome ask(const Request& request, int fd, bool library, const StopRequest& stop)
 {
-    auto worker = pool().take();
     auto outcome = std::make_unique<Outcome>();
-    worker->send(request, fd);
-    outcome->alive = worker->receive(outcome->reply, outcome->fd);
-    outcome->why = worker->why();
-    pool().give(outcome->alive && !outcome->reply.last ? std::move(worker) : nullptr);
+    {
+        Borrowed borrowed(library);
+        borrowed.worker->send(request, fd);
+        outcome->alive = borrowed.worker->receive(outcome->reply, outcome->fd, stop);
+        outcome->why = borrowed.worker->why();
+        borrowed.keep = outcome->alive && !outcome->reply.last;
+    }
+    if (outcome->alive && !outcome->reply.ok && outcome->reply.needs_library && !library)
+        return ask(request, fd, true, stop);
     return std::move(*outcome);
 }
 
 void set_text(Request& request, const std::string& text)
 {
     if (text.size() >= kTextBytes) {
-        throw Error("images: the name " + text.substr(0, 80) + "... is too long",
+        throw Error("images: the name " + printable(text.substr(0, 80)) + "... is too long",
                     "Use a path of less than 8 KiB.");
     }
     std::memcpy(request.text, text.c_str(), text.size() + 1);
@@ -276,24 +251,33 @@ void Decoded::read(std::uint64_t offset, std::span<std::byte> to) const
     }
 }
 
-Decoded decode_in_child(const std::string& name, std::span<const std::byte> bytes,
-                        const ReadOptions& options)
+Decoded decode_in_child(const std::string& name, int file, const ReadOptions& options)
 {
+    const std::string what = "image " + printable(name);
+    std::byte head[32];
+    const ssize_t got = ::pread(file, head, sizeof head, 0);
+    if (got < 0) throw Error(what + ": " + std::strerror(errno), "Check that it may be read.");
+    if (got == 0) throw Error(what + ": it is empty", "Export the file again.");
+    const std::string format = sniff({head, static_cast<std::size_t>(got)}, name);
+    if (format.empty()) {
+        throw Error(what +
+                        ": its content is none of PNG, TGA, TIFF, PSD, EXR, HDR, JPEG, WebP, BMP, "
+                        "DDS, KTX2, GIF, PNM, SGI",
+                    "Check that the file is an image and opens in another program; export it again "
+                    "if it is damaged.");
+    }
     Request request;
     request.max_pixels = options.max_pixels;
     request.max_bytes = options.max_bytes;
-    set_text(request, name);
-    std::unique_ptr<Memory> memory;
-    if (!bytes.empty()) {
-        memory = std::make_unique<Memory>(bytes);
-        request.has_fd = 1;
-    }
-    const Outcome outcome = ask(request, memory ? memory->fd : -1);
+    std::memcpy(request.format, format.c_str(), format.size() + 1);
+    const bool own_reader = format == "png" || format == "dds" || format == "ktx2" ||
+                            format == "psd" || format == "sgi";
+    const Outcome outcome = ask(request, file, !own_reader, options.stop);
     const Reply& reply = outcome.reply;
     if (!outcome.alive || !reply.ok) {
-        const std::string why = outcome.alive ? reply.text : outcome.why;
+        const std::string why = outcome.alive ? printable(reply.text) : outcome.why;
         const bool limit = why.find("limit of") != std::string::npos;
-        throw Error("image " + name + ": " + why,
+        throw Error(what + ": " + why,
                     limit ? "Use a smaller image, or raise the limit (--max-pixels)."
                           : "Check that the file is an image and opens in another program; export "
                             "it again if it is damaged.");
@@ -306,7 +290,7 @@ Decoded decode_in_child(const std::string& name, std::span<const std::byte> byte
         reply.type > 3 || pixels > static_cast<double>(options.max_pixels) ||
         pixels * 4.0 * shape.channels > static_cast<double>(options.max_bytes)) {
         if (outcome.fd >= 0) ::close(outcome.fd);
-        throw Error("image " + name + ": the decoder process answered nonsense",
+        throw Error(what + ": the decoder process answered nonsense",
                     "Export the file again; it is damaged.");
     }
     std::istringstream names(reply.text);
@@ -314,24 +298,44 @@ Decoded decode_in_child(const std::string& name, std::span<const std::byte> byte
     return Decoded(outcome.fd, std::move(shape));
 }
 
-void encode_in_child(const fs::path& path, const RawImage& image, int quality)
+Decoded decode_in_child(const std::string& name, std::span<const std::byte> bytes,
+                        const ReadOptions& options)
+{
+    const Memory memory(bytes, "image " + printable(name));
+    return decode_in_child(name, memory.fd, options);
+}
+
+std::vector<std::byte> encode_in_child(const fs::path& path, const RawImage& image, int quality)
 {
     Request request;
     request.task = Task::Encode;
-    request.has_fd = 1;
     request.width = image.width;
     request.height = image.height;
     request.channels = image.channels;
     request.type = static_cast<std::uint32_t>(image.type);
     request.quality = static_cast<std::uint32_t>(quality);
-    set_text(request, path.string());
-    const Memory memory(image.bytes);
-    const Outcome outcome = ask(request, memory.fd);
+    set_text(request, "image" + path.extension().string());
+    const std::string what = "output " + printable(path.string());
+    const Memory memory(image.bytes, what);
+    const Outcome outcome = ask(request, memory.fd, true, {});
     if (!outcome.alive || !outcome.reply.ok) {
-        throw Error("output: cannot write " + path.string() + ": " +
-                        (outcome.alive ? outcome.reply.text : outcome.why),
-                    "Check that the folder is writable and the disk is not full.");
+        if (outcome.fd >= 0) ::close(outcome.fd);
+        throw Error(what + ": it cannot be encoded: " +
+                        (outcome.alive ? printable(outcome.reply.text) : outcome.why),
+                    "Choose another format: png and exr are written without the image library.");
     }
+    const Decoded file(outcome.fd, {});
+    std::vector<std::byte> bytes(outcome.reply.bytes);
+    file.read(0, bytes);
+    return bytes;
+}
+
+std::string decoder_confinement()
+{
+    Request request;
+    request.task = Task::Report;
+    const Outcome outcome = ask(request, -1, false, {});
+    return outcome.alive ? printable(outcome.reply.text) : outcome.why;
 }
 
 }  // namespace petrichor::texproc::detail

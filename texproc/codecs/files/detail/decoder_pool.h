@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "texproc/codecs/files/io.h"
 #include "texproc/image/raw_image.h"
@@ -34,13 +35,22 @@ private:
 };
 
 /// Has one of the decoder processes (started when needed, kept for the next file, at most one a
-/// core) decode a file or, when `bytes` has any, these bytes. Waits for a free one. Throws Error
-/// for every failure, a crash or a hang of the process included.
+/// core) decode a file that is open for reading. Waits for a free one. `name` is for messages, and
+/// for TGA, which has no signature. Throws Error for every failure, a crash or a hang of the
+/// process included; Interrupted when options.stop says so.
+Decoded decode_in_child(const std::string& name, int file, const ReadOptions& options);
+
+/// The same for a file in memory.
 Decoded decode_in_child(const std::string& name, std::span<const std::byte> bytes,
                         const ReadOptions& options);
 
-/// Has a decoder process write pixels with the image library (JPEG, TIFF, TGA).
-void encode_in_child(const std::filesystem::path& path, const RawImage& image, int quality);
+/// The bytes of a file that a decoder process made from pixels with the image library (JPEG, TIFF,
+/// TGA, by the extension of `path`).
+std::vector<std::byte> encode_in_child(const std::filesystem::path& path, const RawImage& image,
+                                       int quality);
+
+/// How well decoder processes are locked in on this machine, in words.
+std::string decoder_confinement();
 
 }  // namespace petrichor::texproc::detail
 

@@ -10,25 +10,27 @@ namespace petrichor::texproc::detail {
 inline constexpr int kDecoderSocket = 3;  // the child's end, by convention of the spawn
 inline constexpr std::uint32_t kTextBytes = 8192;
 
-enum class Task : std::uint32_t { Decode = 1, Encode = 2 };
+enum class Task : std::uint32_t { Decode = 1, Encode = 2, Report = 3 };
 
 struct Request {
-    Task task = Task::Decode;
-    std::uint32_t has_fd = 0;     // Decode: the attached descriptor holds the file's bytes.
-                                  // Encode: it holds the pixels.
-    std::int64_t max_pixels = 0;  // Decode
+    Task task = Task::Decode;  // Report: only how well the child is locked in, as text
+    std::uint32_t reserved = 0;
+    std::int64_t max_pixels = 0;  // Decode; the attached descriptor holds the file
     std::uint64_t max_bytes = 0;  // Decode: of the decoded pixels, four bytes a number
-    std::int32_t width = 0, height = 0, channels = 0;  // Encode
+    std::int32_t width = 0, height = 0, channels = 0;  // Encode; the descriptor holds the pixels
     std::uint32_t type = 0;                            // Encode: PixelType
     std::uint32_t quality = 95;                        // Encode: JPEG
-    char text[kTextBytes] = {};                        // path or name, zero-terminated
+    char format[16] = {};                              // Decode: what sniff() found
+    char text[kTextBytes] = {};                        // Encode: a name with the extension
 };
 
 struct Reply {
     std::uint32_t ok = 0;
-    std::uint32_t last = 0;  // the child ends after this reply
+    std::uint32_t last = 0;           // the child ends after this reply
+    std::uint32_t needs_library = 0;  // not ok: a child with the image library can read it
     std::int32_t width = 0, height = 0, channels = 0;
     std::uint32_t type = 0;
+    std::uint64_t bytes = 0;     // Encode: size of the file, which the attached descriptor holds
     char text[kTextBytes] = {};  // ok: channel names, one a line; else the problem
 };
 

@@ -1,10 +1,10 @@
-#include "texproc/codecs/decoder/sniff.h"
+#include "texproc/codecs/files/detail/sniff.h"
 
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
-namespace petrichor::texproc::decoder {
+namespace petrichor::texproc::detail {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string sniff(std::span<const std::byte> head, const std::string& name)
     return lower.size() > 4 && lower.substr(lower.size() - 4) == ".tga" ? "targa" : "";
 }
 
-}  // namespace petrichor::texproc::decoder
+}  // namespace petrichor::texproc::detail
