@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "weather/physics/detail/horton.h"
 #include "weather/physics/detail/reservoir.h"
 
 namespace petrichor::weather {
@@ -28,8 +29,7 @@ double manning_film_mm(double length_m, double rate_mm_h, double manning_n, doub
 
 double horton_depth_mm(const HortonParams& p, double hours)
 {
-    return p.last_mm_h * hours + (p.first_mm_h - p.last_mm_h) / p.decay_1_h *
-                                     (1.0 - detail::exponential(-p.decay_1_h * hours));
+    return detail::infiltration_depth(p.first_mm_h, detail::make_horton_step(p, hours), p);
 }
 
 }  // namespace petrichor::weather

@@ -35,14 +35,9 @@ struct SnowParams {
 
 double new_snow_density_pahaut(double air_temp_k, double wind_m_s);
 double new_snow_density_hedstrom_pomeroy(double air_temp_k);
-double new_snow_density(const SnowParams& params, double air_temp_k, double wind_m_s);
 
 /// Density after dt of exponential settling towards the limit; unchanged above it.
 double settled_density(double density, double limit, double dt_s);
-/// Rate of compaction under `load_kg_m2`, kg m-3 s-1: rho g load / eta plus the breaking down of
-/// crystals 2.8e-6 rho exp((T - Tm)/23.8 - max(rho-150, 0)/21.7) (Anderson 1976).
-double compaction_rate(double density, double load_kg_m2, double temp_k);
-
 /// Albedo after dt of ageing.
 double aged_albedo(const SnowParams& params, double albedo, double dt_s, bool melting);
 /// Albedo after snowfall.

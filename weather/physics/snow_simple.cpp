@@ -45,8 +45,8 @@ double canopy_interception_kg_m2(double held_kg_m2, double snowfall_kg_m2,
 
 double canopy_unloading_kg_m2(double held_kg_m2, double dt_s, bool melting)
 {
-    const double scale_s = melting ? detail::kUnloadingMelting_s : detail::kUnloadingCold_s;
-    return held_kg_m2 * (1.0 - detail::exponential(-dt_s / scale_s));
+    return held_kg_m2 * detail::unloaded_share(
+                            dt_s, melting ? detail::kUnloadingMelting_s : detail::kUnloadingCold_s);
 }
 
 }  // namespace petrichor::weather

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "weather/physics/detail/uniform_relief.h"
 
 namespace petrichor::weather {
 
@@ -82,7 +83,7 @@ Hypsometry make_hypsometry(std::span<const float> heights, double depth_mm, int 
 double stored_kg_m2(const Hypsometry& relief, double level_mm)
 {
     const double h = std::clamp(level_mm, 0.0, relief.depth_mm);
-    if (relief.area_fraction.empty()) return h * h / (2.0 * relief.depth_mm);
+    if (relief.area_fraction.empty()) return detail::uniform_volume_at(h, relief.depth_mm);
     const double piece = piece_mm(relief);
     const auto i = std::min(static_cast<std::size_t>(h / piece), relief.area_fraction.size() - 2);
     const double x = h - static_cast<double>(i) * piece;
@@ -94,7 +95,7 @@ double water_level_mm(const Hypsometry& relief, double stored)
 {
     if (!(stored > 0.0)) return 0.0;
     if (stored >= relief.capacity_kg_m2()) return relief.depth_mm;
-    if (relief.area_fraction.empty()) return std::sqrt(2.0 * relief.depth_mm * stored);
+    if (relief.area_fraction.empty()) return detail::uniform_level_of(stored, relief.depth_mm);
     const auto& volume = relief.volume_mm;
     const auto upper = std::upper_bound(volume.begin(), volume.end(), stored);
     const auto i =
@@ -112,7 +113,7 @@ double water_level_mm(const Hypsometry& relief, double stored)
 double wet_area(const Hypsometry& relief, double level_mm)
 {
     const double h = std::clamp(level_mm, 0.0, relief.depth_mm);
-    if (relief.area_fraction.empty()) return h / relief.depth_mm;
+    if (relief.area_fraction.empty()) return detail::uniform_area_at(h, relief.depth_mm);
     const double piece = piece_mm(relief);
     const auto i = std::min(static_cast<std::size_t>(h / piece), relief.area_fraction.size() - 2);
     const double x = (h - static_cast<double>(i) * piece) / piece;

@@ -19,6 +19,12 @@ PETRICHOR_INLINE Real caught_by_canopy(const Real& held, const Real& fallen, dou
     return room * (1.0 - exponential(fallen * (-1.0 / capacity)));
 }
 
+// Share of their load that branches lose in a step.
+inline double unloaded_share(double dt_s, double efolding_s)
+{
+    return 1.0 - exponential(-dt_s / efolding_s);
+}
+
 // What reaches the ground of `fallen` in a step, with what slides off the branches. The last two
 // are the shares of their load that they lose in the step.
 template <class Real>

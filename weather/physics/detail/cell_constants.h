@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_CONSTANTS_H
 #define PETRICHOR_WEATHER_PHYSICS_DETAIL_CELL_CONSTANTS_H
 
+#include "weather/physics/detail/horton.h"
 #include "weather/physics/detail/reservoir.h"
 #include "weather/physics/exchange.h"
 #include "weather/physics/ground.h"
@@ -36,12 +37,6 @@ struct CellConstants {
 CellConstants make_cell_constants(const PhysicalParams& params, const Site& site,
                                   double deep_temp_k);
 
-// Horton's law over some hours.
-struct HortonStep {
-    double hours = 0.0;
-    double keep = 1.0, recover = 1.0;  // exp(-k hours) of wet and of dry ground
-    double depth_h = 0.0;              // (1 - keep) / k, hours
-};
 constexpr int kFillingTurns = 6;  // of filling and soaking at the same time
 
 // Factors that depend on the length of a substep.

@@ -7,6 +7,7 @@
 #include "weather/physics/cell_state.h"
 #include "weather/physics/detail/cell_constants.h"
 #include "weather/physics/detail/formulas.h"
+#include "weather/physics/detail/snow_laws.h"
 
 namespace petrichor::weather::detail {
 
@@ -16,7 +17,7 @@ PETRICHOR_INLINE Real new_snow_density_of(const CellConstants& k, const Real& ai
 {
     switch (k.snow.new_density) {
         case NewSnowDensity::HedstromPomeroy:
-            return exponential(smaller(air_c, Real(0.0)) * (1.0 / 2.59)) * 51.25 + 67.92;
+            return new_snow_density_hedstrom_of(air_c);
         case NewSnowDensity::Constant:
             return Real(k.snow.constant_density_kg_m3);
         case NewSnowDensity::Pahaut:
@@ -176,9 +177,7 @@ PETRICHOR_KERNEL Real snow_masses(CellVars<Real>& c, const Real& vapour, const R
             left = left + frozen;
             liquid = liquid - frozen;
         }
-        const Real held = larger((c.snow_thickness[i] - left * (1.0 / kIceDensity)) *
-                                     (1000.0 * k.snow.irreducible_water),
-                                 zero);
+        const Real held = held_liquid_of(c.snow_thickness[i], left, k.snow.irreducible_water);
         flow = select(there, larger(liquid - held, zero), flow);
         c.snow_liquid[i] = select(there, liquid - flow, zero);
         c.snow_ice[i] = left;
@@ -311,9 +310,8 @@ PETRICHOR_INLINE void age_albedo(CellVars<Real>& c, const Real& melting, const C
 {
     const Real keep = melting * (s.albedo_melting - s.albedo_cold) + s.albedo_cold;
     const Real pack = c.snow_ice[0] + c.snow_ice[1] + c.snow_ice[2];
-    c.snow_albedo =
-        select(pack > 0.0, (c.snow_albedo - k.snow.albedo_min) * keep + k.snow.albedo_min,
-               Real(k.snow.albedo_max));
+    c.snow_albedo = select(pack > 0.0, aged_albedo_of(c.snow_albedo, keep, k.snow.albedo_min),
+                           Real(k.snow.albedo_max));
 }
 
 constexpr double kBroken_kg_m3 = 350.0;
@@ -348,8 +346,8 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
 {
     const Real zero = 0.0;
     if (any(snowfall > zero)) {
-        c.snow_albedo += (k.snow.albedo_max - c.snow_albedo) *
-                         (1.0 - exponential(snowfall * (-1.0 / k.snow.albedo_refresh_kg_m2)));
+        c.snow_albedo = refreshed_albedo_of(c.snow_albedo, snowfall, k.snow.albedo_max,
+                                            k.snow.albedo_refresh_kg_m2);
     }
 
     Real above = zero;
@@ -364,7 +362,7 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
             growth = settling_growth(density, above + mass * 0.5, c.snow_temp_c[i], dt);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
-            const Real denser = limit + (density - limit) * s.settling;
+            const Real denser = settled_density_of(density, limit, s.settling);
             growth = select(density < limit, denser / larger(density, Real(1e-12)), Real(1.0));
         }
         growth = select(density * growth < kDensest_kg_m3, growth, Real(1.0));

@@ -58,8 +58,9 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     SurfacePoint<Real, MaskOf<Real>, Wetness<Real>> p;
     Real soaking = zero;
     if (k.permeable)
-        soaking = select(liquid + rain_mass > zero,
-                         infiltration_depth(c.infiltration_mm_h, part.horton, k), zero);
+        soaking = select(
+            liquid + rain_mass > zero,
+            infiltration_depth(c.infiltration_mm_h, part.horton, k.surface.infiltration), zero);
     set_wetness(p.wet, c, rain_mass, soaking, covered, k, part);
     const Real film_share = smaller(p.wet.film * k.inverse_film_capacity, Real(1.0));
     const Real bare_albedo = film_share * (k.albedo_wet - k.albedo_dry) + k.albedo_dry;

@@ -46,36 +46,14 @@ PETRICHOR_INLINE Real taken_from(Real& store, const Real& amount)
     return amount - moved;
 }
 
-// Horton's law: the depth wet ground takes up over a time, and its capacity afterwards.
-template <class Real>
-PETRICHOR_INLINE Real infiltration_depth(const Real& capacity_mm_h, const HortonStep& step,
-                                         const CellConstants& k)
-{
-    const double last = k.surface.infiltration.last_mm_h;
-    return (capacity_mm_h - last) * step.depth_h + last * step.hours;
-}
-template <class Real>
-PETRICHOR_INLINE Real decayed_capacity(const Real& capacity_mm_h, const HortonStep& step,
-                                       const CellConstants& k)
-{
-    const double last = k.surface.infiltration.last_mm_h;
-    return (capacity_mm_h - last) * step.keep + last;
-}
-template <class Real>
-PETRICHOR_INLINE Real recovered_capacity(const Real& capacity_mm_h, const HortonStep& step,
-                                         const CellConstants& k)
-{
-    const double first = k.surface.infiltration.first_mm_h;
-    return (capacity_mm_h - first) * step.recover + first;
-}
-
 // Capacity after a substep in which a share of the ground was wet.
 template <class Real>
 PETRICHOR_INLINE Real capacity_after(const CellVars<Real>& c, const Real& wet,
                                      const CellConstants& k, const PartConstants& part)
 {
-    const Real decayed = decayed_capacity(c.infiltration_mm_h, part.horton, k);
-    const Real recovered = recovered_capacity(c.infiltration_mm_h, part.horton, k);
+    const Real decayed = decayed_capacity(c.infiltration_mm_h, part.horton, k.surface.infiltration);
+    const Real recovered =
+        recovered_capacity(c.infiltration_mm_h, part.horton, k.surface.infiltration);
     return recovered + (decayed - recovered) * wet;
 }
 // Share of the pores that hold water, between two states of the film.
@@ -144,8 +122,9 @@ PETRICHOR_KERNEL void soak_and_fill(Hollows<Real>& h, const CellVars<Real>& c, c
     constexpr double kShare = 1.0 / kFillingTurns;
     Real capacity_mm_h = first_capacity_mm_h;
     for (int i = 0; i < kFillingTurns; ++i) {
-        const Real depth = infiltration_depth(capacity_mm_h, part.horton_turn, k);
-        capacity_mm_h = decayed_capacity(capacity_mm_h, part.horton_turn, k);
+        const Real depth =
+            infiltration_depth(capacity_mm_h, part.horton_turn, k.surface.infiltration);
+        capacity_mm_h = decayed_capacity(capacity_mm_h, part.horton_turn, k.surface.infiltration);
         const Real soaked = smaller(flow * kShare, depth);
         h.infiltrated += soaked;
         fill_and_lower(h, c, {Real(0.0), flow * kShare - soaked}, crack_drop * kShare,
@@ -176,11 +155,12 @@ PETRICHOR_INLINE Hollows<Real> hollows_after(CellVars<Real>& c, const Real& flow
     const Real capacity = c.infiltration_mm_h;
     c.infiltration_mm_h = capacity_after(c, select(holds | flows, Real(1.0), pores), k, part);
     // A flow that the ground can take to the end does not reach the hollows.
-    const auto fills = flow > decayed_capacity(capacity, part.horton, k) * part.horton.hours;
+    const auto fills =
+        flow > decayed_capacity(capacity, part.horton, k.surface.infiltration) * part.horton.hours;
     h.infiltrated = flow;
     if (any(holds)) {
         fill_and_lower(h, c, {zero, zero}, crack_drop, puddle_drop,
-                       infiltration_depth(capacity, part.horton, k), k);
+                       infiltration_depth(capacity, part.horton, k.surface.infiltration), k);
     }
     if (!any(fills)) return h;
     Hollows<Real> filling{c.crack, c.puddle, zero, zero, zero};

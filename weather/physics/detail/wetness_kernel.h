@@ -11,6 +11,7 @@
 #include "weather/physics/detail/cell_constants.h"
 #include "weather/physics/detail/reservoir.h"
 #include "weather/physics/detail/surface_kernel.h"
+#include "weather/physics/detail/uniform_relief.h"
 #include "weather/physics/stores.h"
 
 namespace petrichor::weather::detail {
@@ -18,25 +19,19 @@ namespace petrichor::weather::detail {
 template <class Real>
 PETRICHOR_INLINE Real level_of(const Hypsometry& relief, const Real& stored)
 {
-    if (relief.area_fraction.empty()) {
-        return smaller(square_root(larger(stored, Real(0.0)) * (2.0 * relief.depth_mm)),
-                       Real(relief.depth_mm));
-    }
+    if (relief.area_fraction.empty()) return uniform_level_of(stored, relief.depth_mm);
     return each(stored, [&](double v) { return water_level_mm(relief, v); });
 }
 template <class Real>
 PETRICHOR_INLINE Real volume_at(const Hypsometry& relief, const Real& level)
 {
-    if (relief.area_fraction.empty()) {
-        const Real h = clamped(level, Real(0.0), Real(relief.depth_mm));
-        return h * h * (0.5 / relief.depth_mm);
-    }
+    if (relief.area_fraction.empty()) return uniform_volume_at(level, relief.depth_mm);
     return each(level, [&](double h) { return stored_kg_m2(relief, h); });
 }
 template <class Real>
 PETRICHOR_INLINE Real area_at(const Hypsometry& relief, const Real& level)
 {
-    if (relief.area_fraction.empty()) return level * (1.0 / relief.depth_mm);
+    if (relief.area_fraction.empty()) return uniform_area_at(level, relief.depth_mm);
     return each(level, [&](double h) { return wet_area(relief, h); });
 }
 
@@ -53,7 +48,7 @@ PETRICHOR_INLINE WetShare<Real> area_while_falling(const Hypsometry& relief, con
     const Real rest = larger(level - drop, Real(0.0));
     WetShare<Real> area;
     if (relief.area_fraction.empty()) {
-        area.end = rest * (1.0 / relief.depth_mm);
+        area.end = uniform_area_at(rest, relief.depth_mm);
         area.mean = (level + rest) * (0.5 / relief.depth_mm) * smaller(level * inverse, Real(1.0));
     } else {
         area.end = area_at(relief, rest);

@@ -7,6 +7,7 @@
 #include "weather/models/physical/physical.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/canopy_kernel.h"
+#include "weather/physics/detail/snow_laws.h"
 #include "weather/physics/exchange.h"
 
 namespace petrichor::weather::detail {
@@ -165,16 +166,6 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
 
 namespace {
 
-HortonStep make_horton_step(const HortonParams& horton, double hours)
-{
-    HortonStep step;
-    step.hours = hours;
-    step.keep = exponential(-horton.decay_1_h * hours);
-    step.recover = exponential(-horton.recovery_1_h * hours);
-    step.depth_h = (1.0 - step.keep) / horton.decay_1_h;
-    return step;
-}
-
 PartConstants make_part_constants(const CellConstants& k, double dt_s)
 {
     const Surface& surface = k.surface;
@@ -205,11 +196,11 @@ StepConstants make_step_constants(const CellConstants& k, double dt_s, double su
     s.parts = std::max(s.whole_parts, parts_of(substep_s));
     s.whole = make_part_constants(k, dt_s / s.whole_parts);
     s.part = make_part_constants(k, dt_s / s.parts);
-    s.albedo_cold = exponential(-dt_s / (3600.0 * k.snow.albedo_cold_h));
-    s.albedo_melting = exponential(-dt_s / (3600.0 * k.snow.albedo_melting_h));
-    s.unloading_cold = 1.0 - exponential(-dt_s / kUnloadingCold_s);
-    s.unloading_melting = 1.0 - exponential(-dt_s / kUnloadingMelting_s);
-    s.settling = exponential(-dt_s / (200.0 * 3600.0));
+    s.albedo_cold = kept_after(dt_s, k.snow.albedo_cold_h);
+    s.albedo_melting = kept_after(dt_s, k.snow.albedo_melting_h);
+    s.unloading_cold = unloaded_share(dt_s, kUnloadingCold_s);
+    s.unloading_melting = unloaded_share(dt_s, kUnloadingMelting_s);
+    s.settling = kept_after(dt_s, kSettling_h);
     return s;
 }
 
