@@ -29,35 +29,34 @@ struct TextureUse {
     bool present() const { return texture >= 0; }
 };
 
-/// What weather does to a material. Symbols and defaults: Lux 2.02, "per material".
-/// All linear; the glTF extension PETRICHOR_materials_weather carries these in camelCase.
+/// What weather does to a material. Symbols and defaults: Lux 2.02, "per material". All linear.
+/// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
-    TextureUse height;              ///< red: height, 0 low .. 1 high
-    float height_scale_m = 0.02f;   ///< height 1 above height 0, metres, >= 0
-    float default_height = 0.25f;   ///< H where there is no height map, 0..1
-    TextureUse puddle_mask;         ///< red: 1 puddles may stand, 0 never
-    TextureUse snow_mask;           ///< red: 1 snow may lie, 0 never
-    float porosity = -1.0f;         ///< 0 dense .. 1 porous; negative: from the roughness
-    float water_slope_damp = 0.5f;  ///< 0..1; 0 water on flat ground only
-    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};  ///< cracks constant, influence; puddles
-                                                           ///< constant, influence
-    glm::vec4 water_color{0.0f};                           ///< linear RGB, alpha = opacity
-    float flow_tiling = 2.0f;                              ///< repeats per metre
-    float flow_speed = 0.05f;                              ///< 0..2
-    float flow_interval_s = 1.0f;                          ///< 0..8
-    float flow_refraction = 0.02f;                         ///< 0..0.1
-    float flow_normal_strength = 1.0f;                     ///< 0..2
-    float snow_slope_damp = 0.75f;                         ///< 0..8
-    glm::vec2 snow_accumulation{0.0f, 1.0f};               ///< constant, influence
-    float snow_normal_strength = 1.0f;                     ///< 0..2
-    float snow_detail_strength = 0.3f;                     ///< 0..1
-    float snow_opacity = 0.5f;                             ///< 0..1
-    bool sheltered = false;  ///< never gets rain or snow (an interior)
+    TextureUse height;  ///< red: height, 0 low .. 1 high
+    float height_scale_m = 0.02f;
+    float default_height = 0.25f;
+    TextureUse puddle_mask;  ///< red: 1 puddles may stand, 0 never
+    TextureUse snow_mask;    ///< red: 1 snow may lie, 0 never
+    float porosity = -1.0f;  ///< negative: from the roughness
+    float water_slope_damp = 0.5f;
+    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
+    glm::vec4 water_color{0.0f};
+    float flow_tiling = 2.0f;
+    float flow_speed = 0.05f;
+    float flow_interval_s = 1.0f;
+    float flow_refraction = 0.02f;
+    float flow_normal_strength = 1.0f;
+    float snow_slope_damp = 0.75f;
+    glm::vec2 snow_accumulation{0.0f, 1.0f};
+    float snow_normal_strength = 1.0f;
+    float snow_detail_strength = 0.3f;
+    float snow_opacity = 0.5f;
+    bool sheltered = false;
 };
 
 enum class AlphaMode { Opaque, Mask, Blend };
 
-/// A dry material: glTF 2.0 metallic-roughness and the extensions that we read.
+/// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
     std::string name;
     glm::vec4 base_color{1.0f};  ///< linear
@@ -69,7 +68,8 @@ struct Material {
     float normal_scale = 1.0f;
     TextureUse occlusion_texture;  ///< R
     float occlusion_strength = 1.0f;
-    glm::vec3 emissive{0.0f};  ///< linear, strength folded in
+    glm::vec3 emissive{0.0f};  ///< linear
+    float emissive_strength = 1.0f;
     TextureUse emissive_texture;
     float ior = 1.5f;
     float specular = 1.0f;           ///< KHR_materials_specular factor

@@ -22,6 +22,7 @@
 #include "film/jobs/scene_source.h"
 #include "film/jobs/weather_source.h"
 #include "film/scenario/material_keys.h"
+#include "scene/material_table.h"
 
 namespace petrichor::cli {
 namespace {
@@ -217,6 +218,8 @@ void render(const RenderOptions& options)
          apply_material_overrides(scenario.materials, sequence.scene.materials)) {
         std::cerr << "warn " << unmatched << "\n";
     }
+    for (const std::string& line : scene::unshaded_properties(sequence.scene))
+        std::cerr << "warn scene: " << line << "\n";
     const RenderReport report = render_sequence(sequence, request);
     watcher.end();
     if (options.dump_graph) std::cout << report.graph << std::flush;

@@ -1,72 +1,111 @@
 #include "film/scenario/material_keys.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
 #include "base/words.h"
+#include "scene/material_table.h"
 
 namespace petrichor::film {
 namespace {
 
-using scene::MaterialWeather;
-using Values = std::vector<double>;
+using scene::MaterialProperty;
+using scene::PropertyKind;
 
-float f(double value)
+constexpr double kAny = std::numeric_limits<float>::max();
+
+std::string ranges(const MaterialProperty& property)
 {
-    return static_cast<float>(value);
+    if (property.kind == PropertyKind::Flag) return "";
+    if (property.kind == PropertyKind::Choice) {
+        std::vector<std::string> words(property.words.begin(), property.words.end());
+        return "; " + join_words(words, " | ");
+    }
+    std::vector<std::string> all;
+    for (int i = 0; i < property.count; ++i) all.push_back(property.range_text(i));
+    if (std::equal(all.begin() + 1, all.end(), all.begin())) all.resize(1);
+    return "; " + join_words(all, " | ");
+}
+
+void check(const MaterialProperty& property, const TomlValue& value, std::size_t i, double number)
+{
+    const int component = static_cast<int>(i);
+    if (property.accepts(component, static_cast<float>(number))) return;
+    const bool bounded = property.high[component] < static_cast<float>(kAny);
+    value.refuse((bounded ? "a number from " : "a number, ") + property.range_text(component));
+}
+
+std::vector<double> read_value(const MaterialProperty& property, const TomlValue& value)
+{
+    switch (property.kind) {
+        case PropertyKind::Flag:
+            return {value.boolean() ? 1.0 : 0.0};
+        case PropertyKind::Choice:
+            return {
+                static_cast<double>(value.choice({property.words.begin(), property.words.end()}))};
+        case PropertyKind::Number:
+            break;
+    }
+    if (property.count == 1) {
+        const double number = value.number(-kAny, kAny);
+        check(property, value, 0, number);
+        return {number};
+    }
+    const auto numbers = value.numbers(static_cast<std::size_t>(property.count), -kAny, kAny);
+    const auto elements = value.elements();
+    for (std::size_t i = 0; i < numbers.size(); ++i) check(property, elements[i], i, numbers[i]);
+    return numbers;
+}
+
+void apply(const MaterialOverride& override, scene::Material& material)
+{
+    for (const auto& [name, values] : override.values) {
+        glm::vec4 value(0.0f);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            value[static_cast<int>(i)] = static_cast<float>(values[i]);
+        }
+        scene::find_property(name)->set(material, value);
+    }
 }
 
 }  // namespace
 
-const std::vector<MaterialKey>& material_keys()
+std::vector<ScenarioKey> material_keys()
 {
-    static const std::vector<MaterialKey> keys{
-        {"porosity", 1, 0.0, 1.0, "0.6",
-         "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet",
-         [](MaterialWeather& m, const Values& v) { m.porosity = f(v[0]); }},
-        {"height_scale_m", 1, 0.0, 10.0, "0.02",
-         "height 1 of the height map above height 0, metres",
-         [](MaterialWeather& m, const Values& v) { m.height_scale_m = f(v[0]); }},
-        {"default_height", 1, 0.0, 1.0, "0.25", "height where the material has no height map",
-         [](MaterialWeather& m, const Values& v) { m.default_height = f(v[0]); }},
-        {"water_slope_damp", 1, 0.0, 1.0, "0.5",
-         "0 water stands on flat ground only .. 1 on slopes too",
-         [](MaterialWeather& m, const Values& v) { m.water_slope_damp = f(v[0]); }},
-        {"water_accumulation", 4, -10.0, 10.0, "[0.0, 1.0, 0.0, 1.0]",
-         "cracks: constant, influence of the weather; puddles: constant, influence",
-         [](MaterialWeather& m, const Values& v) {
-             m.water_accumulation = {f(v[0]), f(v[1]), f(v[2]), f(v[3])};
-         }},
-        {"water_color", 4, 0.0, 1.0, "[0.1, 0.08, 0.05, 0.3]",
-         "linear red, green, blue and opacity of the water (mud, leaves)",
-         [](MaterialWeather& m, const Values& v) {
-             m.water_color = {f(v[0]), f(v[1]), f(v[2]), f(v[3])};
-         }},
-        {"flow_tiling", 1, 0.0, 100.0, "2.0", "repeats of the flowing water per metre",
-         [](MaterialWeather& m, const Values& v) { m.flow_tiling = f(v[0]); }},
-        {"flow_speed", 1, 0.0, 2.0, "0.05", "speed of water that runs down",
-         [](MaterialWeather& m, const Values& v) { m.flow_speed = f(v[0]); }},
-        {"flow_interval_s", 1, 0.0, 8.0, "1.0", "seconds between two waves of flow",
-         [](MaterialWeather& m, const Values& v) { m.flow_interval_s = f(v[0]); }},
-        {"flow_refraction", 1, 0.0, 0.1, "0.02", "how far flowing water shifts what lies below",
-         [](MaterialWeather& m, const Values& v) { m.flow_refraction = f(v[0]); }},
-        {"flow_normal_strength", 1, 0.0, 2.0, "1.0", "bumpiness of flowing water",
-         [](MaterialWeather& m, const Values& v) { m.flow_normal_strength = f(v[0]); }},
-        {"snow_slope_damp", 1, 0.0, 8.0, "0.75", "how fast snow thins out on slopes",
-         [](MaterialWeather& m, const Values& v) { m.snow_slope_damp = f(v[0]); }},
-        {"snow_accumulation", 2, -10.0, 10.0, "[0.0, 1.0]",
-         "snow: constant, influence of the weather",
-         [](MaterialWeather& m, const Values& v) {
-             m.snow_accumulation = {f(v[0]), f(v[1])};
-         }},
-        {"snow_normal_strength", 1, 0.0, 2.0, "1.0", "bumpiness of the snow",
-         [](MaterialWeather& m, const Values& v) { m.snow_normal_strength = f(v[0]); }},
-        {"snow_detail_strength", 1, 0.0, 1.0, "0.3",
-         "how much of the surface shows through thin snow",
-         [](MaterialWeather& m, const Values& v) { m.snow_detail_strength = f(v[0]); }},
-        {"snow_opacity", 1, 0.0, 1.0, "0.5", "cover of thin snow",
-         [](MaterialWeather& m, const Values& v) { m.snow_opacity = f(v[0]); }},
-        {"sheltered", 0, 0.0, 1.0, "true", "an interior: never gets rain or snow",
-         [](MaterialWeather& m, const Values& v) { m.sheltered = v[0] != 0.0; }},
-    };
+    std::vector<ScenarioKey> keys;
+    for (const MaterialProperty& property : scene::material_table()) {
+        keys.push_back({.table = "materials",
+                        .name = std::string(property.name),
+                        .example = property.value_text(scene::default_value(property)),
+                        .meaning = std::string(property.help) + ranges(property)});
+    }
     return keys;
+}
+
+std::vector<MaterialOverride> read_material_overrides(const toml::table& materials,
+                                                      const std::string& file)
+{
+    std::vector<std::string> known;
+    for (const MaterialProperty& property : scene::material_table()) {
+        known.emplace_back(property.name);
+    }
+    std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
+    for (const auto& [glob, node] : materials) {
+        const TomlValue value(node, file, "[materials.\"" + std::string(glob.str()) + "\"]");
+        MaterialOverride one{std::string(glob.str()), value.place(), {}};
+        for (const auto& [name, entry] : value.entries(known)) {
+            one.values.emplace_back(name, read_value(*scene::find_property(name), entry));
+        }
+        found.emplace_back(node.source().begin.line, std::move(one));
+    }
+    // toml++ sorts by name; the file's order is what the user sees.
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<MaterialOverride> overrides;
+    for (auto& [line, one] : found) overrides.push_back(std::move(one));
+    return overrides;
 }
 
 std::vector<std::string> apply_material_overrides(const std::vector<MaterialOverride>& overrides,
@@ -78,11 +117,7 @@ std::vector<std::string> apply_material_overrides(const std::vector<MaterialOver
         for (scene::Material& material : materials) {
             if (!glob_matches(one.glob, material.name)) continue;
             matched = true;
-            for (const auto& [name, values] : one.values) {
-                for (const MaterialKey& key : material_keys()) {
-                    if (key.name == name) key.set(material.weather, values);
-                }
-            }
+            apply(one, material);
         }
         if (matched) continue;
         std::vector<std::string> names;

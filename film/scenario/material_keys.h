@@ -5,21 +5,18 @@
 #include <vector>
 
 #include "film/scenario/scenario.h"
+#include "film/toml/toml_value.h"
 #include "scene/scene.h"
 
 namespace petrichor::film {
 
-/// A weather property of a material that a scenario may set by [materials."glob"].
-struct MaterialKey {
-    std::string name;
-    int count = 1;  ///< numbers: 1, 2 or 4; 0 for true or false
-    double low = 0.0;
-    double high = 1.0;
-    std::string example;
-    std::string meaning;
-    void (*set)(scene::MaterialWeather&, const std::vector<double>&) = nullptr;
-};
-const std::vector<MaterialKey>& material_keys();
+/// The keys of [materials."glob"]: one for each row of scene/material_table.h, by its name.
+std::vector<ScenarioKey> material_keys();
+
+/// Reads the tables under [materials]. Throws Error for an unknown key and for a value of the wrong
+/// type or out of the row's range.
+std::vector<MaterialOverride> read_material_overrides(const toml::table& materials,
+                                                      const std::string& file);
 
 /// Applies the overrides in the order of the file (a later one wins) and returns the globs that
 /// match no material, with a hint, for the log.

@@ -229,38 +229,6 @@ void read_table(Scenario& scenario, const std::string& table, const TomlValue& v
     }
 }
 
-std::vector<double> material_values(const MaterialKey& key, const TomlValue& value)
-{
-    if (key.count == 0) return {value.boolean() ? 1.0 : 0.0};
-    if (key.count == 1) return {value.number(key.low, key.high)};
-    return value.numbers(static_cast<std::size_t>(key.count), key.low, key.high);
-}
-
-void read_materials(Scenario& scenario, const toml::table& table)
-{
-    std::vector<std::string> known;
-    for (const MaterialKey& key : material_keys()) known.push_back(key.name);
-    for (const auto& [glob, node] : table) {
-        const TomlValue value(node, scenario.name,
-                              "[materials.\"" + std::string(glob.str()) + "\"]");
-        MaterialOverride one{std::string(glob.str()), value.place(), {}};
-        for (const auto& [name, entry] : value.entries(known)) {
-            for (const MaterialKey& key : material_keys()) {
-                if (key.name == name) one.values.emplace_back(name, material_values(key, entry));
-            }
-        }
-        scenario.materials.push_back(std::move(one));
-    }
-    // toml++ sorts by name; the file's order is what the user sees.
-    std::stable_sort(scenario.materials.begin(), scenario.materials.end(),
-                     [](const MaterialOverride& a, const MaterialOverride& b) {
-                         const auto line = [](const std::string& place) {
-                             return std::stoul(place.substr(place.rfind(':') + 1));
-                         };
-                         return line(a.place) < line(b.place);
-                     });
-}
-
 void read_weather_preset(Scenario& scenario, const toml::table& table)
 {
     const toml::node* preset = table.get("preset");
@@ -313,7 +281,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
             scenario.has_weather = true;
             read_weather_preset(scenario, *node.as_table());
         } else if (table == "materials") {
-            read_materials(scenario, *node.as_table());
+            scenario.materials = read_material_overrides(*node.as_table(), scenario.name);
         } else {
             read_table(scenario, table, value);
         }
@@ -347,9 +315,7 @@ const std::vector<ScenarioKey>& scenario_keys()
     static const std::vector<ScenarioKey> keys = [] {
         std::vector<ScenarioKey> all;
         for (const Rule& rule : rules()) all.push_back(rule.key);
-        for (const MaterialKey& key : material_keys()) {
-            all.push_back({"materials", key.name, key.example, key.meaning, false, false});
-        }
+        for (ScenarioKey& key : material_keys()) all.push_back(std::move(key));
         return all;
     }();
     return keys;
@@ -369,7 +335,7 @@ std::string table_meaning(const std::string& table)
         {"output", "The sequence and its files."},
         {"weather", "What falls from the sky, and when."},
         {"materials",
-         "What weather does to materials, by name; * stands for any letters. Later tables win."},
+         "Properties of materials, by their names; * stands for any letters. Later tables win."},
     };
     for (const auto& [name, meaning] : meanings) {
         if (name == table) return meaning;

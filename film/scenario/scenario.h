@@ -87,7 +87,8 @@ struct ScenarioOutput {
     std::vector<std::string> aovs;
 };
 
-/// What the weather does to materials whose name matches: values by key of material_keys().
+/// Properties of the materials whose name matches: values by name of scene/material_table.h (of a
+/// choice its index).
 struct MaterialOverride {
     std::string glob;
     std::string place;  ///< "file:line", for messages

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <tuple>
 
+#include "gpu/upload/material_constants.h"
+
 namespace petrichor::gpu {
 
 namespace {
@@ -48,75 +50,6 @@ VkSamplerAddressMode address_mode(Wrap wrap)
             return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
     }
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-}
-
-shared::TextureTransform texture_transform(const TextureUse& use)
-{
-    // glTF: offset * rotation * scale, rotation counter-clockwise in a v-down frame.
-    const float c = std::cos(use.rotation_rad);
-    const float s = std::sin(use.rotation_rad);
-    return {{c * use.scale.x, s * use.scale.y, use.offset.x},
-            {-s * use.scale.x, c * use.scale.y, use.offset.y}};
-}
-
-struct Slots {
-    const TextureUse* use[TEXTURE_SLOTS];
-};
-
-Slots slots_of(const Material& m)
-{
-    return {{&m.base_color_texture, &m.normal_texture, &m.metallic_roughness_texture,
-             &m.occlusion_texture, &m.emissive_texture, &m.weather.height, &m.weather.puddle_mask,
-             &m.weather.snow_mask}};
-}
-
-shared::MaterialConstants constants_of(const Material& m, const std::vector<bool>& loaded)
-{
-    shared::MaterialConstants c{};
-    c.base_color = m.base_color;
-    // What passes through a clear body is seen as transparency of its surface.
-    if (m.transmission > 0.0f) c.base_color.w *= 1.0f - 0.9f * m.transmission;
-    c.emissive = m.emissive;
-    c.metallic = m.metallic;
-    c.roughness = m.roughness;
-    c.normal_scale = m.normal_scale;
-    c.occlusion_strength = m.occlusion_strength;
-    c.alpha_cutoff = m.alpha_cutoff;
-    const float f = (m.ior - 1.0f) / (m.ior + 1.0f);
-    c.f0 = f * f * m.specular;
-    const MaterialWeather& w = m.weather;
-    c.porosity = w.porosity;
-    c.default_height = w.default_height;
-    c.water_slope_damp = w.water_slope_damp;
-    c.water_accumulation = w.water_accumulation;
-    c.water_color = w.water_color;
-    c.flow_tiling = w.flow_tiling;
-    c.flow_speed = w.flow_speed;
-    c.flow_interval_s = w.flow_interval_s;
-    c.flow_refraction = w.flow_refraction;
-    c.flow_normal_strength = w.flow_normal_strength;
-    c.snow_slope_damp = w.snow_slope_damp;
-    c.snow_accumulation = w.snow_accumulation;
-    c.snow_normal_strength = w.snow_normal_strength;
-    c.snow_detail_strength = w.snow_detail_strength;
-    c.snow_opacity = w.snow_opacity;
-    const bool blended = m.alpha_mode == AlphaMode::Blend || m.transmission > 0.0f;
-    if (m.alpha_mode == AlphaMode::Mask) c.flags |= MATERIAL_MASK;
-    if (blended) c.flags |= MATERIAL_BLEND;
-    if (m.unlit) c.flags |= MATERIAL_UNLIT;
-    if (w.sheltered) c.flags |= MATERIAL_SHELTERED;
-    if (m.double_sided) c.flags |= MATERIAL_DOUBLE_SIDED;
-    const Slots slots = slots_of(m);
-    for (std::uint32_t i = 0; i < TEXTURE_SLOTS; ++i) {
-        const TextureUse& use = *slots.use[i];
-        c.transforms[i] = texture_transform(use);
-        const bool present = use.present() &&
-                             static_cast<std::size_t>(use.texture) < loaded.size() &&
-                             loaded[static_cast<std::size_t>(use.texture)];
-        if (present) c.flags |= 1u << i;
-        if (use.texcoord == 1) c.flags |= 65536u << i;
-    }
-    return c;
 }
 
 }  // namespace
@@ -268,19 +201,19 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
-        emissive_ = emissive_ || source.emissive != glm::vec3(0.0f);
-        const shared::MaterialConstants c = constants_of(source, loaded);
+        emissive_ = emissive_ || source.emissive * source.emissive_strength != glm::vec3(0.0f);
+        const shared::MaterialConstants c = material_constants(source, loaded);
         std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
         GpuMaterial material;
         material.double_sided = source.double_sided;
         material.masked = source.alpha_mode == AlphaMode::Mask;
-        material.blended = (c.flags & MATERIAL_BLEND) != 0;
+        material.blended = is_blended(source);
         material.bindings.push_back(uniform(*constants_, i * stride, sizeof(c)));
-        const Slots slots = slots_of(source);
+        const auto slots = slots_of(source);
         for (std::uint32_t slot = 0; slot < TEXTURE_SLOTS; ++slot) {
-            if (c.flags & (1u << slot)) {
+            if (c.slots[slot].present != 0) {
                 material.slots |= 1u << slot;
-                const auto t = static_cast<std::size_t>(slots.use[slot]->texture);
+                const auto t = static_cast<std::size_t>(slots[slot]->texture);
                 material.bindings.push_back(sampled(*images_[t], *image_samplers_[t]));
             } else {
                 material.bindings.push_back(sampled(*white_, plain));

@@ -1,9 +1,54 @@
-// Constants of one material, as the surface pass reads them.
+// Constants of one material, as the surface passes read them. What a property means: its row in
+// scene/material_table.h, by the same name. A row without a field here is not shaded, or is part of
+// the pipeline's state.
 #ifndef PETRICHOR_GPU_UPLOAD_MATERIAL_IO_H
 #define PETRICHOR_GPU_UPLOAD_MATERIAL_IO_H
 
 #include "base/interop.h"
 
+// X(type, name); uint: a flag or the index of a choice.
+#define MATERIAL_FIELDS(X)         \
+    X(vec4, base_color_factor)     \
+    X(float, metallic_factor)      \
+    X(float, roughness_factor)     \
+    X(float, normal_scale)         \
+    X(float, occlusion_strength)   \
+    X(vec3, emissive_factor)       \
+    X(float, emissive_strength)    \
+    X(uint, alpha_mode)            \
+    X(float, alpha_cutoff)         \
+    X(float, ior)                  \
+    X(float, specular_factor)      \
+    X(float, transmission_factor)  \
+    X(uint, unlit)                 \
+    X(float, porosity)             \
+    X(float, default_height)       \
+    X(float, water_slope_damp)     \
+    X(vec4, water_accumulation)    \
+    X(vec4, water_color)           \
+    X(float, flow_tiling)          \
+    X(float, flow_speed)           \
+    X(float, flow_interval_s)      \
+    X(float, flow_refraction)      \
+    X(float, flow_normal_strength) \
+    X(float, snow_slope_damp)      \
+    X(vec2, snow_accumulation)     \
+    X(float, snow_normal_strength) \
+    X(float, snow_detail_strength) \
+    X(float, snow_opacity)         \
+    X(uint, sheltered)
+
+// X(slot, name): the name is that of the row in material_textures() and of the sampler, whose
+// binding in the material's set is 1 + slot.
+#define MATERIAL_TEXTURES(X)         \
+    X(0, base_color_texture)         \
+    X(1, normal_texture)             \
+    X(2, metallic_roughness_texture) \
+    X(3, occlusion_texture)          \
+    X(4, emissive_texture)           \
+    X(5, height_texture)             \
+    X(6, puddle_mask_texture)        \
+    X(7, snow_mask_texture)
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_NORMAL 1
 #define TEXTURE_METALLIC_ROUGHNESS 2
@@ -14,12 +59,10 @@
 #define TEXTURE_SNOW_MASK 7
 #define TEXTURE_SLOTS 8
 
-#define MATERIAL_MASK 256u   // alpha test
-#define MATERIAL_BLEND 512u  // stochastic transparency
-#define MATERIAL_UNLIT 1024u
-#define MATERIAL_SHELTERED 2048u
-#define MATERIAL_DOUBLE_SIDED 4096u
-// bits 0..7: texture slot present; bits 16..23: slot reads texcoord 1
+// Indices of alpha_mode.
+#define ALPHA_OPAQUE 0u
+#define ALPHA_MASK 1u
+#define ALPHA_BLEND 2u
 
 // Lighting models, in the G-buffer's model byte.
 #define MODEL_STANDARD 0u
@@ -27,39 +70,19 @@
 
 SHARED_BEGIN
 
-// uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z)
-struct TextureTransform {
-    vec3 row0;
+struct TextureSlot {
+    vec3 row0;      // uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z)
     vec3 row1;
+    uint texcoord;  // of the mesh, 0 or 1
+    uint present;   // 0: there is no texture, white stands in
 };
 
+#define MATERIAL_FIELD(type, name) type name;
 struct MaterialConstants {
-    vec4 base_color;
-    vec3 emissive;
-    float metallic;
-    float roughness;
-    float normal_scale;
-    float occlusion_strength;
-    float alpha_cutoff;
-    float f0;        // dielectric reflectance at normal incidence
-    float porosity;  // negative: from roughness
-    float default_height;
-    float water_slope_damp;
-    vec4 water_accumulation;
-    vec4 water_color;
-    float flow_tiling;
-    float flow_speed;
-    float flow_interval_s;
-    float flow_refraction;
-    float flow_normal_strength;
-    float snow_slope_damp;
-    vec2 snow_accumulation;
-    float snow_normal_strength;
-    float snow_detail_strength;
-    float snow_opacity;
-    uint flags;
-    TextureTransform transforms[TEXTURE_SLOTS];
+    MATERIAL_FIELDS(MATERIAL_FIELD)
+    TextureSlot slots[TEXTURE_SLOTS];
 };
+#undef MATERIAL_FIELD
 
 // Push constants of one draw.
 struct DrawConstants {

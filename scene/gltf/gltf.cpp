@@ -6,21 +6,19 @@
 
 #include "scene/gltf/detail/gltf_container.h"
 #include "scene/gltf/detail/gltf_parts.h"
+#include "scene/material_table.h"
 #include "scene/tangents.h"
 
 namespace petrichor::scene {
 namespace {
 
-constexpr std::array<std::string_view, 14> kExtensions{
-    "KHR_lights_punctual",    "KHR_texture_transform",      "KHR_materials_emissive_strength",
-    "KHR_materials_specular", "KHR_materials_ior",          "KHR_materials_clearcoat",
-    "KHR_materials_sheen",    "KHR_materials_anisotropy",   "KHR_materials_transmission",
-    "KHR_materials_unlit",    "KHR_mesh_quantization",      "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",       "PETRICHOR_materials_weather"};
-
 bool is_known(std::string_view extension)
 {
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    static constexpr std::array<std::string_view, 5> others{
+        "KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
+        "EXT_mesh_gpu_instancing", "EXT_texture_webp"};
+    return !extension_members(extension).empty() ||
+           std::find(others.begin(), others.end(), extension) != others.end();
 }
 
 void check_version(const JsonObject& root)
@@ -92,13 +90,13 @@ void complete(Primitive& primitive, const Material& material)
     }
 }
 
-bool uses_second_texcoord(const Material& m)
+bool uses_second_texcoord(const Material& material)
 {
-    const std::array uses{&m.base_color_texture,  &m.metallic_roughness_texture, &m.normal_texture,
-                          &m.occlusion_texture,   &m.emissive_texture,           &m.weather.height,
-                          &m.weather.puddle_mask, &m.weather.snow_mask};
-    return std::any_of(uses.begin(), uses.end(),
-                       [](const TextureUse* use) { return use->present() && use->texcoord == 1; });
+    const auto& textures = material_textures();
+    return std::any_of(textures.begin(), textures.end(), [&](const MaterialTexture& texture) {
+        const TextureUse& use = texture.get(material);
+        return use.present() && use.texcoord == 1;
+    });
 }
 
 }  // namespace

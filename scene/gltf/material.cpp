@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "scene/gltf/detail/gltf_parts.h"
 #include "scene/gltf/detail/gltf_uri.h"
+#include "scene/material_table.h"
 
 namespace petrichor::scene {
 namespace {
-
-constexpr float kLargest = std::numeric_limits<float>::max();
 
 Wrap read_wrap(const JsonObject& sampler, std::string_view key)
 {
@@ -21,103 +20,134 @@ Wrap read_wrap(const JsonObject& sampler, std::string_view key)
     return Wrap::Repeat;
 }
 
-void clamp_numbers(const JsonObject& json, std::string_view key, std::span<float> values,
-                   float high)
+// The object that holds a place's member; none when the file leaves it out.
+std::optional<JsonObject> holder_of(const JsonObject& material, const GltfPlace& place)
 {
-    if (!json.numbers(key, values)) return;
-    bool outside = false;
-    for (float& value : values) {
-        outside = outside || !(value >= 0.0f && value <= high);
-        value = std::clamp(value, 0.0f, high);
-    }
-    if (outside) json.warn(key, "the value is out of range and was clamped");
+    std::optional<JsonObject> holder = material;
+    if (!place.extension.empty()) holder = material.extension(place.extension);
+    if (holder && !place.parent.empty()) holder = holder->object(place.parent);
+    return holder;
 }
 
-void read_extensions(const JsonObject& json, Material& out)
+// Our own extension is written by hand or by tools of ours: mistakes are errors. In everybody's
+// extensions they are mended, since exporters do make them.
+bool strict(const MaterialProperty& property)
 {
-    const auto ignore_textures = [](const JsonObject& extension) {
-        for (const std::string& key : extension.keys()) {
-            if (key.ends_with("Texture")) {
-                extension.warn(key, "textures of this extension are not read, only its factors");
+    return property.gltf.extension.starts_with("PETRICHOR_");
+}
+
+[[noreturn]] void refuse(const MaterialProperty& property, const JsonObject& holder, int i,
+                         float value)
+{
+    const auto text = [](float x) { return number_text(static_cast<double>(x)); };
+    const std::string which = property.count > 1 ? "number " + std::to_string(i) + " " : "";
+    holder.fail(property.gltf.member,
+                which + "must be in [" + text(property.low[i]) + ", " + text(property.high[i]) +
+                    "], got " + text(value),
+                "Correct the value in the material's weather.");
+}
+
+glm::vec4 read_numbers(const MaterialProperty& property, const JsonObject& holder, glm::vec4 value)
+{
+    const std::string_view member = property.gltf.member;
+    if (property.count == 1) {
+        value.x = holder.number(member, value.x);
+    } else {
+        holder.numbers(member, {&value.x, static_cast<std::size_t>(property.count)});
+    }
+    bool outside = false;
+    for (int i = 0; i < property.count; ++i) {
+        if (property.accepts(i, value[i])) continue;
+        if (strict(property)) refuse(property, holder, i, value[i]);
+        outside = true;
+        value[i] = std::clamp(value[i], property.low[i], property.high[i]);
+    }
+    if (outside) holder.warn(member, "the value is out of range and was clamped");
+    return value;
+}
+
+float read_choice(const MaterialProperty& property, const JsonObject& holder, float usual)
+{
+    const std::string_view member = property.gltf.member;
+    const auto& words = property.words;
+    const std::string word = holder.text(member, words[static_cast<std::size_t>(usual)]);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found != words.end()) return static_cast<float>(found - words.begin());
+    std::string known;
+    for (const std::string_view w : words) known.append(known.empty() ? "" : ", ").append(w);
+    if (strict(property)) {
+        holder.fail(member, "must be one of " + known + ", got " + in_quotes(word),
+                    "Choose one of these words.");
+    }
+    holder.warn(member, "unknown word " + in_quotes(word) + ", there are " + known + "; " +
+                            std::string(words[static_cast<std::size_t>(usual)]) + " stands in");
+    return usual;
+}
+
+void read_property(const MaterialProperty& property, const JsonObject& material, Material& out)
+{
+    const auto holder = holder_of(material, property.gltf);
+    if (!holder) return;
+    glm::vec4 value = property.get(out);
+    if (property.gltf.member.empty()) {
+        value.x = 1.0f;
+    } else if (!holder->has(property.gltf.member)) {
+        return;
+    } else if (property.kind == PropertyKind::Flag) {
+        value.x = holder->flag(property.gltf.member, value.x != 0.0f) ? 1.0f : 0.0f;
+    } else if (property.kind == PropertyKind::Choice) {
+        value.x = read_choice(property, *holder, value.x);
+    } else {
+        value = read_numbers(property, *holder, value);
+    }
+    property.set(out, value);
+}
+
+void refuse_unknown(const JsonObject& extension, const std::vector<std::string_view>& known)
+{
+    for (const std::string& key : extension.keys()) {
+        if (key == "extensions" || key == "extras") continue;
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        const auto nearest = nearest_word(key, known);
+        std::string fix = "Remove it; the keys are";
+        for (const std::string_view word : known) fix.append(" ").append(word);
+        if (nearest) fix = "Did you mean " + *nearest + "?";
+        extension.fail("", "unknown key " + in_quotes(key), fix);
+    }
+}
+
+// What an extension of a material says and no row of the tables reads.
+void check_extensions(const JsonObject& material)
+{
+    const auto extensions = material.object("extensions");
+    if (!extensions) return;
+    for (const std::string& name : extensions->keys()) {
+        const auto known = extension_members(name);
+        if (known.empty()) continue;
+        const auto extension = material.extension(name);
+        if (name.starts_with("PETRICHOR_")) {
+            refuse_unknown(*extension, known);
+            continue;
+        }
+        for (const std::string& key : extension->keys()) {
+            const bool read = std::find(known.begin(), known.end(), key) != known.end();
+            if (!read && key.ends_with("Texture")) {
+                extension->warn(key, "textures of this extension are not read, only its factors");
             }
         }
-    };
-    if (const auto e = json.extension("KHR_materials_emissive_strength")) {
-        out.emissive *= e->clamped("emissiveStrength", 1.0f, 0.0f, kLargest);
-        out.emissive = glm::min(out.emissive, glm::vec3(kLargest));
     }
-    if (const auto e = json.extension("KHR_materials_ior")) {
-        const float ior = e->number("ior", 1.5f);
-        // 0 stands for a surface that reflects everything; nothing between 0 and 1 exists.
-        out.ior = ior == 0.0f ? 0.0f : e->clamped("ior", 1.5f, 1.0f, 100.0f);
-    }
-    if (const auto e = json.extension("KHR_materials_specular")) {
-        out.specular = e->clamped("specularFactor", 1.0f, 0.0f, 1.0f);
-        clamp_numbers(*e, "specularColorFactor", {&out.specular_color.x, 3}, kLargest);
-        ignore_textures(*e);
-    }
-    if (const auto e = json.extension("KHR_materials_transmission")) {
-        out.transmission = e->clamped("transmissionFactor", 0.0f, 0.0f, 1.0f);
-        ignore_textures(*e);
-    }
-    if (const auto e = json.extension("KHR_materials_clearcoat")) {
-        out.clearcoat = e->clamped("clearcoatFactor", 0.0f, 0.0f, 1.0f);
-        out.clearcoat_roughness = e->clamped("clearcoatRoughnessFactor", 0.0f, 0.0f, 1.0f);
-        ignore_textures(*e);
-    }
-    if (const auto e = json.extension("KHR_materials_sheen")) {
-        clamp_numbers(*e, "sheenColorFactor", {&out.sheen_color.x, 3}, 1.0f);
-        out.sheen_roughness = e->clamped("sheenRoughnessFactor", 0.0f, 0.0f, 1.0f);
-        ignore_textures(*e);
-    }
-    if (const auto e = json.extension("KHR_materials_anisotropy")) {
-        out.anisotropy = e->clamped("anisotropyStrength", 0.0f, 0.0f, 1.0f);
-        out.anisotropy_rotation_rad = e->number("anisotropyRotation", 0.0f);
-        ignore_textures(*e);
-    }
-    out.unlit = json.extension("KHR_materials_unlit").has_value();
-}
-
-void read_alpha(const JsonObject& json, Material& out)
-{
-    const std::string mode = json.text("alphaMode", "OPAQUE");
-    if (mode == "MASK") {
-        out.alpha_mode = AlphaMode::Mask;
-    } else if (mode == "BLEND") {
-        out.alpha_mode = AlphaMode::Blend;
-    } else if (mode != "OPAQUE") {
-        json.warn("alphaMode", "unknown mode " + in_quotes(mode) + ", the material is opaque");
-    }
-    out.alpha_cutoff = json.clamped("alphaCutoff", out.alpha_cutoff, 0.0f, kLargest);
 }
 
 Material read_material(const JsonObject& json, std::size_t number, TextureCollector& textures)
 {
     Material out;
     out.name = json.text("name", "material " + std::to_string(number));
-    if (const auto pbr = json.object("pbrMetallicRoughness")) {
-        clamp_numbers(*pbr, "baseColorFactor", {&out.base_color.x, 4}, 1.0f);
-        out.base_color_texture = textures.use(*pbr, "baseColorTexture");
-        out.metallic = pbr->clamped("metallicFactor", 1.0f, 0.0f, 1.0f);
-        out.roughness = pbr->clamped("roughnessFactor", 1.0f, 0.0f, 1.0f);
-        out.metallic_roughness_texture = textures.use(*pbr, "metallicRoughnessTexture");
+    check_extensions(json);
+    for (const MaterialTexture& texture : material_textures()) {
+        const auto holder = holder_of(json, texture.gltf);
+        if (holder) texture.edit(out) = textures.use(*holder, texture.gltf.member);
     }
-    out.normal_texture = textures.use(json, "normalTexture");
-    if (const auto normal = json.object("normalTexture")) {
-        out.normal_scale = normal->number("scale", 1.0f);
-    }
-    out.occlusion_texture = textures.use(json, "occlusionTexture");
-    if (const auto occlusion = json.object("occlusionTexture")) {
-        out.occlusion_strength = occlusion->clamped("strength", 1.0f, 0.0f, 1.0f);
-    }
-    out.emissive_texture = textures.use(json, "emissiveTexture");
-    clamp_numbers(json, "emissiveFactor", {&out.emissive.x, 3}, 1.0f);
-    out.double_sided = json.flag("doubleSided", false);
-    read_alpha(json, out);
-    read_extensions(json, out);
-    if (const auto weather = json.extension("PETRICHOR_materials_weather")) {
-        out.weather = read_weather(*weather, textures);
-    }
+    for (const MaterialProperty& property : material_table()) read_property(property, json, out);
     return out;
 }
 

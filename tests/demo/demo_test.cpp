@@ -235,8 +235,8 @@ TEST(DemoStreet, ReadsBackAsItWasWritten)
         EXPECT_NEAR(a.weather.porosity, b.weather.porosity, 1e-6f);
         EXPECT_NEAR(glm::length(a.weather.water_accumulation - b.weather.water_accumulation), 0.0f,
                     1e-5f);
-        EXPECT_NEAR(glm::length(a.emissive - b.emissive) / (1.0f + glm::length(b.emissive)), 0.0f,
-                    1e-5f);
+        const glm::vec3 read = a.emissive * a.emissive_strength;
+        EXPECT_NEAR(glm::length(read - b.emissive) / (1.0f + glm::length(b.emissive)), 0.0f, 1e-5f);
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const scene::Primitive& a = scene.meshes[i].primitives.front();
@@ -343,7 +343,7 @@ TEST(GlbWriter, KeepsEveryField)
     EXPECT_FLOAT_EQ(a.base_color_texture.rotation_rad, b.base_color_texture.rotation_rad);
     EXPECT_FLOAT_EQ(a.metallic, b.metallic);
     EXPECT_FLOAT_EQ(a.roughness, b.roughness);
-    EXPECT_NEAR(a.emissive.x, b.emissive.x, 1e-4f);
+    EXPECT_NEAR(a.emissive.x * a.emissive_strength, b.emissive.x, 1e-4f);
     EXPECT_FLOAT_EQ(a.ior, b.ior);
     EXPECT_FLOAT_EQ(a.specular, b.specular);
     EXPECT_FLOAT_EQ(a.transmission, b.transmission);

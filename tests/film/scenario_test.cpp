@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"short_point", "[camera]\nposition_m = [1, 2]", "an array of 3 numbers"},
         BadValue{"half_a_camera_key", "[camera]\nkeys = [{ time_s = 1, position_m = [1, 2, 3] }]",
                  "look_at_m"},
-        BadValue{"material_range", "[materials.x]\nporosity = 2", "from 0 to 1, got 2"},
+        BadValue{"material_range", "[materials.x]\nporosity = 2", "from 0 to 1, or -1, got 2"},
         BadValue{"not_a_table", "\noutput = 3", "a table"},
         BadValue{"syntax", "[output]\nwidth = = 3", "not valid TOML"}),
     [](const auto& test) { return test.param.name; });

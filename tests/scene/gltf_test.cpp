@@ -73,7 +73,8 @@ TEST(Gltf, ReadsAScene)
     EXPECT_EQ(stone.base_color, glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
     EXPECT_EQ(stone.metallic, 0.0f);
     EXPECT_EQ(stone.roughness, 0.75f);
-    EXPECT_EQ(stone.emissive, glm::vec3(10, 5, 0));
+    EXPECT_EQ(stone.emissive, glm::vec3(1, 0.5f, 0));
+    EXPECT_EQ(stone.emissive_strength, 10.0f);
     EXPECT_EQ(stone.alpha_mode, AlphaMode::Mask);
     EXPECT_EQ(stone.alpha_cutoff, 0.4f);
     EXPECT_TRUE(stone.double_sided);

@@ -10,11 +10,11 @@ layout(location = 0) in vec4 in_uv;
 
 void main()
 {
-    const bool second = (material.flags & (65536u << TEXTURE_BASE_COLOR)) != 0u;
-    const vec2 p = second ? in_uv.zw : in_uv.xy;
-    const TextureTransform t = material.transforms[TEXTURE_BASE_COLOR];
+    const TextureSlot t = material.slots[TEXTURE_BASE_COLOR];
+    const vec2 p = t.texcoord != 0u ? in_uv.zw : in_uv.xy;
     const vec2 uv = vec2(dot(t.row0.xy, p) + t.row0.z, dot(t.row1.xy, p) + t.row1.z);
-    float alpha = material.base_color.a;
-    if ((material.flags & 1u) != 0u) alpha *= texture(base_color_map, uv).a;
+    float alpha = material.base_color_factor.a;
+    if (t.present != 0u) alpha *= texture(base_color_map, uv).a;
+    alpha *= 1.0 - 0.9 * material.transmission_factor;
     if (alpha < material.alpha_cutoff) discard;
 }

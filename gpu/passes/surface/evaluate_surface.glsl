@@ -12,14 +12,14 @@
 // Cut out by the alpha test, or let through by chance: as often as it is transparent.
 bool hole_in(SurfaceInput at, float alpha)
 {
-    if ((material.flags & MATERIAL_MASK) != 0u && alpha < material.alpha_cutoff) return true;
-    return (material.flags & MATERIAL_BLEND) != 0u &&
+    if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) return true;
+    return (material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0) &&
            alpha <= dither(at.pixel, frame.sample_index + hash_u(at.instance_id) % 64u);
 }
 
 vec3 mapped_normal(SurfaceInput at, vec2 shift)
 {
-    return unpack_normal(texel(normal_map, coordinates(TEXTURE_NORMAL, at, shift)).xy,
+    return unpack_normal(texel(normal_texture, coordinates(TEXTURE_NORMAL, at, shift)).xy,
                          material.normal_scale);
 }
 
@@ -32,6 +32,13 @@ float widened_by_curvature(float roughness, SurfaceInput at)
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
 }
 
+// At normal incidence.
+float dielectric_reflectance()
+{
+    const float root = (material.ior - 1.0) / (material.ior + 1.0);
+    return root * root * material.specular_factor;
+}
+
 SurfaceData evaluate_surface(SurfaceInput at)
 {
     const TangentFrame f = tangent_frame(at);
@@ -39,29 +46,31 @@ SurfaceData evaluate_surface(SurfaceInput at)
     vec3 mapped = vec3(0.0, 0.0, 1.0);
     if (SURFACE_WEATHER != 0) {
         if (has(TEXTURE_NORMAL)) mapped = mapped_normal(at, vec2(0.0));
-        if ((material.flags & MATERIAL_SHELTERED) == 0u) cover = cover_on(at, f, mapped);
+        if (material.sheltered == 0u) cover = cover_on(at, f, mapped);
     }
 
     // The dry material, seen through the water.
     const vec2 shift = cover.refraction;
     SurfaceData data;
-    vec4 base = material.base_color * at.color;
+    vec4 base = material.base_color_factor * at.color;
     if (has(TEXTURE_BASE_COLOR)) {
-        base *= texel(base_color_map, coordinates(TEXTURE_BASE_COLOR, at, shift));
+        base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift));
     }
+    // What passes through a clear body is seen as transparency of its surface.
+    base.a *= 1.0 - 0.9 * material.transmission_factor;
     data.hole = HOLES != 0u && hole_in(at, base.a);
 
-    float roughness = material.roughness;
-    float metallic = material.metallic;
+    float roughness = material.roughness_factor;
+    float metallic = material.metallic_factor;
     if (has(TEXTURE_METALLIC_ROUGHNESS)) {
         const vec4 packed =
-            texel(metallic_roughness_map, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
+            texel(metallic_roughness_texture, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
         roughness *= packed.g;
         metallic *= packed.b;
     }
     float occlusion = 1.0;
     if (has(TEXTURE_OCCLUSION)) {
-        occlusion = mix(1.0, texel(occlusion_map, coordinates(TEXTURE_OCCLUSION, at, shift)).r,
+        occlusion = mix(1.0, texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift)).r,
                         material.occlusion_strength);
     }
     vec3 normal = at.normal;
@@ -72,9 +81,9 @@ SurfaceData evaluate_surface(SurfaceInput at)
     }
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {
-        data.emission = material.emissive;
+        data.emission = material.emissive_factor * material.emissive_strength;
         if (has(TEXTURE_EMISSIVE)) {
-            data.emission *= texel(emissive_map, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
+            data.emission *= texel(emissive_texture, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
         }
     }
     roughness = widened_by_curvature(roughness, at);
@@ -93,8 +102,8 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.roughness = roughness;
     data.texel.metallic = metallic * (1.0 - murk);
     data.texel.porosity = porosity * (1.0 - murk);
-    data.texel.f0 = material.f0;
-    data.texel.model = (material.flags & MATERIAL_UNLIT) != 0u ? MODEL_UNLIT : MODEL_STANDARD;
+    data.texel.f0 = dielectric_reflectance();
+    data.texel.model = material.unlit != 0u ? MODEL_UNLIT : MODEL_STANDARD;
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     return data;
 }

@@ -19,7 +19,7 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
 {
     float unique = at.weather.b;
     if (has(TEXTURE_SNOW_MASK)) {
-        unique *= texel(snow_mask_map, coordinates(TEXTURE_SNOW_MASK, at, vec2(0.0))).r;
+        unique *= texel(snow_mask_texture, coordinates(TEXTURE_SNOW_MASK, at, vec2(0.0))).r;
     }
     const float mask = texel_from_above(snow_map, at, frame.look.snow_tiling.z, vec2(0.0)).b;
     const float detail = texel_from_above(snow_map, at, frame.look.snow_tiling.w, vec2(0.0)).b;

@@ -17,13 +17,8 @@ layout(set = 0, binding = SURFACE_FLOW) uniform sampler2D flow_map;
 layout(set = 0, binding = SURFACE_SNOW) uniform sampler2D snow_map;
 layout(set = 0, binding = SURFACE_SHELTER) uniform sampler2DShadow shelter_map;
 layout(set = 1, binding = 0, scalar) uniform Material { MaterialConstants material; };
-layout(set = 1, binding = 1) uniform sampler2D base_color_map;
-layout(set = 1, binding = 2) uniform sampler2D normal_map;
-layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_map;
-layout(set = 1, binding = 4) uniform sampler2D occlusion_map;
-layout(set = 1, binding = 5) uniform sampler2D emissive_map;
-layout(set = 1, binding = 6) uniform sampler2D height_map;
-layout(set = 1, binding = 7) uniform sampler2D puddle_map;
-layout(set = 1, binding = 8) uniform sampler2D snow_mask_map;
+#define MATERIAL_TEXTURE(slot, name) layout(set = 1, binding = 1 + slot) uniform sampler2D name;
+MATERIAL_TEXTURES(MATERIAL_TEXTURE)
+#undef MATERIAL_TEXTURE
 
 #endif

@@ -19,11 +19,11 @@ bool has(int slot)
 // `shift` moves the lookup, in texture coordinates before the slot's own transform.
 Uv coordinates(int slot, SurfaceInput at, vec2 shift)
 {
-    const bool second = (material.flags & (65536u << slot)) != 0u;
+    const TextureSlot t = material.slots[slot];
+    const bool second = t.texcoord != 0u;
     const vec2 p = (second ? at.uv.zw : at.uv.xy) + shift;
     const vec2 px = second ? at.uv_dx.zw : at.uv_dx.xy;
     const vec2 py = second ? at.uv_dy.zw : at.uv_dy.xy;
-    const TextureTransform t = material.transforms[slot];
     Uv result;
     result.at = vec2(dot(t.row0.xy, p) + t.row0.z, dot(t.row1.xy, p) + t.row1.z);
     result.dx = vec2(dot(t.row0.xy, px), dot(t.row1.xy, px));

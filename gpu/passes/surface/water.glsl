@@ -18,11 +18,11 @@ WaterCover water_on(SurfaceInput at, vec2 flood)
 {
     float height = material.default_height;
     if (has(TEXTURE_HEIGHT)) {
-        height = texel(height_map, coordinates(TEXTURE_HEIGHT, at, vec2(0.0))).r;
+        height = texel(height_texture, coordinates(TEXTURE_HEIGHT, at, vec2(0.0))).r;
     }
     float puddle_mask = at.weather.g;
     if (has(TEXTURE_PUDDLE_MASK)) {
-        puddle_mask *= texel(puddle_map, coordinates(TEXTURE_PUDDLE_MASK, at, vec2(0.0))).r;
+        puddle_mask *= texel(puddle_mask_texture, coordinates(TEXTURE_PUDDLE_MASK, at, vec2(0.0))).r;
     }
     return water_cover(flood, height, puddle_mask, at.normal.y, material.water_slope_damp);
 }

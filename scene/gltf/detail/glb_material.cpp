@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "scene/material_table.h"
 
 namespace petrichor::scene::detail {
 namespace {
@@ -28,79 +29,37 @@ json texture_info(GlbDocument& glb, const scene::Scene& scene, const scene::Text
     return info;
 }
 
-json weather(GlbDocument& glb, const scene::Scene& scene, const scene::MaterialWeather& w)
+// The object that holds a place's member, made when it is not there yet.
+json& holder_of(json& material, const GltfPlace& place)
 {
-    const scene::MaterialWeather normal;
-    json out = json::object();
-    if (w.height.present()) out["heightTexture"] = texture_info(glb, scene, w.height);
-    if (w.puddle_mask.present()) out["puddleMaskTexture"] = texture_info(glb, scene, w.puddle_mask);
-    if (w.snow_mask.present()) out["snowMaskTexture"] = texture_info(glb, scene, w.snow_mask);
-    const auto scalar = [&out](const char* name, float value, float usual) {
-        if (value != usual) out[name] = number(value);
-    };
-    scalar("heightScale", w.height_scale_m, normal.height_scale_m);
-    scalar("defaultHeight", w.default_height, normal.default_height);
-    scalar("porosity", w.porosity, normal.porosity);
-    scalar("waterSlopeDamp", w.water_slope_damp, normal.water_slope_damp);
-    scalar("flowTiling", w.flow_tiling, normal.flow_tiling);
-    scalar("flowSpeed", w.flow_speed, normal.flow_speed);
-    scalar("flowInterval", w.flow_interval_s, normal.flow_interval_s);
-    scalar("flowRefraction", w.flow_refraction, normal.flow_refraction);
-    scalar("flowNormalStrength", w.flow_normal_strength, normal.flow_normal_strength);
-    scalar("snowSlopeDamp", w.snow_slope_damp, normal.snow_slope_damp);
-    scalar("snowNormalStrength", w.snow_normal_strength, normal.snow_normal_strength);
-    scalar("snowDetailStrength", w.snow_detail_strength, normal.snow_detail_strength);
-    scalar("snowOpacity", w.snow_opacity, normal.snow_opacity);
-    if (w.water_accumulation != normal.water_accumulation) {
-        out["waterAccumulation"] = numbers(w.water_accumulation);
+    json* holder = &material;
+    if (!place.extension.empty()) {
+        holder = &(*holder)["extensions"][std::string(place.extension)];
+        if (holder->is_null()) *holder = json::object();
     }
-    if (w.water_color != normal.water_color) out["waterColor"] = numbers(w.water_color);
-    if (w.snow_accumulation != normal.snow_accumulation) {
-        out["snowAccumulation"] = numbers(w.snow_accumulation);
-    }
-    if (w.sheltered) out["sheltered"] = true;
-    return out;
+    return place.parent.empty() ? *holder : (*holder)[std::string(place.parent)];
 }
 
-void add_emission(GlbDocument& glb, const scene::Scene& scene, const scene::Material& m, json& out,
-                  json& extensions)
+json value_of(const MaterialProperty& property, const glm::vec4& value)
 {
-    const float strongest = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
-    if (strongest <= 0.0f) return;
-    const float strength = std::max(strongest, 1.0f);
-    out["emissiveFactor"] = numbers(m.emissive / strength);
-    if (m.emissive_texture.present())
-        out["emissiveTexture"] = texture_info(glb, scene, m.emissive_texture);
-    if (strength > 1.0f) {
-        extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = number(strength);
+    if (property.kind == PropertyKind::Flag) return value.x != 0.0f;
+    if (property.kind == PropertyKind::Choice) {
+        return property.words[static_cast<std::size_t>(value.x)];
     }
+    if (property.count == 1) return number(value.x);
+    json list = json::array();
+    for (int i = 0; i < property.count; ++i) list.push_back(number(value[i]));
+    return list;
 }
 
-void add_layers(const scene::Material& m, json& extensions)
+// glTF's emissive factor ends at 1; what is brighter goes into the strength.
+scene::Material with_dim_factor(scene::Material material)
 {
-    if (m.unlit) extensions["KHR_materials_unlit"] = json::object();
-    if (m.ior != 1.5f) extensions["KHR_materials_ior"]["ior"] = number(m.ior);
-    if (m.specular != 1.0f || m.specular_color != glm::vec3(1.0f)) {
-        extensions["KHR_materials_specular"] = {{"specularFactor", number(m.specular)},
-                                                {"specularColorFactor", numbers(m.specular_color)}};
-    }
-    if (m.transmission > 0.0f) {
-        extensions["KHR_materials_transmission"]["transmissionFactor"] = number(m.transmission);
-    }
-    if (m.clearcoat > 0.0f) {
-        extensions["KHR_materials_clearcoat"] = {
-            {"clearcoatFactor", number(m.clearcoat)},
-            {"clearcoatRoughnessFactor", number(m.clearcoat_roughness)}};
-    }
-    if (m.sheen_color != glm::vec3(0.0f)) {
-        extensions["KHR_materials_sheen"] = {{"sheenColorFactor", numbers(m.sheen_color)},
-                                             {"sheenRoughnessFactor", number(m.sheen_roughness)}};
-    }
-    if (m.anisotropy != 0.0f) {
-        extensions["KHR_materials_anisotropy"] = {
-            {"anisotropyStrength", number(m.anisotropy)},
-            {"anisotropyRotation", number(m.anisotropy_rotation_rad)}};
-    }
+    const glm::vec3& e = material.emissive;
+    const float brightest = std::max({e.x, e.y, e.z, 1.0f});
+    material.emissive /= brightest;
+    material.emissive_strength *= brightest;
+    return material;
 }
 
 }  // namespace
@@ -134,43 +93,30 @@ void add_textures(GlbDocument& glb, const scene::Scene& scene)
     }
 }
 
-void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Material& m)
+void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Material& material)
 {
-    json out = {{"name", m.name}};
-    json& pbr = out["pbrMetallicRoughness"];
-    pbr = json::object();
-    if (m.base_color != glm::vec4(1.0f)) pbr["baseColorFactor"] = numbers(m.base_color);
-    if (m.base_color_texture.present()) {
-        pbr["baseColorTexture"] = texture_info(glb, scene, m.base_color_texture);
+    const scene::Material m = with_dim_factor(material);
+    json out = {{"name", m.name}, {"pbrMetallicRoughness", json::object()}};
+    for (const MaterialTexture& texture : material_textures()) {
+        const scene::TextureUse& use = texture.get(m);
+        if (!use.present()) continue;
+        holder_of(out, texture.gltf)[std::string(texture.gltf.member)] =
+            texture_info(glb, scene, use);
     }
-    if (m.metallic != 1.0f) pbr["metallicFactor"] = number(m.metallic);
-    if (m.roughness != 1.0f) pbr["roughnessFactor"] = number(m.roughness);
-    if (m.metallic_roughness_texture.present()) {
-        pbr["metallicRoughnessTexture"] = texture_info(glb, scene, m.metallic_roughness_texture);
-    }
-    if (m.normal_texture.present()) {
-        out["normalTexture"] = texture_info(glb, scene, m.normal_texture);
-        if (m.normal_scale != 1.0f) out["normalTexture"]["scale"] = number(m.normal_scale);
-    }
-    if (m.occlusion_texture.present()) {
-        out["occlusionTexture"] = texture_info(glb, scene, m.occlusion_texture);
-        if (m.occlusion_strength != 1.0f) {
-            out["occlusionTexture"]["strength"] = number(m.occlusion_strength);
+    for (const MaterialProperty& property : material_table()) {
+        const glm::vec4 value = property.get(m);
+        if (value == default_value(property)) continue;
+        // The scale of a texture that is not there has no place.
+        const std::string parent(property.gltf.parent);
+        if (parent.ends_with("Texture") && !out.contains(parent)) continue;
+        json& holder = holder_of(out, property.gltf);
+        if (!property.gltf.member.empty()) {
+            holder[std::string(property.gltf.member)] = value_of(property, value);
         }
     }
-    json extensions = json::object();
-    add_emission(glb, scene, m, out, extensions);
-    add_layers(m, extensions);
-    const json wet = weather(glb, scene, m.weather);
-    if (!wet.empty()) extensions["PETRICHOR_materials_weather"] = wet;
-    for (const auto& item : extensions.items()) glb.extensions.insert(item.key());
-    if (!extensions.empty()) out["extensions"] = extensions;
-    if (m.alpha_mode == scene::AlphaMode::Blend) out["alphaMode"] = "BLEND";
-    if (m.alpha_mode == scene::AlphaMode::Mask) {
-        out["alphaMode"] = "MASK";
-        out["alphaCutoff"] = number(m.alpha_cutoff);
+    if (out.contains("extensions")) {
+        for (const auto& item : out["extensions"].items()) glb.extensions.insert(item.key());
     }
-    if (m.double_sided) out["doubleSided"] = true;
     glb.tree["materials"].push_back(out);
 }
 

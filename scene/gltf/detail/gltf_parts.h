@@ -43,9 +43,6 @@ private:
 /// All materials, in the order of the file. Fills scene.textures too.
 void read_materials(GltfSource& source, Scene& scene);
 
-/// PETRICHOR_materials_weather: unknown keys and values out of range are errors.
-MaterialWeather read_weather(const JsonObject& weather, TextureCollector& textures);
-
 /// All meshes, in the order of the file; indices are checked, triangles only. Primitives without a
 /// material get `default_material`. Normals and tangents stay empty where the file gives none.
 std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material);

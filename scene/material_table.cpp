@@ -1,0 +1,392 @@
+#include "scene/material_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+namespace petrichor::scene {
+namespace {
+
+using M = Material;
+using W = MaterialWeather;
+using Row = MaterialProperty;
+
+constexpr float kLargest = std::numeric_limits<float>::max();
+constexpr std::string_view kWeather = "PETRICHOR_materials_weather";
+constexpr std::string_view kPbr = "pbrMetallicRoughness";
+
+// The member at the end of a chain of pointers to members.
+template <auto First, auto... Rest>
+auto& follow(auto& object)
+{
+    if constexpr (sizeof...(Rest) == 0) {
+        return object.*First;
+    } else {
+        return follow<Rest...>(object.*First);
+    }
+}
+
+template <typename T>
+constexpr int components()
+{
+    if constexpr (std::is_same_v<T, glm::vec2>) return 2;
+    if constexpr (std::is_same_v<T, glm::vec3>) return 3;
+    if constexpr (std::is_same_v<T, glm::vec4>) return 4;
+    return 1;
+}
+
+template <auto... Path>
+glm::vec4 get(const Material& material)
+{
+    const auto& value = follow<Path...>(material);
+    using T = std::remove_cvref_t<decltype(value)>;
+    glm::vec4 out(0.0f);
+    if constexpr (components<T>() == 1) {
+        out.x = static_cast<float>(value);
+    } else {
+        for (int i = 0; i < components<T>(); ++i) out[i] = value[i];
+    }
+    return out;
+}
+
+template <auto... Path>
+void set(Material& material, const glm::vec4& in)
+{
+    auto& value = follow<Path...>(material);
+    using T = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, bool>) {
+        value = in.x != 0.0f;
+    } else if constexpr (components<T>() == 1) {
+        value = static_cast<T>(in.x);
+    } else {
+        for (int i = 0; i < components<T>(); ++i) value[i] = in[i];
+    }
+}
+
+template <auto... Path>
+Row row(std::string_view name, PropertyKind kind, GltfPlace gltf, std::string_view help)
+{
+    using T = std::remove_cvref_t<decltype(follow<Path...>(std::declval<Material&>()))>;
+    Row r{.name = name, .kind = kind, .count = components<T>(), .gltf = gltf, .help = help};
+    r.get = get<Path...>;
+    r.set = set<Path...>;
+    return r;
+}
+
+template <auto... Path>
+Row number(std::string_view name, glm::vec4 low, glm::vec4 high, GltfPlace gltf,
+           std::string_view help)
+{
+    Row r = row<Path...>(name, PropertyKind::Number, gltf, help);
+    r.low = low;
+    r.high = high;
+    return r;
+}
+
+template <auto... Path>
+Row number(std::string_view name, float low, float high, GltfPlace gltf, std::string_view help)
+{
+    return number<Path...>(name, glm::vec4(low), glm::vec4(high), gltf, help);
+}
+
+template <auto... Path>
+Row flag(std::string_view name, GltfPlace gltf, std::string_view help)
+{
+    return row<Path...>(name, PropertyKind::Flag, gltf, help);
+}
+
+template <auto... Path>
+Row choice(std::string_view name, std::vector<std::string_view> words, GltfPlace gltf,
+           std::string_view help)
+{
+    Row r = row<Path...>(name, PropertyKind::Choice, gltf, help);
+    r.high = glm::vec4(static_cast<float>(words.size() - 1));
+    r.words = std::move(words);
+    return r;
+}
+
+Row or_also(Row r, float value)
+{
+    r.also = value;
+    return r;
+}
+
+Row not_shaded(Row r)
+{
+    r.shaded = false;
+    return r;
+}
+
+// glTF 2.0 and its KHR extensions. Ranges are those of their specifications.
+void add_gltf_rows(std::vector<Row>& t)
+{
+    t.push_back(number<&M::base_color>("base_color_factor", 0, 1, {"", kPbr, "baseColorFactor"},
+                                       "linear red, green, blue and alpha, times the texture"));
+    t.push_back(number<&M::metallic>("metallic_factor", 0, 1, {"", kPbr, "metallicFactor"},
+                                     "0 dielectric .. 1 metal, times the texture"));
+    t.push_back(number<&M::roughness>("roughness_factor", 0, 1, {"", kPbr, "roughnessFactor"},
+                                      "perceptual: 0 mirror .. 1 matt, times the texture"));
+    t.push_back(number<&M::normal_scale>("normal_scale", -kLargest, kLargest,
+                                         {"", "normalTexture", "scale"},
+                                         "of the normal map's x and y; 0 flat"));
+    t.push_back(number<&M::occlusion_strength>("occlusion_strength", 0, 1,
+                                               {"", "occlusionTexture", "strength"},
+                                               "of the occlusion map; 0 none"));
+    t.push_back(number<&M::emissive>("emissive_factor", 0, 1, {"", "", "emissiveFactor"},
+                                     "linear red, green, blue, times the texture"));
+    t.push_back(
+        number<&M::emissive_strength>("emissive_strength", 0, kLargest,
+                                      {"KHR_materials_emissive_strength", "", "emissiveStrength"},
+                                      "radiance of emissive_factor 1; the sun gives 100000 lux"));
+    t.push_back(choice<&M::alpha_mode>("alpha_mode", {"OPAQUE", "MASK", "BLEND"},
+                                       {"", "", "alphaMode"},
+                                       "what alpha does: nothing, cut out, let through"));
+    t.push_back(number<&M::alpha_cutoff>("alpha_cutoff", 0, kLargest, {"", "", "alphaCutoff"},
+                                         "MASK: less alpha than this is a hole"));
+    t.push_back(
+        flag<&M::double_sided>("double_sided", {"", "", "doubleSided"}, "back faces are seen too"));
+    t.push_back(or_also(
+        number<&M::ior>("ior", 1, 100, {"KHR_materials_ior", "", "ior"},
+                        "index of refraction; 0: as if infinite, specular_factor alone counts"),
+        0.0f));
+    t.push_back(number<&M::specular>("specular_factor", 0, 1,
+                                     {"KHR_materials_specular", "", "specularFactor"},
+                                     "times the reflectance of a dielectric"));
+    t.push_back(not_shaded(number<&M::specular_color>(
+        "specular_color_factor", 0, kLargest, {"KHR_materials_specular", "", "specularColorFactor"},
+        "linear tint of a dielectric's reflectance")));
+    t.push_back(number<&M::transmission>(
+        "transmission_factor", 0, 1, {"KHR_materials_transmission", "", "transmissionFactor"},
+        "light that passes; shown as transparency of the surface, up to nine tenths"));
+    t.push_back(not_shaded(number<&M::clearcoat>("clearcoat_factor", 0, 1,
+                                                 {"KHR_materials_clearcoat", "", "clearcoatFactor"},
+                                                 "strength of a clear coat")));
+    t.push_back(not_shaded(
+        number<&M::clearcoat_roughness>("clearcoat_roughness_factor", 0, 1,
+                                        {"KHR_materials_clearcoat", "", "clearcoatRoughnessFactor"},
+                                        "perceptual roughness of the clear coat")));
+    t.push_back(not_shaded(number<&M::sheen_color>(
+        "sheen_color_factor", 0, 1, {"KHR_materials_sheen", "", "sheenColorFactor"},
+        "linear colour of cloth fibres at grazing angles")));
+    t.push_back(not_shaded(number<&M::sheen_roughness>(
+        "sheen_roughness_factor", 0, 1, {"KHR_materials_sheen", "", "sheenRoughnessFactor"},
+        "perceptual roughness of the sheen")));
+    t.push_back(not_shaded(number<&M::anisotropy>(
+        "anisotropy_strength", 0, 1, {"KHR_materials_anisotropy", "", "anisotropyStrength"},
+        "0 round highlight .. 1 stretched along the tangent")));
+    t.push_back(not_shaded(number<&M::anisotropy_rotation_rad>(
+        "anisotropy_rotation", -kLargest, kLargest,
+        {"KHR_materials_anisotropy", "", "anisotropyRotation"},
+        "radians, of the stretch from the tangent towards the bitangent")));
+    t.push_back(flag<&M::unlit>("unlit", {"KHR_materials_unlit", "", ""},
+                                "shows its base colour whatever the light"));
+}
+
+// Lux 2.02, "per material": symbols, ranges and defaults.
+void add_weather_rows(std::vector<Row>& t)
+{
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(number<&M::weather, &W::porosity>(
+        "porosity", 0, 1, place("porosity"),
+        "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet; -1: from the "
+        "roughness"));
+    t.back().also = -1.0f;
+    t.push_back(not_shaded(number<&M::weather, &W::height_scale_m>(
+        "height_scale_m", 0, 10, place("heightScale"),
+        "height 1 of the height map above height 0, metres")));
+    t.push_back(number<&M::weather, &W::default_height>(
+        "default_height", 0, 1, place("defaultHeight"),
+        "height where the material has no height map: 0 low .. 1 high; low places fill first"));
+    t.push_back(number<&M::weather, &W::water_slope_damp>(
+        "water_slope_damp", 0, 1, place("waterSlopeDamp"),
+        "0 water stays on any slope .. 1 the less the steeper, none on walls"));
+    t.push_back(number<&M::weather, &W::water_accumulation>(
+        "water_accumulation", glm::vec4(0.0f), {2.0f, 4.0f, 2.0f, 4.0f}, place("waterAccumulation"),
+        "cracks: constant, influence of the weather; puddles: constant, influence"));
+    t.push_back(number<&M::weather, &W::water_color>(
+        "water_color", 0, 1, place("waterColor"),
+        "linear red, green, blue and opacity of standing water (mud, leaves)"));
+    t.push_back(number<&M::weather, &W::flow_tiling>("flow_tiling", 0, 1000, place("flowTiling"),
+                                                     "repeats of the flowing water per metre"));
+    t.push_back(number<&M::weather, &W::flow_speed>("flow_speed", 0, 2, place("flowSpeed"),
+                                                    "speed of water that runs down"));
+    t.push_back(
+        number<&M::weather, &W::flow_interval_s>("flow_interval_s", 0, 8, place("flowInterval"),
+                                                 "seconds between two waves of flow; 0: still"));
+    t.push_back(number<&M::weather, &W::flow_refraction>(
+        "flow_refraction", 0, 0.1f, place("flowRefraction"),
+        "how far flowing water shifts what lies below, in texture coordinates a slope"));
+    t.push_back(number<&M::weather, &W::flow_normal_strength>(
+        "flow_normal_strength", 0, 2, place("flowNormalStrength"), "bumpiness of flowing water"));
+    t.push_back(number<&M::weather, &W::snow_slope_damp>(
+        "snow_slope_damp", 0, 8, place("snowSlopeDamp"), "how fast snow thins out on slopes"));
+    t.push_back(number<&M::weather, &W::snow_accumulation>(
+        "snow_accumulation", glm::vec4(0.0f), {2.0f, 4.0f, 0.0f, 0.0f}, place("snowAccumulation"),
+        "snow: constant, influence of the weather"));
+    t.push_back(number<&M::weather, &W::snow_normal_strength>(
+        "snow_normal_strength", 0, 2, place("snowNormalStrength"), "bumpiness of the snow"));
+    t.push_back(number<&M::weather, &W::snow_detail_strength>(
+        "snow_detail_strength", 0, 1, place("snowDetailStrength"),
+        "bumpiness of the snow's fine detail, near the camera"));
+    t.push_back(number<&M::weather, &W::snow_opacity>(
+        "snow_opacity", 0, 1, place("snowOpacity"),
+        "how much of the light that glows below the snow swallows"));
+    t.push_back(flag<&M::weather, &W::sheltered>("sheltered", place("sheltered"),
+                                                 "an interior: never gets rain or snow"));
+}
+
+template <auto... Path>
+MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view help)
+{
+    return {name, gltf, help,
+            [](const Material& m) -> const TextureUse& { return follow<Path...>(m); },
+            [](Material& m) -> TextureUse& { return follow<Path...>(m); }};
+}
+
+// The shortest decimal that reads back as the same float.
+std::string float_text(float value)
+{
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+    return {text, end};
+}
+
+// "clearcoat_factor is set by 3 materials (paint, ...)".
+std::string counted(std::size_t count, const std::string& thing, const std::string& first)
+{
+    std::string text = std::to_string(count) + " " + thing + (count == 1 ? " (" : "s (") + first;
+    return text + (count == 1 ? ")" : ", ...)");
+}
+
+void add_mesh_masks(const Scene& scene, std::vector<std::string>& lines)
+{
+    std::size_t count = 0;
+    std::string first;
+    for (const Mesh& mesh : scene.meshes) {
+        const bool mixes = std::any_of(
+            mesh.primitives.begin(), mesh.primitives.end(), [](const Primitive& primitive) {
+                return std::any_of(primitive.weather.begin(), primitive.weather.end(),
+                                   [](const glm::vec4& mask) { return mask.x < 1.0f; });
+            });
+        if (mixes && count++ == 0) first = mesh.name;
+    }
+    if (count == 0) return;
+    lines.push_back("red of _WEATHER, which mixes two sets of textures, is below 1 in " +
+                    counted(count, "mesh", first) + ": not shaded yet");
+}
+
+}  // namespace
+
+bool MaterialProperty::accepts(int component, float value) const
+{
+    // Written so that NaN fails.
+    return value == also || (value >= low[component] && value <= high[component]);
+}
+
+std::string MaterialProperty::range_text(int component) const
+{
+    std::string text = "any number";
+    if (high[component] < kLargest) {
+        text = float_text(low[component]) + " to " + float_text(high[component]);
+    } else if (low[component] > -kLargest) {
+        text = float_text(low[component]) + " or more";
+    }
+    return std::isnan(also) ? text : text + ", or " + float_text(also);
+}
+
+const std::vector<MaterialProperty>& material_table()
+{
+    static const std::vector<MaterialProperty> table = [] {
+        std::vector<MaterialProperty> rows;
+        add_gltf_rows(rows);
+        add_weather_rows(rows);
+        return rows;
+    }();
+    return table;
+}
+
+std::string MaterialProperty::value_text(const glm::vec4& value) const
+{
+    if (kind == PropertyKind::Flag) return value.x != 0.0f ? "true" : "false";
+    if (kind == PropertyKind::Choice) {
+        return '"' + std::string(words[static_cast<std::size_t>(value.x)]) + '"';
+    }
+    if (count == 1) return float_text(value.x);
+    std::string text = "[";
+    for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + float_text(value[i]);
+    return text + "]";
+}
+
+const MaterialProperty* find_property(std::string_view name)
+{
+    const auto& table = material_table();
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const MaterialProperty& p) { return p.name == name; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+glm::vec4 default_value(const MaterialProperty& property)
+{
+    return property.get(Material{});
+}
+
+const std::vector<MaterialTexture>& material_textures()
+{
+    static const std::vector<MaterialTexture> table{
+        texture<&M::base_color_texture>("base_color_texture", {"", kPbr, "baseColorTexture"},
+                                        "sRGB colour, alpha"),
+        texture<&M::metallic_roughness_texture>("metallic_roughness_texture",
+                                                {"", kPbr, "metallicRoughnessTexture"},
+                                                "green roughness, blue metallic"),
+        texture<&M::normal_texture>("normal_texture", {"", "", "normalTexture"},
+                                    "tangent space, green up"),
+        texture<&M::occlusion_texture>("occlusion_texture", {"", "", "occlusionTexture"},
+                                       "red: 1 open .. 0 hidden from the sky"),
+        texture<&M::emissive_texture>("emissive_texture", {"", "", "emissiveTexture"},
+                                      "sRGB colour"),
+        texture<&M::weather, &W::height>("height_texture", {kWeather, "", "heightTexture"},
+                                         "red: 0 low .. 1 high"),
+        texture<&M::weather, &W::puddle_mask>("puddle_mask_texture",
+                                              {kWeather, "", "puddleMaskTexture"},
+                                              "red: 1 puddles may stand, 0 never"),
+        texture<&M::weather, &W::snow_mask>("snow_mask_texture", {kWeather, "", "snowMaskTexture"},
+                                            "red: 1 snow may lie, 0 never"),
+    };
+    return table;
+}
+
+std::vector<std::string_view> extension_members(std::string_view extension)
+{
+    std::vector<std::string_view> members;
+    for (const MaterialTexture& t : material_textures()) {
+        if (t.gltf.extension == extension) members.push_back(t.gltf.member);
+    }
+    for (const MaterialProperty& p : material_table()) {
+        if (p.gltf.extension == extension) members.push_back(p.gltf.member);
+    }
+    return members;
+}
+
+std::vector<std::string> unshaded_properties(const Scene& scene)
+{
+    std::vector<std::string> lines;
+    for (const MaterialProperty& property : material_table()) {
+        if (property.shaded) continue;
+        std::size_t count = 0;
+        std::string first;
+        for (const Material& material : scene.materials) {
+            if (property.get(material) == default_value(property)) continue;
+            if (count++ == 0) first = material.name;
+        }
+        if (count == 0) continue;
+        lines.push_back(std::string(property.name) + " is set by " +
+                        counted(count, "material", first) + ": not shaded yet");
+    }
+    add_mesh_masks(scene, lines);
+    return lines;
+}
+
+}  // namespace petrichor::scene

@@ -1,0 +1,163 @@
+// The table of material properties: every row is kept by glTF, and says what it is.
+#include "scene/material_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "scene/gltf/glb_writer.h"
+#include "scene/gltf/gltf.h"
+
+namespace petrichor::scene {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A value in range that is not the default.
+glm::vec4 another_value(const MaterialProperty& property)
+{
+    glm::vec4 value = default_value(property);
+    if (property.kind != PropertyKind::Number) {
+        value.x = value.x == 0.0f ? 1.0f : 0.0f;
+        return value;
+    }
+    for (int i = 0; i < property.count; ++i) {
+        const float low = std::max(property.low[i], -2.0f);
+        const float high = std::min(property.high[i], 2.0f);
+        const float step = 0.0625f * static_cast<float>(i + 1);
+        value[i] = low + (high - low) * (0.25f + step);
+        if (value[i] == default_value(property)[i]) value[i] = low + (high - low) * 0.125f;
+    }
+    return value;
+}
+
+Scene scene_with(const Material& material)
+{
+    Scene scene;
+    const unsigned char png[] = {0x89, 'P', 'N', 'G', 1, 2, 3, 4};
+    const auto* bytes = reinterpret_cast<const std::byte*>(png);
+    scene.textures.push_back({.name = "image", .bytes = {bytes, bytes + sizeof(png)}});
+    scene.materials.push_back(material);
+    Primitive triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.normals.assign(3, {0, 0, 1});
+    triangle.uv0 = {{0, 0}, {1, 0}, {0, 1}};
+    triangle.uv1 = triangle.uv0;
+    triangle.indices = {0, 1, 2};
+    scene.meshes.push_back({"triangle", {triangle}});
+    scene.instances.push_back({"one", 0, glm::mat4(1.0f)});
+    return scene;
+}
+
+Material through_gltf(const Material& material)
+{
+    const Scene scene = load_gltf(write_glb(scene_with(material)), "scene.glb", nullptr);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    return scene.materials.front();
+}
+
+class Property : public testing::TestWithParam<const MaterialProperty*> {};
+
+TEST_P(Property, IsKeptByGltf)
+{
+    const MaterialProperty& property = *GetParam();
+    Material material;
+    material.normal_texture.texture = 0;
+    material.occlusion_texture.texture = 0;
+    const glm::vec4 wanted = another_value(property);
+    property.set(material, wanted);
+    const Material read = through_gltf(material);
+    for (const MaterialProperty& other : material_table()) {
+        const glm::vec4 expected = &other == &property ? wanted : default_value(other);
+        for (int i = 0; i < other.count; ++i) {
+            EXPECT_FLOAT_EQ(other.get(read)[i], expected[i]) << other.name;
+        }
+    }
+}
+
+TEST_P(Property, SaysWhatItIs)
+{
+    const MaterialProperty& property = *GetParam();
+    EXPECT_FALSE(property.help.empty());
+    EXPECT_FALSE(property.help.ends_with("."));
+    EXPECT_GE(property.count, 1);
+    const glm::vec4 usual = default_value(property);
+    for (int i = 0; i < property.count; ++i) {
+        EXPECT_TRUE(property.accepts(i, usual[i]));
+        EXPECT_FALSE(property.accepts(i, NAN));
+        EXPECT_FALSE(property.range_text(i).empty());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Property, testing::ValuesIn([] {
+                             std::vector<const MaterialProperty*> rows;
+                             for (const auto& row : material_table()) rows.push_back(&row);
+                             return rows;
+                         }()),
+                         [](const auto& test) { return std::string(test.param->name); });
+
+TEST(MaterialTable, NamesAndPlacesAreUnique)
+{
+    std::set<std::string> names;
+    std::set<std::string> places;
+    const auto place = [](const GltfPlace& p) {
+        return std::string(p.extension) + "/" + std::string(p.parent) + "/" + std::string(p.member);
+    };
+    for (const MaterialProperty& p : material_table()) {
+        EXPECT_TRUE(names.insert(std::string(p.name)).second) << p.name;
+        EXPECT_TRUE(places.insert(place(p.gltf)).second) << p.name;
+    }
+    for (const MaterialTexture& t : material_textures()) {
+        EXPECT_TRUE(names.insert(std::string(t.name)).second) << t.name;
+        EXPECT_TRUE(places.insert(place(t.gltf)).second) << t.name;
+    }
+}
+
+TEST(MaterialTable, EveryTextureIsKeptByGltf)
+{
+    for (const MaterialTexture& texture : material_textures()) {
+        Material material;
+        texture.edit(material) = {.texture = 0, .texcoord = 1, .offset = {0.5f, 0.25f}};
+        const Material read = through_gltf(material);
+        for (const MaterialTexture& other : material_textures()) {
+            const TextureUse& use = other.get(read);
+            EXPECT_EQ(use.present(), &other == &texture) << other.name;
+            if (use.present()) {
+                EXPECT_EQ(use.texcoord, 1) << other.name;
+                EXPECT_EQ(use.offset, glm::vec2(0.5f, 0.25f)) << other.name;
+            }
+        }
+    }
+}
+
+TEST(MaterialTable, EmissionBeyondOneGoesIntoTheStrength)
+{
+    Material material;
+    material.emissive = {20.0f, 10.0f, 5.0f};
+    material.emissive_strength = 3.0f;
+    const Material read = through_gltf(material);
+    EXPECT_FLOAT_EQ(read.emissive.x, 1.0f);
+    EXPECT_FLOAT_EQ(read.emissive.y, 0.5f);
+    EXPECT_FLOAT_EQ(read.emissive_strength, 60.0f);
+}
+
+TEST(MaterialTable, WhatIsNotShadedIsSaidOnceForAScene)
+{
+    Scene scene = scene_with({});
+    EXPECT_THAT(unshaded_properties(scene), IsEmpty());
+    scene.materials[0].name = "paint";
+    scene.materials[0].clearcoat = 0.5f;
+    scene.materials.push_back(scene.materials[0]);
+    ASSERT_EQ(unshaded_properties(scene).size(), 1u);
+    EXPECT_THAT(unshaded_properties(scene)[0],
+                HasSubstr("clearcoat_factor is set by 2 materials (paint, ...)"));
+    scene.meshes[0].primitives[0].weather.assign(3, {0.5f, 1, 1, 1});
+    ASSERT_EQ(unshaded_properties(scene).size(), 2u);
+    EXPECT_THAT(unshaded_properties(scene)[1], HasSubstr("1 mesh (triangle)"));
+}
+
+}  // namespace
+}  // namespace petrichor::scene
