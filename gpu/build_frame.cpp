@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "gpu/build_frame.h"
-#include "gpu/outputs/aov.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
@@ -116,7 +115,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
 }  // namespace
 
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
-                       const std::vector<std::uint32_t>& aov_kinds)
+                       const std::vector<AovGroup>& aov_groups)
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
@@ -150,9 +149,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
                     c.world_to_clip, c.camera_m, weather);
         if (i == 0) {
-            for (std::size_t slot = 0; slot < aov_kinds.size(); ++slot) {
-                add_aov(graph, *r.targets, constants, slot, aov_kinds[slot], variant.weather,
-                        variant.emission);
+            const GBufferParts parts{weather.any, r.scene->emissive()};
+            for (std::size_t g = 0; g < aov_groups.size(); ++g) {
+                add_aovs(graph, *r.targets, constants, aov_groups[g], g, parts);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_BUILD_FRAME_H
 
 #include "gpu/frame/frame_constants.h"
+#include "gpu/outputs/aov.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/upload/gpu_scene.h"
@@ -25,7 +26,7 @@ struct FrameResources {
 
 /// The passes of one frame in order. Also writes the constants of every sample.
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& resources,
-                       const std::vector<std::uint32_t>& aov_kinds);
+                       const std::vector<AovGroup>& aov_groups);
 
 }  // namespace petrichor::gpu
 

@@ -65,27 +65,6 @@ bool has_constant_weather(const Scene& scene)
 
 }  // namespace
 
-const std::vector<AovInfo>& aov_table()
-{
-    // The order is that of the cases in aov.comp.glsl.
-    static const std::vector<AovInfo> table{
-        {"depth", "Z", "distance along the view axis, metres; infinity for the sky"},
-        {"position", "XYZ", "world position, metres"},
-        {"normal", "XYZ", "world normal of the dry surface, unit"},
-        {"base_color", "RGB", "dry base colour, linear, 0..1"},
-        {"roughness", "Y", "dry perceptual roughness, 0..1"},
-        {"metallic", "Y", "metallic, 0..1"},
-        {"occlusion", "Y", "baked ambient occlusion, 1 open"},
-        {"emission", "RGB", "emitted radiance, linear"},
-        {"film", "Y", "where a film of water can form: shelter and slope, 0..1"},
-        {"water", "Y", "cover of standing water, 0..1"},
-        {"snow", "Y", "cover of snow, 0..1"},
-        {"frost", "Y", "cover of hoar frost, 0..1"},
-        {"cover_normal", "XYZ", "world normal of the water or snow surface, unit"},
-    };
-    return table;
-}
-
 struct Renderer::Impl {
     explicit Impl(const RendererOptions& options)
         : device(options),
@@ -126,7 +105,7 @@ struct Renderer::Impl {
         light_table = make_light_table(device, *light_arena, lights);
     }
 
-    void prepare_targets(const FrameSettings& s)
+    void prepare_targets(const FrameSettings& s, const std::vector<AovGroup>& aov_groups)
     {
         const int words = static_cast<int>(light_table.words());
         if (targets.width != s.width || targets.height != s.height || words > target_words) {
@@ -137,9 +116,11 @@ struct Renderer::Impl {
         }
         const auto pixels =
             static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
-        while (targets.aovs.size() < s.aovs.size()) {
-            targets.aovs.push_back(target_arena->buffer(
-                {.name = "aov", .size = pixels * sizeof(glm::vec4), .host = true}));
+        for (std::size_t i = 0; i < aov_groups.size(); ++i) {
+            const VkDeviceSize size = aov_groups[i].numbers * pixels * sizeof(float);
+            if (i >= targets.aovs.size()) targets.aovs.emplace_back();
+            if (targets.aovs[i] && targets.aovs[i]->size >= size) continue;
+            targets.aovs[i] = target_arena->buffer({.name = "aov", .size = size, .host = true});
         }
     }
 
@@ -206,19 +187,13 @@ RenderResult Renderer::render(const Frame& frame)
     Impl& impl = *impl_;
     check_frame(frame, impl.device.limits());
     if (!impl.scene) throw Error("render: no scene is loaded", "Call load() before render().");
-    std::vector<std::uint32_t> aov_kinds;
-    for (const std::string& name : frame.settings.aovs) {
-        const auto& table = aov_table();
-        const auto found = std::find_if(table.begin(), table.end(),
-                                        [&](const AovInfo& a) { return a.name == name; });
-        if (found == table.end()) {
-            std::string known;
-            for (const AovInfo& a : table) known += (known.empty() ? "" : ", ") + a.name;
-            throw Error("render: there is no output \"" + name + "\"; there are " + known,
-                        "Choose among these for --aov.");
-        }
-        aov_kinds.push_back(static_cast<std::uint32_t>(found - table.begin()));
-    }
+    std::vector<std::size_t> aov_rows;
+    for (const std::string& name : frame.settings.aovs) aov_rows.push_back(aov_row(name));
+    const std::vector<AovGroup> aov_groups =
+        group_aovs(aov_rows,
+                   static_cast<std::size_t>(frame.settings.width) *
+                       static_cast<std::size_t>(frame.settings.height),
+                   impl.device.limits().maxStorageBufferRange);
 
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {
@@ -231,7 +206,7 @@ RenderResult Renderer::render(const Frame& frame)
     }
     const Sun sun = sun_of(frame.sky, scene_sun, impl.environment != nullptr);
     impl.prepare_lights(frame, scene_sun);
-    impl.prepare_targets(frame.settings);
+    impl.prepare_targets(frame.settings, aov_groups);
     impl.descriptors.reset();
 
     FrameResources resources;
@@ -246,7 +221,7 @@ RenderResult Renderer::render(const Frame& frame)
     resources.constants = impl.constants.get();
     resources.constants_stride = impl.constants_stride;
     resources.scene_has_constant_weather = impl.constant_weather;
-    FrameGraph graph = build_frame(frame, sun, resources, aov_kinds);
+    FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
     impl.graph_text = graph.describe();
 
     RenderResult result;
@@ -263,18 +238,10 @@ RenderResult Renderer::render(const Frame& frame)
     std::memcpy(&light, impl.sky.light->mapped, sizeof(light));
     result.exposure = light.exposure;
     result.light_list_overflows = count_overflows(impl.targets);
-    for (std::size_t i = 0; i < aov_kinds.size(); ++i) {
-        const AovInfo& info = aov_table()[aov_kinds[i]];
-        AovImage image;
-        image.name = info.name;
-        image.channels = static_cast<int>(info.channels.size());
-        image.pixels.resize(pixels * info.channels.size());
-        const std::byte* source = impl.targets.aovs[i]->mapped;
-        for (std::size_t p = 0; p < pixels; ++p) {
-            std::memcpy(&image.pixels[p * info.channels.size()], source + p * 16,
-                        info.channels.size() * 4);
-        }
-        result.aovs.push_back(std::move(image));
+    for (const std::size_t row : aov_rows) {
+        const AovInfo& info = aov_table()[row];
+        result.aovs.push_back({info.name, static_cast<int>(info.channels.size()),
+                               read_aov(impl.targets, aov_groups, row)});
     }
     return result;
 }

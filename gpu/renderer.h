@@ -11,17 +11,10 @@
 
 #include "gpu/device/device_info.h"
 #include "gpu/frame/frame.h"
+#include "gpu/outputs/aov_table.h"
 #include "gpu/upload/texture.h"
 
 namespace petrichor::gpu {
-
-/// One output of the renderer besides the beauty. Labels come from the pixel-centre sample.
-struct AovInfo {
-    std::string name;      ///< as in --aov
-    std::string channels;  ///< EXR channel suffixes, "XYZ"
-    std::string meaning;   ///< with the unit
-};
-const std::vector<AovInfo>& aov_table();
 
 struct AovImage {
     std::string name;

@@ -142,7 +142,7 @@ void list_aovs()
         std::cout << aov.name << std::string(aov.name.size() < 16 ? 16 - aov.name.size() : 1, ' ')
                   << aov.channels
                   << std::string(aov.channels.size() < 5 ? 5 - aov.channels.size() : 1, ' ')
-                  << aov.meaning << "\n";
+                  << aov.meaning << (aov.unit == "1" ? "" : ", " + aov.unit) << "\n";
     }
 }
 

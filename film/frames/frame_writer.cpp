@@ -23,16 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// Numbers that half cannot hold exactly enough: identifiers, and distances over the range of a
-// street.
-bool needs_float(const std::string& aov)
-{
-    for (const char* word : {"depth", "id", "index", "class", "position"}) {
-        if (aov.find(word) != std::string::npos) return true;
-    }
-    return false;
-}
-
 std::vector<texproc::ExrChannel> exr_channels(const gpu::RenderResult& result)
 {
     std::vector<texproc::ExrChannel> channels;
@@ -45,14 +35,11 @@ std::vector<texproc::ExrChannel> exr_channels(const gpu::RenderResult& result)
         channels.push_back(std::move(channel));
     }
     for (const gpu::AovImage& aov : result.aovs) {
-        std::string suffixes = "XYZW";
-        for (const gpu::AovInfo& info : gpu::aov_table()) {
-            if (info.name == aov.name) suffixes = info.channels;
-        }
-        const bool floats = needs_float(aov.name);
+        const gpu::AovInfo& info = gpu::aov_table()[gpu::aov_row(aov.name)];
+        const bool floats = info.precision == gpu::AovPrecision::FLOAT;
         const auto count = static_cast<std::size_t>(aov.channels);
         for (std::size_t c = 0; c < count; ++c) {
-            texproc::ExrChannel channel{aov.name + "." + suffixes[c], {}, {}};
+            texproc::ExrChannel channel{aov.name + "." + info.channels[c], {}, {}};
             for (std::size_t i = 0; i < pixels; ++i) {
                 const float value = aov.pixels[i * count + c];
                 if (floats) {

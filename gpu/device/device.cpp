@@ -166,6 +166,7 @@ std::string missing_features(VkPhysicalDevice device)
     need(has.v13.synchronization2, "synchronization2");
     need(has.v13.maintenance4, "maintenance4");
     need(has.core.features.shaderStorageImageExtendedFormats, "shaderStorageImageExtendedFormats");
+    need(has.core.features.independentBlend, "independentBlend");
     return missing;
 }
 
@@ -323,6 +324,7 @@ Device::Device(const RendererOptions& options)
 
         Features wanted;
         wanted.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
+        wanted.core.features.independentBlend = VK_TRUE;
         wanted.v12.scalarBlockLayout = VK_TRUE;
         wanted.v12.hostQueryReset = VK_TRUE;
         wanted.v13.dynamicRendering = VK_TRUE;

@@ -268,7 +268,10 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     depth.depthCompareOp = desc.depth_equal ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
 
     std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colors.size());
-    for (auto& attachment : attachments) attachment.colorWriteMask = desc.color_write ? 0xfu : 0u;
+    for (std::size_t i = 0; i < attachments.size(); ++i) {
+        const bool kept = desc.colors[i] != VK_FORMAT_UNDEFINED;
+        attachments[i].colorWriteMask = desc.color_write && kept ? 0xfu : 0u;
+    }
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());

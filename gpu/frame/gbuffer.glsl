@@ -1,9 +1,10 @@
-// How a surface point is written into the G-buffer and read back (targets: gpu/frame/targets.h).
+// How a surface point is written into the G-buffer and read back.
 #ifndef PETRICHOR_GBUFFER_GLSL
 #define PETRICHOR_GBUFFER_GLSL
 
 #include "formulas/codec/octahedral.h"
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/gbuffer_table_io.h"
 
 // Reflectance in seven bits, by its root: 63 is 0.04, that of glass.
 uint encode_reflectance(float f0)
@@ -28,14 +29,14 @@ struct GBufferTexel {
     float f0;      // reflectance of the dielectric part at normal incidence, 0..0.16
     uint model;
     vec4 weather;  // film, water, snow, frost
+    vec3 emission; // radiance
 };
 
 // As the targets hold it.
 struct GBufferCode {
-    vec4 color;     // square-root base colour, occlusion
-    vec4 normals;   // base and cover normal, octahedral
-    vec4 material;  // roughness, metallic, porosity, model and reflectance
-    vec4 weather;
+#define ROW(name, location_, format_, when_, meaning_) vec4 name;
+    GBUFFER_TABLE(ROW)
+#undef ROW
 };
 
 GBufferCode encode_gbuffer(GBufferTexel texel)
@@ -47,23 +48,25 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
                          float(texel.model | (encode_reflectance(texel.f0) << 1)) / 255.0);
     code.weather = texel.weather;
+    code.emission = vec4(texel.emission, 1.0);
     return code;
 }
 
-GBufferTexel decode_gbuffer(vec4 color, vec4 normals, vec4 material, vec4 weather)
+GBufferTexel decode_gbuffer(GBufferCode code)
 {
     GBufferTexel texel;
-    texel.base_color = color.rgb * color.rgb;
-    texel.occlusion = color.a;
-    texel.base_normal = octahedral_decode(normals.xy);
-    texel.cover_normal = octahedral_decode(normals.zw);
-    texel.roughness = material.x;
-    texel.metallic = material.y;
-    texel.porosity = material.z;
-    const uint code = uint(material.w * 255.0 + 0.5);
-    texel.model = code & 1u;
-    texel.f0 = decode_reflectance(code >> 1);
-    texel.weather = weather;
+    texel.base_color = code.color.rgb * code.color.rgb;
+    texel.occlusion = code.color.a;
+    texel.base_normal = octahedral_decode(code.normals.xy);
+    texel.cover_normal = octahedral_decode(code.normals.zw);
+    texel.roughness = code.material.x;
+    texel.metallic = code.material.y;
+    texel.porosity = code.material.z;
+    const uint bits = uint(code.material.w * 255.0 + 0.5);
+    texel.model = bits & 1u;
+    texel.f0 = decode_reflectance(bits >> 1);
+    texel.weather = code.weather;
+    texel.emission = code.emission.rgb;
     return texel;
 }
 

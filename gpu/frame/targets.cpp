@@ -1,12 +1,29 @@
 #include "gpu/frame/targets.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "gpu/frame/frame_io.h"
 
 namespace petrichor::gpu {
 
 namespace {
+
+// Locations count from 0 in the order of the rows; devices offer eight at least.
+constexpr int kLocations[] = {
+#define ROW(name, location, format, when, meaning) location,
+    GBUFFER_TABLE(ROW)
+#undef ROW
+};
+constexpr bool locations_count_up()
+{
+    for (int i = 0; i < static_cast<int>(std::size(kLocations)); ++i) {
+        if (kLocations[i] != i) return false;
+    }
+    return true;
+}
+static_assert(locations_count_up() && std::size(kLocations) <= 8);
+static_assert(std::size(kLocations) + 1 == GBUFFER_BINDINGS);
 
 int divide_up(int value, int by)
 {
@@ -32,6 +49,29 @@ int FrameTargets::coarse_y() const
     return divide_up(tiles_y(), LIGHT_COARSE);
 }
 
+std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts)
+{
+    [[maybe_unused]] const bool ALWAYS = true;
+    const bool WEATHER = parts.weather;
+    const bool EMISSION = parts.emission;
+    std::vector<Attachment> attachments;
+#define ROW(name, location, format, when, meaning) \
+    attachments.push_back(when ? Attachment(*gbuffer.name) : Attachment());
+    GBUFFER_TABLE(ROW)
+#undef ROW
+    return attachments;
+}
+
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
+                  const SamplerHandle& nearest)
+{
+    bindings.push_back({first, sampled(*gbuffer.depth, nearest)});
+#define ROW(name, location, format, when, meaning) \
+    bindings.push_back({first + 1 + location, sampled(*gbuffer.name, nearest)});
+    GBUFFER_TABLE(ROW)
+#undef ROW
+}
+
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
                                 int light_words)
 {
@@ -51,11 +91,10 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     targets.gbuffer.depth =
         target("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    targets.gbuffer.color = target("color", VK_FORMAT_R8G8B8A8_UNORM, color);
-    targets.gbuffer.normals = target("normals", VK_FORMAT_R16G16B16A16_SNORM, color);
-    targets.gbuffer.material = target("material", VK_FORMAT_R8G8B8A8_UNORM, color);
-    targets.gbuffer.weather = target("weather", VK_FORMAT_R8G8B8A8_UNORM, color);
-    targets.gbuffer.emission = target("emission", VK_FORMAT_R16G16B16A16_SFLOAT, color);
+#define ROW(name, location, format, when, meaning) \
+    targets.gbuffer.name = target(#name, VK_FORMAT_##format, color);
+    GBUFFER_TABLE(ROW)
+#undef ROW
     targets.occlusion = target("screen_occlusion", VK_FORMAT_R8_UNORM, storage);
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);

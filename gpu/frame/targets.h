@@ -3,20 +3,31 @@
 
 #include <memory>
 
-#include "gpu/device/resources.h"
+#include "gpu/device/graph.h"
+#include "gpu/frame/gbuffer_table_io.h"
 
 namespace petrichor::gpu {
 
-/// What the surface pass writes: the dry material and the weather at each pixel.
+/// What the surface pass writes, by the rows of gbuffer_table_io.h.
 struct GBuffer {
-    std::unique_ptr<GpuImage> depth;    ///< reversed, infinite far plane
-    std::unique_ptr<GpuImage> color;    ///< square root of base colour; ambient occlusion
-    std::unique_ptr<GpuImage> normals;  ///< base normal, cover normal (water or snow), octahedral
-    std::unique_ptr<GpuImage>
-        material;  ///< perceptual roughness, metallic, porosity; model and reflectance
-    std::unique_ptr<GpuImage> weather;   ///< film, standing water, snow, frost; each 0..1
-    std::unique_ptr<GpuImage> emission;  ///< linear radiance
+    std::unique_ptr<GpuImage> depth;  ///< reversed, infinite far plane
+#define ROW(name, location, format, when, meaning) std::unique_ptr<GpuImage> name;
+    GBUFFER_TABLE(ROW)
+#undef ROW
 };
+
+/// Parts that a frame may leave out; what belongs to them is neither written nor read then.
+struct GBufferParts {
+    bool weather = true;
+    bool emission = true;
+};
+
+/// The targets as attachments, by location; those of parts left out are empty.
+std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts);
+
+/// Adds the depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
+                  const SamplerHandle& nearest);
 
 /// Images and buffers of one frame size.
 struct FrameTargets {
@@ -33,9 +44,9 @@ struct FrameTargets {
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;
-    std::unique_ptr<GpuBuffer> beauty;   ///< RGBA half bits, read by the host
-    std::unique_ptr<GpuBuffer> display;  ///< RGBA8, read by the host
-    std::vector<std::unique_ptr<GpuBuffer>> aovs;
+    std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
+    std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host
+    std::vector<std::unique_ptr<GpuBuffer>> aovs;  ///< read by the host; gpu/outputs/aov.h
 
     int tiles_x() const;
     int tiles_y() const;

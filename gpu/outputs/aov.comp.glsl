@@ -1,52 +1,64 @@
 #version 460
-// One labelled output from the G-buffer of the pixel-centre sample.
+// Labelled outputs from the G-buffer of the pixel-centre sample: every row of the table that is asked
+// for, one image behind the other.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "gpu/frame/gbuffer.glsl"
 #include "gpu/outputs/aov_io.h"
+#include "gpu/outputs/aov_table_io.h"
+#define GBUFFER_FIRST_BINDING AOV_GBUFFER
+#include "gpu/frame/gbuffer_read.glsl"
 
 layout(local_size_x = AOV_TILE, local_size_y = AOV_TILE) in;
+layout(constant_id = AOV_SPEC_ROWS_LOW) const uint ROWS_LOW = 0xffffffffu;
+layout(constant_id = AOV_SPEC_ROWS_HIGH) const uint ROWS_HIGH = 0xffffffffu;
+layout(constant_id = AOV_SPEC_HAS_WEATHER) const uint HAS_WEATHER = 1u;
+layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = AOV_DEPTH) uniform sampler2D depth_map;
-layout(binding = AOV_COLOR) uniform sampler2D color_map;
-layout(binding = AOV_NORMALS) uniform sampler2D normals_map;
-layout(binding = AOV_MATERIAL) uniform sampler2D material_map;
-layout(binding = AOV_WEATHER) uniform sampler2D weather_map;
-layout(binding = AOV_EMISSION) uniform sampler2D emission_map;
-layout(binding = AOV_OUTPUT, scalar) writeonly buffer Output { vec4 values[]; };
+layout(binding = AOV_OUTPUT, scalar) writeonly buffer Output { float values[]; };
 
-layout(push_constant, scalar) uniform Push { AovParams params; };
+// What a row's value is made from.
+struct AovPoint {
+    float depth;    // as in the depth buffer
+    vec3 position;  // world, metres
+    GBufferTexel g;
+};
+
+#define kInfinity uintBitsToFloat(0x7f800000u)  // no constant expression in GLSL
+
+bool asked(uint row)
+{
+    return (((row < 32u ? ROWS_LOW : ROWS_HIGH) >> (row & 31u)) & 1u) != 0u;
+}
+
+vec4 wide(float v) { return vec4(v, 0.0, 0.0, 0.0); }
+vec4 wide(vec2 v) { return vec4(v, 0.0, 0.0); }
+vec4 wide(vec3 v) { return vec4(v, 0.0); }
+vec4 wide(vec4 v) { return v; }
 
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, frame.size))) return;
-    const float depth = texelFetch(depth_map, texel, 0).r;
-    vec4 value = vec4(0.0);
-    if (depth > 0.0) {
-        const GBufferTexel g =
-            decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
-                           texelFetch(material_map, texel, 0),
-                           params.has_weather != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
-        switch (params.kind) {
-            case 0u: value = vec4(linear_depth(frame, depth), 0.0, 0.0, 0.0); break;
-            case 1u: value = vec4(pixel_position(frame, vec2(texel) + 0.5, depth), 0.0); break;
-            case 2u: value = vec4(g.base_normal, 0.0); break;
-            case 3u: value = vec4(g.base_color, 0.0); break;
-            case 4u: value = vec4(g.roughness, 0.0, 0.0, 0.0); break;
-            case 5u: value = vec4(g.metallic, 0.0, 0.0, 0.0); break;
-            case 6u: value = vec4(g.occlusion, 0.0, 0.0, 0.0); break;
-            case 7u:
-                if (params.has_emission != 0u) value = vec4(texelFetch(emission_map, texel, 0).rgb, 0.0);
-                break;
-            case 8u: value = vec4(g.weather.x, 0.0, 0.0, 0.0); break;
-            case 9u: value = vec4(g.weather.y, 0.0, 0.0, 0.0); break;
-            case 10u: value = vec4(g.weather.z, 0.0, 0.0, 0.0); break;
-            case 11u: value = vec4(g.weather.w, 0.0, 0.0, 0.0); break;
-            case 12u: value = vec4(g.cover_normal, 0.0); break;
-        }
-    } else if (params.kind == 0u) {
-        value = vec4(uintBitsToFloat(0x7f800000u), 0.0, 0.0, 0.0);
-    }
-    values[texel.y * frame.size.x + texel.x] = value;
+    AovPoint p;
+    p.depth = texelFetch(depth_map, texel, 0).r;
+    const bool surface = p.depth > 0.0;
+    p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
+    p.g = decode_gbuffer(fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u));
+
+    const uint pixels = uint(frame.size.x * frame.size.y);
+    const uint pixel = uint(texel.y * frame.size.x + texel.x);
+    uint row = 0u;
+    uint before = 0u;  // numbers a pixel of the rows before
+#define ROW(name_, count_, channels_, unit_, precision_, meaning_, value_, background_)  \
+    if (asked(row)) {                                                                    \
+        vec4 value = vec4(background_);                                                  \
+        if (surface) value = wide(value_);                                               \
+        for (uint i = 0u; i < count_; ++i) {                                             \
+            values[before * pixels + pixel * count_ + i] = value[i];                     \
+        }                                                                                \
+        before += count_;                                                                \
+    }                                                                                    \
+    ++row;
+    AOV_TABLE(ROW)
+#undef ROW
 }

@@ -4,25 +4,59 @@
 
 namespace petrichor::gpu {
 
-void add_aov(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
-             std::size_t slot, std::uint32_t kind, bool has_weather, bool has_emission)
+std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size_t pixels,
+                                 std::uint64_t most_bytes)
 {
-    GBuffer& g = targets.gbuffer;
-    const SamplerHandle& nearest = targets.nearest;
-    graph.add(ComputePass{.name = "aov",
-                          .shader = "aov.comp",
-                          .constants = {},
-                          .bindings = {{AOV_FRAME, frame_binding(constants)},
-                                       {AOV_DEPTH, sampled(*g.depth, nearest)},
-                                       {AOV_COLOR, sampled(*g.color, nearest)},
-                                       {AOV_NORMALS, sampled(*g.normals, nearest)},
-                                       {AOV_MATERIAL, sampled(*g.material, nearest)},
-                                       {AOV_WEATHER, sampled(*g.weather, nearest)},
-                                       {AOV_EMISSION, sampled(*g.emission, nearest)},
-                                       {AOV_OUTPUT, storage_buffer(*targets.aovs[slot])}},
-                          .push = PushBlock(shared::AovParams{kind, has_weather, has_emission}),
-                          .groups = groups_over(targets.width, targets.height, AOV_TILE)});
-    graph.read_back({targets.aovs[slot].get()});
+    std::uint64_t asked = 0;
+    for (const std::size_t row : rows) asked |= std::uint64_t{1} << row;
+    std::vector<AovGroup> groups;
+    const std::uint64_t most_numbers = most_bytes / sizeof(float) / pixels;
+    for (std::size_t row = 0; row < aov_table().size(); ++row) {
+        if ((asked >> row & 1u) == 0) continue;
+        const std::size_t numbers = aov_table()[row].channels.size();
+        if (groups.empty() || groups.back().numbers + numbers > most_numbers) groups.push_back({});
+        groups.back().rows |= std::uint64_t{1} << row;
+        groups.back().numbers += numbers;
+    }
+    return groups;
+}
+
+void add_aovs(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
+              const AovGroup& group, std::size_t buffer, const GBufferParts& parts)
+{
+    ComputePass pass{
+        .name = "aov",
+        .shader = "aov.comp",
+        .constants = {{AOV_SPEC_ROWS_LOW, static_cast<std::uint32_t>(group.rows)},
+                      {AOV_SPEC_ROWS_HIGH, static_cast<std::uint32_t>(group.rows >> 32)},
+                      {AOV_SPEC_HAS_WEATHER, parts.weather},
+                      {AOV_SPEC_HAS_EMISSION, parts.emission}},
+        .bindings = {{AOV_FRAME, frame_binding(constants)},
+                     {AOV_OUTPUT, storage_buffer(*targets.aovs[buffer])}},
+        .push = {},
+        .groups = groups_over(targets.width, targets.height, AOV_TILE)};
+    bind_gbuffer(pass.bindings, AOV_GBUFFER, targets.gbuffer, targets.nearest);
+    graph.add(std::move(pass));
+    graph.read_back({targets.aovs[buffer].get()});
+}
+
+std::vector<float> read_aov(const FrameTargets& targets, const std::vector<AovGroup>& groups,
+                            std::size_t row)
+{
+    const auto pixels =
+        static_cast<std::size_t>(targets.width) * static_cast<std::size_t>(targets.height);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        if ((groups[i].rows >> row & 1u) == 0) continue;
+        std::size_t before = 0;
+        for (std::size_t r = 0; r < row; ++r) {
+            if ((groups[i].rows >> r & 1u) != 0) before += aov_table()[r].channels.size();
+        }
+        std::vector<float> values(pixels * aov_table()[row].channels.size());
+        std::memcpy(values.data(), targets.aovs[i]->mapped + before * pixels * sizeof(float),
+                    values.size() * sizeof(float));
+        return values;
+    }
+    return {};
 }
 
 }  // namespace petrichor::gpu

@@ -1,18 +1,32 @@
 #ifndef PETRICHOR_GPU_OUTPUTS_AOV_H
 #define PETRICHOR_GPU_OUTPUTS_AOV_H
 
-#include "gpu/device/graph.h"
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/targets.h"
+#include "gpu/outputs/aov_table.h"
 
 namespace petrichor::gpu {
 
-// One labelled output from the G-buffer; `kind` indexes aov_table().
+/// Rows of the table that one dispatch writes into one buffer, in the order of the table.
+struct AovGroup {
+    std::uint64_t rows = 0;   ///< a bit each
+    std::size_t numbers = 0;  ///< a pixel
+};
+
+/// One group for all rows asked, or as few as keep each buffer within `most_bytes`.
+std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size_t pixels,
+                                 std::uint64_t most_bytes);
+
+// Labelled outputs from the G-buffer.
 //
 //   reads    the G-buffer
-//   writes   aovs[slot]
-void add_aov(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
-             std::size_t slot, std::uint32_t kind, bool has_weather, bool has_emission);
+//   writes   aovs[buffer]
+void add_aovs(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
+              const AovGroup& group, std::size_t buffer, const GBufferParts& parts);
+
+/// The numbers of a row, pixel by pixel, as the last frame wrote them.
+std::vector<float> read_aov(const FrameTargets& targets, const std::vector<AovGroup>& groups,
+                            std::size_t row);
 
 }  // namespace petrichor::gpu
 

@@ -1,28 +1,19 @@
-// Interface of the aov pass.
+// Interface of the aov pass: all outputs that a frame asks for in one dispatch.
 #ifndef PETRICHOR_GPU_OUTPUTS_AOV_IO_H
 #define PETRICHOR_GPU_OUTPUTS_AOV_IO_H
 
-#include "base/interop.h"
+#include "gpu/frame/gbuffer_table_io.h"
 
 #define AOV_TILE 8
 
+// Rows of the table that are written, a bit each; the shader is compiled for them.
+#define AOV_SPEC_ROWS_LOW 0   // rows 0 to 31
+#define AOV_SPEC_ROWS_HIGH 1  // rows 32 to 63
+#define AOV_SPEC_HAS_WEATHER 2
+#define AOV_SPEC_HAS_EMISSION 3
+
 #define AOV_FRAME 0
-#define AOV_DEPTH 1
-#define AOV_COLOR 2
-#define AOV_NORMALS 3
-#define AOV_MATERIAL 4
-#define AOV_WEATHER 5
-#define AOV_EMISSION 6
-#define AOV_OUTPUT 7
-
-SHARED_BEGIN
-
-struct AovParams {
-    uint kind;
-    uint has_weather;  // 0: the target was not written in this frame
-    uint has_emission;
-};
-
-SHARED_END
+#define AOV_OUTPUT 1
+#define AOV_GBUFFER 2  // depth, then the targets
 
 #endif

@@ -20,7 +20,10 @@ float rounded_to_half(float value)
 // Distances over the range of a street do not fit into halves.
 bool needs_float(const std::string& aov)
 {
-    return aov == "depth" || aov == "position";
+    for (const gpu::AovInfo& info : gpu::aov_table()) {
+        if (info.name == aov) return info.precision == gpu::AovPrecision::FLOAT;
+    }
+    return false;  // radiance and display
 }
 
 std::string suffixes_of(const std::string& aov)

@@ -5,9 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/brdf.h"
 #include "formulas/light/spherical_harmonics.h"
-#include "gpu/frame/gbuffer.glsl"
 #include "gpu/upload/material_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
+#define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
+#include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.glsl"
 #include "formulas/weather/surface_weather.h"
@@ -22,12 +23,6 @@ layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
 
 layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
-layout(binding = LIGHTING_DEPTH) uniform sampler2D depth_map;
-layout(binding = LIGHTING_COLOR) uniform sampler2D color_map;
-layout(binding = LIGHTING_NORMALS) uniform sampler2D normals_map;
-layout(binding = LIGHTING_MATERIAL) uniform sampler2D material_map;
-layout(binding = LIGHTING_WEATHER) uniform sampler2D weather_map;
-layout(binding = LIGHTING_EMISSION) uniform sampler2D emission_map;
 layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArrayShadow shadow_map;
 layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
@@ -129,10 +124,8 @@ void main()
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =
-            decode_gbuffer(texelFetch(color_map, texel, 0), texelFetch(normals_map, texel, 0),
-                           texelFetch(material_map, texel, 0),
-                           WEATHER != 0u ? texelFetch(weather_map, texel, 0) : vec4(0.0));
-        const vec3 emission = EMISSION != 0u ? texelFetch(emission_map, texel, 0).rgb : vec3(0.0);
+            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u));
+        const vec3 emission = g.emission;
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);

@@ -8,9 +8,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                   DepthMaps& depth_maps, const ConstantsRange& constants,
                   const LightingVariant& variant)
 {
-    GBuffer& g = targets.gbuffer;
     const SamplerHandle& nearest = targets.nearest;
-    graph.add(ComputePass{
+    ComputePass pass{
         .name = "lighting",
         .shader = "lighting.comp",
         .constants = {{LIGHTING_SPEC_WEATHER, variant.weather},
@@ -21,12 +20,6 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                       {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
-                     {LIGHTING_DEPTH, sampled(*g.depth, nearest)},
-                     {LIGHTING_COLOR, sampled(*g.color, nearest)},
-                     {LIGHTING_NORMALS, sampled(*g.normals, nearest)},
-                     {LIGHTING_MATERIAL, sampled(*g.material, nearest)},
-                     {LIGHTING_WEATHER, sampled(*g.weather, nearest)},
-                     {LIGHTING_EMISSION, sampled(*g.emission, nearest)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
                      {LIGHTING_SHADOW, sampled(*depth_maps.shadow, depth_maps.compare)},
                      {LIGHTING_SPECULAR, sampled(*sky.specular, sky.linear)},
@@ -40,7 +33,9 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)}},
         .push = {},
-        .groups = groups_over(targets.width, targets.height, LIGHTING_TILE)});
+        .groups = groups_over(targets.width, targets.height, LIGHTING_TILE)};
+    bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
+    graph.add(std::move(pass));
 }
 
 }  // namespace petrichor::gpu

@@ -65,14 +65,10 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
 {
     GBuffer& g = targets.gbuffer;
     const bool emission = scene.emissive();
-    std::vector<Attachment> colors{Attachment(*g.color), Attachment(*g.normals),
-                                   Attachment(*g.material)};
-    if (weather.any) colors.emplace_back(*g.weather);
-    if (emission) colors.emplace_back(*g.emission);
     const bool any_weather = weather.any;
     graph.add(DrawPass{
         .name = "surface",
-        .colors = colors,
+        .colors = gbuffer_attachments(g, {weather.any, emission}),
         .depth = Attachment(*g.depth),
         .width = targets.width,
         .height = targets.height,

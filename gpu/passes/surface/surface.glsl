@@ -14,15 +14,19 @@ layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_color;
 layout(location = 5) in vec4 in_weather;
 
-layout(location = 0) out vec4 out_color;
-layout(location = 1) out vec4 out_normals;
-layout(location = 2) out vec4 out_material;
-#if SURFACE_WEATHER
-layout(location = 3) out vec4 out_weather;
+#if SURFACE_WEATHER && SURFACE_EMISSION
+#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW)
+#elif SURFACE_WEATHER
+#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW)
+#elif SURFACE_EMISSION
+#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_EMISSION(ROW)
+#else
+#define TARGETS(ROW) GBUFFER_ALWAYS(ROW)
 #endif
-#if SURFACE_EMISSION
-layout(location = 3 + SURFACE_WEATHER) out vec4 out_emission;
-#endif
+#define ROW(name, location_, format_, when_, meaning_) \
+    layout(location = location_) out vec4 out_##name;
+TARGETS(ROW)
+#undef ROW
 
 void main()
 {
@@ -43,16 +47,11 @@ void main()
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
 
-    const SurfaceData data = evaluate_surface(at);
+    SurfaceData data = evaluate_surface(at);
     if (HOLES != 0u && data.hole) discard;
+    data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel);
-    out_color = code.color;
-    out_normals = code.normals;
-    out_material = code.material;
-#if SURFACE_WEATHER
-    out_weather = code.weather;
-#endif
-#if SURFACE_EMISSION
-    out_emission = vec4(data.emission, 1.0);
-#endif
+#define ROW(name, location_, format_, when_, meaning_) out_##name = code.name;
+    TARGETS(ROW)
+#undef ROW
 }

@@ -1,0 +1,28 @@
+// The targets of the G-buffer: one row each, read by C++ and GLSL. The surface pass writes the dry
+// material and the weather at each pixel; later passes read them (gpu/frame/gbuffer_read.glsl).
+//
+//   ROW(name, location, format, when, meaning)
+//     location   of the shader's output, counted from 0 in the order of the rows
+//     format     VK_FORMAT_...
+//     when       the part of a frame without which nothing is kept: the name of the rows' table
+//
+// A new channel is a row here and its line in encode_gbuffer (gpu/frame/gbuffer.glsl).
+#ifndef PETRICHOR_GPU_FRAME_GBUFFER_TABLE_IO_H
+#define PETRICHOR_GPU_FRAME_GBUFFER_TABLE_IO_H
+
+#define GBUFFER_ALWAYS(ROW)                                                                \
+    ROW(color, 0, R8G8B8A8_UNORM, ALWAYS, "square root of base colour; ambient occlusion") \
+    ROW(normals, 1, R16G16B16A16_SNORM, ALWAYS,                                            \
+        "octahedral: base normal, cover normal (of water or snow)")                        \
+    ROW(material, 2, R8G8B8A8_UNORM, ALWAYS,                                               \
+        "perceptual roughness, metallic, porosity; lighting model and reflectance")
+#define GBUFFER_WEATHER(ROW) \
+    ROW(weather, 3, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1")
+#define GBUFFER_EMISSION(ROW) ROW(emission, 4, R16G16B16A16_SFLOAT, EMISSION, "radiance")
+
+#define GBUFFER_TABLE(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW)
+
+// Bindings of a pass that reads the G-buffer: depth at the first, the targets behind it.
+#define GBUFFER_BINDINGS 6
+
+#endif

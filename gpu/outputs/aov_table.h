@@ -1,0 +1,30 @@
+#ifndef PETRICHOR_GPU_OUTPUTS_AOV_TABLE_H
+#define PETRICHOR_GPU_OUTPUTS_AOV_TABLE_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace petrichor::gpu {
+
+/// How finely an output is kept on disk.
+enum class AovPrecision { HALF, FLOAT };
+
+/// One output of the renderer besides the beauty. Labels come from the pixel-centre sample.
+struct AovInfo {
+    std::string name;      ///< as in --aov
+    std::string channels;  ///< EXR channel suffixes, "XYZ"
+    std::string unit;      ///< "1" for shares and directions
+    AovPrecision precision = AovPrecision::HALF;
+    std::string meaning;
+};
+
+/// The rows of aov_table_io.h.
+const std::vector<AovInfo>& aov_table();
+
+/// Row of an output. Throws Error with the names that exist.
+std::size_t aov_row(const std::string& name);
+
+}  // namespace petrichor::gpu
+
+#endif
