@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/rooms.h"
+#include "film/data/content_cache.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "gpu/renderer.h"
@@ -72,11 +73,21 @@ Finding check_cache()
 {
     const auto folder = cache_folder();
     try {
+        const ContentCache cache = user_cache();
+        if (!cache.on()) {
+            return {"cache", true, false, "off (PETRICHOR_CACHE_MIB is 0): every start is cold",
+                    ""};
+        }
         require_writable_folder(folder);
-        return {"cache", true, false, folder.string(), ""};
+        return {"cache", true, false,
+                folder.string() + ", " + std::to_string((cache.size() + (1u << 19)) >> 20) +
+                    " of at most " + std::to_string(cache.max_bytes() >> 20) +
+                    " MiB used (PETRICHOR_CACHE_MIB)",
+                ""};
     } catch (const Error& error) {
-        return {"cache", false, false, error.what(),
-                "Set PETRICHOR_CACHE to a folder you may write to."};
+        return {
+            "cache", false, false, error.what(),
+            "Set PETRICHOR_CACHE to a folder you may write to, PETRICHOR_CACHE_MIB to a number."};
     }
 }
 

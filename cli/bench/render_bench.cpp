@@ -136,7 +136,11 @@ void run_render_bench(const RenderBenchOptions& options)
     const ImageSize size = parse_size(options.size);
     scene::Scene scene = read_scene(options.scene).scene;
     gpu::Renderer renderer({.device = options.device});
-    renderer.load(scene, prepare_textures(scene, {.threads = options.threads}));
+    TextureOptions textures;
+    textures.threads = options.threads;
+    textures.blocks = block_support(renderer.device());
+    textures.cache = user_cache();
+    renderer.load(scene, prepare_textures(scene, textures));
     const gpu::Frame frame = bench_frame(scene, options, size);
     gpu::RenderResult result;
     timed_render(renderer, frame, result);  // warm-up: shaders are compiled on first use

@@ -15,7 +15,8 @@ std::optional<std::filesystem::path> find_data_folder();
 /// The same; throws Error when there is none.
 std::filesystem::path data_folder();
 
-/// Where generated scenes may be kept: PETRICHOR_CACHE, else XDG_CACHE_HOME/petrichor, else
+/// Where generated scenes and finished textures are kept (content_cache.h): PETRICHOR_CACHE, else
+/// XDG_CACHE_HOME/petrichor, else
 /// ~/.cache/petrichor, else petrichor under the temporary folder. Not created.
 std::filesystem::path cache_folder();
 

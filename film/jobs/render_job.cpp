@@ -94,13 +94,19 @@ void finish_film(const Sequence& sequence, const RenderRequest& request, RenderR
     report.film = true;
 }
 
-gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request)
+gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request, RenderReport& report)
 {
     gpu::Renderer renderer({.device = request.device, .validation = request.validation});
-    const auto textures =
-        prepare_textures(sequence.scene, {.max_size = sequence.scenario.scene.max_texture,
-                                          .threads = request.threads,
-                                          .stop = request.stop});
+    std::vector<std::string>& warnings = sequence.scene.warnings;
+    const auto said = static_cast<std::ptrdiff_t>(warnings.size());
+    TextureOptions options;
+    options.max_size = sequence.scenario.scene.max_texture;
+    options.threads = request.threads;
+    options.stop = request.stop;
+    options.blocks = block_support(renderer.device());
+    options.cache = user_cache();
+    const auto textures = prepare_textures(sequence.scene, options);
+    report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
     renderer.load(sequence.scene, textures);
     if (!sequence.scenario.sky.environment.empty()) {
         renderer.set_environment(
@@ -113,7 +119,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report)
 {
     const ScenarioOutput& output = sequence.scenario.output;
-    gpu::Renderer renderer = make_renderer(sequence, request);
+    gpu::Renderer renderer = make_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
     std::uint32_t overflows = 0;

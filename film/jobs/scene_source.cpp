@@ -2,38 +2,21 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/words.h"
-#include "demo/street.h"
+#include "film/data/content_cache.h"
 #include "film/jobs/camera.h"
+#include "film/scenes/demo_scene.h"
 #include "film/scenes/scene_file.h"
 
 namespace petrichor::film {
 namespace {
 
 constexpr const char* kDemoStreet = "demo:street";
-
-// The generator has no file to fingerprint: its bytes are hashed as they come out.
-std::string fingerprint_of(const scene::Scene& scene)
-{
-    Hasher hasher;
-    for (const scene::EncodedImage& image : scene.textures) hasher.add_bytes(image.bytes);
-    for (const scene::Mesh& mesh : scene.meshes) {
-        for (const scene::Primitive& primitive : mesh.primitives) {
-            hasher.add_bytes(std::as_bytes(std::span(primitive.positions)));
-            hasher.add_bytes(std::as_bytes(std::span(primitive.uv0)));
-            hasher.add_bytes(std::as_bytes(std::span(primitive.weather)));
-            hasher.add_bytes(std::as_bytes(std::span(primitive.indices)));
-            hasher.add(primitive.material);
-        }
-    }
-    return hasher.text();
-}
 
 LoadedScene load(const Scenario& scenario, int threads)
 {
@@ -43,11 +26,8 @@ LoadedScene load(const Scenario& scenario, int threads)
                     "Add [scene] file = \"scene.glb\", or file = \"demo:street\" for the demo.");
     }
     if (file == kDemoStreet) {
-        LoadedScene loaded;
-        loaded.scene =
-            demo::make_demo_street({.seed = scenario.scene.demo_seed, .threads = threads});
-        loaded.fingerprint = fingerprint_of(loaded.scene);
-        return loaded;
+        return load_demo_street({.seed = scenario.scene.demo_seed, .threads = threads},
+                                user_cache());
     }
     if (file.rfind("demo:", 0) == 0) {
         throw Error(scenario.name + ": no generated scene \"" + file + "\"." +

@@ -2,307 +2,223 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
+#include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
-#include "texproc/codecs/files/io.h"
-#include "texproc/filter/mips.h"
-#include "texproc/image/raw_image.h"
-#include "texproc/prefilter/prefilter.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "film/scenes/finish_texture.h"
+#include "film/scenes/texture_entry.h"
+#include "scene/material_table.h"
 
 namespace petrichor::film {
 namespace {
 
-using Kind = TextureRecipe::Kind;
+constexpr const char* kCacheKind = "textures";
 
-// Gives every use of an image a recipe; the first keeps the image's index, others are appended.
-class Planner {
+// An image that no material uses stays white and costs nothing.
+std::vector<bool> textures_used(const scene::Scene& scene)
+{
+    std::vector<bool> used(scene.textures.size(), false);
+    for (const scene::Material& material : scene.materials) {
+        for (const scene::MaterialTexture& slot : scene::material_textures()) {
+            const scene::TextureUse& use = slot.get(material);
+            if (use.present()) used[static_cast<std::size_t>(use.texture)] = true;
+        }
+    }
+    return used;
+}
+
+void add_recipe(Hasher& hasher, const scene::Scene& scene, const TextureRecipe& recipe)
+{
+    const scene::EncodedImage& image = scene.textures[static_cast<std::size_t>(recipe.image)];
+    hasher.add_bytes(image.bytes);
+    hasher.add(image.wrap_u);
+    hasher.add(image.wrap_v);
+    hasher.add(recipe.kind);
+    for (const float value : {recipe.alpha_cutoff, recipe.normal_scale, recipe.roughness_factor})
+        hasher.add(value);
+    hasher.add(recipe.alpha_covers);
+    hasher.add(recipe.prepared);
+    hasher.add(recipe.normal_image >= 0);
+    if (recipe.normal_image >= 0)
+        hasher.add_bytes(scene.textures[static_cast<std::size_t>(recipe.normal_image)].bytes);
+}
+
+// Everything that decides the bytes of a job: sources, recipe, options, program.
+std::string key_of(const scene::Scene& scene, const std::vector<TextureRecipe>& recipes,
+                   const TextureJob& job, const TextureOptions& options)
+{
+    Hasher hasher;
+    hasher.add(source_fingerprint());
+    hasher.add(options.max_size);
+    hasher.add(options.prefilter.rule);
+    hasher.add(options.prefilter.quick);
+    hasher.add(options.prefilter.design_light);
+    const TextureRecipe& recipe = recipes[static_cast<std::size_t>(job.texture)];
+    if (recipe.prepared) hasher.add(options.blocks);
+    hasher.add(job.normal_texture >= 0);
+    add_recipe(hasher, scene, recipe);
+    return hasher.text();
+}
+
+// What several threads work off, job by job.
+class Workshop {
 public:
-    explicit Planner(scene::Scene& scene)
-        : scene_(scene), recipes_(scene.textures.size()), taken_(scene.textures.size(), false)
+    Workshop(const scene::Scene& scene, const std::vector<TextureRecipe>& recipes,
+             const std::vector<TextureJob>& jobs, const TextureOptions& options)
+        : scene_(scene),
+          recipes_(recipes),
+          jobs_(jobs),
+          options_(options),
+          notes_(jobs.size()),
+          textures_(scene.textures.size())
     {
-        for (std::size_t i = 0; i < recipes_.size(); ++i) recipes_[i].image = static_cast<int>(i);
     }
 
-    void use(scene::TextureUse& texture, TextureRecipe recipe)
+    void run(int threads)
     {
-        if (!texture.present()) return;
-        recipe.image = texture.texture;
-        texture.texture = index_of(recipe);
+        std::vector<std::thread> workers;
+        for (int i = 1; i < threads; ++i) workers.emplace_back([this] { work(); });
+        work();
+        for (std::thread& worker : workers) worker.join();
+        if (problem_) std::rethrow_exception(problem_);
+        if (stopped_) throw Interrupted("interrupted while textures were prepared");
     }
-    std::vector<TextureRecipe> take() { return std::move(recipes_); }
+
+    std::vector<gpu::Texture> take() { return std::move(textures_); }
+    int made() const { return made_; }
+    /// In the order of the jobs, whatever the timing; a cache that fails is said once.
+    std::vector<std::string> notes() const
+    {
+        std::vector<std::string> all;
+        for (const auto& notes : notes_) all.insert(all.end(), notes.begin(), notes.end());
+        if (!cache_problem_.empty()) all.push_back(cache_problem_);
+        return all;
+    }
 
 private:
-    scene::TextureIndex index_of(const TextureRecipe& recipe)
-    {
-        for (std::size_t i = 0; i < recipes_.size(); ++i) {
-            if (taken_[i] && recipes_[i] == recipe) return static_cast<scene::TextureIndex>(i);
-        }
-        const auto own = static_cast<std::size_t>(recipe.image);
-        if (!taken_[own]) {
-            recipes_[own] = recipe;
-            taken_[own] = true;
-            return recipe.image;
-        }
-        scene::EncodedImage again = scene_.textures[own];
-        again.bytes.clear();
-        scene_.textures.push_back(std::move(again));
-        recipes_.push_back(recipe);
-        taken_.push_back(true);
-        return static_cast<scene::TextureIndex>(recipes_.size() - 1);
-    }
+    void work();
+    void finish(std::size_t number);
+    void keep(const std::string& key, const std::vector<gpu::Texture>& textures);
 
-    scene::Scene& scene_;
-    std::vector<TextureRecipe> recipes_;
-    std::vector<bool> taken_;
+    const scene::Scene& scene_;
+    const std::vector<TextureRecipe>& recipes_;
+    const std::vector<TextureJob>& jobs_;
+    const TextureOptions& options_;
+    std::vector<std::vector<std::string>> notes_;
+    std::vector<gpu::Texture> textures_;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<int> made_{0};
+    std::atomic<bool> stopped_{false};
+    std::mutex guard_;  // of what follows
+    std::exception_ptr problem_;
+    std::size_t problem_at_ = static_cast<std::size_t>(-1);
+    std::string cache_problem_;
 };
 
-bool same_coordinates(const scene::TextureUse& a, const scene::TextureUse& b)
+void Workshop::work()
 {
-    return a.texcoord == b.texcoord && a.offset == b.offset && a.scale == b.scale &&
-           a.rotation_rad == b.rotation_rad;
-}
-
-bool same_wrapping(const scene::EncodedImage& a, const scene::EncodedImage& b)
-{
-    return a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
-}
-
-void plan_material(scene::Material& material, const scene::Scene& scene, Planner& planner)
-{
-    // What lies under holes must not show at their edges; an opaque material shows all of it.
-    TextureRecipe color{.kind = Kind::Color,
-                        .alpha_covers = material.alpha_mode != scene::AlphaMode::Opaque};
-    if (material.alpha_mode == scene::AlphaMode::Mask && material.base_color.a > 0.0f) {
-        color.alpha_cutoff = material.alpha_cutoff / material.base_color.a;
-    }
-    planner.use(material.base_color_texture, color);
-    planner.use(material.emissive_texture, {.kind = Kind::Color});
-
-    scene::TextureUse& surface = material.metallic_roughness_texture;
-    const scene::TextureUse& normal = material.normal_texture;
-    TextureRecipe recipe{.kind = Kind::Surface};
-    if (surface.present() && normal.present() && same_coordinates(surface, normal) &&
-        same_wrapping(scene.textures[static_cast<std::size_t>(surface.texture)],
-                      scene.textures[static_cast<std::size_t>(normal.texture)])) {
-        recipe.normal_image = normal.texture;
-        recipe.normal_scale = material.normal_scale;
-        recipe.roughness_factor = material.roughness;
-        material.roughness = 1.0f;
-    }
-    const scene::TextureIndex surface_image = surface.texture;
-    const scene::TextureIndex occlusion_image = material.occlusion_texture.texture;
-    planner.use(surface, recipe);
-    if (surface.present() && occlusion_image == surface_image) {
-        material.occlusion_texture.texture = surface.texture;  // one packed image, one read
-    } else {
-        planner.use(material.occlusion_texture, {.kind = Kind::Scalar});
-    }
-    planner.use(material.normal_texture, {.kind = Kind::Normal});
-    planner.use(material.weather.height, {.kind = Kind::Scalar});
-    planner.use(material.weather.puddle_mask, {.kind = Kind::Scalar});
-    planner.use(material.weather.snow_mask, {.kind = Kind::Scalar});
-}
-
-// The first `channels` channels; grey becomes red, green and blue alike, missing alpha is 1.
-Image with_channels(const Image& image, int channels)
-{
-    if (image.channels == channels) return image;
-    Image result(image.width, image.height, channels, image.space);
-    const bool grey = image.channels <= 2;
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < channels; ++c) {
-                float value = 1.0f;
-                if (c < 3) {
-                    value = image.at(x, y, grey ? 0 : c);
-                } else if (grey ? image.channels == 2 : image.channels > 3) {
-                    value = image.at(x, y, grey ? 1 : 3);
-                }
-                result.at(x, y, c) = value;
+    for (std::size_t i = next_++; i < jobs_.size() && !stopped_; i = next_++) {
+        if (options_.stop && options_.stop()) {
+            stopped_ = true;
+            return;
+        }
+        try {
+            finish(i);
+        } catch (...) {
+            const std::lock_guard lock(guard_);
+            if (i < problem_at_) {  // report the same one whatever the timing
+                problem_at_ = i;
+                problem_ = std::current_exception();
             }
         }
     }
-    return result;
 }
 
-Image decode(const scene::EncodedImage& encoded, ColorSpace space, int channels)
+void Workshop::finish(std::size_t number)
 {
-    return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}),
-                         channels);
-}
-
-Image first_channels(const Image& image, int channels)
-{
-    Image result(image.width, image.height, channels, image.space);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < channels; ++c) result.at(x, y, c) = image.at(x, y, c);
+    const TextureJob& job = jobs_[number];
+    const std::size_t wanted = job.normal_texture >= 0 ? 2 : 1;
+    std::string key;
+    std::vector<gpu::Texture> textures;
+    if (options_.cache.on()) {
+        key = key_of(scene_, recipes_, job, options_);
+        if (const auto bytes = options_.cache.find(kCacheKind, key)) {
+            if (auto kept = textures_in(*bytes); kept && kept->size() == wanted)
+                textures = std::move(*kept);
         }
     }
-    return result;
-}
-
-Image channel_of(const Image& image, int channel, float factor)
-{
-    Image result(image.width, image.height, 1, ColorSpace::Data);
-    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
-        const std::size_t at = i * static_cast<std::size_t>(image.channels);
-        result.pixels[i] = image.pixels[at + static_cast<std::size_t>(channel)] * factor;
+    if (textures.empty()) {
+        FinishedTextures finished = finish_textures(scene_, recipes_, job, options_);
+        notes_[number] = std::move(finished.notes);
+        // What a label says is noted at every start: those few are not kept.
+        if (options_.cache.on() && !finished.as_stored && notes_[number].empty())
+            keep(key, finished.textures);
+        if (!finished.as_stored) ++made_;
+        textures = std::move(finished.textures);
     }
-    return result;
-}
-
-// glTF scales x and y of the decoded normal, then normalises.
-void scale_normals(Image& normals, float scale)
-{
-    if (scale == 1.0f) return;
-    for (std::size_t i = 0; i < normals.pixels.size(); i += 3) {
-        const float x = (2.0f * normals.pixels[i] - 1.0f) * scale;
-        const float y = (2.0f * normals.pixels[i + 1] - 1.0f) * scale;
-        const float z = 2.0f * normals.pixels[i + 2] - 1.0f;
-        const float length = std::sqrt(x * x + y * y + z * z);
-        if (!(length > 0.0f)) continue;
-        normals.pixels[i] = 0.5f + 0.5f * x / length;
-        normals.pixels[i + 1] = 0.5f + 0.5f * y / length;
-        normals.pixels[i + 2] = 0.5f + 0.5f * z / length;
+    const int targets[] = {job.texture, job.normal_texture};
+    for (std::size_t k = 0; k < wanted; ++k) {
+        const auto at = static_cast<std::size_t>(targets[k]);
+        const scene::EncodedImage& source =
+            scene_.textures[static_cast<std::size_t>(recipes_[at].image)];
+        textures[k].name = source.name;
+        textures[k].wrap_u = source.wrap_u;
+        textures[k].wrap_v = source.wrap_v;
+        textures[k].nearest = source.nearest;
+        textures_[at] = std::move(textures[k]);
     }
 }
 
-// All levels of a surface map: roughness from the prefilter where it has a normal map of its size.
-std::vector<Image> surface_levels(const Image& surface, const scene::Scene& scene,
-                                  const TextureRecipe& recipe, const texproc::MipOptions& mips)
+void Workshop::keep(const std::string& key, const std::vector<gpu::Texture>& textures)
 {
-    Image factored = surface;
-    for (std::size_t i = 1; i < factored.pixels.size(); i += 4)
-        factored.pixels[i] *= recipe.roughness_factor;
-    std::vector<Image> levels = texproc::mip_chain(factored, mips);
-    if (recipe.normal_image < 0) return levels;
-    Image normals =
-        decode(scene.textures[static_cast<std::size_t>(recipe.normal_image)], ColorSpace::Data, 3);
-    if (normals.width != surface.width || normals.height != surface.height) return levels;
-    scale_normals(normals, recipe.normal_scale);
-    const auto filtered =
-        texproc::prefilter(normals, channel_of(factored, 1, 1.0f), {.threads = 1});
-    for (std::size_t level = 1; level < levels.size(); ++level) {
-        const Image& roughness = filtered.roughness[level];
-        for (std::size_t i = 0; i < roughness.pixels.size(); ++i) {
-            levels[level].pixels[i * 4 + 1] = roughness.pixels[i];
-        }
+    try {
+        options_.cache.keep(kCacheKind, key, entry_of(textures).parts);
+    } catch (const Error& error) {
+        const std::lock_guard lock(guard_);
+        cache_problem_ = std::string(error.what()) +
+                         ": the textures are filtered again at every start. " + error.fix();
     }
-    return levels;
 }
 
-gpu::Texture prepare(const scene::Scene& scene, const TextureRecipe& recipe,
-                     const TextureOptions& options)
+std::string seconds_text(std::chrono::steady_clock::duration time)
 {
-    const scene::EncodedImage& encoded = scene.textures[static_cast<std::size_t>(recipe.image)];
-    gpu::Texture texture;
-    texture.name = encoded.name;
-    texture.wrap_u = encoded.wrap_u;
-    texture.wrap_v = encoded.wrap_v;
-    texture.nearest = encoded.nearest;
-    texproc::MipOptions mips{.wrap_u = encoded.wrap_u != scene::Wrap::Clamp,
-                             .wrap_v = encoded.wrap_v != scene::Wrap::Clamp,
-                             .alpha_cutoff = recipe.alpha_cutoff,
-                             .alpha_weighted = recipe.alpha_covers};
-    std::vector<Image> levels;
-    switch (recipe.kind) {
-        case Kind::Color:
-            texture.format = gpu::TexelFormat::Rgba8Srgb;
-            levels = texproc::mip_chain(decode(encoded, ColorSpace::Linear, 4), mips);
-            break;
-        case Kind::Normal:
-            texture.format =
-                gpu::TexelFormat::Rg8Unorm;  // the third component follows: unit length
-            mips.normals = true;
-            levels = texproc::mip_chain(decode(encoded, ColorSpace::Data, 3), mips);
-            for (Image& level : levels) level = first_channels(level, 2);
-            break;
-        case Kind::Surface:
-            texture.format = gpu::TexelFormat::Rgba8Unorm;
-            levels = surface_levels(decode(encoded, ColorSpace::Data, 4), scene, recipe, mips);
-            break;
-        case Kind::Scalar:
-            texture.format = gpu::TexelFormat::R8Unorm;
-            levels =
-                texproc::mip_chain(channel_of(decode(encoded, ColorSpace::Data, 4), 0, 1.0f), mips);
-            break;
-    }
-    std::size_t first = 0;
-    while (first + 1 < levels.size() &&
-           std::max(levels[first].width, levels[first].height) > options.max_size) {
-        ++first;
-    }
-    texture.width = levels[first].width;
-    texture.height = levels[first].height;
-    for (std::size_t level = first; level < levels.size(); ++level) {
-        texture.mips.push_back(texproc::to_raw(levels[level], texproc::PixelType::U8).bytes);
-        levels[level] = {};
-    }
-    return texture;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f s", std::chrono::duration<double>(time).count());
+    return text;
 }
 
 }  // namespace
 
-std::vector<TextureRecipe> plan_textures(scene::Scene& scene)
-{
-    Planner planner(scene);
-    for (scene::Material& material : scene.materials) plan_material(material, scene, planner);
-    return planner.take();
-}
-
 std::vector<gpu::Texture> prepare_textures(scene::Scene& scene, const TextureOptions& options)
 {
+    const auto start = std::chrono::steady_clock::now();
     const auto recipes = plan_textures(scene);
-    // An image that no material uses stays white and costs nothing.
-    std::vector<bool> used(scene.textures.size(), false);
-    for (const scene::Material& material : scene.materials) {
-        for (const scene::TextureUse* use :
-             {&material.base_color_texture, &material.metallic_roughness_texture,
-              &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
-              &material.weather.height, &material.weather.puddle_mask,
-              &material.weather.snow_mask}) {
-            if (use->present()) used[static_cast<std::size_t>(use->texture)] = true;
-        }
-    }
-    std::vector<gpu::Texture> textures(recipes.size());
-    std::atomic<std::size_t> next{0};
-    std::mutex guard;
-    std::exception_ptr first_problem;
-    std::size_t first_problem_at = recipes.size();
-    const auto work = [&] {
-        for (std::size_t i = next++; i < recipes.size(); i = next++) {
-            if (!used[i]) continue;
-            try {
-                if (options.stop && options.stop())
-                    throw Interrupted("interrupted while reading textures");
-                textures[i] = prepare(scene, recipes[i], options);
-            } catch (...) {
-                const std::lock_guard lock(guard);
-                if (i < first_problem_at) {  // report the same one whatever the timing
-                    first_problem_at = i;
-                    first_problem = std::current_exception();
-                }
-            }
-        }
-    };
+    const auto jobs = texture_jobs(recipes, textures_used(scene));
     int threads = options.threads;
     if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-    std::vector<std::thread> workers;
-    for (int i = 1; i < std::min(threads, 4); ++i) workers.emplace_back(work);
-    work();
-    for (std::thread& worker : workers) worker.join();
-    if (first_problem) std::rethrow_exception(first_problem);
+    Workshop workshop(scene, recipes, jobs, options);
+    workshop.run(std::min({threads, 4, std::max(1, static_cast<int>(jobs.size()))}));
+    for (const std::string& note : workshop.notes()) scene.warnings.push_back(note);
+    const auto time = std::chrono::steady_clock::now() - start;
+    if (options.cache.on() && workshop.made() > 0 && time > std::chrono::seconds(2)) {
+        scene.warnings.push_back(
+            "textures were filtered in " + seconds_text(time) + " (rule " + options.prefilter.rule +
+            (options.prefilter.quick ? ", quick" : "") + "); the next start finds them in " +
+            options.cache.folder().string());
+    }
     for (scene::EncodedImage& image : scene.textures) {
         image.bytes.clear();
         image.bytes.shrink_to_fit();
     }
-    return textures;
+    return workshop.take();
 }
 
 }  // namespace petrichor::film

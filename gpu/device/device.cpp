@@ -219,6 +219,9 @@ DeviceInfo describe(VkPhysicalDevice device)
         return info;
     }
     info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
+    VkPhysicalDeviceFeatures core{};
+    vkGetPhysicalDeviceFeatures(device, &core);
+    info.block_textures = core.textureCompressionBC == VK_TRUE;
     const std::string missing = missing_features(device);
     if (!missing.empty()) {
         info.why_not = "lacks " + missing;
@@ -325,6 +328,7 @@ Device::Device(const RendererOptions& options)
         Features wanted;
         wanted.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
         wanted.core.features.independentBlend = VK_TRUE;
+        wanted.core.features.textureCompressionBC = info_.block_textures ? VK_TRUE : VK_FALSE;
         wanted.v12.scalarBlockLayout = VK_TRUE;
         wanted.v12.hostQueryReset = VK_TRUE;
         wanted.v13.dynamicRendering = VK_TRUE;

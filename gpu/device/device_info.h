@@ -13,7 +13,8 @@ struct DeviceInfo {
     std::string kind;         ///< "discrete", "integrated", "virtual", "cpu" or "other"
     std::string api_version;  ///< "1.3.230"
     bool usable = false;
-    std::string why_not;  ///< what is missing, when not usable
+    std::string why_not;          ///< what is missing, when not usable
+    bool block_textures = false;  ///< samples BC1 to BC7
 };
 
 /// All Vulkan devices, best first. Empty when there is no loader or no driver; never throws for

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "gpu/upload/material_constants.h"
+#include "gpu/upload/detail/texel_format.h"
 
 namespace petrichor::gpu {
 
@@ -20,23 +21,6 @@ std::uint8_t to_byte(float value)
 void set_bytes(std::uint8_t (&target)[4], const std::vector<glm::vec4>& values, std::size_t i)
 {
     for (int c = 0; c < 4; ++c) target[c] = values.empty() ? 255 : to_byte(values[i][c]);
-}
-
-VkFormat vk_format(TexelFormat format)
-{
-    switch (format) {
-        case TexelFormat::Rgba8Srgb:
-            return VK_FORMAT_R8G8B8A8_SRGB;
-        case TexelFormat::Rgba8Unorm:
-            return VK_FORMAT_R8G8B8A8_UNORM;
-        case TexelFormat::Rg8Unorm:
-            return VK_FORMAT_R8G8_UNORM;
-        case TexelFormat::R8Unorm:
-            return VK_FORMAT_R8_UNORM;
-        case TexelFormat::Rgba16Float:
-            return VK_FORMAT_R16G16B16A16_SFLOAT;
-    }
-    return VK_FORMAT_UNDEFINED;
 }
 
 VkSamplerAddressMode address_mode(Wrap wrap)
@@ -163,6 +147,7 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
             image_samplers_.push_back(nullptr);
             continue;
         }
+        check_levels(texture);
         auto image = arena_.image({.name = texture.name,
                                    .format = vk_format(texture.format),
                                    .width = texture.width,

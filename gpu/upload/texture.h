@@ -9,13 +9,34 @@
 
 namespace petrichor::gpu {
 
+/// How the texels of a texture are stored; kTexelFormats in texel_format.cpp has a row for each.
 enum class TexelFormat {
-    Rgba8Srgb,   ///< colour, sRGB-encoded bytes
-    Rgba8Unorm,  ///< data
-    Rg8Unorm,    ///< two-channel data
-    R8Unorm,     ///< one-channel data
-    Rgba16Float,
+    Rgba8Srgb,    ///< colour, sRGB-encoded bytes
+    Rgba8Unorm,   ///< data
+    Rg8Unorm,     ///< two-channel data
+    R8Unorm,      ///< one-channel data
+    Rgba16Float,  ///< linear colour, data
+    Rg16Float,
+    R16Float,
+    Bc1Srgb,  ///< 4 x 4 texels in 8 bytes: colour, alpha 0 or 1
+    Bc1Unorm,
+    Bc1OpaqueSrgb,  ///< the same without alpha
+    Bc1OpaqueUnorm,
+    Bc2Srgb,
+    Bc2Unorm,
+    Bc3Srgb,  ///< 16 bytes: colour and alpha
+    Bc3Unorm,
+    Bc4Unorm,  ///< one channel in 8 bytes
+    Bc5Unorm,  ///< two channels in 16 bytes: normals, z is rebuilt
+    Bc6hUfloat,
+    Bc6hSfloat,
+    Bc7Srgb,
+    Bc7Unorm,
 };
+inline constexpr int kTexelFormatCount = static_cast<int>(TexelFormat::Bc7Unorm) + 1;
+
+/// Bytes of a level of width x height texels; blocks at an edge are stored whole.
+std::size_t texel_bytes(TexelFormat format, int width, int height);
 
 /// A texture ready for upload: mips[0] is width x height, each next level floor(half), at least 1.
 struct Texture {

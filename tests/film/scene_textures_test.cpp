@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "texproc/codecs/files/io.h"
+#include "texproc/material/pack.h"
 
 namespace petrichor::film {
 namespace {
@@ -31,8 +32,8 @@ scene::Scene scene_with_maps()
 {
     scene::Scene scene;
     scene.textures = {image_of(8, {255, 255, 255}, {0, 0, 0}),
-                      image_of(8, {228, 128, 208}, {28, 128, 208}),
-                      image_of(8, {200, 64, 255}, {200, 64, 255})};
+                      image_of(8, {147, 128, 254}, {109, 128, 254}),
+                      image_of(8, {200, 160, 255}, {200, 160, 255})};
     scene::Material material;
     material.base_color_texture.texture = 0;
     material.normal_texture.texture = 1;
@@ -55,6 +56,31 @@ TEST(PlanTextures, PairsNormalAndRoughness)
     EXPECT_FLOAT_EQ(recipes[2].roughness_factor, 0.5f);
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 1.0f) << "moved into the texture";
     EXPECT_EQ(scene.materials[0].occlusion_texture.texture, 2) << "read once";
+}
+
+// The default of `texture build`, joint, for 8-bit files: the same function with the same options.
+TEST(PrepareTextures, FiltersAsTextureBuildDoes)
+{
+    scene::Scene scene = scene_with_maps();
+    scene.materials[0].roughness = 1.0f;
+    const auto raw = [&](int image) {
+        return texproc::decode_raw(scene.textures[static_cast<std::size_t>(image)].bytes, "map");
+    };
+    texproc::PrefilterOptions options =
+        texproc::prefilter_options({}, {.joint = true, .bits = 8, .threads = 1});
+    EXPECT_EQ(options.rule, "overlap");
+    options.rebuild_z = true;
+    const auto wanted = texproc::prefilter_raw(raw(1), texproc::channel_of(raw(2), 1), options);
+    const auto textures = prepare_textures(scene);
+    for (std::size_t level = 1; level < 4; ++level) {
+        const auto rough = texproc::to_raw(wanted.roughness[level], texproc::PixelType::U8);
+        const auto normal = texproc::to_raw(wanted.normal[level], texproc::PixelType::U8);
+        for (std::size_t i = 0; i < rough.bytes.size(); ++i) {
+            EXPECT_EQ(textures[2].mips[level][4 * i + 1], rough.bytes[i]);
+            EXPECT_EQ(textures[1].mips[level][2 * i], normal.bytes[3 * i]);
+            EXPECT_EQ(textures[1].mips[level][2 * i + 1], normal.bytes[3 * i + 1]);
+        }
+    }
 }
 
 TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
@@ -95,12 +121,12 @@ TEST(PrepareTextures, LostBumpsBecomeRoughness)
     EXPECT_EQ(textures[1].format, gpu::TexelFormat::Rg8Unorm);
     // Half black, half white is half the light: 188 in sRGB, not 128.
     EXPECT_NEAR(static_cast<int>(textures[0].mips[3][0]), 188, 1);
-    // Level 0 is the file with the factor in it: 64 / 255 * 0.5; the last level is much rougher.
-    EXPECT_NEAR(static_cast<int>(textures[2].mips[0][1]), 32, 1);
-    EXPECT_GT(static_cast<int>(textures[2].mips[3][1]), 120);
+    // Level 0 is the file with the factor in it: 160 / 255 * 0.5; the last level is much rougher.
+    EXPECT_NEAR(static_cast<int>(textures[2].mips[0][1]), 80, 1);
+    EXPECT_GT(static_cast<int>(textures[2].mips[3][1]), 100);
     EXPECT_EQ(static_cast<int>(textures[2].mips[3][0]), 200) << "occlusion is a plain mean";
-    // Bumps to both sides cancel.
-    EXPECT_NEAR(static_cast<int>(textures[1].mips[3][0]), 128, 1);
+    // The normal of two bumps leans to one of them at most.
+    EXPECT_NEAR(static_cast<int>(textures[1].mips[3][0]), 128, 18);
 }
 
 // A leaf: bright green where it is, black where it is not.

@@ -92,6 +92,10 @@ bool holds_mip_chain(const std::filesystem::path& path);
 /// Throws Error for a missing, damaged, truncated, unsupported or too large file.
 MipTexture read_texture(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// The same for bytes in memory. `name` is for messages.
+MipTexture decode_texture(std::span<const std::byte> bytes, const std::string& name,
+                          const ReadOptions& options = {});
+
 }  // namespace petrichor::texproc
 
 #endif

@@ -140,13 +140,18 @@ void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
 
 MipTexture read_texture(const fs::path& path, const ReadOptions& options)
 {
-    const std::vector<std::byte> bytes = file_bytes(path, options.max_bytes);
+    return decode_texture(file_bytes(path, options.max_bytes), path.string(), options);
+}
+
+MipTexture decode_texture(std::span<const std::byte> bytes, const std::string& name,
+                          const ReadOptions& options)
+{
     const bool ktx2 = bytes.size() > 12 && bytes[0] == std::byte{0xab};
     const bool dds = bytes.size() > 4 && std::memcmp(bytes.data(), "DDS ", 4) == 0;
     if (!ktx2 && !dds) {
-        throw Error(
-            "image " + path.string() + ": its content is neither DDS nor KTX2",
-            "Convert it: petrichor texture convert " + path.filename().string() + " -o out.dds");
+        throw Error("image " + name + ": its content is neither DDS nor KTX2",
+                    "Convert it: petrichor texture convert " + fs::path(name).filename().string() +
+                        " -o out.dds");
     }
     try {
         return ktx2 ? detail::parse_ktx2(bytes, options) : detail::parse_dds(bytes, options);
@@ -154,7 +159,7 @@ MipTexture read_texture(const fs::path& path, const ReadOptions& options)
         throw;
     } catch (const std::runtime_error& why) {
         throw Error(
-            "image " + path.string() + ": " + why.what(),
+            "image " + name + ": " + why.what(),
             "Check that the file opens in another program; export it again if it is damaged.");
     }
 }

@@ -1,0 +1,184 @@
+#include "film/data/content_cache.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/output_file.h"
+#include "film/data/folders.h"
+
+namespace petrichor::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kDefaultMib = 2048;
+constexpr char kMagic[9] = "PTRCACH1";
+
+// What an entry starts with.
+struct Header {
+    char magic[8];
+    std::uint64_t bytes;  // of the content
+    char fingerprint[32];
+};
+static_assert(sizeof(Header) == 48);
+
+Header header_of(std::span<const std::byte> content)
+{
+    Hasher hasher;
+    hasher.add_bytes(content);
+    Header header{};
+    std::memcpy(header.magic, kMagic, 8);
+    header.bytes = content.size();
+    std::memcpy(header.fingerprint, hasher.text().data(), 32);
+    return header;
+}
+
+fs::path entry_path(const fs::path& folder, const std::string& kind, const std::string& key)
+{
+    return folder / kind / (key + ".bin");
+}
+
+struct Entry {
+    fs::path path;
+    std::uint64_t bytes = 0;
+    fs::file_time_type used;
+};
+
+// Everything below the folder that looks like ours, unfinished files too.
+std::vector<Entry> entries_in(const fs::path& folder)
+{
+    std::vector<Entry> entries;
+    std::error_code failed;
+    for (auto at = fs::recursive_directory_iterator(folder, failed);
+         !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
+        std::error_code gone;  // another program may be cleaning up too
+        if (at->path().extension() != ".bin" || !at->is_regular_file(gone) || gone) continue;
+        Entry entry{at->path(), at->file_size(gone), {}};
+        if (!gone) entry.used = at->last_write_time(gone);
+        if (!gone) entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
+}  // namespace
+
+ContentCache::ContentCache(fs::path folder, std::uint64_t max_bytes)
+    : folder_(std::move(folder)), max_bytes_(max_bytes)
+{
+}
+
+std::optional<std::vector<std::byte>> ContentCache::find(const std::string& kind,
+                                                         const std::string& key) const
+{
+    if (!on()) return std::nullopt;
+    const fs::path path = entry_path(folder_, kind, key);
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    if (!in) return std::nullopt;
+    const auto size = static_cast<std::uint64_t>(in.tellg());
+    Header header{};
+    std::vector<std::byte> content;
+    bool good = size >= sizeof header;
+    if (good) {
+        in.seekg(0);
+        in.read(reinterpret_cast<char*>(&header), sizeof header);
+        good =
+            in && std::memcmp(header.magic, kMagic, 8) == 0 && header.bytes == size - sizeof header;
+    }
+    if (good) {
+        content.resize(header.bytes);
+        in.read(reinterpret_cast<char*>(content.data()),
+                static_cast<std::streamsize>(content.size()));
+        const Header fresh = header_of(content);
+        good = in && std::memcmp(header.fingerprint, fresh.fingerprint, 32) == 0;
+    }
+    std::error_code ignored;
+    if (!good) {
+        fs::remove(path, ignored);
+        return std::nullopt;
+    }
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // used just now
+    return content;
+}
+
+void ContentCache::keep(const std::string& kind, const std::string& key,
+                        const std::vector<std::span<const std::byte>>& parts) const
+{
+    std::uint64_t bytes = 0;
+    for (const auto& part : parts) bytes += part.size();
+    if (!on() || bytes > max_bytes_ / 2) return;
+    std::vector<std::byte> content;
+    content.reserve(bytes);
+    for (const auto& part : parts) content.insert(content.end(), part.begin(), part.end());
+    const Header header = header_of(content);
+    const fs::path path = entry_path(folder_, kind, key);
+    const std::string_view head(reinterpret_cast<const char*>(&header), sizeof header);
+    OutputFile file(path);
+    std::ofstream out(file.temporary(), std::ios::binary);
+    out.write(head.data(), static_cast<std::streamsize>(head.size()));
+    out.write(reinterpret_cast<const char*>(content.data()),
+              static_cast<std::streamsize>(content.size()));
+    out.close();
+    if (!out) {
+        throw Error("cache: cannot write " + path.string() + ": " + std::strerror(errno),
+                    "Free some space, let PETRICHOR_CACHE name another folder, or set "
+                    "PETRICHOR_CACHE_MIB=0 to keep nothing.");
+    }
+    file.commit();
+    make_room(path);
+}
+
+std::uint64_t ContentCache::size() const
+{
+    std::uint64_t sum = 0;
+    for (const Entry& entry : entries_in(folder_)) sum += entry.bytes;
+    return sum;
+}
+
+// Down to nine tenths, so that not every new entry has to clean up.
+void ContentCache::make_room(const fs::path& newest) const
+{
+    std::vector<Entry> entries = entries_in(folder_);
+    std::uint64_t sum = 0;
+    for (const Entry& entry : entries) sum += entry.bytes;
+    if (sum <= max_bytes_) return;
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.used != b.used ? a.used < b.used : a.path < b.path;
+    });
+    // A file that is just being written by another program has a new date and stays.
+    const auto young = fs::file_time_type::clock::now() - std::chrono::minutes(10);
+    for (const Entry& entry : entries) {
+        if (sum <= max_bytes_ / 10 * 9) return;
+        const bool unfinished = entry.path.filename().string().front() == '.';
+        if (entry.path == newest || (unfinished && entry.used > young)) continue;
+        std::error_code ignored;
+        if (fs::remove(entry.path, ignored)) sum -= entry.bytes;
+    }
+}
+
+ContentCache user_cache()
+{
+    std::uint64_t mib = kDefaultMib;
+    if (const char* set = std::getenv("PETRICHOR_CACHE_MIB"); set && *set) {
+        const char* end = set + std::strlen(set);
+        const auto [at, problem] = std::from_chars(set, end, mib);
+        if (problem != std::errc() || at != end || mib > (1u << 24)) {
+            throw Error(std::string("cache: PETRICHOR_CACHE_MIB must be a whole number of MiB, 0 "
+                                    "to 16777216, got \"") +
+                            set + "\"",
+                        "Set it to 2048, for example, or to 0 to keep nothing.");
+        }
+    }
+    return ContentCache(cache_folder(), mib << 20);
+}
+
+}  // namespace petrichor::film

@@ -1,0 +1,56 @@
+#ifndef PETRICHOR_FILM_DATA_CONTENT_CACHE_H
+#define PETRICHOR_FILM_DATA_CONTENT_CACHE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace petrichor::film {
+
+/// Things that take long to make, kept on disk under the fingerprint of everything they are made
+/// from. What find() returns is what keep() was given, bit for bit, or nothing: an entry that was
+/// cut short or damaged is removed and counts as none. Several programs may use one folder; an
+/// entry appears whole or not at all. When the folder holds more than its limit, what was longest
+/// not used goes first. All functions may be called from several threads.
+class ContentCache {
+public:
+    ContentCache() = default;  ///< keeps nothing, finds nothing
+    ContentCache(std::filesystem::path folder, std::uint64_t max_bytes);
+
+    /// Bytes that were kept under this key. `kind` is a folder name: "textures".
+    std::optional<std::vector<std::byte>> find(const std::string& kind,
+                                               const std::string& key) const;
+
+    /// Keeps the parts, one after the other. Entries of more than half of the limit are not kept.
+    /// Throws Error when the folder cannot be written.
+    void keep(const std::string& kind, const std::string& key,
+              const std::vector<std::span<const std::byte>>& parts) const;
+
+    /// Bytes of all entries.
+    std::uint64_t size() const;
+    bool on() const { return max_bytes_ > 0; }
+    const std::filesystem::path& folder() const { return folder_; }
+    std::uint64_t max_bytes() const { return max_bytes_; }
+
+private:
+    void make_room(const std::filesystem::path& newest) const;
+
+    std::filesystem::path folder_;
+    std::uint64_t max_bytes_ = 0;
+};
+
+/// The user's: in cache_folder(), with the limit of PETRICHOR_CACHE_MIB (2048; 0: nothing is kept).
+/// Throws Error when that is not a whole number.
+ContentCache user_cache();
+
+/// Fingerprint of the program's sources that decide what generated scenes and finished textures
+/// look like: part of every key, so that a program never finds what another version made.
+const char* source_fingerprint();
+
+}  // namespace petrichor::film
+
+#endif

@@ -1,0 +1,17 @@
+#ifndef PETRICHOR_FILM_SCENES_DEMO_SCENE_H
+#define PETRICHOR_FILM_SCENES_DEMO_SCENE_H
+
+#include "demo/street.h"
+#include "film/data/content_cache.h"
+#include "film/scenes/scene_file.h"
+
+namespace petrichor::film {
+
+/// The street of the demo as a reader of its .glb file gets it. It is made once and kept in the
+/// cache: with a cold, a warm or no cache the scene has the same bytes. A cache that cannot be
+/// written is noted in the scene's warnings.
+LoadedScene load_demo_street(const demo::DemoOptions& options, const ContentCache& cache);
+
+}  // namespace petrichor::film
+
+#endif

@@ -1,0 +1,287 @@
+#include "film/scenes/finish_texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/error.h"
+#include "texproc/codecs/files/io.h"
+#include "texproc/image/raw_image.h"
+
+namespace petrichor::film {
+namespace {
+
+using Kind = TextureRecipe::Kind;
+using texproc::PixelType;
+using texproc::RawImage;
+
+// The first `channels` channels; grey becomes red, green and blue alike, missing alpha is 1.
+Image with_channels(const Image& image, int channels)
+{
+    if (image.channels == channels) return image;
+    Image result(image.width, image.height, channels, image.space);
+    const bool grey = image.channels <= 2;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < channels; ++c) {
+                float value = 1.0f;
+                if (c < 3) {
+                    value = image.at(x, y, grey ? 0 : c);
+                } else if (grey ? image.channels == 2 : image.channels > 3) {
+                    value = image.at(x, y, grey ? 1 : 3);
+                }
+                result.at(x, y, c) = value;
+            }
+        }
+    }
+    return result;
+}
+
+const scene::EncodedImage& image_at(const scene::Scene& scene, int index)
+{
+    return scene.textures[static_cast<std::size_t>(index)];
+}
+
+Image decode(const scene::EncodedImage& encoded, ColorSpace space, int channels)
+{
+    return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}),
+                         channels);
+}
+
+Image first_channels(const Image& image, int channels)
+{
+    if (image.channels == channels) return image;
+    Image result(image.width, image.height, channels, image.space);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < channels; ++c) result.at(x, y, c) = image.at(x, y, c);
+        }
+    }
+    return result;
+}
+
+Image channel_of(const Image& image, int channel)
+{
+    Image result(image.width, image.height, 1, ColorSpace::Data);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+        const std::size_t at = i * static_cast<std::size_t>(image.channels);
+        result.pixels[i] = image.pixels[at + static_cast<std::size_t>(channel)];
+    }
+    return result;
+}
+
+// glTF scales x and y of the decoded normal, then normalises.
+void scale_normals(Image& normals, float scale)
+{
+    if (scale == 1.0f) return;
+    for (std::size_t i = 0; i < normals.pixels.size(); i += 3) {
+        const float x = (2.0f * normals.pixels[i] - 1.0f) * scale;
+        const float y = (2.0f * normals.pixels[i + 1] - 1.0f) * scale;
+        const float z = 2.0f * normals.pixels[i + 2] - 1.0f;
+        const float length = std::sqrt(x * x + y * y + z * z);
+        if (!(length > 0.0f)) continue;
+        normals.pixels[i] = 0.5f + 0.5f * x / length;
+        normals.pixels[i + 1] = 0.5f + 0.5f * y / length;
+        normals.pixels[i + 2] = 0.5f + 0.5f * z / length;
+    }
+}
+
+// Level 0 of a normal map: three channels. Prepared ones may hold two, from which z follows.
+Image decode_normals(const scene::EncodedImage& encoded)
+{
+    if (!has_own_levels(encoded.bytes)) return decode(encoded, ColorSpace::Data, 3);
+    const Image image = texproc::decode_image(encoded.bytes, encoded.name);
+    if (image.channels != 2) return with_channels(image, 3);
+    Image normals(image.width, image.height, 3, ColorSpace::Data);
+    for (std::size_t i = 0; 2 * i < image.pixels.size(); ++i) {
+        const float x = image.pixels[2 * i];
+        const float y = image.pixels[2 * i + 1];
+        const float nx = 2.0f * x - 1.0f, ny = 2.0f * y - 1.0f;
+        normals.pixels[3 * i] = x;
+        normals.pixels[3 * i + 1] = y;
+        normals.pixels[3 * i + 2] =
+            0.5f + 0.5f * std::sqrt(std::max(0.0f, 1.0f - nx * nx - ny * ny));
+    }
+    return normals;
+}
+
+texproc::MipOptions mip_options(const scene::EncodedImage& encoded, const TextureRecipe& recipe)
+{
+    return {.wrap_u = encoded.wrap_u == scene::Wrap::Repeat,
+            .wrap_v = encoded.wrap_v == scene::Wrap::Repeat,
+            .alpha_cutoff = recipe.alpha_cutoff,
+            .mirror_u = encoded.wrap_u == scene::Wrap::Mirror,
+            .mirror_v = encoded.wrap_v == scene::Wrap::Mirror,
+            .alpha_weighted = recipe.alpha_covers,
+            .threads = 1};
+}
+
+// 8-bit numbers of the levels that fit into options.max_size; the levels are used up.
+gpu::Texture rounded(std::vector<Image> levels, gpu::TexelFormat format,
+                     const TextureOptions& options)
+{
+    std::size_t first = 0;
+    while (first + 1 < levels.size() &&
+           std::max(levels[first].width, levels[first].height) > options.max_size) {
+        ++first;
+    }
+    gpu::Texture texture;
+    texture.format = format;
+    texture.width = levels[first].width;
+    texture.height = levels[first].height;
+    for (std::size_t level = first; level < levels.size(); ++level) {
+        texture.mips.push_back(texproc::to_raw(levels[level], PixelType::U8).bytes);
+        levels[level] = {};
+    }
+    return texture;
+}
+
+gpu::Texture rounded_normals(std::vector<Image> levels, const TextureOptions& options)
+{
+    for (Image& level : levels) level = first_channels(level, 2);  // z follows: unit length
+    return rounded(std::move(levels), gpu::TexelFormat::Rg8Unorm, options);
+}
+
+std::vector<Image> normal_levels(const Image& normals, const texproc::MipOptions& mips)
+{
+    return texproc::plain_levels(normals, "normal", mips);
+}
+
+// The surface map of a job, and its normal map where it is to be written too.
+std::vector<gpu::Texture> finish_surface(const scene::Scene& scene,
+                                         const std::vector<TextureRecipe>& recipes,
+                                         const TextureJob& job, const TextureOptions& options)
+{
+    const TextureRecipe& recipe = recipes[static_cast<std::size_t>(job.texture)];
+    const scene::EncodedImage& encoded = image_at(scene, recipe.image);
+    const texproc::MipOptions mips = mip_options(encoded, recipe);
+    std::vector<Image> levels;
+    {
+        Image surface = decode(encoded, ColorSpace::Data, 4);
+        for (std::size_t i = 1; i < surface.pixels.size(); i += 4)
+            surface.pixels[i] *= recipe.roughness_factor;
+        levels = texproc::plain_levels(surface, "surface", mips);
+    }
+    std::vector<Image> normal_chain;
+    const bool joint = job.normal_texture >= 0;
+    Image normals;
+    if (recipe.normal_image >= 0) normals = decode_normals(image_at(scene, recipe.normal_image));
+    const bool filtered = normals.width == levels[0].width && normals.height == levels[0].height &&
+                          options.prefilter.rule != "none";
+    if (joint) normal_chain = normal_levels(normals, mips);
+    if (filtered) {
+        scale_normals(normals, recipe.normal_scale);
+        texproc::PrefilterOptions prefilter = texproc::prefilter_options(
+            options.prefilter, {.joint = joint, .bits = 8, .threads = 1});
+        prefilter.rebuild_z = true;  // as the shader does
+        const bool same_scale = recipe.normal_scale == 1.0f;
+        if (!same_scale) prefilter.bits = 0;  // the codes would be those of other normals
+        const RawImage scaled =
+            texproc::to_raw(normals, same_scale ? PixelType::U8 : PixelType::U16);
+        normals = {};
+        texproc::Prefiltered chains = texproc::prefilter_raw(
+            scaled, texproc::to_raw(channel_of(levels[0], 1), PixelType::U8), prefilter);
+        for (std::size_t level = 1; level < levels.size(); ++level) {
+            const Image& rough = chains.roughness[level];
+            for (std::size_t i = 0; i < rough.pixels.size(); ++i)
+                levels[level].pixels[i * 4 + 1] = rough.pixels[i];
+            if (!joint) continue;
+            normal_chain[level] = std::move(chains.normal[level]);
+            scale_normals(normal_chain[level], 1.0f / recipe.normal_scale);  // the shader scales
+        }
+    }
+    std::vector<gpu::Texture> made;
+    made.push_back(rounded(std::move(levels), gpu::TexelFormat::Rgba8Unorm, options));
+    if (joint) made.push_back(rounded_normals(std::move(normal_chain), options));
+    return made;
+}
+
+gpu::Texture finish_plain(const scene::EncodedImage& encoded, const TextureRecipe& recipe,
+                          const TextureOptions& options)
+{
+    const texproc::MipOptions mips = mip_options(encoded, recipe);
+    switch (recipe.kind) {
+        case Kind::Color:
+            return rounded(
+                texproc::plain_levels(decode(encoded, ColorSpace::Linear, 4), "albedo", mips),
+                gpu::TexelFormat::Rgba8Srgb, options);
+        case Kind::Normal:
+            return rounded_normals(normal_levels(decode_normals(encoded), mips), options);
+        case Kind::Surface:
+        case Kind::Scalar:
+            break;
+    }
+    const Image red = channel_of(decode(encoded, ColorSpace::Data, 4), 0);
+    return rounded(texproc::plain_levels(red, "scalar", mips), gpu::TexelFormat::R8Unorm, options);
+}
+
+FinishedTextures finish_prepared(const scene::EncodedImage& encoded, const TextureRecipe& recipe,
+                                 const TextureOptions& options)
+{
+    const TextureMeaning meaning = recipe.kind == Kind::Color    ? TextureMeaning::Color
+                                   : recipe.kind == Kind::Normal ? TextureMeaning::Normal
+                                                                 : TextureMeaning::Data;
+    texproc::MipTexture file = texproc::decode_texture(encoded.bytes, encoded.name);
+    while (file.levels.size() > 1 && std::max(file.width, file.height) > options.max_size) {
+        file.levels.erase(file.levels.begin());
+        file.width = texproc::level_extent(file.width, 1);
+        file.height = texproc::level_extent(file.height, 1);
+    }
+    FinishedTextures finished;
+    try {
+        LoadedTexture loaded =
+            load_prepared(file, meaning, options.blocks, says_color_space(encoded.bytes), 1);
+        finished.as_stored = loaded.as_stored;
+        for (const std::string& note : loaded.notes)
+            finished.notes.push_back("texture " + encoded.name + " " + note);
+        finished.textures.push_back(std::move(loaded.texture));
+    } catch (const Error& error) {
+        throw Error("texture " + encoded.name + ": " + error.what(), error.fix());
+    }
+    return finished;
+}
+
+}  // namespace
+
+std::vector<TextureJob> texture_jobs(const std::vector<TextureRecipe>& recipes,
+                                     const std::vector<bool>& used)
+{
+    const auto mate_of = [&](const TextureRecipe& surface) {
+        for (std::size_t i = 0; i < recipes.size(); ++i) {
+            const TextureRecipe& normal = recipes[i];
+            if (used[i] && normal.kind == Kind::Normal && normal.surface_image == surface.image &&
+                normal.image == surface.normal_image &&
+                normal.normal_scale == surface.normal_scale &&
+                normal.roughness_factor == surface.roughness_factor) {
+                return static_cast<int>(i);
+            }
+        }
+        return -1;
+    };
+    std::vector<TextureJob> jobs;
+    for (std::size_t i = 0; i < recipes.size(); ++i) {
+        if (!used[i]) continue;
+        TextureJob job{static_cast<int>(i), -1};
+        if (recipes[i].kind == Kind::Normal && recipes[i].surface_image >= 0) continue;  // a mate
+        if (recipes[i].kind == Kind::Surface && recipes[i].normal_image >= 0)
+            job.normal_texture = mate_of(recipes[i]);
+        jobs.push_back(job);
+    }
+    return jobs;
+}
+
+FinishedTextures finish_textures(const scene::Scene& scene,
+                                 const std::vector<TextureRecipe>& recipes, const TextureJob& job,
+                                 const TextureOptions& options)
+{
+    const TextureRecipe& recipe = recipes[static_cast<std::size_t>(job.texture)];
+    const scene::EncodedImage& encoded = image_at(scene, recipe.image);
+    if (recipe.prepared) return finish_prepared(encoded, recipe, options);
+    if (recipe.kind == Kind::Surface) return {finish_surface(scene, recipes, job, options), {}};
+    FinishedTextures finished;
+    finished.textures.push_back(finish_plain(encoded, recipe, options));
+    return finished;
+}
+
+}  // namespace petrichor::film

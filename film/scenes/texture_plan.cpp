@@ -1,0 +1,140 @@
+#include "film/scenes/texture_plan.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "film/scenes/prepared_texture.h"
+
+namespace petrichor::film {
+namespace {
+
+using Kind = TextureRecipe::Kind;
+
+// Gives every use of an image a recipe; the first keeps the image's index, others are appended.
+class Planner {
+public:
+    explicit Planner(scene::Scene& scene)
+        : scene_(scene), recipes_(scene.textures.size()), taken_(scene.textures.size(), false)
+    {
+        for (std::size_t i = 0; i < recipes_.size(); ++i) {
+            recipes_[i].image = static_cast<int>(i);
+            prepared_.push_back(has_own_levels(scene.textures[i].bytes));
+        }
+    }
+
+    bool prepared(const scene::TextureUse& texture) const
+    {
+        return texture.present() && prepared_[static_cast<std::size_t>(texture.texture)];
+    }
+    void use(scene::TextureUse& texture, TextureRecipe recipe)
+    {
+        if (!texture.present()) return;
+        recipe.image = texture.texture;
+        recipe.prepared = prepared(texture);
+        texture.texture = index_of(recipe);
+    }
+    std::vector<TextureRecipe> take() { return std::move(recipes_); }
+
+private:
+    scene::TextureIndex index_of(const TextureRecipe& recipe)
+    {
+        for (std::size_t i = 0; i < recipes_.size(); ++i) {
+            if (taken_[i] && recipes_[i] == recipe) return static_cast<scene::TextureIndex>(i);
+        }
+        const auto own = static_cast<std::size_t>(recipe.image);
+        if (!taken_[own]) {
+            recipes_[own] = recipe;
+            taken_[own] = true;
+            return recipe.image;
+        }
+        scene::EncodedImage again;
+        again.name = scene_.textures[own].name;
+        again.wrap_u = scene_.textures[own].wrap_u;
+        again.wrap_v = scene_.textures[own].wrap_v;
+        again.nearest = scene_.textures[own].nearest;
+        scene_.textures.push_back(std::move(again));
+        recipes_.push_back(recipe);
+        taken_.push_back(true);
+        return static_cast<scene::TextureIndex>(recipes_.size() - 1);
+    }
+
+    scene::Scene& scene_;
+    std::vector<TextureRecipe> recipes_;
+    std::vector<bool> taken_;
+    std::vector<bool> prepared_;  // of the images as loaded
+};
+
+bool same_coordinates(const scene::TextureUse& a, const scene::TextureUse& b)
+{
+    return a.texcoord == b.texcoord && a.offset == b.offset && a.scale == b.scale &&
+           a.rotation_rad == b.rotation_rad;
+}
+
+bool same_wrapping(const scene::EncodedImage& a, const scene::EncodedImage& b)
+{
+    return a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
+}
+
+// The base colour and what shines.
+void plan_color(scene::Material& material, Planner& planner)
+{
+    // What lies under holes must not show at their edges; an opaque material shows all of it.
+    TextureRecipe color{.kind = Kind::Color,
+                        .alpha_covers = material.alpha_mode != scene::AlphaMode::Opaque};
+    if (material.alpha_mode == scene::AlphaMode::Mask && material.base_color.a > 0.0f) {
+        color.alpha_cutoff = material.alpha_cutoff / material.base_color.a;
+    }
+    planner.use(material.base_color_texture, color);
+    planner.use(material.emissive_texture, {.kind = Kind::Color});
+}
+
+// Normals and roughness, together where they can be, and occlusion.
+void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner)
+{
+    scene::TextureUse& surface = material.metallic_roughness_texture;
+    scene::TextureUse& normal = material.normal_texture;
+    TextureRecipe surface_recipe{.kind = Kind::Surface};
+    TextureRecipe normal_recipe{.kind = Kind::Normal};
+    const bool paired = surface.present() && normal.present() && !planner.prepared(surface) &&
+                        same_coordinates(surface, normal) &&
+                        same_wrapping(scene.textures[static_cast<std::size_t>(surface.texture)],
+                                      scene.textures[static_cast<std::size_t>(normal.texture)]);
+    if (paired) {
+        surface_recipe.normal_image = normal.texture;
+        surface_recipe.normal_scale = material.normal_scale;
+        surface_recipe.roughness_factor = material.roughness;
+        material.roughness = 1.0f;
+        // Normals that bring their own levels keep them; those of a scale of 0 have no directions.
+        if (!planner.prepared(normal) && material.normal_scale != 0.0f) {
+            normal_recipe.surface_image = surface.texture;
+            normal_recipe.normal_scale = surface_recipe.normal_scale;
+            normal_recipe.roughness_factor = surface_recipe.roughness_factor;
+        }
+    }
+    const scene::TextureIndex surface_image = surface.texture;
+    const scene::TextureIndex occlusion_image = material.occlusion_texture.texture;
+    planner.use(surface, surface_recipe);
+    if (surface.present() && occlusion_image == surface_image) {
+        material.occlusion_texture.texture = surface.texture;  // one packed image, one read
+    } else {
+        planner.use(material.occlusion_texture, {.kind = Kind::Scalar});
+    }
+    planner.use(normal, normal_recipe);
+}
+
+}  // namespace
+
+std::vector<TextureRecipe> plan_textures(scene::Scene& scene)
+{
+    Planner planner(scene);
+    for (scene::Material& material : scene.materials) {
+        plan_color(material, planner);
+        plan_surface(material, scene, planner);
+        planner.use(material.weather.height, {.kind = Kind::Scalar});
+        planner.use(material.weather.puddle_mask, {.kind = Kind::Scalar});
+        planner.use(material.weather.snow_mask, {.kind = Kind::Scalar});
+    }
+    return planner.take();
+}
+
+}  // namespace petrichor::film
