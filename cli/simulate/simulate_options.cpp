@@ -77,6 +77,8 @@ void add_site(CLI::App& command, SimulateOptions& o)
 {
     const char* group = "Site and surface";
     SiteOptions& site = o.physical.site;
+    add(command, group, "--ignore", "NAMES", site.ignore,
+        "columns of the file that may stay unread, by comma; or all");
     add(command, group, "--latitude", "DEG", site.latitude_deg,
         "north; this and the next two if the file does not say");
     add(command, group, "--longitude", "DEG", site.longitude_deg, "east");

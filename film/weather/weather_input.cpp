@@ -1,5 +1,6 @@
 #include "film/weather/weather_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -24,6 +25,12 @@ weather::ReadOptions read_options(const SiteOptions& options)
     read.filling.missing_precip = options.missing_precip == "estimate"
                                       ? weather::MissingPrecip::Estimate
                                       : weather::MissingPrecip::Dry;
+    for (std::size_t at = 0; at < options.ignore.size();) {
+        const std::size_t end = std::min(options.ignore.find(',', at), options.ignore.size());
+        const auto name = weather::trimmed(std::string_view(options.ignore).substr(at, end - at));
+        if (!name.empty()) read.ignore.emplace_back(name);
+        at = end + 1;
+    }
     read.taf = options.taf == "prevailing" ? weather::TafUse::Prevailing
                : options.taf == "worst"    ? weather::TafUse::Worst
                                            : weather::TafUse::Expected;
@@ -99,6 +106,12 @@ weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOpti
         throw Error(
             "simulate: sensor heights must be 0.3..200 m (temperature) and 0.6..500 m (wind)",
             "Set --temp-height-m and --wind-height-m.");
+    }
+    const bool no_sun = weather::field_report(read.report, "sw_down").present == 0;
+    if (no_sun && (std::isnan(site.latitude_deg) || std::isnan(site.longitude_deg))) {
+        throw Error("simulate: " + files.front().file + " (" + read.report.format +
+                        ") has no sunshine and does not say where it is",
+                    "Give --latitude and --longitude of the station, degrees north and east.");
     }
     return read;
 }

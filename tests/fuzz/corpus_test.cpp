@@ -52,7 +52,7 @@ TEST(ReadersCorpus, IsSmall)
 {
     std::uintmax_t bytes = 0;
     for (const auto& file : corpus()) bytes += std::filesystem::file_size(file);
-    EXPECT_LT(bytes, 40u * 1024u);
+    EXPECT_LT(bytes, 64u * 1024u);
 }
 
 TEST(ReadersCorpus, EveryFileKeepsThePromises)

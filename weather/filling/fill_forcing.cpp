@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "weather/filling/fill_phase.h"
 #include "weather/filling/fill_precipitation.h"
 #include "weather/filling/fill_radiation.h"
 #include "weather/forcing/forcing.h"
@@ -137,6 +138,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
                     "Give a file with air temperature in every row; in a CSV its column is called "
                     "air_temp_c, air_temp_k or temperature (F).");
     }
+    phase_from_depth(table, report);
     divide_for_the_sun(table, report);
     n = table.rows();
     bridge(table, report, Field::AirTemp, options);

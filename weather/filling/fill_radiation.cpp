@@ -121,7 +121,13 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report)
                 if (from.empty()) continue;
                 const bool rate = field_info(static_cast<Field>(f)).is_rate;
                 const bool line = part > 0 && i < last && !rate;
-                table.columns[f].push_back(line ? from[i] + (from[i + 1] - from[i]) * x : from[i]);
+                // What was observed was not observed in between.
+                const auto field = static_cast<Field>(f);
+                const bool observed = field == Field::SnowDepth || field == Field::SurfaceTemp ||
+                                      field == Field::Reflected || field == Field::SnowWater;
+                table.columns[f].push_back(observed && part > 0 ? kMissing
+                                           : line ? from[i] + (from[i + 1] - from[i]) * x
+                                                  : from[i]);
             }
         }
     }

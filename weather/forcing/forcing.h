@@ -35,6 +35,10 @@ enum class Field : std::uint8_t {
     Direct,        ///< W/m2 on a plane facing the sun, at
     Diffuse,       ///< W/m2 on flat ground, at
     NetShortwave,  ///< W/m2 that the ground takes up, rate; only where a file has no Shortwave
+    SnowShare,     ///< of the precipitation of a row, 0..1, rate; where a file tells the phase
+    SurfaceTemp,   ///< K, of the surface, as observed, at; never used as input, only compared
+    Reflected,     ///< W/m2 that come back from the ground, as observed, at; only compared
+    SnowWater,     ///< kg/m2 of snow on the ground, as observed, at; only compared
     Count
 };
 inline constexpr std::size_t kFieldCount = static_cast<std::size_t>(Field::Count);
@@ -46,6 +50,7 @@ struct FieldInfo {
     const char* unit;
     double low, high;
     bool is_rate;
+    double noise = 0.0;  ///< so far below `low` a sensor may say and mean it; taken as `low`
 };
 const FieldInfo& field_info(Field field);
 
@@ -56,6 +61,7 @@ struct Site {
     double elevation_m = kMissing;
     double temp_height_m = 2.0;
     double wind_height_m = 10.0;
+    double utc_offset_h = kMissing;  ///< of the clock that people at the place read; east positive
     std::string name{};
 };
 

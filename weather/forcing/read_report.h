@@ -30,7 +30,7 @@ struct FieldReport {
 struct ReadReport {
     std::string format;  ///< as recognised
     std::size_t rows = 0;
-    std::size_t bad_rows = 0;  ///< dropped and bridged
+    std::size_t bad_rows = 0;   ///< dropped and bridged
     bool typical_year = false;  ///< months of different years, placed in one
     std::vector<FieldReport> fields;
     std::vector<ReadNote> notes;  ///< at most kMostNotes, then a count

@@ -95,6 +95,13 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
         step.phase_known = true;
     } else {
         step.precip = rate_over(table, Field::Precip, at);
+        // Where reports or a rising snow depth tell what fell.
+        const double share =
+            table.has(Field::SnowShare) ? rate_over(table, Field::SnowShare, at) : kMissing;
+        if (!std::isnan(share)) {
+            step.snow_share = share;
+            step.phase_known = true;
+        }
     }
     // Where no sun shines its direction changes nothing.
     const bool lit = step.shortwave.start > 0.0 || step.shortwave.start + step.shortwave.rise > 0.0;

@@ -65,6 +65,12 @@ void RowCollector::bad_row(std::size_t line, const std::string& field, const std
 bool RowCollector::begin_row(std::int64_t time_us, std::size_t line)
 {
     line_ = line;
+    joining_ = join_same_times_ && !times_.empty() && time_us == times_.back();
+    if (joining_) {
+        ++joined_;
+        in_row_ = true;
+        return true;
+    }
     if (!times_.empty() && time_us <= times_.back()) {
         bad_row(line, "time",
                 std::string(time_us == times_.back() ? "duplicate of "
@@ -96,23 +102,28 @@ void RowCollector::set(Field field, double value)
     if (!in_row_) return;
     FieldReport& f = report_.fields[report_index(field)];
     const FieldInfo& info = field_info(field);
+    const auto i = static_cast<std::size_t>(field);
+    if (value < info.low && value >= info.low - info.noise) {
+        noise_[i].add(value, line_);
+        value = info.low;
+    }
     if (!(value >= info.low && value <= info.high)) {
         ++f.out_of_range;
-        note(ReadNote::Kind::OutOfRange, line_, info.name,
-             number_text(value)
-                 .append(" ")
-                 .append(info.unit)
-                 .append(" is outside ")
-                 .append(number_text(info.low))
-                 .append("..")
-                 .append(number_text(info.high))
-                 .append(", taken as missing"));
+        refused_[i].add(value, line_);
         return;
     }
-    auto& column = values_[static_cast<std::size_t>(field)];
+    auto& column = values_[i];
     if (column.empty()) column.assign(times_.size(), kMissing);
+    if (joining_ && !std::isnan(column.back())) return;
     column.back() = value;
     ++f.present;
+}
+
+void RowCollector::precipitation_seen(double kg_m2_s)
+{
+    if (!in_row_) return;
+    seen_.resize(times_.size(), 0.0);
+    seen_.back() = std::max(seen_.back(), kg_m2_s);
 }
 
 void RowCollector::missing(Field field)
@@ -127,8 +138,9 @@ void RowCollector::unreadable(Field field, std::string_view text)
     if (!in_row_) return;
     FieldReport& f = report_.fields[report_index(field)];
     ++f.out_of_range;
-    note(ReadNote::Kind::OutOfRange, line_, field_info(field).name,
-         std::string("'").append(shown(text)).append("' is not a number, taken as missing"));
+    const auto i = static_cast<std::size_t>(field);
+    if (unreadable_[i].count == 0) unreadable_text_[i] = shown(text);
+    unreadable_[i].add(0.0, line_);
 }
 
 void RowCollector::fell_before(Field field, double amount, double hours)
@@ -138,15 +150,168 @@ void RowCollector::fell_before(Field field, double amount, double hours)
     if (!(amount >= 0.0 && amount <= 500.0 * std::max(hours, 1.0) && hours > 0.0 &&
           hours <= 744.0)) {
         ++f.out_of_range;
-        note(ReadNote::Kind::OutOfRange, line_, field_info(field).name,
-             number_text(amount)
-                 .append(" kg/m2 in ")
-                 .append(number_text(hours))
-                 .append(" h is not possible, taken as missing"));
+        impossible_[static_cast<std::size_t>(field)].add(amount, line_);
         return;
     }
     fallen_.push_back({times_.size() - 1, field, amount, hours});
     ++f.present;
+}
+
+void RowCollector::Odd::add(double value, std::size_t line)
+{
+    if (count++ == 0) {
+        first_line = line;
+        low = high = value;
+    }
+    low = std::min(low, value);
+    high = std::max(high, value);
+}
+
+// One note a field and kind of trouble: a sensor that is a little off says so in every row.
+void RowCollector::note_odd()
+{
+    const auto range = [](const Odd& odd) {
+        std::string text = number_text(odd.low);
+        if (odd.high != odd.low) text.append(" to ").append(number_text(odd.high));
+        return text;
+    };
+    const auto values = [](const Odd& odd, const char* what) {
+        return odd.count == 1 ? std::string() : std::to_string(odd.count).append(what);
+    };
+    for (std::size_t f = 0; f < kFieldCount; ++f) {
+        const FieldInfo& info = field_info(static_cast<Field>(f));
+        if (const Odd& odd = refused_[f]; odd.count) {
+            note(ReadNote::Kind::OutOfRange, odd.first_line, info.name,
+                 values(odd, " values, ")
+                     .append(range(odd))
+                     .append(" ")
+                     .append(info.unit)
+                     .append(odd.count == 1 ? " is outside " : ", are outside ")
+                     .append(number_text(info.low))
+                     .append("..")
+                     .append(number_text(info.high))
+                     .append(", taken as missing"));
+        }
+        if (const Odd& odd = noise_[f]; odd.count) {
+            note(ReadNote::Kind::Info, odd.first_line, info.name,
+                 values(odd, " values, ")
+                     .append(range(odd))
+                     .append(" ")
+                     .append(info.unit)
+                     .append(": noise of the sensor, taken as ")
+                     .append(number_text(info.low)));
+        }
+        if (const Odd& odd = impossible_[f]; odd.count) {
+            note(ReadNote::Kind::OutOfRange, odd.first_line, info.name,
+                 values(odd, " amounts, ")
+                     .append(range(odd))
+                     .append(" kg/m2 in their hours ")
+                     .append(odd.count == 1 ? "is" : "are")
+                     .append(" not possible, taken as missing"));
+        }
+        if (const Odd& odd = unreadable_[f]; odd.count) {
+            note(ReadNote::Kind::OutOfRange, odd.first_line, info.name,
+                 std::string("'")
+                     .append(unreadable_text_[f])
+                     .append(odd.count == 1
+                                 ? "'"
+                                 : "' and " + std::to_string(odd.count - 1) + " more cells that")
+                     .append(odd.count == 1 ? " is not a number" : " are not numbers")
+                     .append(", taken as missing"));
+        }
+    }
+}
+
+namespace {
+
+// Words that names of weather columns are made of.
+bool speaks_of_weather(std::string_view name)
+{
+    const std::string low = lower(name);
+    for (const char* word :
+         {"temp",   "snow",  "rain",  "precip", "wind",  "gust",      "radiat",   "irradi", "press",
+          "humid",  "cloud", "dew",   "solar",  "depth", "shortwave", "longwave", "swe",    "prcp",
+          "albedo", "vapo",  "sleet", "hail",   "ice",   "frost",     "visib",    "flux"}) {
+        if (low.find(word) != std::string::npos) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void RowCollector::unknown_column(std::string_view name, const std::vector<std::string>& ignored)
+{
+    const std::string low = lower(trimmed(name));
+    const bool left_out = std::any_of(ignored.begin(), ignored.end(), [&](const std::string& word) {
+        return word == "all" || lower(word) == low;
+    });
+    std::string text = low.empty() ? "a column without a name" : shown(trimmed(name));
+    (speaks_of_weather(name) && !left_out ? strange_columns_ : other_columns_)
+        .push_back(std::move(text));
+}
+
+void RowCollector::check_columns()
+{
+    const auto list = [](const std::vector<std::string>& names) {
+        std::string out;
+        for (const std::string& name : names) out.append(out.empty() ? "" : ", ").append(name);
+        return out;
+    };
+    if (!strange_columns_.empty()) {
+        throw Error("weather: " + report_.format + ": not understood: " + list(strange_columns_),
+                    "Name the column as in air_temp_c, rel_humidity_pct, wind_m_s, precip_mm, "
+                    "snow_depth_m, sw_down_w_m2, or leave it out: --ignore " +
+                        (strange_columns_.size() == 1 &&
+                                 strange_columns_.front().find(' ') == std::string::npos
+                             ? strange_columns_.front()
+                             : "all") +
+                        ".");
+    }
+    if (!other_columns_.empty())
+        note(ReadNote::Kind::Info, line_, "columns",
+             "not known, not used: " + list(other_columns_));
+}
+
+// A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
+void RowCollector::drop_empty_columns()
+{
+    const double days =
+        times_.size() < 2 ? 0.0 : static_cast<double>(times_.back() - times_.front()) / 86400e6;
+    const auto all_zero = [&](Field field) {
+        const auto& v = values_[static_cast<std::size_t>(field)];
+        bool any = false;
+        for (const double x : v) {
+            if (std::isnan(x)) continue;
+            if (x != 0.0) return false;
+            any = true;
+        }
+        for (const Fallen& f : fallen_) {
+            if (f.field != field) continue;
+            if (f.amount != 0.0) return false;
+            any = true;
+        }
+        return any;
+    };
+    struct Rule {
+        Field field;
+        double days;  // so long it may be 0
+    };
+    constexpr Rule kRules[] = {{Field::Precip, 60.0},     {Field::Shortwave, 3.0},
+                               {Field::Longwave, 1.0},    {Field::Wind, 3.0},
+                               {Field::RelHumidity, 1.0}, {Field::Direct, 20.0},
+                               {Field::Diffuse, 3.0},     {Field::WindFrom, 3.0},
+                               {Field::Cloud, 60.0},      {Field::Visibility, 3.0}};
+    for (const Rule& rule : kRules) {
+        if (days < rule.days || !all_zero(rule.field)) continue;
+        values_[static_cast<std::size_t>(rule.field)].clear();
+        std::erase_if(fallen_, [&](const Fallen& f) { return f.field == rule.field; });
+        FieldReport& f = report_.fields[report_index(rule.field)];
+        note(ReadNote::Kind::Warning, 0, f.name,
+             std::string("nothing but 0 in ")
+                 .append(std::to_string(f.present))
+                 .append(" rows: taken as not measured"));
+        f.present = 0;
+    }
 }
 
 // Each amount goes to the rows whose interval lies in its hours; shorter accumulations first,
@@ -207,15 +372,38 @@ ForcingTable RowCollector::finish()
                     "Repair the lines listed, or give another file.");
     }
 
+    if (joined_)
+        note(ReadNote::Kind::Time, 0, "time",
+             std::to_string(joined_) + " rows with the time of the row before, joined with it");
+    auto& precip = values_[static_cast<std::size_t>(Field::Precip)];
+    const bool any_seen =
+        std::any_of(seen_.begin(), seen_.end(), [](double rate) { return rate > 0.0; });
+    if (use_seen_ && precip.empty() && any_seen) {
+        seen_.resize(good, 0.0);
+        precip = seen_;
+        report_.fields[report_index(Field::Precip)].present = good;
+        note(ReadNote::Kind::Info, 0, "precip",
+             "no amounts in the file: rates from present weather, drizzle 0.1/0.3/0.8, rain "
+             "1/4.5/12, snow 0.5/1.5/3 mm/h for light/moderate/heavy");
+    }
+    note_odd();
+    drop_empty_columns();
+
     // The usual step, for what has to be put before the first row and after a gap.
     std::vector<std::int64_t> steps;
     for (std::size_t i = 1; i < good; ++i) steps.push_back(times_[i] - times_[i - 1]);
     std::int64_t usual = 3600000000LL;
     if (!steps.empty()) {
+        // Reports come when something changes, too: a gap is longer than nearly all steps.
+        const std::size_t nearly_all = steps.size() * 19 / 20;
+        std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(nearly_all),
+                         steps.end());
+        const std::int64_t long_step = steps[nearly_all];
         std::nth_element(steps.begin(),
                          steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
                          steps.end());
         usual = steps[steps.size() / 2];
+        if (long_step <= 2 * 3600000000LL) usual = std::max(usual, long_step);
     }
 
     // A row before the first one holds what fell before it; a row after the last one before a gap
@@ -234,27 +422,30 @@ ForcingTable RowCollector::finish()
                                 static_cast<std::int64_t>(std::llround(before_h * 3600e6)));
         from.push_back(kNone);
     }
-    std::size_t gaps = 0;
+    std::size_t gaps = 0, longest = 0;
     for (std::size_t i = 0; i < good; ++i) {
         if (i > 0 && times_[i] - times_[i - 1] > usual + usual / 2) {
             table.time_us.push_back(times_[i - 1] + usual);
             from.push_back(kNone);
-            if (++gaps <= 20) {
-                note(ReadNote::Kind::Time, 0, "time",
-                     std::string("gap from ")
-                         .append(iso_from_us(times_[i - 1]))
-                         .append(" to ")
-                         .append(iso_from_us(times_[i])));
-            }
+            if (++gaps == 1 || times_[i] - times_[i - 1] > times_[longest] - times_[longest - 1])
+                longest = i;
         }
         moved[i] = table.time_us.size();
         table.time_us.push_back(times_[i]);
         from.push_back(i);
     }
-    if (gaps > 20)
-        note(ReadNote::Kind::Time, 0, "time", std::to_string(gaps - 20).append(" more gaps"));
+    if (gaps) {
+        note(
+            ReadNote::Kind::Time, 0, "time",
+            std::string(gaps == 1 ? "gap from " : std::to_string(gaps) + " gaps, the longest from ")
+                .append(iso_from_us(times_[longest - 1]))
+                .append(" to ")
+                .append(iso_from_us(times_[longest])));
+    }
     for (Fallen& f : fallen_) f.row = moved[f.row];
 
+    const bool past_amounts = std::any_of(fallen_.begin(), fallen_.end(),
+                                          [](const Fallen& f) { return f.field == Field::Precip; });
     for (std::size_t f = 0; f < kFieldCount; ++f) {
         if (values_[f].empty()) continue;
         auto& column = table.columns[f];
@@ -268,6 +459,11 @@ ForcingTable RowCollector::finish()
                 if (!std::isnan(column[i]) && !std::isnan(column[i + 1]))
                     column[i] = 0.5 * (column[i] + column[i + 1]);
             }
+        }
+        // What fell in the time before a row was of the kind that the row names.
+        if (f == static_cast<std::size_t>(Field::SnowShare) && past_amounts) {
+            column.erase(column.begin());
+            column.push_back(kMissing);
         }
         if (held_after_s_[f] != 0.0) move_in_time(table.time_us, column, held_after_s_[f]);
     }

@@ -40,6 +40,17 @@ public:
     {
         held_after_s_[static_cast<std::size_t>(field)] = seconds;
     }
+    /// Rows with the time of the row before add to it what it lacks; without this they are bad.
+    void join_same_times() { join_same_times_ = true; }
+    /// Rate that present weather of the current row stands for, kg m-2 s-1; used only when
+    /// use_seen_precipitation(true) is called, for files without any amount.
+    void precipitation_seen(double kg_m2_s);
+    void use_seen_precipitation(bool use) { use_seen_ = use; }
+    /// A column that no reader of this format understands. It is a problem where its name speaks of
+    /// weather and it is not ignored (ReadOptions::ignore), else a note.
+    void unknown_column(std::string_view name, const std::vector<std::string>& ignored);
+    ///   throws  Error that names the columns of unknown_column that are a problem
+    void check_columns();
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
 
     std::size_t rows() const { return times_.size(); }
@@ -58,7 +69,15 @@ private:
         Field field;
         double amount, hours;
     };
+    // Values of a field that were refused or pulled back into its range.
+    struct Odd {
+        std::size_t count = 0, first_line = 0;
+        double low = 0.0, high = 0.0;
+        void add(double value, std::size_t line);
+    };
     std::size_t report_index(Field field);
+    void note_odd();
+    void drop_empty_columns();
     void spread_amounts(ForcingTable& table);
 
     Site site_;
@@ -70,8 +89,13 @@ private:
     std::array<double, kFieldCount> held_after_s_{};
     std::vector<Fallen> fallen_;
     std::vector<std::string> problems_;
-    std::size_t line_ = 0;
-    bool in_row_ = false;
+    std::array<Odd, kFieldCount> refused_{}, noise_{}, impossible_{}, unreadable_{};
+    std::array<std::string, kFieldCount> unreadable_text_{};
+    std::vector<std::string> strange_columns_, other_columns_;
+    std::vector<double> seen_;
+    bool use_seen_ = false;
+    std::size_t line_ = 0, joined_ = 0;
+    bool in_row_ = false, join_same_times_ = false, joining_ = false;
 };
 
 }  // namespace petrichor::weather

@@ -70,6 +70,74 @@ struct Header {
     std::vector<std::optional<ColumnMeaning>> meaning;
 };
 
+// Columns that weather tables often have and that no model here uses: no reason to stop.
+bool is_known_unused(std::string_view name)
+{
+    const std::string low = lower(trimmed(name));
+    for (const char* start : {"soil_temp",
+                              "soil_moist",
+                              "precip_temp",
+                              "snow_density",
+                              "wind_gust",
+                              "windgust",
+                              "gust",
+                              "weather_code",
+                              "weathercode",
+                              "evapotranspiration",
+                              "et0",
+                              "uv_index",
+                              "sunshine",
+                              "wet_bulb",
+                              "apparent_temp",
+                              "precipitation_probability",
+                              "vapour_pressure_deficit",
+                              "vapor_pressure_deficit",
+                              "pressure_msl",
+                              "cloud_cover_low",
+                              "cloud_cover_mid",
+                              "cloud_cover_high",
+                              "cloudcover_low",
+                              "cloudcover_mid",
+                              "cloudcover_high"}) {
+        if (low.rfind(start, 0) == 0) return true;
+    }
+    return low.size() > 5 && (low.ends_with("_flag") || low.ends_with("_qc"));
+}
+
+// "# latitude: 45.3" above the table says where it is; also longitude, elevation_m, temp_height_m,
+// wind_height_m, utc_offset_h, name; and "note" goes to the report.
+void read_place(std::string_view text, RowCollector& rows)
+{
+    Site& site = rows.site();
+    Lines lines(text);
+    while (const auto line = lines.next()) {
+        auto t = trimmed(*line);
+        if (t.empty()) continue;
+        if (t.front() != '#') return;
+        t = trimmed(t.substr(1));
+        const auto colon = t.find_first_of(":=");
+        if (colon == std::string_view::npos) continue;
+        const std::string key = lower(trimmed(t.substr(0, colon)));
+        const auto value = trimmed(t.substr(colon + 1));
+        const auto number = to_number(value);
+        if (key == "name") site.name = shown(value);
+        if (key == "note")
+            rows.note(ReadNote::Kind::Info, lines.number(), "", std::string(value.substr(0, 400)));
+        if (key == "warning")
+            rows.note(ReadNote::Kind::Warning, lines.number(), "",
+                      std::string(value.substr(0, 400)));
+        if (!number) continue;
+        if (key == "latitude") site.latitude_deg = *number;
+        if (key == "longitude") site.longitude_deg = *number;
+        if (key == "elevation_m") site.elevation_m = *number;
+        if (key == "utc_offset_h" && std::abs(*number) <= 14.0) site.utc_offset_h = *number;
+        if (key == "temp_height_m" && *number >= 0.3 && *number <= 200.0)
+            site.temp_height_m = *number;
+        if (key == "wind_height_m" && *number >= 0.6 && *number <= 500.0)
+            site.wind_height_m = *number;
+    }
+}
+
 void add_to_list(std::string& list, const std::string& name)
 {
     list.append(list.empty() ? "" : ", ").append(name);
@@ -110,7 +178,7 @@ void drop_bare_twin(Header& h, std::size_t i, std::string& bare_names)
 
 // Leaves `lines` below the header.
 //   throws  Error without times or a known column
-Header read_header(Lines& lines, RowCollector& rows)
+Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
 {
     Header h;
     std::string_view text;
@@ -127,18 +195,15 @@ Header read_header(Lines& lines, RowCollector& rows)
     h.times = find_csv_times(h.names, split(below.next().value_or(""), h.separator, 256));
     h.meaning.resize(h.names.size());
     bool any = false;
-    std::string unknown, bare_names;
+    std::string bare_names;
     for (std::size_t i = 0; i < h.names.size(); ++i) {
         if (h.times.uses(i)) continue;
         h.meaning[i] = column_meaning(h.names[i]);
         any = any || h.meaning[i];
-        if (!h.meaning[i])
-            add_to_list(unknown,
-                        h.names[i].empty() ? "a column without a name" : shown(h.names[i]));
+        if (!h.meaning[i] && !is_known_unused(h.names[i]))
+            rows.unknown_column(h.names[i], options.ignore);
         drop_bare_twin(h, i, bare_names);
     }
-    if (!unknown.empty())
-        rows.note(ReadNote::Kind::Info, h.line, "columns", "not known, not used: " + unknown);
     if (!bare_names.empty())
         rows.note(ReadNote::Kind::Warning, h.line, "columns",
                   "not used, as another column says the same quantity with a unit: " + bare_names);
@@ -149,6 +214,7 @@ Header read_header(Lines& lines, RowCollector& rows)
                     "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2; the time "
                     "may also be date,time or date,hour or year,month,day,hour.");
     }
+    rows.check_columns();
     return h;
 }
 
@@ -223,10 +289,11 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
 
 }  // namespace
 
-static void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
+    read_place(text, rows);
     Lines lines(text);
-    const Header h = read_header(lines, rows);
+    const Header h = read_header(lines, rows, options);
     const double amount_s = seconds_of_amounts(h, lines, rows);
 
     MissingCodes missing_codes;

@@ -19,7 +19,9 @@ struct NamedText {
 ///
 /// Kinds may differ. The site is that of the first file. A column that one file lacks is filled
 /// there like any other missing value. With one file the same as read_weather.
-///   throws  Error as read_weather (with the file's name), and when the times of two files overlap
+/// Files over the same time may hold different quantities; their columns are put side by side.
+///   throws  Error as read_weather (with the file's name), and when two files overlap and hold the
+///           same quantity
 ReadResult read_weather_files(const std::vector<NamedText>& files, const ReadOptions& options = {});
 
 }  // namespace petrichor::weather

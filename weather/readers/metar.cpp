@@ -11,7 +11,6 @@
 #include "weather/readers/bulletin.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/report_lines.h"
-#include "weather/readers/station_regions.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -67,18 +66,6 @@ void put_report(RowCollector& rows, const MetarReport& r, double elevation_m)
         // back.
         rows.set(Field::Pressure, r.qnh_pa * std::pow(1.0 - 2.25577e-5 * elevation_m, 5.25588));
     }
-}
-
-// Reports do not say where the station is; its letters tell day from night.
-void place_in_region(const std::string& station, RowCollector& rows)
-{
-    const auto region = region_of_station(station);
-    if (!region) return;
-    rows.site().latitude_deg = region->latitude_deg;
-    rows.site().longitude_deg = region->longitude_deg;
-    rows.note(ReadNote::Kind::Warning, 0, "place",
-              "reports do not say where " + station + " is: taken as the middle of " +
-                  std::string(region->name) + "; give latitude and longitude");
 }
 
 // The station asked for, else the one that reports most (the first of equals).
@@ -301,7 +288,8 @@ static void read_metar(std::string_view text, RowCollector& rows, const ReadOpti
     const std::string station = chosen_station(bulletin, options.station, rows);
     rows.site().name = station;
     if (std::isnan(options.site.latitude_deg) || std::isnan(options.site.longitude_deg)) {
-        place_in_region(station, rows);
+        rows.note(ReadNote::Kind::Warning, 0, "place",
+                  "reports do not say where " + station + " is: give latitude and longitude");
     }
     int year = options.year, month = options.month;
     const auto has_year = [](const auto& r) { return r.year != 0; };

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/json.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -139,12 +140,86 @@ static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOpti
 
 namespace {
 
+// The same as JSON: inputs.location, then outputs.tmy_hourly or outputs.hourly, an object a row.
+void read_json(std::string_view text, RowCollector& rows, const ReadOptions&)
+{
+    const Json all = parse_json(text);
+    const Json* inputs = all.find("inputs");
+    const Json* location = inputs ? inputs->find("location") : nullptr;
+    const auto number = [](const Json* object, const char* key) {
+        const Json* value = object ? object->find(key) : nullptr;
+        return value && value->kind == Json::Kind::Number ? value->number : kMissing;
+    };
+    rows.site().latitude_deg = number(location, "latitude");
+    rows.site().longitude_deg = number(location, "longitude");
+    rows.site().elevation_m = number(location, "elevation");
+    const double sun_offset_h = number(location, "irradiance_time_offset");
+    const Json* outputs = all.find("outputs");
+    const Json* hours = outputs ? outputs->find("tmy_hourly") : nullptr;
+    if (!hours && outputs) hours = outputs->find("hourly");
+    if (!hours || hours->kind != Json::Kind::Array) {
+        throw Error("weather: PVGIS JSON: there is no outputs.tmy_hourly and no outputs.hourly",
+                    "Ask PVGIS for hourly data or a typical year.");
+    }
+    const auto when_of = [](const Json& row, CivilTime& when) {
+        const Json* time = row.find("time(UTC)");
+        if (!time) time = row.find("time");
+        return time && time->kind == Json::Kind::String && parse_when(time->text, when);
+    };
+    TypicalYear typical;
+    for (const Json& row : hours->items) {
+        CivilTime when;
+        if (when_of(row, when)) typical.watch(when.year, when.month);
+    }
+    typical.decide(rows);
+    rows.note(ReadNote::Kind::Info, 0, "precip", "PVGIS has no precipitation");
+    if (std::abs(sun_offset_h) <= 1.0 && sun_offset_h != 0.0) {
+        for (const Field f : {Field::Shortwave, Field::Direct, Field::Diffuse})
+            rows.holds_after(f, sun_offset_h * 3600.0);
+    }
+    for (const Json& row : hours->items) {
+        CivilTime when;
+        if (!when_of(row, when)) {
+            rows.bad_row(row.line, "time", "the row has no time as YYYYMMDD:HHMM");
+            continue;
+        }
+        if (typical.typical && when.month == 2 && when.day == 29) continue;
+        when.year = typical.of(when.year);
+        const auto us = us_from_civil(when);
+        if (!us) {
+            rows.bad_row(row.line, "time", "there is no such day");
+            continue;
+        }
+        if (!rows.begin_row(*us, row.line)) continue;
+        for (const Json::Member& member : row.members) {
+            const std::string name = lower(member.name);
+            for (const Column& c : kColumns) {
+                if (name != c.name) continue;
+                if (member.value.kind == Json::Kind::Number)
+                    rows.set(c.field, member.value.number + c.offset);
+                else
+                    rows.missing(c.field);
+            }
+        }
+    }
+}
+
+bool recognise_json(const FileHead& head)
+{
+    return head.begins("{") && head.text.find("\"inputs\"") != head.text.npos &&
+           head.text.find("\"outputs\"") != head.text.npos;
+}
+
 bool recognise(const FileHead& head)
 {
     return head.begins("Latitude (decimal degrees)");
 }
 
 }  // namespace
+
+extern const Reader pvgis_json_reader;
+const Reader pvgis_json_reader{"PVGIS JSON", "European Commission, typical year or series",
+                               recognise_json, read_json};
 
 extern const Reader pvgis_reader;
 const Reader pvgis_reader{"PVGIS CSV", "European Commission, typical year or series", recognise,

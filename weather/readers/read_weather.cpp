@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "weather/readers/formats.h"
@@ -87,15 +88,17 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         site.temp_height_m = options.site.temp_height_m;
         site.wind_height_m = options.site.wind_height_m;
     }
-    const auto drop_odd = [&](double& value, double low, double high, const char* name) {
+    const auto check = [&](double value, double low, double high, const char* name,
+                           const char* option) {
         if (std::isnan(value) || (value >= low && value <= high)) return;
-        rows.note(ReadNote::Kind::OutOfRange, 0, name,
-                  std::to_string(value) + " is not possible, ignored");
-        value = kMissing;
+        char said[160];
+        std::snprintf(said, sizeof said, "weather: %s: %s %g is outside %g..%g", reader.name, name,
+                      value, low, high);
+        throw Error(said, std::string("Mend the file, or give the place with ") + option + ".");
     };
-    drop_odd(site.latitude_deg, -90, 90, "latitude");
-    drop_odd(site.longitude_deg, -180, 360, "longitude");
-    drop_odd(site.elevation_m, -450, 9000, "elevation");
+    check(site.latitude_deg, -90, 90, "latitude", "--latitude");
+    check(site.longitude_deg, -180, 360, "longitude", "--longitude");
+    check(site.elevation_m, -450, 9000, "elevation", "--elevation-m");
     ReadResult result;
     result.table = rows.finish();
     result.report = std::move(rows.report());

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "weather/forcing/forcing.h"
 #include "weather/readers/taf.h"
@@ -19,7 +20,8 @@ struct ReadOptions {
     int year = 0, month = 0;        ///< METAR says only the day; 0: January 2020, with a note
     TafUse taf = TafUse::Expected;  ///< TAF: what to make of TEMPO and PROB groups
     std::size_t most_bytes = std::size_t{512} << 20;
-    bool fill = true;  ///< run fill_forcing
+    std::vector<std::string> ignore{};  ///< names of columns that may be left unread, or "all"
+    bool fill = true;                   ///< run fill_forcing
     FillOptions filling{};
 };
 

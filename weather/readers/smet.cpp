@@ -24,12 +24,23 @@ constexpr Column kColumns[] = {
     {"p", Field::Pressure, false},     {"psum", Field::Precip, true},
     {"hnw", Field::Precip, true},      {"hs", Field::SnowDepth, false},
     {"td", Field::DewPoint, false},    {"psum_s", Field::Snow, true},
-    {"psum_l", Field::Rain, true},
+    {"psum_l", Field::Rain, true},     {"tss", Field::SurfaceTemp, false},
+    {"rswr", Field::Reflected, false}, {"swe", Field::SnowWater, false},
 };
+
+// Parameters of MeteoIO that no model here uses: ground and snow temperatures, gusts, set values.
+bool is_known_unused(std::string_view name)
+{
+    for (const char* start : {"tsg", "vw_max", "vw_drift", "tsoil", "ts", "julian", "tau_cld",
+                              "theor", "iswr_dir", "iswr_diff", "ndir", "psum_ph", "hw", "rho"}) {
+        if (name.rfind(start, 0) == 0) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
-static void read_smet(std::string_view text, RowCollector& rows, const ReadOptions&)
+static void read_smet(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Lines lines(text);
     double nodata = -999.0, zone_h = 0.0;
@@ -81,11 +92,12 @@ static void read_smet(std::string_view text, RowCollector& rows, const ReadOptio
                 for (const Column& c : kColumns) {
                     if (name == c.name) meaning[i] = &c;
                 }
-                if (!meaning[i] && name != "timestamp")
-                    rows.note(ReadNote::Kind::Info, lines.number(), shown(names[i]), "not used");
+                if (!meaning[i] && name != "timestamp" && !is_known_unused(name))
+                    rows.unknown_column(names[i], options.ignore);
             }
         }
     }
+    rows.check_columns();
     if (!data || !has_time) {
         throw Error(
             std::string("weather: SMET: ") + (!data       ? "there is no [DATA]"
@@ -94,6 +106,7 @@ static void read_smet(std::string_view text, RowCollector& rows, const ReadOptio
             "Give an ASCII SMET file with a timestamp column and a [DATA] part.");
     }
     if (!(std::abs(zone_h) <= 14.0)) zone_h = 0.0;
+    rows.site().utc_offset_h = zone_h;
     std::int64_t last = 0;
     bool have_last = false;
     std::vector<std::string_view> f;

@@ -19,7 +19,8 @@ enum class Quantity {
     Fraction,
     Precipitation,
     Degrees,
-    Length
+    Length,
+    Water
 };
 
 struct Name {
@@ -75,6 +76,14 @@ constexpr Name kNames[] = {
     {"cloudcover", Field::Cloud, Quantity::Fraction},
     {"cloud", Field::Cloud, Quantity::Fraction},
     {"snow_depth", Field::SnowDepth, Quantity::Length},
+    {"snow_height", Field::SnowDepth, Quantity::Length},
+    {"snow_water_equivalent", Field::SnowWater, Quantity::Water},
+    {"snow_water", Field::SnowWater, Quantity::Water},
+    {"swe", Field::SnowWater, Quantity::Water},
+    {"surface_temperature", Field::SurfaceTemp, Quantity::Temperature},
+    {"surface_temp", Field::SurfaceTemp, Quantity::Temperature},
+    {"sw_up", Field::Reflected, Quantity::Flux},
+    {"snow_share", Field::SnowShare, Quantity::Fraction},
     {"visibility", Field::Visibility, Quantity::Length},
     {"precip_total", Field::Precip, Quantity::Precipitation},
     {"precipitation", Field::Precip, Quantity::Precipitation},
@@ -181,6 +190,8 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
             else
                 return false;
             return true;
+        case Quantity::Water:
+            return is({"", "mm", "kgm2"});
         case Quantity::Precipitation:
             if (is({"kgm2s", "kgm2s1", "mms"})) return true;
             if (is({"mmh", "mmh1", "mmhr", "kgm2h"})) {
@@ -232,6 +243,10 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
         if (low.find("deficit") != std::string::npos) return std::nullopt;
         m.vapour_pressure = true;
         return m;
+    }
+    if (low == "snow" && given.empty()) {
+        throw Error("weather: column 'snow' says neither whether it is what fell nor its unit",
+                    "Name it snowfall_mm (water), snowfall_cm (fresh snow) or snow_depth_cm.");
     }
     for (const Name& known : kNames) {
         const std::string_view n = known.name;

@@ -106,8 +106,9 @@ private:
     }
     void put(const Site& site)
     {
-        const auto& [latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m, name] =
-            site;
+        const auto& [latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m,
+                     utc_offset_h, name] = site;
+        static_cast<void>(utc_offset_h);  // only how times are shown
         static_cast<void>(name);
         add(latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m);
     }

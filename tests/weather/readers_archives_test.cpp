@@ -1,0 +1,419 @@
+// Files of weather archives: a small sample of each lies in the corpus of the fuzzer, laid out as
+// the archive does. Each must be recognised by its content and give the numbers that it says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "base/error.h"
+#include "weather/readers/join.h"
+#include "weather/readers/read_weather.h"
+#include "weather/readers/tables.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::weather {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    EXPECT_TRUE(in) << file;
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
+
+ReadResult raw(const std::string& text, ReadOptions options = {})
+{
+    options.fill = false;
+    return read_weather(text, options);
+}
+ReadResult sample(const std::string& name, const ReadOptions& options = {})
+{
+    return raw(text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name), options);
+}
+
+// Row of a time, or the number of rows.
+std::size_t row_at(const ForcingTable& table, const std::string& iso)
+{
+    const std::int64_t us = us_from_iso(iso).value();
+    return static_cast<std::size_t>(std::find(table.time_us.begin(), table.time_us.end(), us) -
+                                    table.time_us.begin());
+}
+double at(const ForcingTable& table, Field field, const std::string& iso)
+{
+    const std::size_t row = row_at(table, iso);
+    EXPECT_LT(row, table.rows()) << iso;
+    return row < table.rows() && table.has(field) ? table[field][row] : kMissing;
+}
+// What fell in all rows, kg/m2.
+double total(const ForcingTable& table, Field field)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < table.rows(); ++i) {
+        const double rate = table[field][i];
+        if (!std::isnan(rate))
+            sum += rate * static_cast<double>(table.time_us[i + 1] - table.time_us[i]) * 1e-6;
+    }
+    return sum;
+}
+std::string notes(const ReadReport& report)
+{
+    return to_text(report);
+}
+
+TEST(GlobalHourly, CodedGroups)
+{
+    const auto [table, report] = sample("noaa_global_hourly.csv");
+    EXPECT_EQ(report.format, "NOAA global hourly");
+    EXPECT_EQ(report.rows, 4u);
+    EXPECT_NEAR(table.site.latitude_deg, 40.7792, 1e-9);
+    const std::string first = "2024-01-16T00:51Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::DewPoint, first), 270.95, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, first), 5.7, 1e-9);
+    EXPECT_NEAR(at(table, Field::WindFrom, first), 40.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, first), 101890.0, 1e-6) << "the station's own";
+    EXPECT_NEAR(at(table, Field::Cloud, first), 1.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::SnowDepth, first), 0.05, 1e-9);
+    EXPECT_NEAR(at(table, Field::Visibility, first), 4828.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, "2024-01-16T02:51Z"), 0.0, 1e-9) << "calm";
+    EXPECT_NEAR(total(table, Field::Precip), 2.1, 1e-9) << "1.3, a trace and 0.8 mm";
+    EXPECT_TRUE(std::isnan(at(table, Field::DewPoint, "2024-01-16T01:51Z"))) << "failed a check";
+    EXPECT_THAT(notes(report), HasSubstr("1 sums of days"));
+}
+
+TEST(GlobalHourly, PresentWeatherTellsThePhase)
+{
+    const auto table = sample("noaa_global_hourly.csv").table;
+    const std::size_t snow = row_at(table, "2024-01-16T00:51Z");
+    ASSERT_GT(snow, 0u);
+    EXPECT_EQ(table[Field::SnowShare][snow - 1], 1.0) << "of the hour before the report";
+    const std::size_t rain = row_at(table, "2024-01-16T02:51Z");
+    EXPECT_EQ(table[Field::SnowShare][rain - 1], 0.0);
+}
+
+TEST(GlobalHourly, RemarksFillWhatTheCodesLack)
+{
+    const auto table =
+        raw("\"STATION\",\"DATE\",\"LATITUDE\",\"LONGITUDE\",\"ELEVATION\",\"NAME\",\"REPORT_"
+            "TYPE\",\"WND\",\"VIS\",\"TMP\",\"DEW\",\"SLP\",\"REM\"\n"
+            "\"1\",\"2024-01-16T00:51:00\",\"40\",\"-73\",\"3\",\"X\",\"FM-15\",\"040,5,N,0057,5\","
+            "\"004828,5,N,5\",\"+9999,9\",\"+9999,9\",\"99999,9\",\"MET105 METAR KLGA 160051Z "
+            "04011KT 3SM -SN BKN021 M05/M07 A3011\"\n")
+            .table;
+    EXPECT_NEAR(table[Field::AirTemp].back(), 268.15, 1e-9);
+    EXPECT_NEAR(table[Field::Cloud].back(), 0.75, 0.15);
+    EXPECT_NEAR(table[Field::Precip].back() * 3600.0, 0.5, 1e-9) << "light snow, no amounts";
+    EXPECT_EQ(table[Field::SnowShare].back(), 1.0);
+}
+
+TEST(GlobalHourly, ARealYear)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS is not set";
+    const std::string text = text_of(std::filesystem::path(assets) /
+                                     "weather/real_files/noaa_global_hourly_00702699999.csv");
+    ReadOptions options;
+    options.site = {.latitude_deg = 34.0, .longitude_deg = 69.0, .elevation_m = 1500.0};
+    const auto begin = std::chrono::steady_clock::now();
+    const auto [table, report] = read_weather(text, options);
+    const double ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_EQ(report.format, "NOAA global hourly");
+    EXPECT_GT(report.rows, 6000u);
+    EXPECT_EQ(report.bad_rows, 0u);
+    EXPECT_LT(report.notes.size(), 60u) << to_text(report);
+    RecordProperty("milliseconds", std::to_string(ms));
+    EXPECT_LT(ms, 400.0) << "30 in a release build";
+}
+
+TEST(Isd, FixedColumnsSayTheSameAsTheTable)
+{
+    const auto [table, report] = sample("isd_full.txt");
+    EXPECT_EQ(report.format, "ISD");
+    const std::string first = "2024-01-16T00:51Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, first), 5.7, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, first), 101890.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::SnowDepth, first), 0.05, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 2.1, 1e-9);
+    EXPECT_NEAR(table.site.longitude_deg, -73.88, 1e-9);
+    EXPECT_NEAR(table.site.elevation_m, 3.0, 1e-9);
+}
+
+TEST(Uscrn, HourlyAndFiveMinutes)
+{
+    const auto [hourly, report] = sample("uscrn_hourly.txt");
+    EXPECT_EQ(report.format, "USCRN");
+    EXPECT_NEAR(at(hourly, Field::AirTemp, "2024-01-16T01:00Z"), 269.75, 1e-9);
+    EXPECT_NEAR(at(hourly, Field::SurfaceTemp, "2024-01-16T01:00Z"), 269.05, 1e-9);
+    EXPECT_TRUE(std::isnan(at(hourly, Field::AirTemp, "2024-01-16T03:00Z")));
+    EXPECT_NEAR(total(hourly, Field::Precip), 1.7, 1e-9);
+    EXPECT_EQ(hourly.site.utc_offset_h, -5.0);
+    const auto fine = sample("uscrn_5min.txt").table;
+    EXPECT_NEAR(at(fine, Field::Wind, "2024-01-16T00:05Z"), 1.53, 1e-9);
+    EXPECT_NEAR(total(fine, Field::Precip), 0.2, 1e-9);
+}
+
+TEST(Lcd, BothSystemsOfUnits)
+{
+    const auto [table, report] = sample("lcd.csv");
+    EXPECT_EQ(report.format, "LCD");
+    EXPECT_EQ(report.rows, 3u) << "the sum of the day is none";
+    const std::string first = "2024-01-16T00:51Z";  // 19:51 in New York
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, first), 11 * 0.44704, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, first), 30.09 * 3386.389, 1e-3);
+    EXPECT_NEAR(total(table, Field::Precip), 0.07 * 25.4, 1e-9);
+    const auto metric = sample("lcd_metric.csv").table;
+    EXPECT_NEAR(at(metric, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(metric, Field::Pressure, first), 101890.0, 1e-6);
+    EXPECT_NEAR(at(metric, Field::Wind, first), 5.7, 1e-9);
+    EXPECT_NEAR(total(metric, Field::Precip), 1.3, 1e-9);
+}
+
+TEST(GhcnHourly, ValuesQualityAndSky)
+{
+    const auto [table, report] = sample("ghcn_hourly.psv");
+    EXPECT_EQ(report.format, "GHCN hourly");
+    const std::string first = "2024-01-16T00:51Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, first), 101890.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::SnowDepth, first), 0.05, 1e-9);
+    EXPECT_NEAR(at(table, Field::Cloud, "2024-01-16T02:51Z"), 0.4375, 1e-9);
+    EXPECT_TRUE(std::isnan(at(table, Field::DewPoint, "2024-01-16T01:51Z"))) << "quality 3";
+    EXPECT_NEAR(at(table, Field::Pressure, "2024-01-16T02:51Z"),
+                station_pressure_pa(101830.0, 3.4, 274.25), 1e-6);
+    EXPECT_NEAR(total(table, Field::Precip), 2.1, 1e-9);
+}
+
+TEST(Dwd, FilesOfOneQuantityAreJoined)
+{
+    const std::string temperature = text_of(PETRICHOR_SAMPLES "/dwd_temperature.txt"),
+                      rain = text_of(PETRICHOR_SAMPLES "/dwd_precipitation.txt");
+    ReadOptions options;
+    options.fill = false;
+    const auto [table, report] =
+        read_weather_files({{"tu.txt", temperature}, {"rr.txt", rain}}, options);
+    EXPECT_EQ(report.format, "DWD");
+    EXPECT_NEAR(at(table, Field::AirTemp, "2024-01-19T00:00Z"), 271.25, 1e-9);
+    EXPECT_NEAR(at(table, Field::RelHumidity, "2024-01-19T03:00Z"), 98.0, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 1.5, 1e-9);
+    EXPECT_EQ(at(table, Field::SnowShare, "2024-01-19T00:00Z"), 1.0) << "WRTR 7, the hour before 1";
+    EXPECT_EQ(at(table, Field::SnowShare, "2024-01-19T02:00Z"), 0.0);
+    const auto fine = sample("dwd_10min.txt").table;
+    EXPECT_NEAR(at(fine, Field::Pressure, "2024-01-01T00:10Z"), 97030.0, 1e-6);
+}
+
+TEST(Join, FilesThatOverlapAndSayTheSameThingAreRefused)
+{
+    const std::string one = text_of(PETRICHOR_SAMPLES "/dwd_temperature.txt");
+    try {
+        read_weather_files({{"a.txt", one}, {"b.txt", one}});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("air_temp"));
+    }
+}
+
+TEST(Meteostat, SnowIsADepth)
+{
+    const auto [table, report] = sample("meteostat.csv");
+    EXPECT_EQ(report.format, "Meteostat");
+    EXPECT_FALSE(table.has(Field::Snow)) << "20 mm of depth are no snowfall";
+    EXPECT_NEAR(at(table, Field::SnowDepth, "2025-01-11T09:00Z"), 0.020, 1e-12);
+    EXPECT_NEAR(at(table, Field::Wind, "2025-01-11T09:00Z"), 10.0, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 5.8, 1e-9);
+    EXPECT_EQ(table[Field::SnowShare].front(), 1.0) << "coco 15";
+    const auto bulk = sample("meteostat_bulk.csv").table;
+    EXPECT_NEAR(at(bulk, Field::AirTemp, "2025-01-11T06:00Z"), 272.55, 1e-9);
+}
+
+TEST(EnvironmentCanada, LocalStandardTimeAndUnitsInUtf8)
+{
+    const auto [table, report] = sample("environment_canada.csv");
+    EXPECT_EQ(report.format, "Environment Canada");
+    EXPECT_EQ(table.site.utc_offset_h, -5.0);
+    const std::string midnight = "2024-01-09T05:00Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, midnight), 270.05, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, midnight), 100910.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::WindFrom, midnight), 90.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, midnight), 5.0, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 1.2, 1e-9);
+    EXPECT_EQ(table[Field::SnowShare][row_at(table, "2024-01-09T06:00Z") - 1], 1.0);
+}
+
+TEST(Iem, TableOfAnAirport)
+{
+    const auto [table, report] = sample("iem_asos.csv");
+    EXPECT_EQ(report.format, "IEM");
+    const std::string first = "2024-01-16T00:51Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 273.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Wind, first), 11 * 1852.0 / 3600.0, 1e-9);
+    EXPECT_NEAR(at(table, Field::SnowDepth, first), 0.0508, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 0.08 * 25.4, 1e-9);
+    EXPECT_NEAR(table.site.latitude_deg, 40.7792, 1e-9);
+}
+
+TEST(Midc, ColumnsByTheirWordsAndUnits)
+{
+    const auto [table, report] = sample("midc.csv");
+    EXPECT_EQ(report.format, "MIDC");
+    const std::string noon = "2024-02-03T19:00Z";
+    EXPECT_NEAR(at(table, Field::Shortwave, noon), 310.2, 1e-9);
+    EXPECT_NEAR(at(table, Field::Direct, noon), 12.1, 1e-9);
+    EXPECT_NEAR(at(table, Field::AirTemp, noon), 274.35, 1e-9);
+    EXPECT_NEAR(at(table, Field::SnowDepth, noon), 0.04, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 0.2, 1e-6) << "the counter went from 1.2 to 1.4 mm";
+    EXPECT_THAT(notes(report), HasSubstr("li-200"));
+}
+
+TEST(PvgisJson, TypicalYear)
+{
+    const auto [table, report] = sample("pvgis.json");
+    EXPECT_EQ(report.format, "PVGIS JSON");
+    EXPECT_TRUE(report.typical_year);
+    EXPECT_EQ(table.site.elevation_m, 250.0);
+    EXPECT_NEAR(at(table, Field::AirTemp, "2015-01-01T10:00Z"), 272.44, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, "2015-01-01T10:00Z"), 99800.0, 1e-9);
+}
+
+TEST(Tmy2, FixedColumns)
+{
+    const auto [table, report] = sample("typical_year_tmy2.tm2");
+    EXPECT_EQ(report.format, "TMY2");
+    EXPECT_TRUE(report.typical_year);
+    EXPECT_NEAR(table.site.latitude_deg, 42.0 + 22.0 / 60.0, 1e-9);
+    EXPECT_NEAR(table.site.longitude_deg, -(71.0 + 2.0 / 60.0), 1e-9);
+    const std::string noon = "1962-01-01T17:00Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, noon), 268.15, 1e-9);
+    EXPECT_NEAR(at(table, Field::Pressure, noon), 101000.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::Wind, noon), 5.7, 1e-9);
+    EXPECT_NEAR(at(table, Field::SnowDepth, noon), 0.08, 1e-9);
+    EXPECT_NEAR(at(table, Field::Cloud, noon), 0.5, 1e-9);
+}
+
+TEST(Wea, SunOfADay)
+{
+    const auto [table, report] = sample("sun.wea");
+    EXPECT_EQ(report.format, "WEA");
+    EXPECT_NEAR(table.site.longitude_deg, -71.02, 1e-9) << "west is positive in the file";
+    EXPECT_NEAR(at(table, Field::Direct, "2019-01-01T16:30Z"), 300.0, 1e-9);
+    const double flat = at(table, Field::Shortwave, "2019-01-01T16:30Z");
+    EXPECT_GT(flat, 120.0 + 300.0 * 0.38);
+    EXPECT_LT(flat, 120.0 + 300.0 * 0.42);
+}
+
+TEST(ForcingCsv, CommentsSayThePlace)
+{
+    const auto [table, report] = sample("place_in_comments.csv");
+    EXPECT_EQ(table.site.elevation_m, 1325.0);
+    EXPECT_NEAR(table[Field::SurfaceTemp].front(), 271.15, 1e-9);
+    EXPECT_THAT(notes(report), HasSubstr("made by hand"));
+}
+
+// ---- never misread without a word ----
+
+std::string refusal(const std::string& text, const ReadOptions& options = {})
+{
+    try {
+        read_weather(text, options);
+    } catch (const Error& error) {
+        return std::string(error.what()) + " | " + error.fix();
+    }
+    return "read";
+}
+
+TEST(NeverMisread, AColumnThatSpeaksOfWeatherIsUnderstoodOrAnError)
+{
+    const std::string text = "time,air_temp_c,snow_melt_rate\n2024-01-01T00:00,-1,3\n";
+    EXPECT_THAT(refusal(text), testing::AllOf(HasSubstr("snow_melt_rate"), HasSubstr("--ignore")));
+    ReadOptions options;
+    options.ignore = {"snow_melt_rate"};
+    EXPECT_EQ(refusal(text, options), "read");
+    options.ignore = {"all"};
+    EXPECT_EQ(refusal(text, options), "read");
+    EXPECT_EQ(refusal("time,air_temp_c,battery_v\n2024-01-01T00:00,-1,12\n"), "read");
+}
+
+TEST(NeverMisread, ABareSnowColumnIsAmbiguous)
+{
+    EXPECT_THAT(refusal("time,air_temp_c,snow\n2024-01-01T00:00,-1,30\n"),
+                HasSubstr("snow_depth_cm"));
+}
+
+TEST(NeverMisread, APlaceThatDoesNotExistIsAnError)
+{
+    EXPECT_THAT(refusal("# latitude: 95\ntime,air_temp_c\n2024-01-01T00:00,-1\n"),
+                testing::AllOf(HasSubstr("95"), HasSubstr("--latitude")));
+}
+
+TEST(NeverMisread, AYearWithoutADropWasNotMeasured)
+{
+    std::string text = "time,air_temp_c,precip_mm,wind_m_s\n";
+    for (int day = 0; day < 70; ++day) {
+        const std::int64_t us = us_from_iso("2024-01-01").value() + day * 86400000000LL;
+        text += iso_from_us(us) + ",5,0," + (day == 9 ? "3" : "2") + "\n";
+    }
+    const auto [table, report] = raw(text);
+    EXPECT_FALSE(table.has(Field::Precip));
+    EXPECT_TRUE(table.has(Field::Wind));
+    EXPECT_THAT(notes(report), HasSubstr("nothing but 0 in 70 rows"));
+}
+
+TEST(NeverMisread, NoiseOfASensorIsOneLine)
+{
+    std::string text = "time,air_temp_c,snow_depth_m\n";
+    for (int hour = 0; hour < 200; ++hour) {
+        const std::int64_t us = us_from_iso("2024-01-01").value() + hour * 3600000000LL;
+        text += iso_from_us(us) + ",5,-0.01\n";
+    }
+    const auto [table, report] = raw(text);
+    EXPECT_EQ(table[Field::SnowDepth].front(), 0.0);
+    EXPECT_EQ(report.notes.size(), 1u);
+    EXPECT_THAT(notes(report), HasSubstr("200 values"));
+}
+
+TEST(NeverMisread, ARisingDepthTellsThatItSnowed)
+{
+    ReadOptions options;
+    const auto read = read_weather(
+        "time,air_temp_c,precip_mm,snow_depth_m\n2024-01-01T00:00,2.5,2,0.30\n"
+        "2024-01-01T01:00,2.5,2,0.33\n2024-01-01T02:00,2.5,2,0.33\n2024-01-01T03:00,2.5,0,0.32\n",
+        options);
+    EXPECT_EQ(read.table[Field::SnowShare][0], 1.0);
+    EXPECT_TRUE(std::isnan(read.table[Field::SnowShare][1]));
+    EXPECT_TRUE(std::isnan(read.table[Field::SnowShare][2]));
+}
+
+TEST(NeverMisread, SmetObservationsAreKeptApart)
+{
+    const auto table =
+        raw("SMET 1.1 ASCII\n[HEADER]\nstation_id = a\nlatitude = 46\nlongitude = 9\naltitude = "
+            "1500\nnodata = -999\ntz = 1\nfields = timestamp TA TSS RSWR HS\n[DATA]\n"
+            "2024-01-01T00:00 270 268 12 1.5\n")
+            .table;
+    EXPECT_EQ(table[Field::SurfaceTemp].front(), 268.0);
+    EXPECT_EQ(table[Field::Reflected].front(), 12.0);
+    EXPECT_EQ(table[Field::SnowDepth].front(), 1.5);
+    EXPECT_EQ(table.site.utc_offset_h, 1.0);
+}
+
+TEST(NeverMisread, MetarPlacesAreNotGuessed)
+{
+    const auto read = raw("METAR EDDF 311850Z 24015KT 9999 BKN012 M01/M03 Q1013=\n");
+    EXPECT_TRUE(std::isnan(read.table.site.latitude_deg));
+    EXPECT_THAT(notes(read.report), HasSubstr("give latitude and longitude"));
+}
+
+}  // namespace
+}  // namespace petrichor::weather
