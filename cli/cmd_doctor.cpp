@@ -17,6 +17,7 @@
 #include "film/data/content_cache.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
+#include "film/weather/packed.h"
 #include "gpu/renderer.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/readers/formats.h"
@@ -139,6 +140,7 @@ void print_json(const std::vector<Finding>& findings, const std::vector<gpu::Dev
     report["weather_presets"] = preset_names("weather");
     report["scenarios"] = preset_names("scenarios");
     report["weather_files"] = weather_kinds();
+    report["packed_weather_files"] = packed_kinds();
     std::cout << report.dump(2) << "\n";
 }
 
@@ -164,7 +166,8 @@ void print_text(const std::vector<Finding>& findings, const std::vector<gpu::Dev
     }
     std::cout << "  weather presets: " << join_words(preset_names("weather"))
               << "\n  scenarios: " << join_words(preset_names("scenarios"))
-              << "\n  weather files: " << join_words(weather_kinds()) << "\n"
+              << "\n  weather files: " << join_words(weather_kinds())
+              << "; packed: " << packed_kinds() << "\n"
               << (can_render ? "ready to render\n" : "cannot render: see above\n");
 }
 

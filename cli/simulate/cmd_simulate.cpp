@@ -47,7 +47,12 @@ void run(const SimulateOptions& options)
         throw Error("simulate: no input",
                     "Give a weather file, a CSV of keys, a weather TOML, or a preset (--list).");
     }
-    const std::vector<Input> inputs = read_inputs(options.inputs);
+    std::vector<std::string> unpacking;
+    const std::vector<Input> inputs =
+        read_inputs(options.inputs,
+                    {options.physical.site.latitude_deg, options.physical.site.longitude_deg,
+                     options.grid_point == "nearest"},
+                    &unpacking);
     if (options.fit_artist) {
         const std::string toml = fitted_toml(inputs, options);
         if (options.outputs.empty() || options.outputs.front() == "-")
@@ -58,6 +63,7 @@ void run(const SimulateOptions& options)
     }
     for (const std::string& output : options.outputs) check_output(output);
     SimulationTable table = simulate(inputs, options);
+    table.notes.insert(table.notes.begin(), unpacking.begin(), unpacking.end());
     table.panels = chosen_panels(table, options.plot);
     for (const std::string& note : table.notes) std::cerr << "info simulate: " << note << '\n';
     for (const std::string& warning : table.warnings)

@@ -77,6 +77,9 @@ void add_site(CLI::App& command, SimulateOptions& o)
 {
     const char* group = "Site and surface";
     SiteOptions& site = o.physical.site;
+    add(command, group, "--point", "WORD", o.grid_point,
+        "of a NetCDF or GRIB grid: bilinear (default) or nearest")
+        ->check(CLI::IsMember({"bilinear", "nearest"}));
     add(command, group, "--ignore", "NAMES", site.ignore,
         "columns of the file that may stay unread, by comma; or all");
     add(command, group, "--latitude", "DEG", site.latitude_deg,

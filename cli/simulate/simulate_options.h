@@ -24,7 +24,8 @@ struct SimulateOptions {
     std::string from, to;        ///< times
     std::vector<std::string> outputs;
     std::string plot = "auto";
-    std::string observed;  ///< a file
+    std::string observed;                 ///< a file
+    std::string grid_point = "bilinear";  ///< of NetCDF and GRIB: bilinear, nearest
     std::string checkpoint, resume;
     bool json = false;
     bool hash = false;

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
 
-Input read_one(const std::string& word)
+std::vector<Input> read_one(const std::string& word, const GridPlace& place,
+                            std::vector<std::string>* notes)
 {
     Input input;
     input.file = word;
@@ -26,7 +27,7 @@ Input read_one(const std::string& word)
         input.text.assign(std::istreambuf_iterator<char>(std::cin), {});
         input.name = "keys";
         input.kind = kind_of_text(input.text);
-        return input;
+        return {input};
     }
     const std::vector<std::string> presets = preset_names("weather");
     fs::path path = word;
@@ -44,8 +45,20 @@ Input read_one(const std::string& word)
     }
     input.text = read_input_file(path);
     input.name = path.stem().string();
+    if (is_packed_weather(input.text)) {
+        std::vector<std::string> left_out;
+        std::vector<Input> inputs;
+        for (UnpackedText& text : unpack_weather(path, place, left_out)) {
+            const std::string inside = text.name.empty() ? "" : ": " + text.name;
+            inputs.push_back(
+                {input.name, word + inside, kind_of_text(text.text), std::move(text.text)});
+        }
+        if (notes && !left_out.empty())
+            notes->push_back(word + ": left out, as they are no weather: " + join_words(left_out));
+        return inputs;
+    }
     input.kind = path.extension() == ".toml" ? InputKind::Script : kind_of_text(input.text);
-    return input;
+    return {input};
 }
 
 }  // namespace
@@ -62,7 +75,7 @@ std::string read_input_file(const fs::path& path)
     std::string head(4096, ' ');
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(in.gcount()));
-    if (head.find('\0') != head.npos) return head;
+    if (is_packed_weather(head) || head.find('\0') != head.npos) return head;
     if (!failed && size > kMostBytes) {
         throw Error("simulate: " + path.string() + " has " + std::to_string(size) +
                         " bytes, at most 268435456 are read",
@@ -101,10 +114,13 @@ InputKind kind_of_text(std::string_view text)
     return InputKind::Weather;
 }
 
-std::vector<Input> read_inputs(const std::vector<std::string>& words)
+std::vector<Input> read_inputs(const std::vector<std::string>& words, const GridPlace& place,
+                               std::vector<std::string>* notes)
 {
     std::vector<Input> inputs;
-    for (const std::string& word : words) inputs.push_back(read_one(word));
+    for (const std::string& word : words) {
+        for (Input& input : read_one(word, place, notes)) inputs.push_back(std::move(input));
+    }
     if (inputs.size() > 1) {
         for (const Input& input : inputs) {
             if (input.kind == InputKind::Weather) continue;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "film/weather/packed.h"
+
 namespace petrichor::film {
 
 enum class InputKind {
@@ -22,12 +24,16 @@ struct Input {
     std::string text;
 };
 
-/// Reads the inputs named on the command line: files, names of presets, - for standard input. The
+/// Reads the inputs named on the command line: files, names of presets, - for standard input.
+/// Packed files (gzip, zip, NetCDF, GRIB) are opened, an archive may hold several. The
 /// kind is recognised from the content.
 ///   throws  Error for a missing or huge file, a name that is no preset (with the nearest), and for
 ///   kinds that do not
 ///           go together: several inputs must all be weather files
-std::vector<Input> read_inputs(const std::vector<std::string>& words);
+///   place    where to read a grid
+///   notes    gets what was left out of archives; may be null
+std::vector<Input> read_inputs(const std::vector<std::string>& words, const GridPlace& place = {},
+                               std::vector<std::string>* notes = nullptr);
 
 /// The kind of a text that is no TOML: keys name time_s and an input of the artist model in their
 /// first line.

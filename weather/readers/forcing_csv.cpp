@@ -120,6 +120,7 @@ void read_place(std::string_view text, RowCollector& rows)
         const std::string key = lower(trimmed(t.substr(0, colon)));
         const auto value = trimmed(t.substr(colon + 1));
         const auto number = to_number(value);
+        if (key == "petrichor") rows.report().format = shown(value);
         if (key == "name") site.name = shown(value);
         if (key == "note")
             rows.note(ReadNote::Kind::Info, lines.number(), "", std::string(value.substr(0, 400)));
