@@ -14,9 +14,10 @@ namespace {
 
 bool is_known(std::string_view extension)
 {
-    static constexpr std::array<std::string_view, 5> others{
-        "KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
-        "EXT_mesh_gpu_instancing", "EXT_texture_webp"};
+    static constexpr std::array<std::string_view, 7> others{
+        "KHR_lights_punctual",     "KHR_texture_transform", "KHR_mesh_quantization",
+        "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_texture_basisu",
+        "MSFT_texture_dds"};
     return !extension_members(extension).empty() ||
            std::find(others.begin(), others.end(), extension) != others.end();
 }
@@ -46,8 +47,6 @@ void check_extensions(const JsonObject& root)
         std::string fix = "Export the scene without it.";
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
             fix = "Export the scene without mesh compression.";
-        } else if (name == "KHR_texture_basisu") {
-            fix = "Export the scene with PNG, JPEG or WebP textures.";
         }
         root.log().fail(required.path_to(i),
                         "cannot read the required extension " + in_quotes(name), fix);

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "scene/gltf/detail/gltf_parts.h"
@@ -183,19 +186,27 @@ TextureUse TextureCollector::use(const JsonObject& parent, std::string_view key)
     return out;
 }
 
+namespace {
+
+// A KTX2 file whose texels are Basis Universal (ETC1S, UASTC): Vulkan has no name for its format.
+bool is_basis(std::span<const std::byte> bytes)
+{
+    static constexpr unsigned char kKtx2[6] = {0xab, 'K', 'T', 'X', ' ', '2'};
+    if (bytes.size() < 48 || std::memcmp(bytes.data(), kKtx2, sizeof kKtx2) != 0) return false;
+    std::uint32_t vulkan_format = 0;
+    std::memcpy(&vulkan_format, bytes.data() + 12, 4);
+    return vulkan_format == 0;
+}
+
+}  // namespace
+
 TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& info)
 {
     const JsonObject json = textures_.object(index);
-    // The plain source is the copy that every reader understands; WebP may be the only one there
-    // is.
-    auto image = json.index("source", "image", images_.size());
-    if (const auto webp = json.extension("EXT_texture_webp"); webp && !image) {
-        image = webp->index("source", "image", images_.size());
-    }
-    if (!image) {
-        info.warn("index", "a texture without an image that can be read is left out");
-        return kNoTexture;
-    }
+    const auto source_of = [&](std::string_view extension) -> std::optional<std::uint32_t> {
+        const auto object = json.extension(extension);
+        return object ? object->index("source", "image", images_.size()) : std::nullopt;
+    };
     EncodedImage out;
     if (const auto sampler = json.index("sampler", "sampler", samplers_.size())) {
         const JsonObject sampler_json = samplers_.object(*sampler);
@@ -203,8 +214,30 @@ TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& in
         out.wrap_v = read_wrap(sampler_json, "wrapT");
         out.nearest = sampler_json.whole("magFilter", 9729) == 9728;
     }
+    // Files with their own mip levels come first. The plain source is the copy that every reader
+    // understands; WebP may be the only one there is.
+    const auto plain = json.index("source", "image", images_.size());
+    auto chosen = source_of("MSFT_texture_dds");
+    if (!chosen) {
+        if (const auto ktx2 = source_of("KHR_texture_basisu")) {
+            if (const auto made = image(*ktx2, out, plain.has_value())) return *made;
+            info.warn("index",
+                      "KTX2 with Basis Universal is not read; the texture's plain image stands in");
+        }
+    }
+    if (!chosen) chosen = plain;
+    if (!chosen) chosen = source_of("EXT_texture_webp");
+    if (!chosen) {
+        info.warn("index", "a texture without an image that can be read is left out");
+        return kNoTexture;
+    }
+    return *image(*chosen, out, false);
+}
 
-    const JsonObject image_json = images_.object(*image);
+std::optional<TextureIndex> TextureCollector::image(std::uint32_t index, EncodedImage out,
+                                                    bool has_other)
+{
+    const JsonObject image_json = images_.object(index);
     const std::string uri = image_json.text("uri");
     const bool is_file = !uri.empty() && !is_data_uri(uri);
     const auto view = image_json.index("bufferView", "buffer view", source_.buffers.view_count());
@@ -219,8 +252,8 @@ TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& in
         key += "file " + out.name;
     } else {
         const std::string name = image_json.text("name");
-        out.name = "image " + std::to_string(*image) + (name.empty() ? "" : " (" + name + ")");
-        key += uri.empty() ? "view " + std::to_string(*view) : "image " + std::to_string(*image);
+        out.name = "image " + std::to_string(index) + (name.empty() ? "" : " (" + name + ")");
+        key += uri.empty() ? "view " + std::to_string(*view) : "image " + std::to_string(index);
     }
     const auto known = made_.find(key);
     if (known != made_.end()) return known->second;
@@ -235,6 +268,12 @@ TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& in
     }
     if (out.bytes.empty()) {
         image_json.fail("", "the image has no bytes", "Put the image in place, or export again.");
+    }
+    if (is_basis(out.bytes)) {
+        if (has_other) return std::nullopt;
+        image_json.fail("", "is KTX2 with Basis Universal (ETC1S or UASTC), which is not read",
+                        "Export the scene with PNG, JPEG or WebP textures, or with KTX2 or DDS in "
+                        "a block format (BC1 to BC7).");
     }
     const auto made = static_cast<TextureIndex>(scene_.textures.size());
     scene_.textures.push_back(std::move(out));

@@ -260,10 +260,49 @@ TEST(Gltf, PrefersTheImageThatEveryoneReads)
     EXPECT_EQ(loaded().textures[0].wrap_u, Wrap::Repeat);
     document["textures"][0]["source"] = 0;
     EXPECT_EQ(loaded().textures[0].name, "image 0 (bricks)");
-    document["textures"][0] =
-        json::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 1}}})");
+    document["textures"][0] = json::parse(R"({"extensions": {"VENDOR_image": {"source": 1}}})");
     EXPECT_FALSE(loaded().materials[0].base_color_texture.present());
     EXPECT_THAT(loaded().warnings, ElementsAre(HasSubstr("without an image")));
+}
+
+// Files that bring their own levels win over the plain copy; Basis Universal does not.
+TEST(Gltf, TakesPreparedTexturesFirst)
+{
+    json document = scene_json();
+    document["images"].push_back({{"uri", "stone.dds"}});
+    document["images"].push_back({{"uri", "stone.ktx2"}});
+    std::string ktx2("\xabKTX 20\xbb\r\n\x1a\n", 12);
+    ktx2 += std::string("\x91\0\0\0", 4) + std::string(64, '\0');  // BC7
+    std::string basis = ktx2;
+    basis[12] = '\0';
+    std::string stored = ktx2;
+    const auto reader = [&](const std::string& uri) {
+        return to_bytes(uri == "stone.ktx2" ? stored : "bytes of " + uri);
+    };
+    const auto loaded = [&] { return load_gltf(glb(document.dump()), "yard.glb", reader); };
+    const auto name = [&] { return loaded().textures[0].name; };
+    const char* both = R"({"source": 0, "extensions": {"KHR_texture_basisu": {"source": 2}}})";
+    document["textures"][0] = json::parse(both);
+    document["extensionsRequired"] = {"KHR_texture_basisu"};
+    EXPECT_EQ(name(), "stone.ktx2");
+    EXPECT_THAT(loaded().warnings, testing::IsEmpty());
+    stored = basis;
+    EXPECT_EQ(name(), "image 0 (bricks)");
+    EXPECT_THAT(loaded().warnings, ElementsAre(HasSubstr("Basis Universal is not read")));
+    document["textures"][0].erase("source");
+    try {
+        loaded();
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("images[2]"));
+        EXPECT_THAT(error.what(), HasSubstr("Basis Universal"));
+        EXPECT_THAT(error.fix(), HasSubstr("BC7"));
+    }
+    document["textures"][0] =
+        json::parse(R"({"source": 0, "extensions": {"MSFT_texture_dds": {"source": 1}}})");
+    document["extensionsRequired"] = {"MSFT_texture_dds"};
+    EXPECT_EQ(name(), "stone.dds");
+    EXPECT_THAT(loaded().warnings, testing::IsEmpty());
 }
 
 TEST(Gltf, SaysWhatItIgnores)

@@ -3,6 +3,7 @@
 #define PETRICHOR_SCENE_GLTF_DETAIL_GLTF_PARTS_H
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ public:
 
 private:
     TextureIndex texture(std::uint32_t index, const JsonObject& info);
+    /// The image with the sampler of `out`; nothing for Basis Universal, when there `has_other`.
+    std::optional<TextureIndex> image(std::uint32_t index, EncodedImage out, bool has_other);
 
     GltfSource& source_;
     Scene& scene_;
