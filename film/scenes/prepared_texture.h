@@ -20,7 +20,7 @@ bool has_own_levels(std::span<const std::byte> bytes);
 /// Block formats that a device samples as fast as plain numbers; others are decoded when loaded.
 enum class BlockSupport {
     All,   ///< GPUs
-    Fast,  ///< a CPU device: BC1 to BC5. BC7 and BC6H cost it five times a plain texel
+    Fast,  ///< a CPU device: BC1 to BC5, within 5 % of plain texels; BC7 and BC6H cost 5 times
     None,  ///< a device without block textures
 };
 BlockSupport block_support(const gpu::DeviceInfo& device);
