@@ -6,6 +6,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
+#include "gpu/passes/visibility/visibility.h"
 
 namespace petrichor::gpu {
 
@@ -146,8 +147,15 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         constants.offset = i * r.constants_stride;
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 
-        add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
-                    c.world_to_clip, c.camera_m, weather);
+        if (r.resolve) {
+            add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
+                           c.world_to_clip, c.camera_m);
+            add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
+                                *r.depth_maps, constants, weather);
+        } else {
+            add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
+                        c.world_to_clip, c.camera_m, weather);
+        }
         if (i == 0) {
             const GBufferParts parts{weather.any, r.scene->emissive()};
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {

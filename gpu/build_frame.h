@@ -5,6 +5,7 @@
 #include "gpu/outputs/aov.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/surface/surface.h"
+#include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/upload/gpu_scene.h"
 
 namespace petrichor::gpu {
@@ -17,6 +18,7 @@ struct FrameResources {
     SurfaceMaps* surface_maps = nullptr;
     DepthMaps* depth_maps = nullptr;
     SkyMaps* sky = nullptr;
+    ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gpu/build_frame.h"
+#include "gpu/surface_path.h"
 
 namespace petrichor::gpu {
 
@@ -124,6 +125,21 @@ struct Renderer::Impl {
         }
     }
 
+    // True when this frame resolves a visibility buffer; its tables are then made for its size.
+    bool prepare_resolve(const FrameSettings& s)
+    {
+        if (chosen_surface_path(s.surface_path, device, *scene, s.width, s.height) !=
+            SurfacePath::Visibility) {
+            return false;
+        }
+        if (!resolve.ids || resolve.ids->width != s.width || resolve.ids->height != s.height) {
+            resolve = {};
+            resolve_arena = std::make_unique<MemoryArena>(device);
+            resolve = make_resolve_tables(device, *resolve_arena, *scene, s.width, s.height);
+        }
+        return true;
+    }
+
     Device device;
     PipelineCache pipelines;
     DescriptorArena descriptors;
@@ -141,6 +157,8 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> environment_arena;
     std::unique_ptr<GpuImage> environment;
     std::unique_ptr<GpuScene> scene;
+    std::unique_ptr<MemoryArena> resolve_arena;
+    ResolveTables resolve;
     bool constant_weather = false;
     std::string graph_text;
 };
@@ -154,6 +172,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
 {
+    impl_->resolve = {};
     impl_->scene = nullptr;
     impl_->depth_maps.shadow_valid = false;
     impl_->depth_maps.shelter_valid = false;
@@ -217,6 +236,7 @@ RenderResult Renderer::render(const Frame& frame)
     resources.depth_maps = &impl.depth_maps;
     resources.sky = &impl.sky;
     resources.lights = &impl.light_table;
+    if (impl.prepare_resolve(frame.settings)) resources.resolve = &impl.resolve;
     resources.environment = impl.environment.get();
     resources.constants = impl.constants.get();
     resources.constants_stride = impl.constants_stride;

@@ -1,6 +1,7 @@
 // petrichor bench: how long a frame takes; bench weather, bench texture: how long those take.
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "cli/bench/render_bench.h"
@@ -107,6 +108,13 @@ void add_bench(CLI::App& app)
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
     command->add_option("--png", o->picture, "keep the picture that was timed");
     command->add_flag("--json", o->json, "report for programs");
+    command
+        ->add_option("--surface-path", o->surface_path,
+                     "how surfaces are shaded: auto, fragment or visibility")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, gpu::SurfacePath>{{"auto", gpu::SurfacePath::Auto},
+                                                    {"fragment", gpu::SurfacePath::Fragment},
+                                                    {"visibility", gpu::SurfacePath::Visibility}}));
     command->add_flag("--shadows", o->shadows, "with shadows of the sun");
     command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion");
     command->add_flag("--ibl", o->image_based_light, "with light from the sky");

@@ -67,6 +67,7 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
     settings.width = size.width;
     settings.height = size.height;
     settings.samples = options.samples;
+    settings.surface_path = options.surface_path;
     settings.shadows = options.shadows;
     settings.ambient_occlusion = options.ambient_occlusion;
     settings.image_based_light = options.image_based_light;

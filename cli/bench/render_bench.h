@@ -2,6 +2,7 @@
 #define PETRICHOR_CLI_BENCH_RENDER_BENCH_H
 
 #include <string>
+#include "gpu/frame/frame.h"
 
 namespace petrichor::cli {
 
@@ -16,6 +17,7 @@ struct RenderBenchOptions {
     int samples = 1;
     int threads = 0;
     bool json = false;
+    gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
     bool shadows = false;
     bool ambient_occlusion = false;
     bool image_based_light = false;

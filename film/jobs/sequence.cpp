@@ -87,6 +87,7 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.seed);
     hasher.add(settings.exposure);
     hasher.add(settings.exposure_bias_stops);
+    hasher.add(settings.surface_path);
     for (const bool flag :
          {settings.shadows, settings.ambient_occlusion, settings.image_based_light,
           settings.draw_sky, settings.tone_map, settings.shelter}) {
@@ -206,6 +207,7 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     settings.draw_sky = scenario.render.draw_sky;
     settings.tone_map = scenario.render.tone_map;
     settings.shelter = scenario.render.shelter;
+    settings.surface_path = scenario.render.surface_path;
     settings.aovs = scenario.output.aovs;
     return result;
 }

@@ -166,6 +166,13 @@ const std::vector<Rule>& rules()
         {{"render", "tone_map", "true",
           "of the PNG; false: plain sRGB. The EXR is never tone mapped"},
          [](Scenario& s, const TomlValue& v) { s.render.tone_map = v.boolean(); }},
+        {{"render", "surface_path", "\"auto\"",
+          "how surfaces are shaded: fragment, visibility (a buffer of triangle numbers, resolved), "
+          "or auto, the faster on this device"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.surface_path =
+                 static_cast<gpu::SurfacePath>(v.choice({"auto", "fragment", "visibility"}));
+         }},
 
         {{"output", "width", "640", "pixels, 1 to 16384", false, true},
          [](Scenario& s, const TomlValue& v) { s.output.width = v.integer(1, 16384); }},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/toml/keyed.h"
+#include "gpu/frame/frame.h"
 
 namespace petrichor::film {
 
@@ -70,6 +71,7 @@ struct ScenarioRender {
     bool shelter = true;
     bool draw_sky = true;
     bool tone_map = true;
+    gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 
 struct ScenarioOutput {

@@ -34,6 +34,9 @@ Needs needs_of(Use use)
             return {VK_IMAGE_LAYOUT_UNDEFINED, shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
         case Use::UniformRead:
             return {VK_IMAGE_LAYOUT_UNDEFINED, shaders, VK_ACCESS_2_UNIFORM_READ_BIT, false};
+        case Use::IndirectRead:
+            return {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false};
         case Use::TransferSource:
             return {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                     VK_ACCESS_2_TRANSFER_READ_BIT, false};

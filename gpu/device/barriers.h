@@ -18,6 +18,7 @@ enum class Use : std::uint8_t {
     StorageWrite,  ///< image or buffer in a compute shader, all or part, read allowed
     TexelRead,     ///< buffer through a texel view
     UniformRead,   ///< buffer as a uniform block
+    IndirectRead,  ///< buffer with the group counts of a dispatch
     TransferSource,
     TransferTarget,  ///< written by copies and blits, which may read it too (mip levels)
     HostRead,        ///< after the frame, by the host

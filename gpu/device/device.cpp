@@ -329,6 +329,11 @@ Device::Device(const RendererOptions& options)
         wanted.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
         wanted.core.features.independentBlend = VK_TRUE;
         wanted.core.features.textureCompressionBC = info_.block_textures ? VK_TRUE : VK_FALSE;
+        // Triangle numbers in a fragment shader come with this feature.
+        Features has;
+        vkGetPhysicalDeviceFeatures2(physical_, &has.core);
+        wanted.core.features.geometryShader = has.core.features.geometryShader;
+        primitive_ids_ = has.core.features.geometryShader == VK_TRUE;
         wanted.v12.scalarBlockLayout = VK_TRUE;
         wanted.v12.hostQueryReset = VK_TRUE;
         wanted.v13.dynamicRendering = VK_TRUE;

@@ -29,6 +29,8 @@ public:
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    /// Fragment shaders know the number of their triangle.
+    bool primitive_ids() const { return primitive_ids_; }
     const DeviceInfo& info() const { return info_; }
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
@@ -60,6 +62,7 @@ private:
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
+    bool primitive_ids_ = false;
     bool debug_utils_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;

@@ -119,7 +119,7 @@ void record_dispatch(const ComputePass& pass, VkCommandBuffer commands, Pipeline
                      DescriptorArena& descriptors)
 {
     const Pipeline& pipeline =
-        pipelines.compute(pass.shader, pass.constants, types_of(pass.bindings));
+        pipelines.compute(pass.shader, pass.constants, {types_of(pass.bindings)});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
     const VkDescriptorSet set = descriptors.set(pipeline.set_layouts[0], pass.bindings);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set,
@@ -169,6 +169,48 @@ void PassContext::push_block(const PushBlock& block)
     vkCmdPushConstants(commands_, layout_, kAllStages, 0, kPushBytes, block.bytes.data());
 }
 
+DispatchContext::DispatchContext(PipelineCache& pipelines, DescriptorArena& descriptors,
+                                 VkCommandBuffer commands, const DispatchListPass& pass)
+    : pipelines_(&pipelines),
+      descriptors_(&descriptors),
+      commands_(commands),
+      pass_(&pass),
+      set_types_(types_of(pass.bindings)),
+      set_(descriptors.set(pipelines.set_layout(set_types_), pass.bindings))
+{
+}
+
+void DispatchContext::bind(const std::string& shader, const std::vector<Specialization>& constants,
+                           const BindingTypes& set1)
+{
+    std::vector<BindingTypes> sets{set_types_};
+    if (!set1.empty()) sets.push_back(set1);
+    const Pipeline& pipeline = pipelines_->compute(shader, constants, sets);
+    if (&pipeline == pipeline_) return;
+    pipeline_ = &pipeline;
+    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set_,
+                            0, nullptr);
+}
+
+void DispatchContext::bind_set1(const std::vector<Binding>& bindings)
+{
+    const VkDescriptorSet set = descriptors_->set(pipeline_->set_layouts[1], bindings);
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->layout, 1, 1,
+                            &set, 0, nullptr);
+}
+
+void DispatchContext::push_block(const PushBlock& block)
+{
+    vkCmdPushConstants(commands_, pipeline_->layout, kAllStages, 0, kPushBytes, block.bytes.data());
+}
+
+void DispatchContext::dispatch_indirect(std::uint32_t entry)
+{
+    vkCmdDispatchIndirect(commands_, pass_->arguments->buffer.get(),
+                          entry * sizeof(VkDispatchIndirectCommand));
+}
+
 // One touch a resource. A pass cannot both read and write one through two bindings, nor see one
 // image in two layouts.
 void FrameGraph::touch(Pass& pass, const Touch& touch)
@@ -202,6 +244,20 @@ void FrameGraph::add(ComputePass compute)
     pass.record = [compute = std::move(compute)](VkCommandBuffer commands, PipelineCache& pipelines,
                                                  DescriptorArena& descriptors) {
         record_dispatch(compute, commands, pipelines, descriptors);
+    };
+    passes_.push_back(std::move(pass));
+}
+
+void FrameGraph::add(DispatchListPass list)
+{
+    Pass pass;
+    pass.name = list.name;
+    touch(pass, list.bindings);
+    if (list.arguments) touch(pass, {nullptr, list.arguments, Use::IndirectRead});
+    pass.record = [list = std::move(list)](VkCommandBuffer commands, PipelineCache& pipelines,
+                                           DescriptorArena& descriptors) {
+        DispatchContext context(pipelines, descriptors, commands, list);
+        list.record(context);
     };
     passes_.push_back(std::move(pass));
 }

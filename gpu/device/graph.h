@@ -43,6 +43,16 @@ struct ComputePass {
     Groups groups;
 };
 
+class DispatchContext;
+
+/// Many dispatches that share their bindings (set 0): one a material, for example.
+struct DispatchListPass {
+    std::string name;
+    Bindings bindings;
+    GpuBuffer* arguments = nullptr;  ///< group counts of indirect dispatches, if there are any
+    std::function<void(DispatchContext&)> record;
+};
+
 /// An image that is drawn into; cleared to zero first.
 struct Attachment {
     GpuImage* image = nullptr;          ///< null: what a shader writes there goes nowhere
@@ -114,11 +124,43 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
 };
 
+/// What a list of dispatches records with.
+class DispatchContext {
+public:
+    DispatchContext(PipelineCache& pipelines, DescriptorArena& descriptors,
+                    VkCommandBuffer commands, const DispatchListPass& pass);
+
+    /// The pipeline of a shader with these constants; its set 1, when it has one, is of these
+    /// types.
+    void bind(const std::string& shader, const std::vector<Specialization>& constants,
+              const BindingTypes& set1 = {});
+    void bind_set1(const std::vector<Binding>& bindings);
+    template <class T>
+    void push(const T& value)
+    {
+        push_block(PushBlock(value));
+    }
+    /// Groups from the pass's arguments: the entry-th three words.
+    void dispatch_indirect(std::uint32_t entry);
+
+private:
+    void push_block(const PushBlock& block);
+
+    PipelineCache* pipelines_;
+    DescriptorArena* descriptors_;
+    VkCommandBuffer commands_;
+    const DispatchListPass* pass_;
+    BindingTypes set_types_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    const Pipeline* pipeline_ = nullptr;
+};
+
 /// Passes of one frame, run in the order they were added. Every barrier and layout is derived from
 /// what the passes bind, attach and transfer.
 class FrameGraph {
 public:
     void add(ComputePass pass);
+    void add(DispatchListPass pass);
     void add(DrawPass pass);
     void add(TransferPass pass);
     /// Makes what was written visible to the host once the frame is done.

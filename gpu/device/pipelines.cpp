@@ -183,7 +183,7 @@ VkShaderModule PipelineCache::module(const std::string& shader)
 
 const Pipeline& PipelineCache::compute(const std::string& shader,
                                        const std::vector<Specialization>& specialization,
-                                       const BindingTypes& bindings)
+                                       const std::vector<BindingTypes>& sets)
 {
     auto& slot = pipelines_[key_of(shader, specialization)];
     if (slot) return *slot;
@@ -196,14 +196,14 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
     info.stage.module = module(shader);
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &constants.info;
-    info.layout = layout({bindings});
+    info.layout = layout(sets);
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "creating a compute pipeline");
     device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, shader);
     made->pipeline = PipelineHandle(device_->handle(), pipeline);
     made->layout = info.layout;
-    made->set_layouts = {set_layout(bindings)};
+    for (const BindingTypes& set : sets) made->set_layouts.push_back(set_layout(set));
     slot = std::move(made);
     return *slot;
 }

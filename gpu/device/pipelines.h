@@ -80,7 +80,7 @@ public:
 
     const Pipeline& compute(const std::string& shader,
                             const std::vector<Specialization>& specialization,
-                            const BindingTypes& bindings);
+                            const std::vector<BindingTypes>& sets);
     const Pipeline& graphics(const GraphicsDesc& desc);
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 

@@ -34,6 +34,13 @@ struct Sky {
     bool analytic_sun = true;  ///< false: the scene's own directional lights replace the sun
 };
 
+/// How the G-buffer is filled: by fragments, or by resolving a buffer of triangle numbers.
+enum class SurfacePath {
+    Auto,  ///< what is faster on the device
+    Fragment,
+    Visibility,
+};
+
 /// How a frame is taken.
 struct FrameSettings {
     int width = 640;
@@ -47,8 +54,9 @@ struct FrameSettings {
     bool ambient_occlusion = true;
     bool image_based_light = true;
     bool draw_sky = true;
-    bool tone_map = true;     ///< false: PNG bytes are plain sRGB of the exposed colour
-    bool shelter = true;      ///< roofs keep rain and snow off
+    bool tone_map = true;  ///< false: PNG bytes are plain sRGB of the exposed colour
+    bool shelter = true;   ///< roofs keep rain and snow off
+    SurfacePath surface_path = SurfacePath::Auto;
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()
 };

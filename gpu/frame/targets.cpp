@@ -87,7 +87,9 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                             .height = height,
                             .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
     };
-    const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    // Drawn into, or written by the resolve of a visibility buffer.
+    const VkImageUsageFlags color =
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     targets.gbuffer.depth =
         target("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);

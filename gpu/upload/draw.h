@@ -13,6 +13,17 @@ struct Frustum {
     bool touches(const glm::vec3& centre_m, float radius_m) const;
 };
 
+/// Transforms of a draw; normals stay right under any scale.
+shared::DrawConstants draw_constants(const Draw& draw);
+
+/// Cut out by the alpha test, or let through by chance.
+bool has_holes(const GpuScene& scene, const Draw& draw);
+
+/// Draws inside the view: opaque ones first and near to far, so that early depth tests save
+/// shading.
+std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
+                                       const glm::vec3& camera_m);
+
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
 void set_facing(VkCommandBuffer commands, bool double_sided, bool mirrored);
 

@@ -124,14 +124,22 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
         };
         return key(a) < key(b);
     });
+    // Compute shaders fetch corners through texel views; a scene beyond their size has none.
+    const std::size_t texels = std::max(vertices.size() * (sizeof(Vertex) / 16), indices.size());
+    as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;
+    const VkBufferUsageFlags texel_usage =
+        as_texels_ ? VkBufferUsageFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT} : 0;
     vertices_ = arena_.buffer(
         {.name = "scene_vertices",
          .size = vertices.size() * sizeof(Vertex),
-         .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+         .usage =
+             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texel_usage,
+         .texel_format = as_texels_ ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED});
     indices_ = arena_.buffer(
         {.name = "scene_indices",
          .size = indices.size() * 4,
-         .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+         .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texel_usage,
+         .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED});
     upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
 }

@@ -51,6 +51,10 @@ public:
 
     const GpuBuffer& vertices() const { return *vertices_; }
     const GpuBuffer& indices() const { return *indices_; }
+    /// Both buffers can be bound as texels: RGBA32UI, four a vertex, and R32UI.
+    bool as_texels() const { return as_texels_; }
+    GpuBuffer& vertex_texels() const { return *vertices_; }
+    GpuBuffer& index_texels() const { return *indices_; }
     const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     const std::vector<Light>& lights() const { return lights_; }
@@ -76,6 +80,7 @@ private:
     std::vector<Light> lights_;
     Bounds bounds_;
     bool emissive_ = false;
+    bool as_texels_ = false;
 };
 
 }  // namespace petrichor::gpu

@@ -55,10 +55,25 @@ private:
 
 TEST_P(Golden, LooksAsAccepted)
 {
-    const Shot shot = GetParam().make();
+    Shot shot = GetParam().make();
+    shot.frame.settings.surface_path = gpu::SurfacePath::Fragment;  // the other: below
     const gpu::RenderResult result = render(*renderer, shot);
     EXPECT_EQ(result.light_list_overflows, 0u);
     judge(GetParam().name, picture_of(result));
+}
+
+// Fragments and the resolve of a visibility buffer evaluate the same text: the picture is the same
+// but for derivatives, which fragments take between neighbours and the resolve on the triangle.
+TEST_P(Golden, BothSurfacePathsAgree)
+{
+    Shot shot = GetParam().make();
+    shot.frame.settings.surface_path = gpu::SurfacePath::Fragment;
+    const Picture fragments = picture_of(render(*renderer, shot));
+    shot.frame.settings.surface_path = gpu::SurfacePath::Visibility;
+    const Picture resolved = picture_of(render(*renderer, shot));
+    const Tolerance tolerance{.fail = 0.02f, .percent = 2.0f, .hard_fail = 4.0f};
+    const Comparison comparison = compare(resolved, fragments, tolerance);
+    EXPECT_TRUE(passes(comparison, tolerance)) << summary(comparison);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Golden, testing::ValuesIn(cases()),

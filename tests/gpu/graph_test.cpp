@@ -200,10 +200,10 @@ TEST_F(GraphTest, PipelinesAreKeptByContent)
 {
     const auto a = numbers("a");
     const BindingTypes types = types_of(Bindings{{0, texels(*a)}, {1, storage_buffer(*a)}});
-    const Pipeline& one = pipelines->compute("formula_probe.comp", {}, types);
-    EXPECT_EQ(&one, &pipelines->compute("formula_probe.comp", {}, types));
-    EXPECT_NE(&one, &pipelines->compute("formula_probe.comp", {{7, 1}}, types));
-    EXPECT_THROW(pipelines->compute("no_such_shader.comp", {}, types), std::logic_error);
+    const Pipeline& one = pipelines->compute("formula_probe.comp", {}, {types});
+    EXPECT_EQ(&one, &pipelines->compute("formula_probe.comp", {}, {types}));
+    EXPECT_NE(&one, &pipelines->compute("formula_probe.comp", {{7, 1}}, {types}));
+    EXPECT_THROW(pipelines->compute("no_such_shader.comp", {}, {types}), std::logic_error);
 }
 
 }  // namespace

@@ -8,14 +8,7 @@
 #define PETRICHOR_EVALUATE_SURFACE_GLSL
 
 #include "gpu/passes/surface/cover.glsl"
-
-// Cut out by the alpha test, or let through by chance: as often as it is transparent.
-bool hole_in(SurfaceInput at, float alpha)
-{
-    if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) return true;
-    return (material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0) &&
-           alpha <= dither(at.pixel, frame.sample_index + hash_u(at.instance_id) % 64u);
-}
+#include "gpu/passes/surface/holes.glsl"
 
 vec3 mapped_normal(SurfaceInput at, vec2 shift)
 {
@@ -56,9 +49,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     if (has(TEXTURE_BASE_COLOR)) {
         base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift));
     }
-    // What passes through a clear body is seen as transparency of its surface.
-    base.a *= 1.0 - 0.9 * material.transmission_factor;
-    data.hole = HOLES != 0u && hole_in(at, base.a);
+    data.hole = HOLES != 0u && hole_in(at, seen_alpha(base.a));
 
     float roughness = material.roughness_factor;
     float metallic = material.metallic_factor;

@@ -9,55 +9,6 @@
 
 namespace petrichor::gpu {
 
-namespace {
-
-shared::DrawConstants draw_constants(const Draw& draw)
-{
-    shared::DrawConstants c{};
-    const glm::mat4& m = draw.to_world;
-    const glm::mat3 linear(m);
-    // Cofactors: the inverse transpose times the determinant; keeps normals right under any scale.
-    glm::mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                       glm::cross(linear[0], linear[1]));
-    if (draw.mirrored) cofactor = -cofactor;
-    for (int row = 0; row < 3; ++row) {
-        c.to_world[row] = glm::vec4(m[0][row], m[1][row], m[2][row], m[3][row]);
-        c.normal_to_world[row] =
-            glm::vec4(cofactor[0][row], cofactor[1][row], cofactor[2][row], 0.0f);
-    }
-    c.instance_id = draw.instance_id;
-    c.material_id = draw.material;
-    return c;
-}
-
-bool has_holes(const GpuScene& scene, const Draw& draw)
-{
-    const GpuMaterial& material = scene.materials()[draw.material];
-    return material.masked || material.blended;
-}
-
-// Draws inside the view: opaque ones first and near to far, so that early depth tests save shading.
-std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m)
-{
-    const Frustum frustum(world_to_clip);
-    std::vector<std::tuple<bool, float, const Draw*>> keyed;
-    for (const Draw& draw : scene.draws()) {
-        if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
-        const float nearest = glm::length(draw.centre_m - camera_m) - draw.radius_m;
-        keyed.emplace_back(has_holes(scene, draw), nearest, &draw);
-    }
-    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
-        return std::make_pair(std::get<0>(a), std::get<1>(a)) <
-               std::make_pair(std::get<0>(b), std::get<1>(b));
-    });
-    std::vector<const Draw*> draws;
-    for (const auto& entry : keyed) draws.push_back(std::get<2>(entry));
-    return draws;
-}
-
-}  // namespace
-
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,

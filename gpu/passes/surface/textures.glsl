@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_TEXTURES_GLSL
 #define PETRICHOR_SURFACE_TEXTURES_GLSL
 
+#include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
 

@@ -1,0 +1,22 @@
+// Where a material is cut out or let light through.
+#ifndef PETRICHOR_SURFACE_HOLES_GLSL
+#define PETRICHOR_SURFACE_HOLES_GLSL
+
+#include "formulas/noise/noise.glsl"
+#include "gpu/passes/surface/textures.glsl"
+
+// What passes through a clear body is seen as transparency of its surface.
+float seen_alpha(float alpha)
+{
+    return alpha * (1.0 - 0.9 * material.transmission_factor);
+}
+
+// Cut out by the alpha test, or let through by chance: as often as it is transparent.
+bool hole_in(SurfaceInput at, float alpha)
+{
+    if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) return true;
+    return (material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0) &&
+           alpha <= dither(at.pixel, frame.sample_index + hash_u(at.instance_id) % 64u);
+}
+
+#endif

@@ -1,0 +1,166 @@
+#version 460
+// Shades the pixels of one material, tile by tile: the triangle that is seen is met again by the ray
+// through the pixel and by the rays through its neighbours, whose differences are the derivatives.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/passes/surface_resolve/surface_resolve_io.h"
+
+layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
+layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
+#include "gpu/passes/surface/evaluate_surface.glsl"
+
+layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
+layout(set = 0, binding = RESOLVE_IDS) uniform usampler2D ids;
+layout(set = 0, binding = RESOLVE_VERTICES) uniform usamplerBuffer vertices;
+layout(set = 0, binding = RESOLVE_INDICES) uniform usamplerBuffer indices;
+layout(set = 0, binding = RESOLVE_DRAWS) uniform usamplerBuffer draws;
+layout(set = 0, binding = RESOLVE_TILES) uniform usamplerBuffer tiles;
+layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
+#define IMAGE_R8G8B8A8_UNORM rgba8
+#define IMAGE_R16G16B16A16_SNORM rgba16_snorm
+#define IMAGE_R16G16B16A16_SFLOAT rgba16f
+#define ROW(name, location_, format_, when_, meaning_)                     \
+    layout(set = 0, binding = RESOLVE_TARGETS + location_, IMAGE_##format_) \
+        uniform writeonly image2D out_##name;
+GBUFFER_TABLE(ROW)
+#undef ROW
+layout(push_constant, scalar) uniform Push { SurfaceResolveParams params; };
+
+struct Corner {
+    vec3 position;  // world, relative to the camera
+    vec3 normal;
+    vec4 tangent;
+    vec4 uv;
+    vec4 color;
+    vec4 weather;
+};
+
+struct Triangle {
+    Corner corners[3];
+    uint material;
+    uint instance_id;
+    bool mirrored;
+};
+
+vec4 row_of(int draw, int row)
+{
+    return uintBitsToFloat(texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + row));
+}
+
+Corner corner_of(int draw, int vertex)
+{
+    const uvec4 a = texelFetch(vertices, vertex * 4);
+    const uvec4 b = texelFetch(vertices, vertex * 4 + 1);
+    const uvec4 c = texelFetch(vertices, vertex * 4 + 2);
+    const uvec4 d = texelFetch(vertices, vertex * 4 + 3);
+    const vec4 x = row_of(draw, 0);
+    const vec4 y = row_of(draw, 1);
+    const vec4 z = row_of(draw, 2);
+    const vec4 p = vec4(uintBitsToFloat(a.xyz), 1.0);
+    const vec3 n = uintBitsToFloat(uvec3(a.w, b.xy));
+    const vec3 t = uintBitsToFloat(uvec3(b.zw, c.x));
+    Corner corner;
+    corner.position = vec3(dot(x, p), dot(y, p), dot(z, p)) - frame.camera_m;
+    corner.normal = vec3(dot(row_of(draw, 3).xyz, n), dot(row_of(draw, 4).xyz, n),
+                         dot(row_of(draw, 5).xyz, n));
+    corner.tangent =
+        vec4(dot(x.xyz, t), dot(y.xyz, t), dot(z.xyz, t), uintBitsToFloat(c.y));
+    corner.uv = uintBitsToFloat(uvec4(c.zw, d.xy));
+    corner.color = unpackUnorm4x8(d.z);
+    corner.weather = unpackUnorm4x8(d.w);
+    return corner;
+}
+
+// Shares of the second and third corner where a ray meets the triangle's plane (Moeller and
+// Trumbore 1997). A plane seen edge-on is met far away: what it says there is held in bounds.
+vec2 met_by(Triangle t, vec3 origin, vec3 direction, float limit)
+{
+    const vec3 e1 = t.corners[1].position - t.corners[0].position;
+    const vec3 e2 = t.corners[2].position - t.corners[0].position;
+    const vec3 h = cross(direction, e2);
+    const float a = dot(e1, h);
+    const vec3 s = origin - t.corners[0].position;
+    const vec3 q = cross(s, e1);
+    const vec2 met = vec2(dot(s, h), dot(direction, q)) / (abs(a) > 1.0e-30 ? a : 1.0e-30);
+    return clamp(met, vec2(-limit), vec2(1.0 + limit));
+}
+
+vec4 mixed(vec4 a, vec4 b, vec4 c, vec2 at)
+{
+    return a + (b - a) * at.x + (c - a) * at.y;
+}
+
+vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
+{
+    return a + (b - a) * at.x + (c - a) * at.y;
+}
+
+void main()
+{
+    // The list of a material ends where listing left its counter.
+    const uint end = texelFetch(ends, int(params.material)).r;
+    const uint tile = texelFetch(tiles, int(end - gl_NumWorkGroups.x + gl_WorkGroupID.x)).r;
+    const ivec2 pixel = ivec2(tile & 65535u, tile >> 16) * RESOLVE_TILE + ivec2(gl_LocalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, frame.size))) return;
+    const uvec2 id = texelFetch(ids, pixel, 0).rg;
+    if (id.x == 0u) return;
+    const int draw = int(id.x) - 1;
+    const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
+    if (facts.z != params.material) return;
+    const bool mirrored = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7).x != 0u;
+
+    Triangle t;
+    for (int i = 0; i < 3; ++i) {
+        const uint index = texelFetch(indices, int(facts.x + 3u * id.y) + i).r;
+        t.corners[i] = corner_of(draw, int(index + facts.y));
+    }
+    const vec2 centre = vec2(pixel) + 0.5;
+    const bool orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    const vec3 origin =
+        orthographic
+            ? frame.origin_corner + frame.ray_dx * centre.x + frame.ray_dy * centre.y - frame.camera_m
+            : vec3(0.0);
+    const vec3 along = orthographic ? frame.forward : pixel_ray(frame, centre);
+    const vec3 step_origin_x = orthographic ? frame.ray_dx : vec3(0.0);
+    const vec3 step_origin_y = orthographic ? frame.ray_dy : vec3(0.0);
+    const vec3 step_x = orthographic ? vec3(0.0) : frame.ray_dx;
+    const vec3 step_y = orthographic ? vec3(0.0) : frame.ray_dy;
+    const vec2 at = met_by(t, origin, along, 0.0);
+    const vec2 at_x = met_by(t, origin + step_origin_x, along + step_x, 64.0);
+    const vec2 at_y = met_by(t, origin + step_origin_y, along + step_y, 64.0);
+
+    const vec3 face = cross(t.corners[1].position - t.corners[0].position,
+                            t.corners[2].position - t.corners[0].position);
+    const float side = (dot(face, along) < 0.0) != mirrored ? 1.0 : -1.0;
+
+    SurfaceInput s;
+    const Corner a = t.corners[0];
+    const Corner b = t.corners[1];
+    const Corner c = t.corners[2];
+    s.position = mixed(a.position, b.position, c.position, at) + frame.camera_m;
+    s.position_dx = mixed(a.position, b.position, c.position, at_x) + frame.camera_m - s.position;
+    s.position_dy = mixed(a.position, b.position, c.position, at_y) + frame.camera_m - s.position;
+    s.normal = normalize(mixed(a.normal, b.normal, c.normal, at)) * side;
+    s.normal_dx = normalize(mixed(a.normal, b.normal, c.normal, at_x)) * side - s.normal;
+    s.normal_dy = normalize(mixed(a.normal, b.normal, c.normal, at_y)) * side - s.normal;
+    const vec4 tangent = mixed(a.tangent, b.tangent, c.tangent, at);
+    s.tangent = vec4(tangent.xyz, tangent.w * side);
+    s.uv = mixed(a.uv, b.uv, c.uv, at);
+    s.uv_dx = mixed(a.uv, b.uv, c.uv, at_x) - s.uv;
+    s.uv_dy = mixed(a.uv, b.uv, c.uv, at_y) - s.uv;
+    s.color = mixed(a.color, b.color, c.color, at);
+    s.weather = mixed(a.weather, b.weather, c.weather, at);
+    s.pixel = pixel;
+    s.instance_id = facts.w;
+
+    SurfaceData data = evaluate_surface(s);
+    data.texel.emission = data.emission;
+    const GBufferCode code = encode_gbuffer(data.texel);
+    const bool ALWAYS = true;
+    const bool WEATHER = SURFACE_WEATHER != 0u;
+    const bool EMISSION = SURFACE_EMISSION != 0u;
+#define ROW(name, location_, format_, when_, meaning_) \
+    if (when_) imageStore(out_##name, pixel, code.name);
+    GBUFFER_TABLE(ROW)
+#undef ROW
+}

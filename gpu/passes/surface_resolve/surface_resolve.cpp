@@ -1,0 +1,153 @@
+#include "gpu/passes/surface_resolve/surface_resolve.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "gpu/passes/surface_resolve/surface_resolve_io.h"
+#include "gpu/upload/draw.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+glm::uvec4 bits_of(const glm::vec4& v)
+{
+    return std::bit_cast<glm::uvec4>(v);
+}
+
+std::vector<glm::uvec4> draw_table(const GpuScene& scene)
+{
+    std::vector<glm::uvec4> table;
+    table.reserve(scene.draws().size() * RESOLVE_DRAW_TEXELS + 1);
+    for (const Draw& draw : scene.draws()) {
+        const shared::DrawConstants c = draw_constants(draw);
+        for (const glm::vec4& row : c.to_world) table.push_back(bits_of(row));
+        for (const glm::vec4& row : c.normal_to_world) table.push_back(bits_of(row));
+        table.emplace_back(draw.first_index, static_cast<std::uint32_t>(draw.vertex_offset),
+                           draw.material, draw.instance_id);
+        table.emplace_back(draw.mirrored ? 1u : 0u, 0u, 0u, 0u);
+    }
+    if (table.empty()) table.emplace_back(0u);
+    return table;
+}
+
+VkDeviceSize tiles_across(int pixels)
+{
+    return static_cast<VkDeviceSize>((pixels + RESOLVE_TILE - 1) / RESOLVE_TILE);
+}
+
+}  // namespace
+
+ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, const GpuScene& scene,
+                                  int width, int height)
+{
+    ResolveTables tables;
+    tables.ids =
+        arena.image({.name = "ids",
+                     .format = VK_FORMAT_R32G32_UINT,
+                     .width = width,
+                     .height = height,
+                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    const std::vector<glm::uvec4> draws = draw_table(scene);
+    tables.draws = arena.buffer(
+        {.name = "draw_table",
+         .size = draws.size() * sizeof(glm::uvec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_UINT});
+    upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
+    const VkDeviceSize materials = std::max<VkDeviceSize>(scene.materials().size(), 1);
+    const VkBufferUsageFlags table =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    tables.counts = arena.buffer({.name = "tile_counts",
+                                  .size = materials * 4,
+                                  .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  .texel_format = VK_FORMAT_R32_UINT});
+    tables.tiles =
+        arena.buffer({.name = "tile_lists",
+                      .size = tiles_across(width) * tiles_across(height) *
+                              std::min<VkDeviceSize>(materials, RESOLVE_TILE_MATERIALS) * 4,
+                      .usage = table,
+                      .texel_format = VK_FORMAT_R32_UINT});
+    tables.groups = arena.buffer(
+        {.name = "tile_groups",
+         .size = materials * sizeof(VkDispatchIndirectCommand),
+         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    return tables;
+}
+
+void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
+                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
+                         const ConstantsRange& constants, const VisibleWeather& weather)
+{
+    const auto materials = static_cast<std::uint32_t>(scene.materials().size());
+    GpuBuffer& counts = *tables.counts;
+    graph.add(TransferPass{.name = "tile_materials",
+                           .transfers = {{nullptr, &counts, Use::TransferTarget}},
+                           .record = [&counts](VkCommandBuffer commands) {
+                               vkCmdFillBuffer(commands, counts.buffer.get(), 0, VK_WHOLE_SIZE, 0);
+                           }});
+    const auto bin = [&](std::uint32_t list) {
+        const int across = static_cast<int>(tiles_across(targets.width));
+        const int down = static_cast<int>(tiles_across(targets.height));
+        graph.add(ComputePass{
+            .name = "tile_materials",
+            .shader = "tile_materials.comp",
+            .constants = {{TILE_MATERIALS_SPEC_LIST, list}},
+            .bindings = {{TILE_MATERIALS_IDS, sampled(*tables.ids, targets.nearest)},
+                         {TILE_MATERIALS_DRAWS, texels(*tables.draws)},
+                         {TILE_MATERIALS_COUNTS, storage_buffer(counts)},
+                         {TILE_MATERIALS_TILES, storage_buffer(*tables.tiles)}},
+            .push =
+                PushBlock(shared::TileMaterialsParams{{targets.width, targets.height}, materials}),
+            .groups = groups_over(across, down, TILE_MATERIALS_GROUP)});
+    };
+    bin(0);
+    graph.add(ComputePass{.name = "tile_materials",
+                          .shader = "tile_offsets.comp",
+                          .constants = {},
+                          .bindings = {{TILE_OFFSETS_COUNTS, storage_buffer(counts)},
+                                       {TILE_OFFSETS_GROUPS, storage_buffer(*tables.groups)}},
+                          .push = PushBlock(shared::TileOffsetsParams{materials}),
+                          .groups = {}});
+    bin(1);
+
+    Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
+                      {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
+                      {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                      {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_SHELTER, sampled(*depth_maps.shelter, depth_maps.compare)},
+                      {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
+                      {RESOLVE_VERTICES, texels(scene.vertex_texels())},
+                      {RESOLVE_INDICES, texels(scene.index_texels())},
+                      {RESOLVE_DRAWS, texels(*tables.draws)},
+                      {RESOLVE_TILES, texels(*tables.tiles)},
+                      {RESOLVE_COUNTS, texels(counts)}};
+#define ROW(name, location, format, when, meaning) \
+    bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
+    GBUFFER_TABLE(ROW)
+#undef ROW
+    const bool emission = scene.emissive();
+    const bool any_weather = weather.any;
+    graph.add(DispatchListPass{.name = "surface",
+                               .bindings = std::move(bindings),
+                               .arguments = tables.groups.get(),
+                               .record = [=, &scene](DispatchContext& list) {
+                                   for (std::uint32_t m = 0; m < materials; ++m) {
+                                       const GpuMaterial& material = scene.materials()[m];
+                                       list.bind("surface_resolve.comp",
+                                                 {{SURFACE_SPEC_HOLES, 0},
+                                                  {SURFACE_SPEC_SLOTS, material.slots},
+                                                  {SURFACE_SPEC_WATER, weather.water},
+                                                  {SURFACE_SPEC_SNOW, weather.snow},
+                                                  {RESOLVE_SPEC_WEATHER, any_weather},
+                                                  {RESOLVE_SPEC_EMISSION, emission}},
+                                                 types_of(material.bindings));
+                                       list.bind_set1(material.bindings);
+                                       list.push(shared::SurfaceResolveParams{m});
+                                       list.dispatch_indirect(m);
+                                   }
+                               }});
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,38 @@
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_H
+#define PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
+#include "gpu/frame/frame_constants.h"
+#include "gpu/frame/targets.h"
+#include "gpu/passes/depth_maps/depth_maps.h"
+#include "gpu/passes/surface_maps/surface_maps.h"
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+/// What the resolve reads beside the scene: the table of its draws, and the lists of tiles.
+struct ResolveTables {
+    std::unique_ptr<GpuImage> ids;      ///< draw (from 1) and triangle of each pixel
+    std::unique_ptr<GpuBuffer> draws;   ///< transforms and index ranges
+    std::unique_ptr<GpuBuffer> counts;  ///< a word a material
+    std::unique_ptr<GpuBuffer> tiles;   ///< tiles, material after material
+    std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a material
+};
+
+/// For one scene and one frame size. The lists hold every tile with every material it can show.
+ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, const GpuScene& scene,
+                                  int width, int height);
+
+// Fills the G-buffer from a visibility buffer (passes/visibility): every pixel is evaluated once,
+// in tiles binned by material, by the same text as the surface pass.
+//
+//   reads    ids, the scene's vertices and indices as texels, the maps of the weather
+//   writes   colour, normals, material; weather and emission when the frame has them
+void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
+                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
+                         const ConstantsRange& constants, const VisibleWeather& weather);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,58 @@
+// Interface of the passes that turn a visibility buffer into a G-buffer.
+//
+//   tile_materials   which materials does a tile show: counted, then listed
+//   tile_offsets     where each material's list of tiles begins, and how many groups shade it
+//   surface_resolve  one dispatch a material over its tiles
+#ifndef PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_IO_H
+#define PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_IO_H
+
+#include "base/interop.h"
+#include "gpu/passes/surface/surface_io.h"
+
+#define RESOLVE_TILE 8  // pixels a side; a workgroup shades one tile
+#define RESOLVE_TILE_MATERIALS 64
+
+// Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
+// first index, vertex offset, material, instance; then 1 when mirrored.
+#define RESOLVE_DRAW_TEXELS 8
+
+#define TILE_MATERIALS_GROUP 8
+#define TILE_MATERIALS_IDS 0
+#define TILE_MATERIALS_DRAWS 1
+#define TILE_MATERIALS_COUNTS 2  // a word a material: tiles that show it, later where its list ends
+#define TILE_MATERIALS_TILES 3   // tiles, material after material
+#define TILE_MATERIALS_SPEC_LIST 0  // 0: count, 1: list
+
+#define TILE_OFFSETS_GROUP 1
+#define TILE_OFFSETS_COUNTS 0
+#define TILE_OFFSETS_GROUPS 1  // VkDispatchIndirectCommand a material
+
+// Behind the bindings of set 0 that every evaluation of a surface reads:
+#define RESOLVE_IDS (SURFACE_SHELTER + 1)
+#define RESOLVE_VERTICES (SURFACE_SHELTER + 2)
+#define RESOLVE_INDICES (SURFACE_SHELTER + 3)
+#define RESOLVE_DRAWS (SURFACE_SHELTER + 4)
+#define RESOLVE_TILES (SURFACE_SHELTER + 5)
+#define RESOLVE_COUNTS (SURFACE_SHELTER + 6)
+#define RESOLVE_TARGETS (SURFACE_SHELTER + 7)  // of the G-buffer, by location
+#define RESOLVE_SPEC_WEATHER 5
+#define RESOLVE_SPEC_EMISSION 6
+
+SHARED_BEGIN
+
+struct TileMaterialsParams {
+    ivec2 size;      // pixels
+    uint materials;  // of the scene
+};
+
+struct TileOffsetsParams {
+    uint materials;
+};
+
+struct SurfaceResolveParams {
+    uint material;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,72 @@
+#include "gpu/passes/visibility/visibility.h"
+
+#include <glm/gtc/matrix_access.hpp>
+
+#include "gpu/passes/surface/surface_io.h"
+#include "gpu/passes/visibility/visibility_io.h"
+#include "gpu/upload/draw.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
+{
+    shared::VisibilityDraw c{};
+    for (int row = 0; row < 3; ++row) c.to_world[row] = glm::row(draw.to_world, row);
+    c.draw = static_cast<std::uint32_t>(&draw - scene.draws().data());
+    c.instance_id = draw.instance_id;
+    return c;
+}
+
+}  // namespace
+
+void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
+                    const ConstantsRange& constants, const glm::mat4& world_to_clip,
+                    const glm::vec3& camera_m)
+{
+    graph.add(DrawPass{
+        .name = "visibility",
+        .colors = {Attachment(ids)},
+        .depth = Attachment(depth),
+        .width = ids.width,
+        .height = ids.height,
+        .bindings = {{VISIBILITY_FRAME, frame_binding(constants)}},
+        .record =
+            [=, &scene](PassContext& pass) {
+                GraphicsDesc opaque;
+                opaque.vertex = "visibility.vert";
+                opaque.fragment = "visibility.frag";
+                opaque.stride = sizeof(Vertex);
+                opaque.attributes = {vertex_attributes()[0]};
+                opaque.colors = pass.color_formats();
+                opaque.sets = {pass.set_types()};
+                GraphicsDesc masked = opaque;
+                masked.vertex = "visibility_masked.vert";
+                masked.fragment = "visibility_masked.frag";
+                masked.attributes = {vertex_attributes()[0], vertex_attributes()[3],
+                                     vertex_attributes()[4], vertex_attributes()[5]};
+                bind_geometry(pass.commands(), scene);
+                for (const Draw* draw : visible_draws(scene, world_to_clip, camera_m)) {
+                    const GpuMaterial& material = scene.materials()[draw->material];
+                    if (has_holes(scene, *draw)) {
+                        GraphicsDesc desc = masked;
+                        desc.specialization = {{SURFACE_SPEC_SLOTS, material.slots}};
+                        desc.sets.push_back(types_of(material.bindings));
+                        pass.bind(pass.pipelines().graphics(desc));
+                        pass.bind_set(
+                            1, pass.descriptors().set(pass.pipelines().set_layout(desc.sets[1]),
+                                                      material.bindings));
+                    } else {
+                        pass.bind(pass.pipelines().graphics(opaque));
+                    }
+                    set_facing(pass.commands(), material.double_sided, draw->mirrored);
+                    pass.push(draw_constants(scene, *draw));
+                    vkCmdDrawIndexed(pass.commands(), draw->index_count, 1, draw->first_index,
+                                     draw->vertex_offset, 0);
+                }
+            },
+    });
+}
+
+}  // namespace petrichor::gpu

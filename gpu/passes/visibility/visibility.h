@@ -1,0 +1,21 @@
+#ifndef PETRICHOR_GPU_PASSES_VISIBILITY_VISIBILITY_H
+#define PETRICHOR_GPU_PASSES_VISIBILITY_VISIBILITY_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+// Which triangle is seen at each pixel, and its depth. Holes are decided here, so that what follows
+// shades every pixel once and never throws one away.
+//
+//   writes   ids: RG32UI, draw (from 1; 0 is the sky) and triangle; depth
+//   needs    Device::primitive_ids()
+void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
+                    const ConstantsRange& constants, const glm::mat4& world_to_clip,
+                    const glm::vec3& camera_m);
+
+}  // namespace petrichor::gpu
+
+#endif

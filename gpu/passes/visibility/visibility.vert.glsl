@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/frame/frame_io.h"
+#include "gpu/passes/visibility/visibility_io.h"
+
+layout(location = 0) in vec3 in_position;
+layout(set = 0, binding = VISIBILITY_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(push_constant, scalar) uniform Push { VisibilityDraw draw; };
+
+void main()
+{
+    const vec4 p = vec4(in_position, 1.0);
+    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    gl_Position = frame.world_to_clip * vec4(world, 1.0);
+}

@@ -1,0 +1,19 @@
+#include "gpu/surface_path.h"
+
+namespace petrichor::gpu {
+
+SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const GpuScene& scene,
+                                int width, int height)
+{
+    if (!device.primitive_ids() || !scene.as_texels()) return SurfacePath::Fragment;
+    if (asked != SurfacePath::Auto) return asked;
+    if (device.info().kind != "cpu") return SurfacePath::Fragment;
+    // From about a triangle for every 16 pixels on; set after seeing the three scenes of the page.
+    constexpr double kPixelsATriangle = 16.0;
+    double triangles = 0.0;
+    for (const Draw& draw : scene.draws()) triangles += draw.index_count / 3.0;
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    return triangles * kPixelsATriangle > pixels ? SurfacePath::Visibility : SurfacePath::Fragment;
+}
+
+}  // namespace petrichor::gpu
