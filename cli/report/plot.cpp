@@ -298,7 +298,7 @@ Drawing plot_of(const SimulationTable& table)
     const double room =
         kMostHeight - drawing.height - gaps - 40.0 -
         18.0 * static_cast<double>((std::min(table.events.size(), kMostEvents) + 1) / 2);
-    const double shrink = std::clamp(room / std::max(panels, 1.0), 0.4, 1.0);
+    const double shrink = std::clamp(room / std::max(panels, 1.0), 0.33, 1.0);
     drawing.height += shrink * panels + gaps;
     const double list_top = drawing.height;
     const std::size_t half = (std::min(table.events.size(), kMostEvents) + 1) / 2;
