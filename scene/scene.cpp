@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include <cmath>
 #include <limits>
 
 namespace petrichor::scene {
@@ -19,6 +20,31 @@ Bounds scene_bounds(const Scene& scene)
     }
     if (bounds.low.x > bounds.high.x) return {};
     return bounds;
+}
+
+glm::vec2 half_extent_m(const Camera& camera, int width, int height)
+{
+    const float half_y = camera.orthographic_height_m > 0.0f
+                             ? 0.5f * camera.orthographic_height_m
+                             : std::tan(0.5f * camera.vertical_fov_rad);
+    return {half_y * static_cast<float>(width) / static_cast<float>(height), half_y};
+}
+
+glm::mat4 clip_projection(const Camera& camera, int width, int height, float far_m)
+{
+    const glm::vec2 half = half_extent_m(camera, width, height);
+    glm::mat4 projection(0.0f);
+    projection[0][0] = 1.0f / half.x;
+    projection[1][1] = 1.0f / half.y;
+    if (camera.orthographic_height_m > 0.0f) {
+        projection[2][2] = 1.0f / far_m;
+        projection[3][2] = 1.0f;
+        projection[3][3] = 1.0f;
+    } else {
+        projection[2][3] = -1.0f;
+        projection[3][2] = camera.near_m;
+    }
+    return projection;
 }
 
 }  // namespace petrichor::scene

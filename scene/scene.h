@@ -29,7 +29,7 @@ struct TextureUse {
     bool present() const { return texture >= 0; }
 };
 
-/// What weather does to a material. Symbols and defaults: Lux 2.02, "per material". All linear.
+/// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
     TextureUse height;  ///< red: height, 0 low .. 1 high
@@ -138,6 +138,12 @@ struct Camera {
     float near_m = 0.05f;
     float orthographic_height_m = 0.0f;  ///< > 0: orthographic
 };
+/// Half of what a picture of width x height shows at a distance of 1 m, metres; orthographic: at
+/// any.
+glm::vec2 half_extent_m(const Camera& camera, int width, int height);
+/// Camera space to clip space, y up, depth reversed: 1 at the near plane, 0 infinitely far.
+/// Orthographic: 1 at the camera, 0 at `far_m`.
+glm::mat4 clip_projection(const Camera& camera, int width, int height, float far_m);
 
 /// An image of the scene as it lies in the file: bytes still encoded (PNG, JPEG, WebP, KTX2, ...).
 struct EncodedImage {

@@ -4,12 +4,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/output_file.h"
+#include "gpu/frame/sun.h"
 
 namespace petrichor::film {
 namespace {
@@ -45,23 +45,17 @@ Json rows(const glm::mat4& matrix)
 
 Json camera_json(const scene::Camera& camera, int width, int height)
 {
-    const double aspect = static_cast<double>(width) / height;
     Json json;
     json["name"] = camera.name;
     json["to_world"] = rows(camera.to_world);
     json["view"] = rows(glm::inverse(camera.to_world));
-    glm::mat4 projection(0.0f);
     if (camera.orthographic_height_m > 0.0f) {
         json["orthographic_height_m"] = shortest(camera.orthographic_height_m);
     } else {
-        const double focal = 1.0 / std::tan(0.5 * static_cast<double>(camera.vertical_fov_rad));
-        projection[0][0] = static_cast<float>(focal / aspect);
-        projection[1][1] = static_cast<float>(focal);
-        projection[2][3] = -1.0f;
-        projection[3][2] = camera.near_m;
+        const glm::mat4 projection = scene::clip_projection(camera, width, height, 0.0f);
         json["projection"] = rows(projection);
         json["vertical_fov_rad"] = shortest(camera.vertical_fov_rad);
-        const double focal_px = 0.5 * height * focal;
+        const double focal_px = shortest(0.5f * static_cast<float>(height) * projection[1][1]);
         json["intrinsics"] = {
             {"fx", focal_px}, {"fy", focal_px}, {"cx", 0.5 * width}, {"cy", 0.5 * height}};
     }
@@ -71,14 +65,10 @@ Json camera_json(const scene::Camera& camera, int width, int height)
 
 Json sun_json(const gpu::Sky& sky)
 {
-    const double elevation = static_cast<double>(sky.sun_elevation_rad);
-    const double azimuth = static_cast<double>(sky.sun_azimuth_rad);
+    const glm::vec3 towards = gpu::sun_direction(sky);
     return {{"elevation_rad", shortest(sky.sun_elevation_rad)},
             {"azimuth_rad", shortest(sky.sun_azimuth_rad)},
-            {"towards",
-             {shortest(static_cast<float>(std::cos(elevation) * std::sin(azimuth))),
-              shortest(static_cast<float>(std::sin(elevation))),
-              shortest(static_cast<float>(-std::cos(elevation) * std::cos(azimuth)))}},
+            {"towards", {shortest(towards.x), shortest(towards.y), shortest(towards.z)}},
             {"illuminance_lux", shortest(sky.sun_illuminance)},
             {"from_scene", !sky.analytic_sun}};
 }

@@ -80,10 +80,13 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     const Axes axes = axes_of(camera);
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
-    const bool orthographic = camera.orthographic_height_m > 0.0f;
-    const float half_y = orthographic ? 0.5f * camera.orthographic_height_m
-                                      : std::tan(0.5f * camera.vertical_fov_rad);
-    const float half_x = half_y * w / h;
+    if (camera.orthographic_height_m > 0.0f) {
+        c.far_m = far_m(axes, camera, scene);
+        c.flags |= FRAME_ORTHOGRAPHIC;
+    }
+    const glm::vec2 half = scene::half_extent_m(camera, width, height);
+    glm::mat4 projection = scene::clip_projection(camera, width, height, c.far_m);
+    projection[1][1] = -projection[1][1];  // rows of a picture go down
 
     glm::mat4 view(1.0f);
     for (int i = 0; i < 3; ++i) {
@@ -93,19 +96,6 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     }
     view[3] = glm::vec4(-glm::dot(axes.right, axes.position), -glm::dot(axes.up, axes.position),
                         glm::dot(axes.forward, axes.position), 1.0f);
-    glm::mat4 projection(0.0f);
-    projection[0][0] = 1.0f / half_x;
-    projection[1][1] = -1.0f / half_y;
-    if (orthographic) {
-        c.far_m = far_m(axes, camera, scene);
-        c.flags |= FRAME_ORTHOGRAPHIC;
-        projection[2][2] = 1.0f / c.far_m;
-        projection[3][2] = 1.0f;
-        projection[3][3] = 1.0f;
-    } else {
-        projection[2][3] = -1.0f;
-        projection[3][2] = camera.near_m;
-    }
     // The picture moves against the jitter, so that each pixel sees its sample at the centre.
     glm::mat4 shift(1.0f);
     shift[3][0] = -2.0f * jitter.x / w;
@@ -115,13 +105,13 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     c.camera_m = axes.position;
     c.forward = axes.forward;
     c.near_m = camera.near_m;
-    c.ray_dx = axes.right * (2.0f * half_x / w);
-    c.ray_dy = -axes.up * (2.0f * half_y / h);
+    c.ray_dx = axes.right * (2.0f * half.x / w);
+    c.ray_dy = -axes.up * (2.0f * half.y / h);
     const glm::vec3 corner =
-        -axes.right * half_x + axes.up * half_y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
+        -axes.right * half.x + axes.up * half.y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
     c.ray_corner = axes.forward + corner;
     c.origin_corner = axes.position + corner;
-    c.pixel_angle = 2.0f * half_y / h;
+    c.pixel_angle = 2.0f * half.y / h;
     c.size = glm::ivec2(width, height);
 }
 
@@ -147,8 +137,7 @@ std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float
     const Axes axes = axes_of(camera);
     const glm::vec3 ends = cascade_ends_m(camera, scene);
     const bool orthographic = camera.orthographic_height_m > 0.0f;
-    const float half_y = orthographic ? 0.5f * camera.orthographic_height_m
-                                      : std::tan(0.5f * camera.vertical_fov_rad);
+    const float half_y = scene::half_extent_m(camera, 1, 1).y;
     std::array<DepthView, SHADOW_CASCADES> views;
     for (int i = 0; i < SHADOW_CASCADES; ++i) {
         const float begin = i == 0 ? camera.near_m : ends[i - 1] * 0.97f;
