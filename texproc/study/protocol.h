@@ -10,7 +10,7 @@
 
 namespace petrichor::texproc {
 
-// How good a rule is, over several materials (texture-prefilter.md, "Restated goal"): fine and
+// How good a rule is, over several materials (docs/textures.md, 6): fine and
 // coarse levels apart, several rolls of each map, under the sun and under a window.
 
 /// A rule as it ships.

@@ -13,7 +13,7 @@
 
 namespace petrichor::texproc {
 
-// The yardstick (texture-prefilter.md, 4): how far the light of one mip texel is from the mean
+// The yardstick (docs/textures.md, 5): how far the light of one mip texel is from the mean
 // light of the texels of level 0 under it, over five views, as the share of light that is misplaced
 // (0..2).
 

@@ -14,7 +14,9 @@ double halton(int index, int base)
     return value;
 }
 
-double ggx(double alpha2, const Direction& n, double hx, double hy, double hz)
+}  // namespace
+
+double lobe_density(double alpha2, const Direction& n, double hx, double hy, double hz)
 {
     const double c = static_cast<double>(n.x) * hx + static_cast<double>(n.y) * hy +
                      static_cast<double>(n.z) * hz;
@@ -25,8 +27,6 @@ double ggx(double alpha2, const Direction& n, double hx, double hy, double hz)
     const double t = sx * sx + sy * sy + sz * sz + alpha2 * c * c;
     return c * alpha2 / (3.141592653589793 * t * t);
 }
-
-}  // namespace
 
 std::vector<float> widths_between(float narrow2, float wide2)
 {
@@ -100,7 +100,7 @@ void place_points(const Cells& cells, const Direction& mean, const std::vector<f
         double density = 0.5 * static_cast<double>(s.density[at]);
         for (const float width : widths) {
             density += 0.5 / static_cast<double>(widths.size()) *
-                       ggx(static_cast<double>(width), mean, hx, hy, hz);
+                       lobe_density(static_cast<double>(width), mean, hx, hy, hz);
         }
         s.weight[at] = density > 0.0
                            ? static_cast<float>(static_cast<double>(s.weight[at]) / (density * n))

@@ -27,6 +27,11 @@ struct Random {
     }
 };
 
+/// D(h) (n.h) of a GGX lobe, 0 behind it. In doubles and from n x h, where formulas/light/brdf.h
+/// takes 1 - (n.h)^2: weights are one over this, and for narrow lobes single precision is nothing
+/// but rounding there. lobe_twins_test.cpp holds the two together.
+double lobe_density(double alpha2, const Direction& n, double hx, double hy, double hz);
+
 /// Widths from the narrowest to the widest lobe that may be tested, at most a factor of 4 in alpha
 /// apart: between two that are further apart a lobe could hide where no point lies, and look half
 /// as bad as it is.
