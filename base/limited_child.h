@@ -27,7 +27,7 @@ namespace petrichor {
 // Inside, it loads what it needs and calls confine() (base/confine.h): from then on it cannot open
 // a file or a socket or start a program. How to write one (NetCDF, GRIB, Draco, an archive):
 //
-//   // thing_helper.cpp, a program of its own: add_executable(petrichor-thing thing_helper.cpp)
+//   // THING_helper.cpp, a program of its own: add_executable(petrichor-thing THING_helper.cpp)
 //   //   target_link_libraries(petrichor-thing PRIVATE petrichor_helper thing)  # petrichor_helper:
 //   base/
 //   //   install(TARGETS petrichor-thing RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/petrichor)

@@ -1,4 +1,4 @@
-# petrichor_add_shaders(TARGET file.stage.glsl ...)
+# petrichor_add_shaders(TARGET NAME.STAGE.glsl ...)
 #
 # Compiles GLSL to SPIR-V at build time and embeds it: every shader becomes a header with an array,
 # and one table maps names ("lighting.comp") to arrays. Editing an included header recompiles its users.

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each room may see besides itself: the map of docs/design.
+// What each room may see besides itself: the map of docs/design.md.
 const std::map<std::string, std::set<std::string>> kMaySee{
     {"base", {}},
     {"formulas", {"base"}},

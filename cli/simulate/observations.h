@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli/report/table.h"
-#include "weather/forcing/forcing.h"
 
 namespace petrichor::cli {
 
@@ -18,8 +17,7 @@ struct ObservedColumn {
     std::vector<double> values;
 };
 struct Observations {
-    std::string label = "observed";  ///< in legends
-    bool daily = false;              ///< dates without a time of day
+    bool daily = false;  ///< dates without a time of day
     std::vector<ObservedColumn> columns;
     std::vector<std::string> notes;
 };
@@ -32,10 +30,6 @@ struct Observations {
 ///   throws  Error with the lines when nothing can be compared
 Observations read_observations(std::string_view text, const std::string& file,
                                const std::vector<std::string>& table_columns);
-
-/// What a weather file itself observed of the ground: snow depth, snow water, surface temperature,
-/// albedo from reflected sun. Columns of nothing but zeros are left out.
-Observations observations_of(const weather::ForcingTable& table);
 
 /// Compares and draws: adds scores, notes and dots on the panels that show an observed column.
 ///

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <thread>
 
 #include "base/error.h"
@@ -16,10 +15,10 @@ std::string params_text(const SimulateOptions& options)
 }
 
 std::optional<double> time_of(const std::string& text, const char* option,
-                              std::optional<std::int64_t> start_us, double offset_s)
+                              std::optional<std::int64_t> start_us)
 {
     if (text.empty()) return std::nullopt;
-    return parse_time(text, option, start_us, offset_s);
+    return parse_time(text, option, start_us);
 }
 
 std::string title_of(const std::vector<Input>& inputs)
@@ -42,11 +41,8 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     run.site = with_site_table(run.site, params_text(options));
     input.read = read_forcing(inputs, run.site);
     const std::int64_t start_us = input.read.table.time_us.front();
-    const double zone_h = input.read.table.site.utc_offset_h;
-    const double offset_s = run.utc || std::isnan(zone_h) ? 0.0 : zone_h * 3600.0;
-    run.clock_offset_s = offset_s;
-    run.from_s = time_of(options.from, "--from", start_us, offset_s);
-    run.to_s = time_of(options.to, "--to", start_us, offset_s);
+    run.from_s = time_of(options.from, "--from", start_us);
+    run.to_s = time_of(options.to, "--to", start_us);
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt").value();
     run.every_s =
         options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();

@@ -32,8 +32,9 @@ SiteOptions with_site_table(SiteOptions options, const std::string& toml_text);
 ///   throws  Error as weather::read_weather_files, and for heights or months out of range
 weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOptions& options);
 
-/// The artist model's script of a weather file: part C's map. time_s counts seconds of the file; an
-/// hour of the file is a second of the model (time_scale 1/3600) unless `params` say otherwise.
+/// The artist model's script of a weather file: the map of artist_keys(). time_s counts seconds of
+/// the file; an hour of the file is a second of the model (time_scale 1/3600) unless `params` say
+/// otherwise.
 WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::string& name);
 
 /// The same weather in less time: every key `factor` times as early, the model as much faster. For

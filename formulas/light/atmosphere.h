@@ -1,9 +1,9 @@
 // Clear air: single scattering by molecules and haze, absorption by ozone.
 //
-// One text for C++ and GLSL. Coefficients per metre at sea level: Bucholtz 1995 (molecules),
-// Bruneton and Neyret 2008 (scale heights); ozone as a tent between 10 and 40 km, at two fifths of
-// its strength: light scattered more than once, which would fill the green it takes, is only
-// sketched here.
+// One text for C++ and GLSL. Coefficients per metre at sea level, scale heights and the tent of
+// ozone between 10 and 40 km are those of Hillaire 2020 (molecules after Bucholtz 1995, heights
+// after Bruneton and Neyret 2008); ozone at two fifths of its strength: light scattered more than
+// once, which would fill the green it takes, is only sketched here.
 #ifndef PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 #define PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 

@@ -22,7 +22,7 @@ SHARED_CONST float kUnknown = -1.0f;
 
 // Scalar layout, floats only, so that it is hashed and compared as one run of numbers.
 struct WeatherMoment {
-    // ---- 0..1, as surfaces show it (Lux 2.02 "published values"; weather-physics part C) --------
+    // ---- 0..1, as surfaces show it (docs/lux.md, 3; physical/mapping.h) -----------------
     float rain MOMENT_DEFAULT(0.0f);
     float snowfall MOMENT_DEFAULT(0.0f);
     float flood_cracks MOMENT_DEFAULT(0.0f);

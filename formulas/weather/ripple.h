@@ -1,6 +1,6 @@
 // Rings that rain drops draw on standing water, and the phases of flowing water.
 //
-// One text for C++ and GLSL; section 7 and 10 of the description of Lux 2.02.
+// One text for C++ and GLSL. Source: Lux 2.02 (docs/lux.md, 6).
 #ifndef PETRICHOR_FORMULAS_WEATHER_RIPPLE_H
 #define PETRICHOR_FORMULAS_WEATHER_RIPPLE_H
 

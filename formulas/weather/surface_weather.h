@@ -1,8 +1,8 @@
 // Where water and snow lie on a surface point, and what they do to its material.
 //
-// One text for C++ and GLSL. Symbols and section numbers: the weather of the Lux 2.02 shader
-// framework (sections 9 to 13 of its description); quirks are kept where results would differ,
-// divisions by zero are not. All values are dimensionless unless the name says otherwise.
+// One text for C++ and GLSL. Symbols: Lux 2.02 (docs/lux.md, 8 and 9), whose quirks are kept where
+// results would differ; divisions by zero are not. All values are dimensionless unless the name
+// says otherwise.
 #ifndef PETRICHOR_FORMULAS_WEATHER_SURFACE_WEATHER_H
 #define PETRICHOR_FORMULAS_WEATHER_SURFACE_WEATHER_H
 
@@ -104,12 +104,16 @@ struct WeatheredMaterial {
     float normal_mix;      // weight of the cover normal (ripples, flow) against the base normal
 };
 
-// Porosity of a dry dielectric from its smoothness.
+// Porosity of a dry dielectric from its smoothness: the thresholds are those of Lagarde 2013 (Water
+// drop 3b), in smoothness.
 SHARED_FN float porosity_from_smoothness(float smoothness)
 {
     return saturate((0.5f - smoothness) / 0.4f);
 }
 
+// Pores that fill darken the albedo to a fifth at most, and a film smooths what is above them: the
+// form of Lagarde 2013 (Water drop 3b) with the numbers of Lux.
+//
 // film           thin wetness for (albedo, smoothness), slope factor included
 // water          ax
 // water_color    linear RGB, alpha = opacity of standing water

@@ -27,7 +27,7 @@ Binding uniform(GpuBuffer& buffer, VkDeviceSize offset, VkDeviceSize size);
 Binding texels(GpuBuffer& buffer);
 Binding storage_buffer(GpuBuffer& buffer);  ///< written, all or part; may be read as well
 
-/// A binding at its number in the shader (a name from the pass's _io.h).
+/// A binding at its number in the shader (a name from PASS_io.h).
 struct Bound {
     std::uint32_t number = 0;
     Binding binding;

@@ -1,4 +1,4 @@
-// Water under and in snow: how it drains (B.6) and what it is called (B.7).
+// Water under and in snow: how it drains and what it is called.
 #include "weather/physics/detail/slush_kernel.h"
 
 #include <gtest/gtest.h>

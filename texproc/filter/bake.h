@@ -43,11 +43,11 @@ Hollows cracks(const Image& height, const BakeOptions& options = {});
 /// channels.
 Image flow_direction(const Image& height, const BakeOptions& options = {});
 
-/// How much water the material drinks, from perceptual roughness (lux-weather.md 12): sat((p - 0.5)
-/// / 0.4), 0 where metallic is 1. metallic may be empty. Throws Error when the sizes differ.
+/// How much water the material drinks, from perceptual roughness (docs/lux.md, 9): sat((p - 0.5) /
+/// 0.4), 0 where metallic is 1. metallic may be empty. Throws Error when the sizes differ.
 Image porosity(const Image& roughness, const Image& metallic = {});
 
-// The textures that the weather passes sample (lux-weather.md 7 and 8), tileable, from a seed.
+// The textures that the weather passes sample (docs/lux.md, 6 and 7), tileable, from a seed.
 
 /// 4 channels: envelope of a drop, direction away from its centre (2), its time offset.
 Image ripple_drops(int size, std::uint32_t seed);

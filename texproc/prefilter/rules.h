@@ -25,8 +25,7 @@ const std::vector<Rule>& rules();
 /// Throws Error that lists the names.
 const Rule& rule_named(const std::string& name);
 
-/// Perceptual roughness of a mip texel by one of the rules of kind Moments (texture-prefilter.md
-/// 3.2 to 3.4).
+/// Perceptual roughness of a mip texel by one of the rules of kind Moments (docs/textures.md, 2).
 ///
 ///   p        plain mean of the perceptual roughness of the footprint, 0..1
 ///   alpha2   mean of alpha^2 = p^4

@@ -56,7 +56,7 @@ struct CellDiagnostics {
 };
 CellDiagnostics diagnostics(const CellState& state);
 
-/// What lies on the ground (weather-physics B.7). Film water below a pack counts as the pack's.
+/// What lies on the ground. Film water below a pack counts as the pack's.
 enum class Cover {
     Bare,
     Snow,   ///< no more water than snow and pores hold

@@ -225,6 +225,7 @@ void main()
                 // Where the sky is hidden, walls and ground send some of its light on, warmer.
                 const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
                 const vec3 irradiance = sky_irradiance(n) * (sky_open + (1.0 - sky_open) * hidden);
+                // Lagarde and de Rousiers 2014.
                 const float specular_occlusion =
                     saturate(pow(nv + mirror_occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 +
                              mirror_occlusion);

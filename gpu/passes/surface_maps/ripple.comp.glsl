@@ -1,5 +1,5 @@
 #version 460
-// The rings of this moment: four layers of drops, summed as slopes (weather/formulas/ripple.h).
+// The rings of this moment: four layers of drops, summed as slopes (formulas/weather/ripple.h).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/weather/ripple.h"

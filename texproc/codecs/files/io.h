@@ -51,8 +51,8 @@ struct WriteOptions {
 
 /// Writes an image, whole or not at all; the format comes from the extension: png, tga, tif, tiff,
 /// exr, jpg, jpeg, and dds and ktx2 with one level in plain numbers (write_mip_chain() in
-/// texproc/files/texture.h writes levels and blocks). Linear colour is sRGB-encoded in integer
-/// formats, data never.
+/// texproc/codecs/files/texture.h writes levels and blocks). Linear colour is sRGB-encoded in
+/// integer formats, data never.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const WriteOptions& options = {});
 

@@ -30,8 +30,8 @@ struct FittedLobe {
     std::optional<detail::Codes> codes{};
 };
 
-/// The lobe that shares most light with a footprint (texture-prefilter.md, "the lobe of largest
-/// overlap"), never dearer than the plain mip on an independent set of samples.
+/// The lobe that shares most light with a footprint (docs/textures.md, 4), never dearer than the
+/// plain mip on an independent set of samples.
 ///
 ///   cells    the footprint, alpha^2 without the light
 ///   means    its exact means

@@ -13,8 +13,8 @@ inline constexpr double kFileTimeScale = 1.0 / 3600.0;
 
 /// Keys of the artist model from a weather file; time 0 is the first row.
 ///
-/// temperature_c: the air, straight lines between rows. rainfall: part C's logarithm of all
-/// precipitation, R = ln(1 + p/P0) / ln(1 + P1/P0), held from row to row.
+/// temperature_c: the air, straight lines between rows. rainfall: the logarithm of all
+/// precipitation (MappingParams), R = ln(1 + p/P0) / ln(1 + P1/P0), held from row to row.
 ///   throws  Error when the table has not been through fill_forcing
 Timeline artist_keys(const ForcingTable& table, const MappingParams& mapping = {});
 

@@ -10,8 +10,8 @@ namespace petrichor::weather {
 
 // The artist model: weather as a state of numbers in 0..1, steered by temperature and rainfall.
 // This header holds its state, its parameters, one explicit step and the values that shaders see.
-// artist_exact.h solves the same equations in closed form, for any time in any order.
-// Source: the weather script of Lux 2.02, every rule and quirk of it.
+// exact.h solves the same equations in closed form, for any time in any order.
+// Source: the weather script of Lux 2.02, every rule and quirk of it (docs/lux.md, 1 to 5).
 
 /// One key of a cubic Hermite curve.
 struct CurveKey {
@@ -68,7 +68,7 @@ struct ArtistState {
     bool operator==(const ArtistState&) const = default;
 };
 
-/// What shaders see: lux-weather "published values".
+/// What shaders see (docs/lux.md, 3).
 struct ArtistOutputs {
     double temperature_c = 0.0;
     double rainfall = 0.0;
@@ -88,7 +88,7 @@ struct ArtistOutputs {
 /// One explicit step of `dt_s` seconds (any length >= 0) with temperature and rainfall held.
 ///
 /// Uses `before.rain`, `before.snowfall` and, below zero, `before.water`: the intensities of the
-/// step before, as the original does. Depends on the step length; sub-step, or use artist_exact.h,
+/// step before, as the original does. Depends on the step length; sub-step, or use exact.h,
 /// where that matters. T <= 0 is cold. Drying needs rainfall == 0 exactly. With script_controlled
 /// off, rain = snowfall = rainfall and nothing else changes. Accepts any finite input.
 ArtistState step(const ArtistState& before, const ArtistParams& params, double temperature_c,

@@ -77,7 +77,7 @@ struct Timeline {
 /// parameter has a name that ArtistParams has not, or when an input has no key.
 void check_timeline(const Timeline& timeline);
 
-/// A state that can be set by hand: all but rain, snowfall and water (lux-weather 2).
+/// A state that can be set by hand: all but rain, snowfall and water (docs/lux.md, 1).
 struct HandSetState {
     std::string_view name;
     double ArtistState::*member;

@@ -33,7 +33,8 @@ struct PhysicalParams {
     double sky_view = 1.0;       ///< share of the sky that is seen, 0..1
     double precip_factor = 1.0;  ///< >= 0
     /// Leaves and branches over a m2 of ground, 0..20 m2: they catch snow first and let it go,
-    /// slowly in the frost (weather-physics B.5; forests 1 to 4). The sky they hide is `sky_view`.
+    /// slowly in the frost (canopy_interception_kg_m2; forests 1 to 4). The sky they hide is
+    /// `sky_view`.
     double canopy_vai = 0.0;
 };
 /// Throws Error that names the field when a value cannot be used.

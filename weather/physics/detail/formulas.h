@@ -9,7 +9,7 @@
 
 namespace petrichor::weather::detail {
 
-// B.1. Saturation: scale exp(a T / (b + T)).
+// Saturation (form of Buck 1981): scale exp(a T / (b + T)).
 inline constexpr double kWaterA = 17.5043, kWaterB = 241.3, kWaterScale_pa = 611.213;
 inline constexpr double kIceA = 22.4422, kIceB = 272.186, kIceScale_pa = 611.15;
 
@@ -36,7 +36,7 @@ PETRICHOR_INLINE Real air_density_of(const Real& temp_k, const Real& q, const Re
     return pressure_pa / (temp_k * kAirGasConstant * (q * 0.608 + 1.0));
 }
 
-// B.2. Saturation of the wet-bulb equation by bisection on [T-40, T], 26 halvings: below 1e-6 K.
+// The wet-bulb equation by bisection on [T-40, T], 26 halvings: below 1e-6 K.
 template <class Real>
 PETRICHOR_INLINE Real wet_bulb_c_of(const Real& t_c, const Real& vapour_pa, const Real& pressure_pa)
 {
@@ -63,7 +63,7 @@ PETRICHOR_INLINE Real snow_fraction_wet_bulb_of(const Real& wet_bulb_c)
     return 1.0 / (exponential((wet_bulb_c + 3.97) * 2.0) * 6.99e-5 + 1.0);
 }
 
-// B.3. Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one
+// Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one
 // division:
 //   stable    1 / (1 + 15 Ri sqrt(1 + 5 Ri))
 //   unstable  1 + 15 |Ri| / (1 + 75 CHn sqrt(|Ri| zU/z0))
@@ -79,7 +79,7 @@ PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& ne
     return select(is_stable, Real(1.0), under + steep) / under;
 }
 
-// B.5
+// Pahaut 1976; snow_conductivity_of: Yen 1981.
 template <class Real>
 PETRICHOR_INLINE Real new_snow_density_pahaut_of(const Real& t_c, const Real& wind_m_s)
 {

@@ -7,7 +7,7 @@
 
 namespace petrichor::weather::detail {
 
-// B.7: snow on water is slush until its water, with that of the film below it, is more than half of
+// Snow on water is slush until its water, with that of the film below it, is more than half of
 // its ice. The film up to which it is, kg/m2; 0 or less without snow.
 template <class Real>
 PETRICHOR_INLINE Real slush_limit(const CellVars<Real>& c)
