@@ -28,6 +28,23 @@ const std::map<std::string, texproc::MipFilter> kFilters{
     {"lanczos3", texproc::MipFilter::Lanczos3},
     {"mitchell", texproc::MipFilter::Mitchell}};
 
+const std::map<std::string, texproc::Edge> kEdges{{"wrap", texproc::Edge::Wrap},
+                                                  {"clamp", texproc::Edge::Clamp},
+                                                  {"mirror", texproc::Edge::Mirror}};
+
+// What lies past the edges of a map, for each axis.
+struct EdgeNames {
+    std::string u = "wrap", v = "wrap";
+};
+void add_edges(CLI::App& app, EdgeNames& edges, const std::string& when)
+{
+    for (const auto& [axis, value] : {std::pair{"--wrap-u", &edges.u}, {"--wrap-v", &edges.v}}) {
+        app.add_option(axis, *value, when + "wrap, clamp or mirror")
+            ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
+            ->capture_default_str();
+    }
+}
+
 // Numbers that are none would spread through every filter.
 Image read_numbers(const std::string& path, ColorSpace space = ColorSpace::Data)
 {
@@ -51,7 +68,8 @@ void check_same_size(const std::string& name_a, const Image& a, const std::strin
 }
 
 struct MipsArguments {
-    std::string in, out, format, filter = "box", wrap_u = "wrap", wrap_v = "wrap";
+    std::string in, out, format, filter = "box";
+    EdgeNames edges;
     bool color = false, alpha_data = false;
     int bits = 8;
     texproc::MipOptions options;
@@ -82,10 +100,10 @@ void write_mips(const MipsArguments& a, const std::vector<Image>& chain)
 void run_mips(MipsArguments& a)
 {
     if (!texproc::holds_mip_chain(a.out)) level_name(a.out, 0);
-    a.options.wrap_u = a.wrap_u == "wrap";
-    a.options.wrap_v = a.wrap_v == "wrap";
-    a.options.mirror_u = a.wrap_u == "mirror";
-    a.options.mirror_v = a.wrap_v == "mirror";
+    a.options.wrap_u = a.edges.u == "wrap";
+    a.options.wrap_v = a.edges.v == "wrap";
+    a.options.mirror_u = a.edges.u == "mirror";
+    a.options.mirror_v = a.edges.v == "mirror";
     a.options.alpha_weighted = !a.alpha_data;
     a.options.filter = kFilters.at(a.filter);
     Image image = read_numbers(a.in, a.color ? ColorSpace::Linear : ColorSpace::Data);
@@ -101,13 +119,17 @@ struct NormalArguments {
     bool flip = false, detect = false, from_height = false, to_height = false, renormalize = false;
     float depth = 0.05f;
     int bits = 16;
+    EdgeNames edges;
 };
 
 void run_normal(const NormalArguments& a)
 {
     const Image image = read_numbers(a.in);
-    Image normal = a.from_height ? texproc::normal_from_height(image, {.depth = a.depth})
-                                 : texproc::from_layout(image, texproc::normal_layout(a.from));
+    const texproc::Edge edge_u = kEdges.at(a.edges.u), edge_v = kEdges.at(a.edges.v);
+    Image normal = a.from_height
+                       ? texproc::normal_from_height(
+                             image, {.depth = a.depth, .edge_u = edge_u, .edge_v = edge_v})
+                       : texproc::from_layout(image, texproc::normal_layout(a.from));
     if (a.detect) {
         const Image height = a.height.empty() ? Image() : read_numbers(a.height);
         if (!height.empty()) check_same_size(a.in, normal, a.height, height);
@@ -130,7 +152,8 @@ void run_normal(const NormalArguments& a)
     }
     if (a.renormalize) texproc::renormalize(normal);
     if (a.to_height) {
-        const texproc::IntegratedHeight height = texproc::height_from_normal(normal);
+        const texproc::IntegratedHeight height =
+            texproc::height_from_normal(normal, edge_u, edge_v);
         texproc::write_image(a.out, height.height, {.bits = a.bits});
         std::cout << "depth " << height.depth << " of the width\n";
         return;
@@ -145,6 +168,7 @@ struct BakeArguments {
     std::string height, roughness, metallic, out;
     int bits = 8, size = 256;
     std::uint32_t seed = 1;
+    EdgeNames edges;
     texproc::BakeOptions options;
 };
 
@@ -158,8 +182,10 @@ std::string hypsometry(const texproc::Hollows& h)
     return text + "]}";
 }
 
-void run_bake(const BakeArguments& a)
+void run_bake(BakeArguments& a)
 {
+    a.options.edge_u = kEdges.at(a.edges.u);
+    a.options.edge_v = kEdges.at(a.edges.v);
     level_name(a.out, 0);  // the same rule for the pattern, with a name in the place of %d
     const auto name = [&](const std::string& what) {
         const std::size_t at = a.out.find('%');
@@ -236,12 +262,7 @@ void add_texture_maps(CLI::App& texture)
         app->add_option("--filter", a->filter, "box: the mean over the exact area")
             ->check(CLI::IsMember({"box", "kaiser", "lanczos3", "mitchell"}))
             ->capture_default_str();
-        for (const auto& [axis, value] :
-             {std::pair{"--wrap-u", &a->wrap_u}, {"--wrap-v", &a->wrap_v}}) {
-            app->add_option(axis, *value, "wrap, clamp or mirror")
-                ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
-                ->capture_default_str();
-        }
+        add_edges(*app, a->edges, "");
         app->add_flag("--color", a->color, "sRGB colour: filtered in linear light");
         app->add_flag("--alpha-data", a->alpha_data,
                       "--color: alpha is no coverage; colour counts the same under all of it");
@@ -271,9 +292,10 @@ void add_texture_maps(CLI::App& texture)
         app->add_option("--to-layout", a->to, "the same; rg-signed needs an .exr")
             ->capture_default_str();
         app->add_flag("--from-height", a->from_height, "make normals from a height map");
-        app->add_flag("--to-height", a->to_height, "integrate to a tileable height map");
+        app->add_flag("--to-height", a->to_height, "integrate to a height map");
         app->add_option("--depth", a->depth, "--from-height: height 1 in units of the width")
             ->capture_default_str();
+        add_edges(*app, a->edges, "--from-height, --to-height: ");
         app->add_option("--blend", a->blend, "add the bumps of another normal map");
         app->add_flag("--renormalize", a->renormalize, "unit length");
         app->add_option("--bits", a->bits, "8 or 16")
@@ -296,6 +318,7 @@ void add_texture_maps(CLI::App& texture)
             ->capture_default_str();
         app->add_option("--reach", a->options.reach, "how far it looks, in units of the width")
             ->capture_default_str();
+        add_edges(*app, a->edges, "");
         app->add_option("--bits", a->bits, "8 or 16")
             ->check(CLI::IsMember({8, 16}))
             ->capture_default_str();

@@ -73,6 +73,67 @@ TEST(Bake, MasksOfARolledMapAreRolled)
 }
 
 // The closing, taken literally: an octagon is a square step and a diamond step in turn.
+// Hills that do not tile.
+Image uneven(int width, int height)
+{
+    Image h(width, height, 1, ColorSpace::Data);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float u = static_cast<float>(x), v = static_cast<float>(y);
+            h.at(x, y, 0) = 0.4f + 0.004f * u + 0.006f * v +
+                            0.15f * std::sin(0.71f * u + 0.3f * v) * std::cos(0.53f * v - 0.2f * u);
+        }
+    }
+    return h;
+}
+
+// A mirrored map is one quarter of a map that tiles: what is baked from the one is a quarter of
+// what is baked from the other.
+TEST(Bake, MirroredMapsAreAQuarterOfTheTileThatTheyMake)
+{
+    const Image map = uneven(40, 24);
+    Image tile(80, 48, 1, ColorSpace::Data);
+    for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x)
+            tile.at(x, y, 0) = map.at(x < 40 ? x : 79 - x, y < 24 ? y : 47 - y, 0);
+    }
+    const BakeOptions mirrored{
+        .depth = 0.3f, .reach = 0.2f, .edge_u = Edge::Mirror, .edge_v = Edge::Mirror};
+    const BakeOptions wrapped{.depth = 0.15f, .reach = 0.1f};  // of twice the width
+    const auto check = [&](const char* what, const Image& part, const Image& whole,
+                           float room = 1e-4f) {
+        for (int y = 0; y < part.height; ++y) {
+            for (int x = 0; x < part.width; ++x) {
+                for (int c = 0; c < part.channels; ++c)
+                    ASSERT_NEAR(part.at(x, y, c), whole.at(x, y, c), room) << what << x << y;
+            }
+        }
+    };
+    check("occlusion", ambient_occlusion(map, mirrored), ambient_occlusion(tile, wrapped));
+    check("cavity", cavity(map, mirrored), cavity(tile, wrapped));
+    check("curvature", curvature(map, mirrored), curvature(tile, wrapped));
+    check("flow", flow_direction(map, mirrored), flow_direction(tile, wrapped));
+    // The deepest of four times the texels is another quantile by a hair.
+    check("puddle", puddles(map, mirrored).depth, puddles(tile, wrapped).depth, 0.01f);
+    check("crack", cracks(map, mirrored).depth, cracks(tile, wrapped).depth, 0.01f);
+}
+
+// A slope that tiles has a cliff at its edge; one that goes on as it ends has none.
+TEST(Bake, AClampedSlopeHasNoCliff)
+{
+    Image slope(32, 32, 1, ColorSpace::Data);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) slope.at(x, y, 0) = static_cast<float>(x) / 31.0f;
+    }
+    const BakeOptions clamped{.depth = 0.2f, .reach = 0.2f, .edge_u = Edge::Clamp};
+    BakeOptions wrapped = clamped;
+    wrapped.edge_u = Edge::Wrap;
+    EXPECT_LT(ambient_occlusion(slope, wrapped).at(0, 9, 0),
+              ambient_occlusion(slope, clamped).at(0, 9, 0) - 0.02f);
+    EXPECT_EQ(puddles(slope, clamped).deepest, 0.0f);
+    EXPECT_GT(puddles(slope, wrapped).deepest, 0.1f);
+}
+
 TEST(Bake, HollowsAreTheClosingByAnOctagonOnAnyTorus)
 {
     Image map(26, 15, 1, ColorSpace::Data);

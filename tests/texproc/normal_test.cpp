@@ -33,7 +33,7 @@ TEST(Normal, SlopesPointDownhill)
     for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 4; ++x) h.at(x, y, 0) = 0.25f * static_cast<float>(x);
     }
-    const Image n = normal_from_height(h, {.depth = 1.0f, .wrap_u = false});
+    const Image n = normal_from_height(h, {.depth = 1.0f, .edge_u = Edge::Clamp});
     EXPECT_NEAR(n.at(1, 1, 0), 0.5f - 0.5f / std::sqrt(2.0f), 1e-6f);  // slope 1 up to the right
     EXPECT_NEAR(n.at(1, 1, 1), 0.5f, 1e-6f);
 }
@@ -48,6 +48,33 @@ TEST(Normal, HeightComesBackFromItsNormals)
         for (std::size_t i = 0; i < n.pixels.size(); ++i) {
             ASSERT_NEAR(again.pixels[i], n.pixels[i], 2e-3f) << width << " x " << height;
         }
+    }
+}
+
+// A slope with a bump does not tile: only a height that goes on mirrored gives its slopes back.
+TEST(Normal, HeightsThatDoNotTileComeBackMirrored)
+{
+    Image h(48, 32, 1, ColorSpace::Data);
+    for (int y = 0; y < h.height; ++y) {
+        for (int x = 0; x < h.width; ++x) {
+            const float u = static_cast<float>(x) - 24.0f, v = static_cast<float>(y) - 16.0f;
+            h.at(x, y, 0) =
+                0.012f * static_cast<float>(x) + 0.3f * std::exp(-(u * u + v * v) / 60.0f);
+        }
+    }
+    for (const Edge edge : {Edge::Mirror, Edge::Clamp}) {
+        const Image n = normal_from_height(h, {.depth = 0.2f, .edge_u = edge, .edge_v = edge});
+        const auto worst = [&](Edge how) {
+            const IntegratedHeight back = height_from_normal(n, how, how);
+            const Image again = normal_from_height(
+                back.height, {.depth = back.depth, .edge_u = edge, .edge_v = edge});
+            float most = 0.0f;
+            for (std::size_t i = 0; i < n.pixels.size(); ++i)
+                most = std::max(most, std::abs(again.pixels[i] - n.pixels[i]));
+            return most;
+        };
+        EXPECT_LT(worst(edge), 5e-3f);
+        EXPECT_GT(worst(Edge::Wrap), 0.03f);
     }
 }
 

@@ -184,5 +184,30 @@ TEST(Pack, RefusesWhatDoesNotFit)
     EXPECT_THROW(pack(pack_preset("normal-rg"), {{"normal", grey8({1})}}), Error);
 }
 
+// lux-texture.md, section 6.
+TEST(Pack, HoldsTheLayoutsOfLux)
+{
+    const auto one = [](int value) {
+        return RawImage{1, 1, 1, PixelType::U8, {}, {static_cast<std::byte>(value)}};
+    };
+    const RawImage tangent{1, 1, 3, PixelType::U8, {}, {std::byte{8}, std::byte{9}, std::byte{10}}};
+    const std::map<std::string, RawImage> maps{
+        {"puddle", one(1)},    {"height", one(2)},    {"mix", one(3)},
+        {"secondheight", one(4)},  {"occlusion", one(5)}, {"translucency", one(6)},
+        {"curvature", one(7)}, {"tangent", tangent},  {"detail", one(11)}};
+    const auto packed = [&](const char* preset) {
+        std::vector<int> values;
+        for (const std::byte b : pack(pack_preset(preset), maps).bytes)
+            values.push_back(std::to_integer<int>(b));
+        return values;
+    };
+    EXPECT_EQ(packed("lux-height"), (std::vector<int>{1, 2, 3, 4}));
+    EXPECT_EQ(packed("lux-combined"), (std::vector<int>{0, 5, 6}));
+    EXPECT_EQ(packed("lux-skin"), (std::vector<int>{0, 6, 7, 5}));
+    EXPECT_EQ(packed("lux-tangent"), (std::vector<int>{255, 9, 255, 8}));
+    EXPECT_EQ(packed("lux-occlusion"), (std::vector<int>{0, 5, 0}));
+    EXPECT_EQ(packed("lux-detail-mask"), (std::vector<int>{0, 3, 0, 11}));
+}
+
 }  // namespace
 }  // namespace petrichor::texproc

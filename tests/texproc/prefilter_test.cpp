@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "base/error.h"
 #include "texproc/prefilter/lux.h"
@@ -177,6 +178,56 @@ TEST(Prefilter, RefusesWhatDoesNotFit)
     Image broken = flat_normals(8, 8);
     broken.pixels[5] = std::nanf("");
     EXPECT_THROW(prefilter(broken, map), Error);
+}
+
+// A texel is made from its own area: whether a map wraps or mirrors, its levels are the same.
+TEST(Prefilter, LevelsDoNotLookPastTheEdge)
+{
+    constexpr int kSize = 16;
+    Image normal(kSize, kSize, 3, ColorSpace::Data);
+    Image rough(kSize, kSize, 1, ColorSpace::Data);
+    std::uint32_t state = 7;
+    const auto next = [&] {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<float>(state >> 8) / 16777216.0f;
+    };
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const float nx = next() - 0.5f, ny = next() - 0.5f;
+            const float s = 0.5f / std::sqrt(1.0f + nx * nx + ny * ny);
+            normal.at(x, y, 0) = 0.5f + s * nx;
+            normal.at(x, y, 1) = 0.5f + s * ny;
+            normal.at(x, y, 2) = 0.5f + s;
+            rough.at(x, y, 0) = 0.2f + 0.5f * next();
+        }
+    }
+    const Prefiltered alone = prefilter(normal, rough, {.rule = "overlap", .quick = true});
+    for (const bool mirrored : {false, true}) {
+        Image wide(2 * kSize, 2 * kSize, 3, ColorSpace::Data);
+        Image wide_rough(2 * kSize, 2 * kSize, 1, ColorSpace::Data);
+        for (int y = 0; y < 2 * kSize; ++y) {
+            for (int x = 0; x < 2 * kSize; ++x) {
+                const bool u = mirrored && x >= kSize, v = mirrored && y >= kSize;
+                const int fx = u ? 2 * kSize - 1 - x : x % kSize;
+                const int fy = v ? 2 * kSize - 1 - y : y % kSize;
+                wide.at(x, y, 0) = u ? 1.0f - normal.at(fx, fy, 0) : normal.at(fx, fy, 0);
+                wide.at(x, y, 1) = v ? 1.0f - normal.at(fx, fy, 1) : normal.at(fx, fy, 1);
+                wide.at(x, y, 2) = normal.at(fx, fy, 2);
+                wide_rough.at(x, y, 0) = rough.at(fx, fy, 0);
+            }
+        }
+        const Prefiltered both = prefilter(wide, wide_rough, {.rule = "overlap", .quick = true});
+        for (std::size_t k = 1; k < alone.roughness.size(); ++k) {
+            const Image& part = alone.roughness[k];
+            for (int y = 0; y < part.height; ++y) {
+                for (int x = 0; x < part.width; ++x) {
+                    ASSERT_EQ(both.roughness[k].at(x, y, 0), part.at(x, y, 0)) << k;
+                    for (int c = 0; c < 3; ++c)
+                        ASSERT_EQ(both.normal[k].at(x, y, c), alone.normal[k].at(x, y, c)) << k;
+                }
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -12,11 +12,6 @@ namespace petrichor::texproc {
 
 namespace {
 
-int wrapped(int i, int size)
-{
-    return (i % size + size) % size;
-}
-
 void check(const Image& height, const BakeOptions& options)
 {
     if (height.empty()) throw Error("bake: the height map is empty", "Pass a map with pixels.");
@@ -44,21 +39,23 @@ Image first_channel(const Image& image, int threads)
     return map_texels(image, 1, threads, [&](int x, int y, float* to) { *to = image.at(x, y, 0); });
 }
 
-// Mean over a square of 2 radius + 1, wrapping, by running sums in double: along the rows, then all
-// columns side by side in bands, so that memory is read in order.
-Image blurred(const Image& height, int radius, int threads)
+// Mean over a square of 2 radius + 1, past the edges as the options say, by running sums in double:
+// along the rows, then all columns side by side in bands, so that memory is read in order.
+Image blurred(const Image& height, int radius, const BakeOptions& options)
 {
+    const int threads = options.threads;
     const int w = height.width, h = height.height, side = 2 * radius + 1;
     Image once(w, h, 1, ColorSpace::Data), twice = once;
     parallel_for(static_cast<std::size_t>(h), threads, [&](std::size_t row) {
         const int y = static_cast<int>(row);
         double sum = 0.0;
         for (int k = -radius; k <= radius; ++k)
-            sum += static_cast<double>(height.at(wrapped(k, w), y, 0));
+            sum += static_cast<double>(height.at(edge_index(k, w, options.edge_u), y, 0));
         for (int x = 0; x < w; ++x) {
             once.at(x, y, 0) = static_cast<float>(sum / side);
-            sum += static_cast<double>(height.at(wrapped(x + radius + 1, w), y, 0)) -
-                   static_cast<double>(height.at(wrapped(x - radius, w), y, 0));
+            sum += static_cast<double>(
+                       height.at(edge_index(x + radius + 1, w, options.edge_u), y, 0)) -
+                   static_cast<double>(height.at(edge_index(x - radius, w, options.edge_u), y, 0));
         }
     });
     constexpr int kBand = 64;
@@ -66,7 +63,7 @@ Image blurred(const Image& height, int radius, int threads)
         const int first = static_cast<int>(band) * kBand, last = std::min(w, first + kBand);
         double sums[kBand] = {};
         const auto add = [&](int y, double sign) {
-            const float* row = &once.pixels[once.index(0, wrapped(y, h), 0)];
+            const float* row = &once.pixels[once.index(0, edge_index(y, h, options.edge_v), 0)];
             for (int x = first; x < last; ++x)
                 sums[x - first] += sign * static_cast<double>(row[x]);
         };
@@ -95,11 +92,32 @@ float usual_deepest(const std::vector<float>& depths)
     return *at;
 }
 
-Hollows hollows(const Image& height, int radius, int threads)
+// The closing by an octagon. The sliding windows run round and round, so axes that do not wrap get
+// a border wider than both steps look.
+Image closing(const Image& one, int radius, const BakeOptions& options)
 {
-    Image one = first_channel(height, threads);
-    const Image closed = detail::extreme_within(detail::extreme_within(one, radius, 1.0f, threads),
-                                                radius, -1.0f, threads);
+    const int border_u = options.edge_u == Edge::Wrap ? 0 : 2 * radius + 2;
+    const int border_v = options.edge_v == Edge::Wrap ? 0 : 2 * radius + 2;
+    const auto at = [&](const Image& from, int x, int y) {
+        return from.at(edge_index(x, from.width, options.edge_u),
+                       edge_index(y, from.height, options.edge_v), 0);
+    };
+    const Image wide =
+        map_texels(Image(one.width + 2 * border_u, one.height + 2 * border_v, 1, ColorSpace::Data),
+                   1, options.threads,
+                   [&](int x, int y, float* to) { *to = at(one, x - border_u, y - border_v); });
+    const Image closed =
+        detail::extreme_within(detail::extreme_within(wide, radius, 1.0f, options.threads), radius,
+                               -1.0f, options.threads);
+    return map_texels(one, 1, options.threads, [&](int x, int y, float* to) {
+        *to = closed.at(x + border_u, y + border_v, 0);
+    });
+}
+
+Hollows hollows(const Image& height, int radius, const BakeOptions& options)
+{
+    Image one = first_channel(height, options.threads);
+    const Image closed = closing(one, radius, options);
     Hollows out;
     out.depth = std::move(one);
     for (std::size_t i = 0; i < out.depth.pixels.size(); ++i) {
@@ -163,8 +181,8 @@ Image ambient_occlusion(const Image& height, const BakeOptions& options)
         for (const std::vector<Sample>& direction : samples) {
             float steepest = 0.0f;  // tangent of the horizon
             for (const Sample& s : direction) {
-                const int u = inside ? x + s.x : wrapped(x + s.x, w),
-                          v = inside ? y + s.y : wrapped(y + s.y, h);
+                const int u = inside ? x + s.x : edge_index(x + s.x, w, options.edge_u),
+                          v = inside ? y + s.y : edge_index(y + s.y, h, options.edge_v);
                 const float there =
                     plane[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) +
                           static_cast<std::size_t>(u)];
@@ -181,7 +199,7 @@ Image cavity(const Image& height, const BakeOptions& options)
     check(height, options);
     const int radius = std::min(texels(options.reach, height.width),
                                 (std::min(height.width, height.height) - 1) / 2);
-    const Image mean = blurred(height, std::max(0, radius), options.threads);
+    const Image mean = blurred(height, std::max(0, radius), options);
     double square = 0.0;
     for (int y = 0; y < height.height; ++y) {
         for (int x = 0; x < height.width; ++x) {
@@ -208,7 +226,7 @@ Image curvature(const Image& height, const BakeOptions& options)
     for (const int scale : {1, 2, 4}) {
         const int radius = std::min(most, std::max(scale, scale * height.width / 1024));
         if (radius < 1) continue;
-        const Image mean = blurred(height, radius, options.threads);
+        const Image mean = blurred(height, radius, options);
         const float strength = rise / static_cast<float>(radius);
         for (int y = 0; y < out.height; ++y) {
             for (int x = 0; x < out.width; ++x) {
@@ -224,13 +242,13 @@ Image curvature(const Image& height, const BakeOptions& options)
 Hollows puddles(const Image& height, const BakeOptions& options)
 {
     check(height, options);
-    return hollows(height, texels(options.reach, height.width), options.threads);
+    return hollows(height, texels(options.reach, height.width), options);
 }
 
 Hollows cracks(const Image& height, const BakeOptions& options)
 {
     check(height, options);
-    return hollows(height, texels(0.2f * options.reach, height.width), options.threads);
+    return hollows(height, texels(0.2f * options.reach, height.width), options);
 }
 
 Image flow_direction(const Image& height, const BakeOptions& options)
@@ -238,13 +256,15 @@ Image flow_direction(const Image& height, const BakeOptions& options)
     check(height, options);
     const int radius = std::min(std::max(1, texels(0.1f * options.reach, height.width)),
                                 (std::min(height.width, height.height) - 1) / 2);
-    const Image smooth = blurred(height, std::max(0, radius), options.threads);
+    const Image smooth = blurred(height, std::max(0, radius), options);
     const float rise = options.depth * static_cast<float>(height.width) * 0.5f;
     return map_texels(height, 3, options.threads, [&](int x, int y, float* to) {
-        const float du = -rise * (smooth.at(wrapped(x + 1, smooth.width), y, 0) -
-                                  smooth.at(wrapped(x - 1, smooth.width), y, 0));
-        const float dv = -rise * (smooth.at(x, wrapped(y + 1, smooth.height), 0) -
-                                  smooth.at(x, wrapped(y - 1, smooth.height), 0));
+        const auto at = [&](int u, int v) {
+            return smooth.at(edge_index(u, smooth.width, options.edge_u),
+                             edge_index(v, smooth.height, options.edge_v), 0);
+        };
+        const float du = -rise * (at(x + 1, y) - at(x - 1, y));
+        const float dv = -rise * (at(x, y + 1) - at(x, y - 1));
         const float slope = std::sqrt(du * du + dv * dv);
         to[0] = slope > 1e-6f ? 0.5f + 0.5f * du / slope : 0.5f;
         to[1] = slope > 1e-6f ? 0.5f + 0.5f * dv / slope : 0.5f;

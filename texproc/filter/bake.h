@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "base/image.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::texproc {
 
-// Masks from a height map (first channel, 0..1, white is high) that tiles. All results are one
+// Masks from a height map (first channel, 0..1, white is high). All results are one
 // channel in 0..1 unless said otherwise; same bytes at any thread count.
 
 struct BakeOptions {
     float depth = 0.05f;  ///< height 1 in units of the width of the map
     float reach = 0.05f;  ///< how far occlusion and hollows look, in units of the width
     int threads = 0;
+    Edge edge_u = Edge::Wrap;  ///< what lies past the left and right edge
+    Edge edge_v = Edge::Wrap;  ///< above and below
 };
 
 /// Share of the sky that a texel sees, cosine-weighted: the horizon in 16 directions.

@@ -17,6 +17,16 @@ enum class MipFilter {
 /// What lies past an edge.
 enum class Edge { Wrap, Clamp, Mirror };
 
+/// The texel that stands at i, inside or past an edge (mirrored: the edge texel twice).
+constexpr int edge_index(int i, int size, Edge edge)
+{
+    if (i >= 0 && i < size) return i;
+    if (edge == Edge::Clamp) return i < 0 ? 0 : size - 1;
+    if (edge == Edge::Wrap) return (i % size + size) % size;
+    const int at = (i % (2 * size) + 2 * size) % (2 * size);
+    return at < size ? at : 2 * size - 1 - at;
+}
+
 struct MipOptions {
     bool wrap_u = true;  ///< false: clamp
     bool wrap_v = true;

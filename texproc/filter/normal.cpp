@@ -193,9 +193,8 @@ Image normal_from_height(const Image& height, const HeightScale& scale)
     Image out(height.width, height.height, 3, ColorSpace::Data);
     const float per_texel = scale.depth * static_cast<float>(height.width) * 0.5f;
     const auto at = [&](int x, int y) {
-        x = scale.wrap_u ? wrapped(x, height.width) : std::clamp(x, 0, height.width - 1);
-        y = scale.wrap_v ? wrapped(y, height.height) : std::clamp(y, 0, height.height - 1);
-        return height.at(x, y, 0);
+        return height.at(edge_index(x, height.width, scale.edge_u),
+                         edge_index(y, height.height, scale.edge_v), 0);
     };
     for (int y = 0; y < height.height; ++y) {
         for (int x = 0; x < height.width; ++x) {
@@ -210,9 +209,27 @@ Image normal_from_height(const Image& height, const HeightScale& scale)
     return out;
 }
 
+// The normals of a surface that goes on mirrored along the chosen axes, once more as wide or high:
+// it tiles, and in the copies the slope across the mirror turns round.
+static Image mirrored_on(const Image& normal, bool u, bool v)
+{
+    Image out(normal.width * (u ? 2 : 1), normal.height * (v ? 2 : 1), 3, ColorSpace::Data);
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            const int from_x = edge_index(x, normal.width, Edge::Mirror);
+            const int from_y = edge_index(y, normal.height, Edge::Mirror);
+            const float nx = normal.at(from_x, from_y, 0), ny = normal.at(from_x, from_y, 1);
+            out.at(x, y, 0) = x < normal.width ? nx : 1.0f - nx;
+            out.at(x, y, 1) = y < normal.height ? ny : 1.0f - ny;
+            out.at(x, y, 2) = normal.at(from_x, from_y, 2);
+        }
+    }
+    return out;
+}
+
 // Frankot and Chellappa 1988, with the frequency response of the central difference that
 // normal_from_height takes, so that the round trip is exact for what that difference can see.
-IntegratedHeight height_from_normal(const Image& normal)
+static IntegratedHeight tiling_height(const Image& normal)
 {
     check_normal(normal);
     std::vector<float> su, sv;
@@ -245,6 +262,22 @@ IntegratedHeight height_from_normal(const Image& normal)
         out.height.pixels[i] = static_cast<float>((u[i].real() - low) / (high - low));
     }
     out.depth = static_cast<float>((high - low) / normal.width);
+    return out;
+}
+
+IntegratedHeight height_from_normal(const Image& normal, Edge edge_u, Edge edge_v)
+{
+    if (edge_u == Edge::Wrap && edge_v == Edge::Wrap) return tiling_height(normal);
+    check_normal(normal);
+    const IntegratedHeight whole =
+        tiling_height(mirrored_on(normal, edge_u != Edge::Wrap, edge_v != Edge::Wrap));
+    // The copies hold the same heights, and so the same range; the depth is told in widths.
+    IntegratedHeight out{
+        Image(normal.width, normal.height, 1, ColorSpace::Data),
+        whole.depth * static_cast<float>(whole.height.width) / static_cast<float>(normal.width)};
+    for (int y = 0; y < normal.height; ++y) {
+        for (int x = 0; x < normal.width; ++x) out.height.at(x, y, 0) = whole.height.at(x, y, 0);
+    }
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::texproc {
 
@@ -41,17 +42,19 @@ GreenDirection detect_green(const Image& normal);
 
 struct HeightScale {
     float depth = 0.05f;  ///< height 1 in units of the width of the map
-    bool wrap_u = true, wrap_v = true;
+    Edge edge_u = Edge::Wrap, edge_v = Edge::Wrap;
 };
 /// Normals of a height map (first channel), central differences.
 Image normal_from_height(const Image& height, const HeightScale& scale = {});
-/// The height (0..1) whose slopes fit best in the mean square, tileable, and the depth that makes
-/// normal_from_height give the slopes back.
+/// The height (0..1) whose slopes fit best in the mean square, and the depth that makes
+/// normal_from_height give the slopes back. An axis that wraps gives a height that tiles; one that
+/// mirrors or clamps, a height that goes on mirrored, so that opposite edges are free to differ.
 struct IntegratedHeight {
     Image height;
     float depth = 0.0f;
 };
-IntegratedHeight height_from_normal(const Image& normal);
+IntegratedHeight height_from_normal(const Image& normal, Edge edge_u = Edge::Wrap,
+                                    Edge edge_v = Edge::Wrap);
 
 /// Adds the bumps of `detail` to `base`, turned into its frame (Barre-Brisebois and Hill 2012,
 /// reoriented normal mapping). Same size; Throws Error when not.

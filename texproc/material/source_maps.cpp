@@ -181,7 +181,9 @@ void bake(const PlannedMaterial& plan, int threads, SourceMaps& maps)
     options.threads = threads;
     if (missing("height")) put("height", height_from_normal(as_rgb(maps.data("normal"))).height);
     const auto height = [&] { return maps.data("height"); };
-    if (missing("normal")) put("normal", normal_from_height(height(), {.depth = options.depth}));
+    if (missing("normal"))
+        put("normal",
+            normal_from_height(height(), {options.depth, options.edge_u, options.edge_v}));
     if (missing("occlusion")) put("occlusion", ambient_occlusion(height(), options));
     if (missing("cavity")) put("cavity", cavity(height(), options));
     if (missing("puddle")) put("puddle", puddles(height(), options).depth);
