@@ -1,5 +1,6 @@
 // petrichor render: a scenario, or a scene under a weather preset, becomes pictures and a film.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -32,6 +33,17 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     std::string input;
     std::string weather;
+    std::string model;
+    std::string from;
+    std::string to;
+    std::optional<double> hours_per_second;
+    std::optional<double> spin_up_days;
+    std::string surface;
+    std::optional<double> latitude_deg;
+    std::optional<double> longitude_deg;
+    std::string shard;
+    std::vector<std::string> views;
+    std::vector<std::string> variants;
     std::string folder;
     std::string frames;
     std::string size;
@@ -62,25 +74,88 @@ Scenario scenario_of(const std::string& input)
 {
     if (input.empty()) return read_scenario(data_folder() / "scenarios" / "demo.toml");
     const fs::path file = input;
-    if (is_scene(file)) {
+    if (is_scene(file) || input.rfind("demo:", 0) == 0) {
         Scenario scenario;
         scenario.name = input;
         scenario.scene.file = input;
         return scenario;
     }
-    if (file.extension() == ".toml" || fs::exists(file)) return read_scenario(file);
     const auto names = preset_names("scenarios");
+    // A folder may have the name of a scenario of ours: a render of it made one.
+    std::error_code ignored;
+    if (file.extension() == ".toml" || fs::is_regular_file(file, ignored))
+        return read_scenario(file);
     for (const std::string& name : names) {
         if (name == input) return read_scenario(data_folder() / "scenarios" / (name + ".toml"));
     }
+    if (fs::exists(file, ignored)) return read_scenario(file);  // says what it is instead
     throw Error("render: " + input +
                     " is neither a scenario (.toml), nor a scene (.glb, .gltf), nor one of: " +
                     join_words(names) + "." + did_you_mean(input, names),
                 "For example: petrichor render scene.glb --weather rain-then-snow");
 }
 
+// What the command line says of the weather: over the scenario's own and that of every variant.
+void apply_weather(ScenarioWeather& weather, const RenderOptions& options)
+{
+    if (!options.weather.empty()) name_weather(weather, options.weather, fs::path());
+    if (!options.model.empty()) {
+        weather.model = options.model == "artist" ? WeatherModel::Artist : WeatherModel::Physical;
+    }
+    if (!options.from.empty()) weather.start = options.from;
+    if (!options.to.empty()) weather.end = options.to;
+    if (options.hours_per_second) weather.hours_per_second = *options.hours_per_second;
+    if (options.spin_up_days) weather.spin_up_days = options.spin_up_days;
+    if (!options.surface.empty()) weather.site.surface = options.surface;
+    if (options.latitude_deg) weather.site.latitude_deg = options.latitude_deg;
+    if (options.longitude_deg) weather.site.longitude_deg = options.longitude_deg;
+}
+
+// Keeps of the scenario's variants those that are asked for.
+void choose_variants(Scenario& scenario, const std::vector<std::string>& names)
+{
+    std::vector<std::string> known;
+    for (const ScenarioVariant& variant : scenario.variants) known.push_back(variant.name);
+    std::vector<ScenarioVariant> chosen;
+    for (const std::string& name : names) {
+        const auto found = std::find(known.begin(), known.end(), name);
+        if (found == known.end()) {
+            throw Error("render: no variant \"" + name + "\"." + did_you_mean(name, known),
+                        known.empty() ? "The scenario has no [[variant]]."
+                                      : "Use: " + join_words(known) + ".");
+        }
+        chosen.push_back(scenario.variants[static_cast<std::size_t>(found - known.begin())]);
+    }
+    scenario.variants = std::move(chosen);
+}
+
+// Names of the scenario's views, or else of cameras of the scene.
+void choose_views(Scenario& scenario, const std::vector<std::string>& names)
+{
+    std::vector<ScenarioView> chosen;
+    for (const std::string& name : names) {
+        const auto own = std::find_if(scenario.views.begin(), scenario.views.end(),
+                                      [&](const ScenarioView& view) { return view.name == name; });
+        if (own != scenario.views.end()) {
+            chosen.push_back(*own);
+            continue;
+        }
+        check_part_name(name, "render: --views");
+        ScenarioView view{name, scenario.camera};
+        view.camera.name = name;
+        view.camera.keys.clear();
+        chosen.push_back(std::move(view));
+    }
+    scenario.views = std::move(chosen);
+}
+
 void apply_options(Scenario& scenario, const RenderOptions& options)
 {
+    apply_weather(scenario.weather, options);
+    if (!options.variants.empty()) choose_variants(scenario, options.variants);
+    for (ScenarioVariant& variant : scenario.variants)
+        apply_weather(variant.conditions.weather, options);
+    if (!options.views.empty()) choose_views(scenario, options.views);
     ScenarioOutput& output = scenario.output;
     if (!options.size.empty()) {
         const ImageSize size = parse_size(options.size);
@@ -94,6 +169,7 @@ void apply_options(Scenario& scenario, const RenderOptions& options)
     if (!options.camera.empty()) {
         scenario.camera.name = options.camera;
         scenario.camera.keys.clear();
+        scenario.views.clear();
     }
     if (!options.aovs.empty()) output.aovs = options.aovs;
     output.exr = output.exr && !options.no_exr;
@@ -153,8 +229,24 @@ void report_on(const RenderReport& report, const RenderRequest& request)
     for (const std::string& note : report.notes) std::cerr << "info render: " << note << "\n";
     std::cerr << "info render: " << report.rendered << " frames rendered";
     if (report.kept > 0) std::cerr << ", " << report.kept << " kept";
-    std::cerr << ", in " << request.folder.string() << (report.film ? " with film.mp4" : "") << "; "
-              << duration_text(report.seconds) << ", " << report.peak_mib << " MiB\n";
+    std::cerr << ", in " << request.folder.string();
+    if (report.films == 1) std::cerr << " with a film";
+    if (report.films > 1) std::cerr << " with " << report.films << " films";
+    std::cerr << "; " << duration_text(report.seconds) << ", " << report.peak_mib << " MiB\n";
+}
+
+// What was read, filled, guessed and spun up: once a source, however many variants share it.
+void report_weather(const Sequence& sequence)
+{
+    std::vector<std::string> said;
+    for (const SequenceVariant& variant : sequence.variants) {
+        for (const std::string& note : variant.weather.notes) {
+            const std::string line = "info weather: " + variant.weather.name + ": " + note;
+            if (std::find(said.begin(), said.end(), line) != said.end()) continue;
+            said.push_back(line);
+            std::cerr << line << "\n";
+        }
+    }
 }
 
 // The log line at the start, and a progress line.
@@ -184,16 +276,18 @@ void render(const RenderOptions& options)
         // The CPU driver reads its number of threads from here.
         ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     }
-    Sequence sequence;
-    sequence.scenario = scenario_of(options.input);
-    Scenario& scenario = sequence.scenario;
-    apply_options(scenario, options);
+    Scenario asked = scenario_of(options.input);
+    apply_options(asked, options);
+    Sequence sequence = make_sequence(std::move(asked));
+    const Scenario& scenario = sequence.scenario;
+    report_weather(sequence);
 
     RenderRequest request;
     request.folder = output_folder(options);
     request.range = {0, scenario.output.frames - 1};
     if (!options.frames.empty())
         request.range = parse_frame_range(options.frames, scenario.output.frames);
+    if (!options.shard.empty()) request.shard = parse_shard(options.shard);
     request.resume = options.resume;
     request.device = options.device;
     request.threads = options.threads;
@@ -202,13 +296,6 @@ void render(const RenderOptions& options)
     ProgressWatcher watcher;
     request.watcher = &watcher;
     request.command = resume_command(options);
-
-    const WeatherSource weather = weather_source(scenario, options.weather);
-    request.weather_name = weather.name;
-    sequence.weather = weather.at;
-    sequence.duration_s = scenario.output.duration_s.value_or(
-        weather.duration_s > 0.0 ? weather.duration_s
-                                 : scenario.output.frames / scenario.output.fps);
 
     require_writable_folder(request.folder);
     load_sequence_scene(sequence, options.threads);
@@ -236,9 +323,52 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     CLI::App* command =
         app.add_subcommand("render", "Render a scenario or a scene into pictures and a film.");
     command->add_option("SCENARIO|SCENE", o->input,
-                        "scenario (.toml) or scene (.glb, .gltf); nothing: the demo street");
-    command->add_option("-w,--weather", o->weather,
-                        "weather preset or file; wins over the scenario's own");
+                        "scenario (.toml), scene (.glb, .gltf) or demo:street; nothing: the demo");
+    const char* weather = "Weather";
+    command
+        ->add_option("-w,--weather", o->weather,
+                     "weather preset or file; wins over the scenario's own")
+        ->group(weather);
+    command
+        ->add_option("--model", o->model,
+                     "of a weather file: physical (SI; default) or artist (0..1)")
+        ->check(CLI::IsMember({"artist", "physical"}))
+        ->group(weather);
+    command
+        ->add_option("--from", o->from,
+                     "where in the file the film begins: 2005-12-01T06:00, 12-01, or seconds")
+        ->group(weather);
+    command->add_option("--to", o->to, "and where it ends (the last row)")->group(weather);
+    command
+        ->add_option("--hours-per-second", o->hours_per_second,
+                     "hours of the file for a second of the clock (1)")
+        ->check(CLI::Range(1e-4, 1e4))
+        ->group(weather);
+    command
+        ->add_option("--surface", o->surface,
+                     "of the physical model: asphalt (default), grass, cobblestone, ..")
+        ->group(weather);
+    command
+        ->add_option("--spin-up-days", o->spin_up_days,
+                     "the physical model begins this long before --from (the first row)")
+        ->check(CLI::Range(0.0, 36500.0))
+        ->group(weather);
+    command->add_option("--latitude", o->latitude_deg, "north; where the file does not say")
+        ->check(CLI::Range(-90.0, 90.0))
+        ->group(weather);
+    command->add_option("--longitude", o->longitude_deg, "east; likewise")
+        ->check(CLI::Range(-180.0, 360.0))
+        ->group(weather);
+    command
+        ->add_option("--variants", o->variants,
+                     "only these [[variant]] of the scenario, names joined by commas")
+        ->delimiter(',');
+    command
+        ->add_option("--views", o->views,
+                     "from each of these [[view]] or cameras of the scene, joined by commas")
+        ->delimiter(',');
+    command->add_option("--shard", o->shard,
+                        "I/N: the I-th of N equal parts of the pictures, for many machines");
     command->add_option("-o,--output", o->folder, "folder for the frames (petrichor-NAME)");
     command->add_option("-f,--frames", o->frames,
                         "A:B renders frames A to B, both included; N only that one");
@@ -266,6 +396,7 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     command->footer(
         "Examples: petrichor render\n"
         "          petrichor render street.glb --weather first-snow -o street --size 1280x720\n"
+        "          petrichor render street.glb --weather denver.epw --from 01-10 --to 01-12\n"
         "          petrichor render my-street.toml --frames 0:23 --aov depth --resume");
     command->callback([o] { render(*o); });
 }

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "cli/report/table.h"
-#include "cli/report/times.h"
 #include "cli/rooms.h"
 #include "film/scenario/weather_script.h"
+#include "film/weather/times.h"
 
 namespace petrichor::cli {
 

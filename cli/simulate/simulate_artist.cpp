@@ -1,8 +1,8 @@
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/report/times.h"
 #include "cli/simulate/artist.h"
 #include "cli/simulate/simulations.h"
+#include "film/weather/times.h"
 #include "weather/models/artist/csv.h"
 #include "weather/models/artist/from_forcing.h"
 

@@ -5,11 +5,11 @@
 #include "base/output_file.h"
 #include "cli/exit.h"
 #include "cli/progress.h"
-#include "cli/report/times.h"
 #include "cli/signals.h"
 #include "cli/simulate/grid.h"
 #include "cli/simulate/grid_map.h"
 #include "cli/simulate/simulations.h"
+#include "film/weather/times.h"
 
 namespace petrichor::cli {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "cli/report/times.h"
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
+#include "film/weather/times.h"
 
 namespace petrichor::cli {
 

@@ -84,14 +84,15 @@ std::string find_ffmpeg()
     return "";
 }
 
-void make_film(const fs::path& folder, int first, int count, double fps, const fs::path& film)
+void make_film(const fs::path& folder, const std::string& suffix, int first, int count, double fps,
+               const fs::path& film)
 {
     OutputFile output(film);
     // One thread, no dates: the same frames give the same film.
     const ProcessResult result = run_program(
         {find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-threads", "1", "-framerate",
          number_text(fps), "-start_number", std::to_string(first), "-i",
-         (folder / "frame_%04d.png").string(), "-frames:v", std::to_string(count),
+         (folder / ("frame_%04d" + suffix + ".png")).string(), "-frames:v", std::to_string(count),
          // sRGB pictures become video with the matrix and range written into the file.
          "-vf",
          "crop=trunc(iw/2)*2:trunc(ih/"

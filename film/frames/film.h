@@ -9,13 +9,13 @@ namespace petrichor::film {
 /// The ffmpeg that PATH finds, or "".
 std::string find_ffmpeg();
 
-/// Makes an H.264 film (yuv420p, sRGB, plays everywhere) from frame_0000.png ... in a folder, whole
-/// or not at all. Odd sizes are cut by one pixel, which the format needs.
+/// Makes an H.264 film (yuv420p, sRGB, plays everywhere) from frame_0000<suffix>.png ... in a
+/// folder, whole or not at all. Odd sizes are cut by one pixel, which the format needs.
 ///
 ///   first, count   frames first .. first + count - 1 must be there
 ///   throws         Error with ffmpeg's last words
-void make_film(const std::filesystem::path& folder, int first, int count, double fps,
-               const std::filesystem::path& film);
+void make_film(const std::filesystem::path& folder, const std::string& suffix, int first, int count,
+               double fps, const std::filesystem::path& film);
 
 }  // namespace petrichor::film
 

@@ -56,13 +56,6 @@ std::vector<texproc::ExrChannel> exr_channels(const gpu::RenderResult& result)
 
 }  // namespace
 
-std::string frame_file_name(int frame, const std::string& extension)
-{
-    char name[48];
-    std::snprintf(name, sizeof name, "frame_%04d.%s", frame, extension.c_str());
-    return name;
-}
-
 std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, FrameFacts facts,
                         const gpu::RenderResult& result)
 {
@@ -70,18 +63,19 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
     hasher.add_numbers(std::span<const std::uint16_t>(result.beauty));
     facts.beauty_hash = hasher.text();
     facts.exposure = result.exposure;
-    const Metadata metadata{{"software", "petrichor " PETRICHOR_VERSION},
-                            {"petrichor:frame", std::to_string(facts.frame)},
-                            {"petrichor:seed", std::to_string(facts.input.settings.seed)},
-                            {"petrichor:settings", facts.settings}};
+    const Metadata metadata{
+        {"software", "petrichor " PETRICHOR_VERSION},
+        {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},
+        {"petrichor:seed", std::to_string(facts.input.settings.seed)},
+        {"petrichor:settings", facts.settings}};
     if (kinds.exr) {
-        const std::string name = frame_file_name(facts.frame, "exr");
+        const std::string name = file_name(facts.job, "exr");
         texproc::write_exr(folder / name, result.width, result.height, exr_channels(result),
                            metadata);
         facts.files[name] = fs::file_size(folder / name);
     }
     if (kinds.png) {
-        const std::string name = frame_file_name(facts.frame, "png");
+        const std::string name = file_name(facts.job, "png");
         // The picture is opaque: three channels.
         std::vector<std::uint8_t> rgb;
         rgb.reserve(result.display.size() / 4 * 3);
@@ -105,7 +99,7 @@ struct FrameWriter::Impl {
     std::exception_ptr problem;
     bool closing = false;
     std::atomic<int> written{0};
-    std::map<int, std::string> lines;  // not yet in frames.jsonl; the thread's own
+    std::map<Job, std::string> lines;  // not yet in frames.jsonl; the thread's own
     std::thread thread;
 
     void flush()
@@ -129,8 +123,8 @@ struct FrameWriter::Impl {
             changed.notify_all();
             if (give_up) continue;
             try {
-                const int frame = facts.frame;
-                lines[frame] = write_frame(folder, kinds, std::move(facts), result);
+                const Job job = facts.job;
+                lines[job] = write_frame(folder, kinds, std::move(facts), result);
                 ++written;
                 if (std::chrono::steady_clock::now() - last_flush > std::chrono::seconds(1)) {
                     flush();

@@ -10,9 +10,6 @@
 
 namespace petrichor::film {
 
-/// "frame_0030.exr"
-std::string frame_file_name(int frame, const std::string& extension);
-
 struct WrittenKinds {
     bool exr = true;
     bool png = true;

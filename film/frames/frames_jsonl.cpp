@@ -10,6 +10,7 @@
 
 #include "base/output_file.h"
 #include "gpu/frame/sun.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::film {
 namespace {
@@ -126,8 +127,16 @@ std::string frame_line(const FrameFacts& facts)
 {
     const gpu::FrameSettings& settings = facts.input.settings;
     Json json;
-    json["frame"] = facts.frame;
+    json["frame"] = facts.job.frame;
+    if (!facts.job.variant.empty()) json["variant"] = facts.job.variant;
+    if (!facts.job.view.empty()) json["view"] = facts.job.view;
     json["time_s"] = facts.time_s;
+    if (facts.moment.utc_us) json["utc"] = weather::iso_from_us(*facts.moment.utc_us);
+    if (facts.moment.latitude_deg && facts.moment.longitude_deg) {
+        json["place"] = {{"latitude_deg", *facts.moment.latitude_deg},
+                         {"longitude_deg", *facts.moment.longitude_deg}};
+        if (facts.moment.elevation_m) json["place"]["elevation_m"] = *facts.moment.elevation_m;
+    }
     json["width"] = settings.width;
     json["height"] = settings.height;
     json["samples"] = settings.samples;
@@ -145,9 +154,9 @@ std::string frame_line(const FrameFacts& facts)
     return json.dump();
 }
 
-std::map<int, FrameRecord> read_frame_records(const fs::path& folder)
+std::map<Job, FrameRecord> read_frame_records(const fs::path& folder)
 {
-    std::map<int, FrameRecord> records;
+    std::map<Job, FrameRecord> records;
     std::ifstream in(folder / kName);
     std::string line;
     while (std::getline(in, line)) {
@@ -163,7 +172,10 @@ std::map<int, FrameRecord> read_frame_records(const fs::path& folder)
                 if (bytes.is_number_unsigned()) record.files[name] = bytes.get<std::uintmax_t>();
             }
         }
-        records[json["frame"].get<int>()] = std::move(record);
+        const auto part = [&](const char* key) {
+            return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+        };
+        records[{json["frame"].get<int>(), part("variant"), part("view")}] = std::move(record);
     }
     return records;
 }
@@ -177,14 +189,14 @@ bool files_are_whole(const FrameRecord& record, const fs::path& folder)
     return !record.files.empty();
 }
 
-void merge_frame_lines(const fs::path& folder, const std::map<int, std::string>& lines)
+void merge_frame_lines(const fs::path& folder, const std::map<Job, std::string>& lines)
 {
     const FolderLock lock(folder);
-    std::map<int, std::string> all;
-    for (auto& [frame, record] : read_frame_records(folder)) all[frame] = std::move(record.line);
-    for (const auto& [frame, line] : lines) all[frame] = line;
+    std::map<Job, std::string> all;
+    for (auto& [job, record] : read_frame_records(folder)) all[job] = std::move(record.line);
+    for (const auto& [job, line] : lines) all[job] = line;
     std::string text;
-    for (const auto& [frame, line] : all) text += line + "\n";
+    for (const auto& [job, line] : all) text += line + "\n";
     write_text_file(folder / kName, text);
 }
 

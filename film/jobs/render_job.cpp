@@ -26,77 +26,101 @@ bool stopped(const RenderRequest& request)
     return request.stop && request.stop();
 }
 
-// One frame that still has to be rendered.
+// One picture that still has to be rendered.
 struct Pending {
-    int index = 0;
+    Job job;
     SequenceFrame frame;
     std::string fingerprint;
 };
 
-bool is_kept(const std::map<int, FrameRecord>& records, int frame, const std::string& fingerprint,
-             const ScenarioOutput& output, const fs::path& folder)
+bool is_kept(const std::map<Job, FrameRecord>& records, const Job& job,
+             const std::string& fingerprint, const ScenarioOutput& output, const fs::path& folder)
 {
-    const auto found = records.find(frame);
+    const auto found = records.find(job);
     if (found == records.end() || found->second.settings != fingerprint) return false;
     const auto has = [&](const char* extension) {
-        return found->second.files.count(frame_file_name(frame, extension)) != 0;
+        return found->second.files.count(file_name(job, extension)) != 0;
     };
     return (!output.exr || has("exr")) && (!output.png || has("png")) &&
            files_are_whole(found->second, folder);
 }
 
-std::vector<Pending> pending_frames(const Sequence& sequence, const RenderRequest& request)
+std::vector<Pending> pending_jobs(const Sequence& sequence, const RenderRequest& request,
+                                  const std::vector<Job>& jobs)
 {
-    std::map<int, FrameRecord> records;
+    std::map<Job, FrameRecord> records;
     if (request.resume) records = read_frame_records(request.folder);
     std::vector<Pending> pending;
-    for (int i = request.range.first; i <= request.range.last; ++i) {
-        Pending one{i, frame_at(sequence, i), ""};
-        one.fingerprint = frame_fingerprint(sequence, one.frame.frame);
-        if (is_kept(records, i, one.fingerprint, sequence.scenario.output, request.folder))
+    for (const Job& job : jobs) {
+        Pending one{job, frame_at(sequence, job), ""};
+        one.fingerprint = frame_fingerprint(sequence, one.frame);
+        if (is_kept(records, job, one.fingerprint, sequence.scenario.output, request.folder))
             continue;
         pending.push_back(std::move(one));
     }
     return pending;
 }
 
-// Frames of the whole sequence that are not there as they should be, for the film.
-int frames_missing_for_film(const Sequence& sequence, const fs::path& folder)
+// Frames of a variant and view that are not there as they should be, for its film.
+int frames_missing_for_film(const Sequence& sequence, const std::map<Job, FrameRecord>& records,
+                            Job job, const fs::path& folder)
 {
-    const auto records = read_frame_records(folder);
     int missing = 0;
-    for (int i = 0; i < sequence.scenario.output.frames; ++i) {
-        const auto fingerprint = frame_fingerprint(sequence, frame_at(sequence, i).frame);
-        if (!is_kept(records, i, fingerprint, sequence.scenario.output, folder)) ++missing;
+    for (job.frame = 0; job.frame < sequence.scenario.output.frames; ++job.frame) {
+        const auto fingerprint = frame_fingerprint(sequence, frame_at(sequence, job));
+        if (!is_kept(records, job, fingerprint, sequence.scenario.output, folder)) ++missing;
     }
     return missing;
 }
 
-void finish_film(const Sequence& sequence, const RenderRequest& request, RenderReport& report)
+void finish_film(const Sequence& sequence, const RenderRequest& request, const Job& part,
+                 const std::map<Job, FrameRecord>& records, RenderReport& report)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    const fs::path film = request.folder / ("film" + name_suffix(part) + ".mp4");
+    if (report.rendered == 0 && fs::exists(film)) return;
+    if (const int missing = frames_missing_for_film(sequence, records, part, request.folder)) {
+        // An older film would show other frames than those beside it.
+        std::error_code ignored;
+        fs::remove(film, ignored);
+        report.notes.push_back("no " + film.filename().string() +
+                               " yet: " + std::to_string(missing) + " of " +
+                               std::to_string(output.frames) + " frames are not rendered");
+        return;
+    }
+    make_film(request.folder, name_suffix(part), 0, output.frames, output.fps, film);
+    ++report.films;
+}
+
+void finish_films(const Sequence& sequence, const RenderRequest& request, RenderReport& report)
 {
     const ScenarioOutput& output = sequence.scenario.output;
     if (!output.film || !output.png || output.frames < 2) return;
-    const fs::path film = request.folder / "film.mp4";
-    if (report.rendered == 0 && fs::exists(film)) return;
     if (find_ffmpeg().empty()) {
         report.notes.push_back("no film: ffmpeg is not installed (apt-get install ffmpeg)");
         return;
     }
-    if (const int missing = frames_missing_for_film(sequence, request.folder)) {
-        // An older film would show other frames than those beside it.
-        std::error_code ignored;
-        fs::remove(film, ignored);
-        report.notes.push_back("no film yet: " + std::to_string(missing) + " of " +
-                               std::to_string(output.frames) + " frames are not rendered");
-        return;
+    const auto records = read_frame_records(request.folder);
+    for (const Job& part : jobs_of(sequence, {0, 0}))
+        finish_film(sequence, request, part, records, report);
+}
+
+// The sky's picture of the job's variant; a renderer holds one at a time.
+void set_environment(gpu::Renderer& renderer, const Sequence& sequence, const Job& job)
+{
+    for (const SequenceVariant& variant : sequence.variants) {
+        if (variant.name != job.variant) continue;
+        const std::string& file = variant.conditions.sky.environment;
+        renderer.set_environment(file.empty() ? gpu::EnvironmentMap{}
+                                              : read_environment(sequence.scenario.folder / file));
     }
-    make_film(request.folder, 0, output.frames, output.fps, film);
-    report.film = true;
 }
 
 gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request, RenderReport& report)
 {
-    gpu::Renderer renderer({.device = request.device, .validation = request.validation});
+    gpu::Renderer renderer({.device = request.device,
+                            .validation = request.validation,
+                            .ripple_texture_size = sequence.scenario.render.ripple_texture_size});
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     TextureOptions options;
@@ -108,10 +132,6 @@ gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request, Re
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
     renderer.load(sequence.scene, textures);
-    if (!sequence.scenario.sky.environment.empty()) {
-        renderer.set_environment(
-            read_environment(sequence.scenario.folder / sequence.scenario.sky.environment));
-    }
     return renderer;
 }
 
@@ -123,16 +143,22 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
     std::uint32_t overflows = 0;
+    std::string environment;  // fingerprint of what the renderer holds
     {
         FrameWriter writer(request.folder, {output.exr, output.png});
         for (const Pending& one : pending) {
             if (stopped(request)) break;
+            if (one.frame.environment != environment) {
+                set_environment(renderer, sequence, one.job);
+                environment = one.frame.environment;
+            }
             gpu::RenderResult result = renderer.render(one.frame.frame);
             overflows = std::max(overflows, result.light_list_overflows);
             FrameFacts facts;
-            facts.frame = one.index;
+            facts.job = one.job;
             facts.time_s = one.frame.time_s;
-            facts.weather = request.weather_name;
+            facts.moment = one.frame.moment;
+            facts.weather = one.frame.weather_name;
             facts.settings = one.fingerprint;
             facts.input = one.frame.frame;
             writer.write(std::move(facts), std::move(result));
@@ -164,18 +190,19 @@ RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
 {
     const auto start = std::chrono::steady_clock::now();
     RenderReport report;
-    const int asked = request.range.last - request.range.first + 1;
+    const std::vector<Job> jobs = jobs_of(sequence, request.range, request.shard);
+    const int asked = static_cast<int>(jobs.size());
     const auto stop = [&](int done) {
         return Interrupted("interrupted: " + std::to_string(done) + " of " + std::to_string(asked) +
                            " frames are in " + request.folder.string() +
                            "\n  Go on with: " + request.command);
     };
-    const auto pending = pending_frames(sequence, request);
+    const auto pending = pending_jobs(sequence, request, jobs);
     report.kept = asked - static_cast<int>(pending.size());
     try {
         if (!pending.empty()) render_frames(sequence, request, pending, report);
         if (stopped(request)) throw stop(report.kept + report.rendered);
-        finish_film(sequence, request, report);
+        finish_films(sequence, request, report);
     } catch (const std::exception&) {
         // Ctrl-C reaches the image readers and ffmpeg too; what they say then is not the news.
         if (stopped(request)) throw stop(report.kept + report.rendered);

@@ -14,9 +14,9 @@ namespace petrichor::film {
 class RenderWatcher {
 public:
     virtual ~RenderWatcher() = default;
-    /// Before the first of `count` frames.
+    /// Before the first of `count` pictures.
     virtual void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) = 0;
-    /// `count` frames are on disk.
+    /// `count` pictures are on disk.
     virtual void written(int count) = 0;
 };
 
@@ -24,13 +24,13 @@ public:
 struct RenderRequest {
     std::filesystem::path folder;  ///< where the frames go
     FrameRange range;
-    bool resume = false;       ///< keep frames that are whole and would come out the same
-    std::string device;        ///< as in gpu::RendererOptions
-    int threads = 0;           ///< of the image readers; 0: all cores
-    bool validation = false;   ///< run the validation layer; its messages are an error
-    std::string weather_name;  ///< for frames.jsonl
-    std::string command;       ///< how to go on after a stop: the command line with --resume
-    StopRequest stop = {};     ///< asked between frames
+    Shard shard;              ///< of the jobs of that range
+    bool resume = false;      ///< keep frames that are whole and would come out the same
+    std::string device;       ///< as in gpu::RendererOptions
+    int threads = 0;          ///< of the image readers; 0: all cores
+    bool validation = false;  ///< run the validation layer; its messages are an error
+    std::string command;      ///< how to go on after a stop: the command line with --resume
+    StopRequest stop = {};    ///< asked between frames
     RenderWatcher* watcher = nullptr;
 };
 
@@ -38,7 +38,7 @@ struct RenderRequest {
 struct RenderReport {
     int rendered = 0;
     int kept = 0;
-    bool film = false;
+    int films = 0;
     double seconds = 0.0;
     long peak_mib = 0;
     std::vector<std::string> notes;       ///< for the log
@@ -46,9 +46,9 @@ struct RenderReport {
     std::string graph;                    ///< passes of the last frame, a line each
 };
 
-/// Renders the frames of a range into a folder, writing while rendering: frame_0000.exr and .png,
-/// frames.jsonl, and film.mp4 once every frame of the sequence is there. The sequence's scene loses
-/// its encoded images on the way.
+/// Renders the jobs of a range into a folder, writing while rendering: frame_0000.exr and .png
+/// (with the names of variant and view), frames.jsonl, and for each variant and view film.mp4 once
+/// every frame of it is there. The sequence's scene loses its encoded images on the way.
 ///
 /// Every file is whole or absent at any time. Throws Error for what the user can mend, Interrupted
 /// after a stop (finished frames are kept).

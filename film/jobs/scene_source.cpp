@@ -57,10 +57,11 @@ void load_sequence_scene(Sequence& sequence, int threads)
     sequence.scene = std::move(loaded.scene);
     Hasher content;
     content.add(loaded.fingerprint);
-    if (!scenario.sky.environment.empty()) {
-        content.add(file_fingerprint(scenario.folder / scenario.sky.environment));
-    }
     sequence.content = content.text();
+    for (SequenceVariant& variant : sequence.variants) {
+        const std::string& file = variant.conditions.sky.environment;
+        if (!file.empty()) variant.environment = file_fingerprint(scenario.folder / file);
+    }
 }
 
 }  // namespace petrichor::film

@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/words.h"
 #include "film/jobs/camera.h"
 #include "film/jobs/sun.h"
+#include "film/scenario/look_keys.h"
 
 namespace petrichor::film {
 namespace {
@@ -163,33 +166,110 @@ double frame_time_s(const Sequence& sequence, int frame)
     return output.start_s + sequence.duration_s * frame / output.frames;
 }
 
-SequenceFrame frame_at(const Sequence& sequence, int frame)
+namespace {
+
+// The part of that name; the message of its absence is for programs that make jobs by hand.
+template <class Part>
+const Part& named_part(const std::vector<Part>& parts, const std::string& name, const char* kind)
+{
+    std::vector<std::string> names;
+    for (const Part& part : parts) {
+        if (part.name == name) return part;
+        names.push_back(part.name);
+    }
+    throw Error(
+        std::string("job: there is no ") + kind + " \"" + name + "\"." + did_you_mean(name, names),
+        "Use one of: " + join_words(names) + ".");
+}
+
+// From directions about true north to the scene's axes.
+glm::vec2 turned(const glm::vec2& v, double north_rad)
+{
+    if (north_rad == 0.0) return v;
+    const double c = std::cos(north_rad), s = std::sin(north_rad);
+    const double x = static_cast<double>(v.x), z = static_cast<double>(v.y);
+    return {narrow(x * c - z * s), narrow(x * s + z * c)};
+}
+
+}  // namespace
+
+Sequence make_sequence(Scenario scenario)
+{
+    Sequence sequence;
+    sequence.scenario = std::move(scenario);
+    const Scenario& s = sequence.scenario;
+    const ScenarioOutput& output = s.output;
+    std::vector<ScenarioVariant> variants = s.variants;
+    if (variants.empty()) variants.push_back({"", s});
+    // Weather that loops is made as long as the film.
+    const double end_s = output.start_s + output.duration_s.value_or(0.0);
+    for (ScenarioVariant& variant : variants) {
+        WeatherSource weather = weather_source(variant.conditions.weather, s.folder, s.name, end_s);
+        sequence.duration_s = std::max(sequence.duration_s, weather.duration_s);
+        sequence.variants.push_back(
+            {variant.name, std::move(variant.conditions), std::move(weather)});
+    }
+    if (output.duration_s) sequence.duration_s = *output.duration_s;
+    if (!(sequence.duration_s > 0.0)) sequence.duration_s = output.frames / output.fps;
+    sequence.views = s.views;
+    if (sequence.views.empty()) sequence.views.push_back({"", s.camera});
+    return sequence;
+}
+
+std::vector<Job> jobs_of(const Sequence& sequence, const FrameRange& range, const Shard& shard)
+{
+    std::vector<Job> jobs;
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        for (const SequenceVariant& variant : sequence.variants) {
+            for (const ScenarioView& view : sequence.views)
+                jobs.push_back({frame, variant.name, view.name});
+        }
+    }
+    const auto cut = [&](int part) {
+        return static_cast<std::ptrdiff_t>(static_cast<std::int64_t>(jobs.size()) * part /
+                                           shard.count);
+    };
+    return {jobs.begin() + cut(shard.index - 1), jobs.begin() + cut(shard.index)};
+}
+
+SequenceFrame frame_at(const Sequence& sequence, const Job& job)
 {
     const Scenario& scenario = sequence.scenario;
+    const SequenceVariant& variant = named_part(sequence.variants, job.variant, "variant");
+    const ScenarioCamera& camera = named_part(sequence.views, job.view, "view").camera;
+    const Conditions& here = variant.conditions;
     SequenceFrame result;
-    result.time_s = frame_time_s(sequence, frame);
+    result.time_s = frame_time_s(sequence, job.frame);
     const double time_s = result.time_s;
-    const WeatherMoment moment = sequence.weather(time_s);
+    result.moment = variant.weather.at(time_s);
+    result.weather_name = variant.weather.name;
+    result.environment = variant.environment;
 
     gpu::Frame& out = result.frame;
     const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
-    out.camera = camera_at(scenario.camera, sequence.scene, sequence.bounds, aspect, time_s);
-    out.weather = moment.surface;
+    out.camera = camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s);
+    out.weather = result.moment.values;
+    out.look = look_at(here.look, time_s);
 
-    const SunDirection sun = sun_at(scenario.sun, sequence.scene, time_s);
+    const double north_rad = scenario.scene.north_degrees * kPi / 180.0;
+    out.weather.wind_m_s = turned(out.weather.wind_m_s, north_rad);
+    const weather::SunAngles sun =
+        sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s);
+    result.moment.sun = sun;
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
-    out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad);
-    out.sky.sun_illuminance = narrow(scenario.sun.illuminance_lux);
-    out.weather.cloud_fraction = out.sky.cloud_cover =
-        narrow(value_at(scenario.sky.cloud_cover, time_s, out.weather.cloud_fraction));
-    out.sky.turbidity = narrow(value_at(scenario.sky.turbidity, time_s, 2.5));
-    out.sky.ground_albedo = narrow(scenario.sky.ground_albedo);
-    out.sky.environment_scale = narrow(scenario.sky.environment_scale);
-    out.sky.environment_rotation_rad =
-        narrow(scenario.sky.environment_rotation_degrees * kPi / 180.0);
-    out.sky.analytic_sun = !scenario.sun.from_scene;
+    out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad + north_rad);
+    out.sky.sun_illuminance = narrow(here.sun.illuminance_lux);
+    const double clouds = static_cast<double>(out.weather.cloud_fraction);
+    out.sky.cloud_cover = narrow(value_at(here.sky.cloud_cover, time_s, clouds));
+    out.weather.cloud_fraction = out.sky.cloud_cover;
+    result.moment.values = out.weather;
+    out.sky.turbidity = narrow(value_at(here.sky.turbidity, time_s, 2.5));
+    out.sky.ground_albedo = narrow(here.sky.ground_albedo);
+    out.sky.environment_scale = narrow(here.sky.environment_scale);
+    out.sky.environment_rotation_rad = narrow(here.sky.environment_rotation_degrees * kPi / 180.0);
+    out.sky.analytic_sun = !here.sun.from_scene;
 
-    const double lamps = lamp_scale(scenario.lights, sun.elevation_rad);
+    const double lamps = lamp_scale(here.lights, sun.elevation_rad);
     out.scene_light_scale = narrow(lamps);
     out.emissive_scale = narrow(lamps);
 
@@ -197,10 +277,10 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     settings.width = scenario.output.width;
     settings.height = scenario.output.height;
     settings.samples = scenario.output.samples;
-    settings.time_s = frame / scenario.output.fps;
+    settings.time_s = job.frame / scenario.output.fps;
     settings.seed = scenario.output.seed;
-    settings.exposure = narrow(value_at(scenario.camera.exposure, time_s, 0.0));
-    settings.exposure_bias_stops = narrow(value_at(scenario.camera.exposure_bias, time_s, 0.0));
+    settings.exposure = narrow(value_at(camera.exposure, time_s, 0.0));
+    settings.exposure_bias_stops = narrow(value_at(camera.exposure_bias, time_s, 0.0));
     settings.shadows = scenario.render.shadows;
     settings.ambient_occlusion = scenario.render.ambient_occlusion;
     settings.image_based_light = scenario.render.image_based_light;
@@ -212,12 +292,15 @@ SequenceFrame frame_at(const Sequence& sequence, int frame)
     return result;
 }
 
-std::string frame_fingerprint(const Sequence& sequence, const gpu::Frame& frame)
+std::string frame_fingerprint(const Sequence& sequence, const SequenceFrame& what)
 {
+    const gpu::Frame& frame = what.frame;
     Hasher hasher;
     hasher.add("petrichor " PETRICHOR_VERSION);
     hasher.add(sequence.content);
+    hasher.add(what.environment);
     hasher.add(sequence.scenario.scene.max_texture);
+    hasher.add(sequence.scenario.render.ripple_texture_size);
     for (const MaterialOverride& one : sequence.scenario.materials) {
         hasher.add(one.glob);
         for (const auto& [name, values] : one.values) {

@@ -1,11 +1,12 @@
 #ifndef PETRICHOR_FILM_JOBS_SEQUENCE_H
 #define PETRICHOR_FILM_JOBS_SEQUENCE_H
 
-#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "film/jobs/bridge.h"
+#include "film/frames/job.h"
+#include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
 #include "gpu/renderer.h"
 #include "scene/scene.h"
@@ -31,31 +32,50 @@ struct ImageSize {
 ImageSize parse_size(std::string_view text);
 void check_size(const ImageSize& size);
 
+/// The conditions of a variant, and the weather that follows from them.
+struct SequenceVariant {
+    std::string name;  ///< "" of the scenario's own
+    Conditions conditions;
+    WeatherSource weather;
+    std::string environment = {};  ///< fingerprint of its sky's picture; "": none
+};
+
 /// A scene and a scenario that together say what every frame shows.
 struct Sequence {
     Scenario scenario;
-    scene::Scene scene;       ///< as loaded; the pixels may be gone
-    scene::Bounds bounds;     ///< of the scene's content, for framing
+    std::vector<SequenceVariant> variants;  ///< at least one
+    std::vector<ScenarioView> views;        ///< at least one
+    scene::Scene scene;                     ///< as loaded; the pixels may be gone
+    scene::Bounds bounds;                   ///< of the scene's content, for framing
     double duration_s = 0.0;  ///< frame 0 to one after the last, on the scenario's clock
-    std::function<WeatherMoment(double time_s)> weather;  ///< a function of the time alone
-    std::string content;  ///< fingerprint of the files behind scene and environment
+    std::string content;      ///< fingerprint of the scene's files
 };
+
+/// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of
+/// the longest weather, else as long as the film). Throws Error as weather_source.
+Sequence make_sequence(Scenario scenario);
 
 /// Time of a frame on the clock of weather, sun and camera.
 double frame_time_s(const Sequence& sequence, int frame);
 
+/// Jobs of a range of frames in their order: by frame, then variant, then view. Of them a shard.
+std::vector<Job> jobs_of(const Sequence& sequence, const FrameRange& range,
+                         const Shard& shard = {});
+
 struct SequenceFrame {
     double time_s = 0.0;
+    weather::Moment moment;    ///< its clock, place and sun; values as in frame.weather
+    std::string weather_name;  ///< of the preset or file
+    std::string environment;   ///< as in SequenceVariant
     gpu::Frame frame;
 };
 
-/// Everything that the renderer is told about a frame; depends on nothing but the sequence and the
-/// number, so any frame can be rendered alone.
-SequenceFrame frame_at(const Sequence& sequence, int frame);
+/// Everything that the renderer is told about a job; depends on nothing but the sequence and the
+/// job, so any picture can be rendered alone. Throws Error for a variant or view that is not there.
+SequenceFrame frame_at(const Sequence& sequence, const Job& job);
 
-/// Fingerprint of everything that decides the picture of a frame: a picture made under the same one
-/// is the same picture.
-std::string frame_fingerprint(const Sequence& sequence, const gpu::Frame& frame);
+/// Fingerprint of everything that decides a picture: one made under the same is the same picture.
+std::string frame_fingerprint(const Sequence& sequence, const SequenceFrame& frame);
 
 }  // namespace petrichor::film
 

@@ -5,25 +5,19 @@
 
 #include "film/scenario/scenario.h"
 #include "scene/scene.h"
+#include "weather/moment.h"
 
 namespace petrichor::film {
 
-struct SunDirection {
-    double elevation_rad = 0.0;
-    double azimuth_rad = 0.0;  ///< clockwise from north (-z) towards east (+x)
-};
+/// The direction that light travelling along `travel` comes from, in a scene whose north lies
+/// north_rad clockwise from -z.
+weather::SunAngles direction_against(const glm::vec3& travel, double north_rad = 0.0);
 
-/// Where the sun stands by local solar time; hours beyond 0..24 are other days. Good to half a
-/// degree. source: Cooper 1969, The absorption of radiation in solar stills (declination);
-/// spherical astronomy.
-SunDirection solar_position(double latitude_rad, double day_of_year, double hours);
-
-/// The direction that light travelling along `travel` comes from.
-SunDirection direction_against(const glm::vec3& travel);
-
-/// The sun of a moment: the scenario's angles, else its time of day, else against the scene's first
-/// directional light, else 35 degrees high in the south-east.
-SunDirection sun_at(const ScenarioSun& sun, const scene::Scene& scene, double time_s);
+/// The sun of a moment, from north: the scenario's angles, else its time of day, else what the
+/// weather file's place and clock say, else against the scene's first directional light, else 35
+/// degrees high in the south-east.
+weather::SunAngles sun_at(const ScenarioSun& sun, const scene::Scene& scene,
+                          const weather::Moment& moment, double north_rad, double time_s);
 
 }  // namespace petrichor::film
 

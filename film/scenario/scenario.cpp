@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "base/words.h"
+#include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenario/weather_table.h"
 #include "film/toml/toml_value.h"
 
 namespace petrichor::film {
@@ -54,6 +56,11 @@ CameraKey& still_camera(Scenario& s)
     return s.camera.keys.front();
 }
 
+// Keys of [weather] that weather_script_from reads and checks.
+void read_by_the_script(Scenario&, const TomlValue&)
+{
+}
+
 const std::vector<Rule>& rules()
 {
     static const std::vector<Rule> table{
@@ -68,6 +75,9 @@ const std::vector<Rule>& rules()
         {{"scene", "max_texture", "4096",
           "larger textures are reduced to this many texels a side, 16 to 16384"},
          [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
+        {{"scene", "north_degrees", "0.0",
+          "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
+         [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
 
         {{"camera", "name", "\"Camera\"",
           "a camera of the scene; without one the whole scene is framed"},
@@ -103,11 +113,15 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.sun.from_scene = v.choice({"sky", "scene"}) == 1;
          }},
-        {{"sun", "elevation_degrees", "35.0", "height above the horizon, -90 to 90", true, true},
+        {{"sun", "elevation_degrees", "35.0",
+          "height above the horizon, -90 to 90; without it and a time of day, a weather file's "
+          "place and clock decide",
+          true, true},
          [](Scenario& s, const TomlValue& v) { s.sun.elevation_degrees = v.keyed(-90.0, 90.0); }},
         {{"sun", "azimuth_degrees", "140.0",
-          "clockwise from north (-z) over east (+x); go past 360 rather than back to 0", true,
-          true},
+          "clockwise from north (-z, see north_degrees) over east; go past 360 rather than back to "
+          "0",
+          true, true},
          [](Scenario& s, const TomlValue& v) { s.sun.azimuth_degrees = v.keyed(-3600.0, 3600.0); }},
         {{"sun", "time_of_day_hours", "[[0.0, 14.0], [48.0, 18.5]]",
           "local solar time instead of elevation and azimuth, 0 to 24 (48 is the next midnight)",
@@ -140,6 +154,73 @@ const std::vector<Rule>& rules()
         {{"sky", "ground_albedo", "0.2", "of the land beyond the scene, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.sky.ground_albedo = v.number(0.0, 1.0); }},
 
+        {{"weather", "preset", "\"rain-then-snow\"",
+          "a name that `petrichor doctor` lists, or a .toml file with a [weather] table", false,
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.preset = v.text();
+             if (s.weather.preset.empty()) v.refuse("the name of a preset or a file");
+         }},
+        {{"weather", "file", "\"denver.epw\"",
+          "or a weather file (EPW, METAR, CSV, .. as `petrichor simulate` reads): sun, clouds, "
+          "wind "
+          "and sight follow it"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.file = v.text();
+             if (s.weather.file.empty()) v.refuse("the name of a weather file");
+         }},
+        {{"weather", "model", "\"auto\"",
+          "physical (SI: energy and water balance), artist (0..1), or auto: physical for a file"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.model = static_cast<WeatherModel>(v.choice({"auto", "artist", "physical"}));
+         }},
+        {{"weather", "start", "\"01-10\"",
+          "when in the file the clock's 0 s is: ISO 8601, month and day, or seconds; else its "
+          "first "
+          "row"},
+         [](Scenario& s, const TomlValue& v) { s.weather.start = v.text(); }},
+        {{"weather", "end", "\"01-12\"", "and when the film ends, unless output.duration_s says"},
+         [](Scenario& s, const TomlValue& v) { s.weather.end = v.text(); }},
+        {{"weather", "hours_per_second", "1.0",
+          "hours of the file for a second of the clock, 0.0001 to 10000"},
+         [](Scenario& s, const TomlValue& v) { s.weather.hours_per_second = v.number(1e-4, 1e4); }},
+        {{"weather", "surface", "\"asphalt\"",
+          "of the physical model: concrete, paving_stones, cobblestone, brick, soil, grass, .."},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.surface = v.text(); }},
+        {{"weather", "spin_up_days", "30.0",
+          "the physical model begins this long before `start`; else with the file's first row"},
+         [](Scenario& s, const TomlValue& v) { s.weather.spin_up_days = v.number(0.0, 36500.0); }},
+        {{"weather", "latitude_degrees", "45.3", "north; where the file does not say"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.latitude_deg = v.number(-90.0, 90.0);
+         }},
+        {{"weather", "longitude_degrees", "5.77", "east; likewise"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.longitude_deg = v.number(-180.0, 360.0);
+         }},
+        {{"weather", "elevation_m", "1325.0", "above the sea; likewise"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.elevation_m = v.number(-450.0, 9000.0);
+         }},
+        {{"weather", "station", "\"EGLL\"", "of a METAR file; else the one with most reports"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.station = v.text(); }},
+        {{"weather", "month", "\"2024-02\"", "of METAR reports, which say only the day"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.month = v.text(); }},
+        {{"weather", "keys",
+          "[\n"
+          "    { time_s = 0.0, temperature_c = 12.0, rainfall = 0.0, cloud_cover = 0.3 },\n"
+          "    { time_s = 10.0, rainfall = 0.8, cloud_cover = 0.9, wind_m_s = 6.0, wind_from_deg = "
+          "240.0 },\n"
+          "    { time_s = 30.0, temperature_c = -6.0, visibility_m = 2000.0 },\n"
+          "]",
+          "or keys of your own (rainfall 0 to 1, or rain_mm_h; snow below 0 C)"},
+         read_by_the_script},
+        {{"weather", "interpolation", "\"linear\"", "between these keys: hold, linear or smooth"},
+         read_by_the_script},
+        {{"weather", "duration_s", "48.0", "of these keys; else to the last"}, read_by_the_script},
+        {{"weather", "loop", "false", "begin these keys again when they end, for ever"},
+         read_by_the_script},
+
         {{"lights", "lamps", "\"dusk\"",
           "point and spot lights and glowing materials: on, off, or on at dusk"},
          [](Scenario& s, const TomlValue& v) {
@@ -153,12 +234,19 @@ const std::vector<Rule>& rules()
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
 
-        {{"render", "shadows", "true", "of sun and lamps"},
+        {{"render", "shadows", "true", "of the sun"},
          [](Scenario& s, const TomlValue& v) { s.render.shadows = v.boolean(); }},
         {{"render", "ambient_occlusion", "true", "darker corners"},
          [](Scenario& s, const TomlValue& v) { s.render.ambient_occlusion = v.boolean(); }},
         {{"render", "image_based_light", "true", "light from the sky or the HDR picture"},
          [](Scenario& s, const TomlValue& v) { s.render.image_based_light = v.boolean(); }},
+        {{"render", "ripple_texture_size", "512",
+          "texels a side of the map of rings that rain draws: 64, 128 .. 4096"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.ripple_texture_size = v.integer(64, 4096);
+             if ((s.render.ripple_texture_size & (s.render.ripple_texture_size - 1)) != 0)
+                 v.refuse("a power of two from 64 to 4096");
+         }},
         {{"render", "shelter", "true", "roofs keep rain and snow off"},
          [](Scenario& s, const TomlValue& v) { s.render.shelter = v.boolean(); }},
         {{"render", "draw_sky", "true", "false: black where the scene ends"},
@@ -214,17 +302,17 @@ std::vector<std::string> table_names()
     for (const Rule& rule : rules()) {
         if (names.empty() || names.back() != rule.key.table) names.push_back(rule.key.table);
     }
-    names.push_back("weather");
-    names.push_back("materials");
+    for (const char* name : {"look", "materials", "variant", "view"}) names.emplace_back(name);
     return names;
 }
 
-void read_table(Scenario& scenario, const std::string& table, const TomlValue& value)
+void read_rules(Scenario& scenario, const std::string& table, const TomlValue& value)
 {
     std::vector<std::string> known;
     for (const Rule& rule : rules()) {
         if (rule.key.table == table) known.push_back(rule.key.name);
     }
+    if (table == "weather") known.emplace_back("artist");
     // Read in the order of the rules, not of the file: what a file means does not depend on its
     // order.
     const auto entries = value.entries(known);
@@ -236,66 +324,165 @@ void read_table(Scenario& scenario, const std::string& table, const TomlValue& v
     }
 }
 
-void read_weather_preset(Scenario& scenario, const toml::table& table)
+// What [weather] says, in place of what was there before: a source is never mixed with another.
+void read_weather(Scenario& scenario, const TomlValue& value, const toml::table& table)
 {
-    const toml::node* preset = table.get("preset");
-    if (!preset) return;
-    const TomlValue value(*preset, scenario.name, "weather.preset");
-    scenario.weather_preset = value.text();
-    if (scenario.weather_preset.empty()) value.refuse("the name of a preset or a file");
-    if (table.size() > 1) {
+    scenario.weather = {};
+    read_rules(scenario, "weather", value);
+    ScenarioWeather& weather = scenario.weather;
+    const bool keyed = table.contains("keys") || table.contains("interpolation") ||
+                       table.contains("duration_s") || table.contains("loop");
+    const bool artist = table.contains("artist");
+    if (!weather.preset.empty() && (keyed || artist)) {
         throw Error(value.place() + ": [weather] has a preset and also keys of its own",
                     "Give either preset = \"...\" alone, or the keys without it.");
     }
+    if (!weather.file.empty() && (keyed || !weather.preset.empty())) {
+        throw Error(value.place() + ": [weather] has a file and also a preset or keys",
+                    "Give either file = \"...\", or preset = \"...\", or keys.");
+    }
+    if (keyed) {
+        weather.script = weather_script_from(value);
+    } else if (artist) {
+        weather.artist =
+            artist_settings_from(TomlValue(*table.get("artist"), scenario.name, "weather.artist"));
+    }
 }
 
-void check_camera(const Scenario& scenario, const toml::table& root)
+void read_look(Scenario& scenario, const TomlValue& value)
 {
-    const auto& keys = scenario.camera.keys;
+    std::vector<std::string> known;
+    for (const LookKey& key : look_keys()) known.push_back(key.name);
+    for (const auto& [name, entry] : value.entries(known)) {
+        for (const LookKey& key : look_keys()) {
+            if (key.name != name) continue;
+            // A variant's key takes the place of the scenario's.
+            std::erase_if(scenario.look, [&](const auto& old) { return old.first == key.name; });
+            scenario.look.emplace_back(name, entry.keyed_numbers(key.count, key.low, key.high));
+        }
+    }
+}
+
+void check_camera(const ScenarioCamera& camera, const TomlValue& value, const toml::table& table)
+{
+    const auto& keys = camera.keys;
     if (keys.empty()) return;
-    const toml::table& table = *root["camera"].as_table();
-    const TomlValue camera(*root.get("camera"), scenario.name, "camera");
     if (table.contains("keys") && (table.contains("position_m") || table.contains("look_at_m") ||
                                    table.contains("fov_degrees"))) {
         throw Error(
-            camera.place() + ": camera has keys and also position_m, look_at_m or fov_degrees",
+            value.place() + ": camera has keys and also position_m, look_at_m or fov_degrees",
             "Give either a path in keys or one fixed position.");
     }
     if (keys.front().position_m.has_value() != keys.front().look_at_m.has_value()) {
-        throw Error(camera.place() + ": camera needs position_m and look_at_m together",
+        throw Error(value.place() + ": camera needs position_m and look_at_m together",
                     "Give both, or leave both out.");
+    }
+}
+
+void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& table)
+{
+    read_rules(scenario, "camera", value);
+    check_camera(scenario.camera, value, table);
+    for (KeyedNumber* number : {&scenario.camera.exposure, &scenario.camera.exposure_bias}) {
+        number->interpolation = scenario.camera.interpolation;
+    }
+}
+
+void read_table(Scenario& scenario, const std::string& table, const toml::node& node,
+                const TomlValue& value)
+{
+    if (!node.is_table()) value.refuse("a table, written [" + table + "]");
+    if (table == "weather") {
+        read_weather(scenario, value, *node.as_table());
+    } else if (table == "materials") {
+        scenario.materials = read_material_overrides(*node.as_table(), scenario.name);
+    } else if (table == "look") {
+        read_look(scenario, value);
+    } else if (table == "camera") {
+        read_camera(scenario, value, *node.as_table());
+    } else {
+        read_rules(scenario, table, value);
+    }
+}
+
+// [[variant]] or [[view]]: a name, and tables read over a copy of the scenario.
+void read_parts(const Scenario& scenario, const std::string& kind, const toml::node& node,
+                const std::vector<std::string>& tables,
+                const std::function<void(const std::string&, const Scenario&)>& add)
+{
+    const TomlValue list(node, scenario.name, kind);
+    if (!node.is_array_of_tables()) list.refuse("an array of tables, written [[" + kind + "]]");
+    std::vector<std::string> known = tables;
+    known.insert(known.begin(), "name");
+    std::vector<std::string> names;
+    for (const TomlValue& part : list.elements()) {
+        Scenario changed = scenario;
+        std::string name;
+        const auto entries = part.entries(known);
+        for (const auto& [key, value] : entries) {
+            if (key == "name") {
+                name = value.text();
+                check_part_name(name, value.place() + ": " + kind + " name");
+            }
+        }
+        if (name.empty()) part.refuse("a table with a name, which becomes part of file names");
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            throw Error(part.place() + ": there are two [[" + kind + "]] called \"" + name + "\"",
+                        "Give each its own name.");
+        }
+        names.push_back(name);
+        const toml::table& table = *node.as_array()->get(names.size() - 1)->as_table();
+        for (const auto& [key, value] : entries) {
+            if (key != "name") read_table(changed, key, *table.get(key), value);
+        }
+        add(name, changed);
     }
 }
 
 }  // namespace
 
+void check_part_name(const std::string& name, const std::string& what)
+{
+    const auto fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '-' || c == '.';
+    };
+    if (name.empty() || name.size() > 64 || name[0] == '.' ||
+        !std::all_of(name.begin(), name.end(), fits)) {
+        throw Error(what + ": must be 1 to 64 letters, digits, - or ., got \"" + name + "\"",
+                    "It becomes part of file names: frame_0003_wet.exr.");
+    }
+}
+
 Scenario parse_scenario(std::string_view text, const std::string& name)
 {
     Scenario scenario;
     scenario.name = name;
-    scenario.text = std::string(text);
     const toml::table root = parse_toml(text, name);
     const auto known = table_names();
     for (const auto& [key, node] : root) {
         const std::string table(key.str());
         const TomlValue value(node, name, table);
         if (std::find(known.begin(), known.end(), table) == known.end()) {
-            refuse_name(value.place(), node.is_table() ? "table" : "key outside of a table", table,
-                        known);
+            const bool tables = node.is_table() || node.is_array_of_tables();
+            refuse_name(value.place(), tables ? "table" : "key outside of a table", table, known);
         }
-        if (!node.is_table()) value.refuse("a table, written [" + table + "]");
-        if (table == "weather") {
-            scenario.has_weather = true;
-            read_weather_preset(scenario, *node.as_table());
-        } else if (table == "materials") {
-            scenario.materials = read_material_overrides(*node.as_table(), scenario.name);
-        } else {
-            read_table(scenario, table, value);
-        }
+        if (table != "variant" && table != "view") read_table(scenario, table, node, value);
     }
-    if (root.contains("camera")) check_camera(scenario, root);
-    for (KeyedNumber* number : {&scenario.camera.exposure, &scenario.camera.exposure_bias}) {
-        number->interpolation = scenario.camera.interpolation;
+    // Over all that the file says, wherever in it they stand.
+    if (const toml::node* node = root.get("variant")) {
+        read_parts(scenario, "variant", *node, {"weather", "sun", "sky", "lights", "look"},
+                   [&](const std::string& part, const Scenario& changed) {
+                       scenario.variants.push_back({part, changed});
+                   });
+    }
+    if (const toml::node* node = root.get("view")) {
+        Scenario bare = scenario;
+        bare.camera = {};
+        read_parts(bare, "view", *node, {"camera"},
+                   [&](const std::string& part, const Scenario& changed) {
+                       scenario.views.push_back({part, changed.camera});
+                   });
     }
     return scenario;
 }
@@ -322,6 +509,11 @@ const std::vector<ScenarioKey>& scenario_keys()
     static const std::vector<ScenarioKey> keys = [] {
         std::vector<ScenarioKey> all;
         for (const Rule& rule : rules()) all.push_back(rule.key);
+        for (const LookKey& key : look_keys()) {
+            const std::string meaning =
+                key.count == 1 ? key.meaning : key.meaning + " (keyed: [[time_s, [..]], ...])";
+            all.push_back({"look", key.name, key.example, meaning, key.count == 1, false});
+        }
         for (ScenarioKey& key : material_keys()) all.push_back(std::move(key));
         return all;
     }();
@@ -340,7 +532,8 @@ std::string table_meaning(const std::string& table)
         {"lights", "The lamps of the scene. Without this table they are always on."},
         {"render", "What the renderer computes; all of it without this table."},
         {"output", "The sequence and its files."},
-        {"weather", "What falls from the sky, and when."},
+        {"weather", "What falls from the sky, and when: a preset, a weather file, or keys."},
+        {"look", "How weather is drawn."},
         {"materials",
          "Properties of materials, by their names; * stands for any letters. Later tables win."},
     };

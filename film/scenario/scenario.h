@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "film/scenario/site_options.h"
+#include "film/scenario/weather_script.h"
 #include "film/toml/keyed.h"
 #include "gpu/frame/frame.h"
 
@@ -18,6 +20,7 @@ struct ScenarioScene {
     std::string file;             ///< .glb or .gltf, relative to the scenario; or "demo:street"
     std::uint32_t demo_seed = 1;  ///< for the generated demo scene
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
+    double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
 };
 
 struct CameraKey {
@@ -55,6 +58,29 @@ struct ScenarioSky {
     double ground_albedo = 0.2;
 };
 
+/// Which model makes the moments of a weather file.
+enum class WeatherModel {
+    Auto,      ///< physical for weather files, artist for keys
+    Artist,    ///< 0..1, rates in seconds of the film
+    Physical,  ///< SI: energy and water balance of a surface
+};
+
+/// [weather]: a preset, keys of its own, or a weather file; nothing of it: a dry clear day.
+struct ScenarioWeather {
+    std::string preset;                    ///< its name, or a .toml file
+    std::string file;                      ///< any weather file, relative to the scenario
+    std::optional<WeatherScript> script;   ///< keys of the scenario itself
+    std::optional<ArtistSettings> artist;  ///< [weather.artist] beside a file
+    WeatherModel model = WeatherModel::Auto;
+    std::string start, end;         ///< of the film in the file, as times.h; "": first, last row
+    double hours_per_second = 1.0;  ///< hours of the file for a second of the clock
+    std::optional<double>
+        spin_up_days;  ///< physical: days before `start`; not given: all there are
+    SiteOptions site;  ///< place, sensors, surface, station, month
+
+    bool given() const { return script || !preset.empty() || !file.empty(); }
+};
+
 enum class Lamps { On, Off, Dusk };
 
 struct ScenarioLights {
@@ -66,6 +92,7 @@ struct ScenarioLights {
 
 struct ScenarioRender {
     bool shadows = true;
+    int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     bool ambient_occlusion = true;
     bool image_based_light = true;
     bool shelter = true;
@@ -97,26 +124,48 @@ struct MaterialOverride {
     std::vector<std::pair<std::string, std::vector<double>>> values;
 };
 
-/// Everything a scenario file says, in the units of the file.
-struct Scenario {
-    std::string name;              ///< for messages: the file as the user gave it
-    std::filesystem::path folder;  ///< where relative names in it are looked for
-    std::string text;              ///< the file itself: weather_script reads [weather] from it
-    bool has_weather = false;      ///< there is a [weather] table
-    std::string weather_preset;    ///< its `preset`: a name or a file, instead of keys of its own
-    ScenarioScene scene;
-    ScenarioCamera camera;
+/// [look]: keys of look_keys() with their values over time, one number a channel.
+using ScenarioLook = std::vector<std::pair<std::string, std::vector<KeyedNumber>>>;
+
+/// What a variant of a frame may change: the weather and what stands in the sky.
+struct Conditions {
+    ScenarioWeather weather;
     ScenarioSun sun;
     ScenarioSky sky;
     ScenarioLights lights;
+    ScenarioLook look;
+};
+
+/// The same frames under other conditions: [[variant]] with tables of its own over the scenario's.
+struct ScenarioVariant {
+    std::string name;  ///< part of file names: letters, digits, - and .
+    Conditions conditions;
+};
+
+/// The same frames from elsewhere: [[view]] with a camera of its own.
+struct ScenarioView {
+    std::string name;  ///< as above
+    ScenarioCamera camera;
+};
+
+/// Everything a scenario file says, in the units of the file.
+struct Scenario : Conditions {
+    std::string name;              ///< for messages: the file as the user gave it
+    std::filesystem::path folder;  ///< where relative names in it are looked for
+    ScenarioScene scene;
+    ScenarioCamera camera;
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;
+    std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
+    std::vector<ScenarioView> views;        ///< empty: the scenario's own camera
 };
 
+/// "wet", "left-2.5": what may be part of a file name. Throws Error with `what` for anything else.
+void check_part_name(const std::string& name, const std::string& what);
+
 /// Reads a scenario from TOML text. Unknown tables and keys, wrong types and values out of range
-/// throw Error with "name:line" and, for names, the nearest one that exists. Of [weather] only
-/// `preset` is read here, its keys are weather_script's.
+/// throw Error with "name:line" and, for names, the nearest one that exists.
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
 /// The same from a file; relative names in it are taken from the file's folder.
@@ -132,7 +181,7 @@ struct ScenarioKey {
     bool starter = false;  ///< written active, not commented out, by `petrichor init`
 };
 
-/// All keys, in the order in which they are documented ([weather] is not among them).
+/// All keys, in the order in which they are documented.
 const std::vector<ScenarioKey>& scenario_keys();
 
 /// One line about each table.

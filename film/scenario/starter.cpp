@@ -1,6 +1,8 @@
 #include "film/scenario/starter.h"
 
+#include "base/words.h"
 #include "film/scenario/scenario.h"
+#include "weather/models/artist/model.h"
 
 namespace petrichor::film {
 namespace {
@@ -9,6 +11,38 @@ std::string header_of(const std::string& table)
 {
     return table == "materials" ? "[materials.\"*cobble*\"]" : "[" + table + "]";
 }
+
+// Parameters of the artist model: for keys, and for files under it. A preset has its own.
+std::string artist_table(bool all_active)
+{
+    const weather::ArtistParams defaults;
+    const std::string off = all_active ? "" : "# ";
+    std::string text =
+        "\n# How the artist model reacts; with keys, or with a file and model = "
+        "\"artist\".\n" +
+        off + "[weather.artist]\n";
+    for (const auto& parameter : weather::artist_parameters()) {
+        const std::string name(parameter.name);
+        text += "# " + number_text(parameter.low) + " to " + number_text(parameter.high) + "\n" +
+                off + name + " = " + number_text(defaults.*parameter.member) + "\n";
+    }
+    return text + "# 0 to 1 each: the state at 0 s\n" + off +
+           "initial = { water_to_snow = 0.01, wetness = 0.0, cracks = 0.0, puddles = 0.0, snow = "
+           "0.0 }\n";
+}
+
+// The same frames under other conditions and from elsewhere: arrays of tables.
+constexpr const char* kParts =
+    "\n# The same frames under other conditions: frame_0003_dry.exr and frame_0003_snow.exr. "
+    "Tables\n"
+    "# weather, sun, sky, lights and look stand in for those above.\n"
+    "# [[variant]]\n# name = \"dry\"\n# [variant.weather]\n# keys = [{ time_s = 0.0, "
+    "temperature_c = 15.0, rainfall = 0.0 }]\n"
+    "# [[variant]]\n# name = \"snow\"\n# [variant.weather]\n# preset = \"first-snow\"\n"
+    "\n# The same frames from other cameras: frame_0003_left.exr; with variants "
+    "frame_0003_snow_left.exr.\n"
+    "# [[view]]\n# name = \"left\"\n# [view.camera]\n# position_m = [-4.0, 2.0, 8.0]\n# "
+    "look_at_m = [0.0, 1.0, 0.0]\n";
 
 }  // namespace
 
@@ -24,21 +58,7 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
     std::string table;
     for (const ScenarioKey& key : scenario_keys()) {
         const bool first_of_table = key.table != table;
-        if (first_of_table && table == "output") {
-            text += "\n# " + table_meaning("weather") + "\n[weather]\n" +
-                    "# a name that `petrichor doctor` lists, or a file with a [weather] table\n"
-                    "preset = \"rain-then-snow\"\n"
-                    "# ... or instead of the preset, keys of your own (rainfall 0 to 1; snow below "
-                    "0 C):\n"
-                    "# interpolation = \"linear\"\n"
-                    "# keys = [\n"
-                    "#     { time_s = 0.0, temperature_c = 12.0, rainfall = 0.0, cloud_cover = "
-                    "0.3, wind_m_s = 2.0,\n"
-                    "#       wind_from_deg = 240.0, visibility_m = 20000.0 },\n"
-                    "#     { time_s = 10.0, rainfall = 0.8, cloud_cover = 0.9 },\n"
-                    "#     { time_s = 30.0, temperature_c = -6.0 },\n"
-                    "# ]\n";
-        }
+        if (first_of_table && table == "weather") text += artist_table(all_active);
         if (first_of_table) {
             table = key.table;
             const bool optional = table == "materials" && !all_active;
@@ -58,7 +78,7 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
         }
         text += "# " + key.meaning + (key.keyed ? " (keyed)" : "") + "\n" + line + "\n";
     }
-    return text;
+    return text + kParts;
 }
 
 }  // namespace petrichor::film

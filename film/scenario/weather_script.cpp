@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/words.h"
 #include "film/scenario/weather_table.h"
+#include "weather/models/physical/mapping.h"
 
 namespace petrichor::film {
 namespace {
@@ -19,7 +20,15 @@ struct Quantity {
     std::string name;
     double low = 0.0;
     double high = 0.0;
+    std::string channel = {};             ///< another name's channel, for a quantity in SI ...
+    double (*to_unit)(double) = nullptr;  ///< ... and how it becomes 0..1 there
 };
+
+// Part C's maps, on asphalt.
+double depth_share(double depth_m)
+{
+    return depth_m * 1e3 / weather::Surface{}.puddles.depth_mm;
+}
 
 std::vector<Quantity> quantities()
 {
@@ -32,6 +41,13 @@ std::vector<Quantity> quantities()
     all.push_back({"script_controlled", 0.0, 1.0});
     for (const auto& state : weather::hand_set_states())
         all.push_back({std::string(state.name), 0.0, 1.0});
+    all.push_back({"rain_mm_h", 0.0, 50.0, "rainfall",
+                   [](double v) { return weather::rainfall_of_rate({}, v); }});
+    all.push_back(
+        {"film_mm", 0.0, 9.5, "wetness", [](double v) { return weather::wetness_of_film({}, v); }});
+    all.push_back(
+        {"snow_depth_m", 0.0, 1.9, "snow", [](double v) { return weather::snow_of_depth({}, v); }});
+    all.push_back({"puddle_depth_m", 0.0, 0.015, "puddles", depth_share});
     return all;
 }
 
@@ -40,10 +56,10 @@ Channel& channel_of(WeatherScript& script, const std::string& name)
 {
     if (name == "temperature_c") return script.timeline.temperature_c;
     if (name == "rainfall") return script.timeline.rainfall;
-    if (name == "cloud_cover") return script.cloud_cover;
-    if (name == "wind_m_s") return script.wind_m_s;
-    if (name == "wind_from_deg") return script.wind_from_deg;
-    if (name == "visibility_m") return script.visibility_m;
+    if (name == "cloud_cover") return script.sky.cloud_cover;
+    if (name == "wind_m_s") return script.sky.wind_m_s;
+    if (name == "wind_from_deg") return script.sky.wind_from_deg;
+    if (name == "visibility_m") return script.sky.visibility_m;
     for (const auto& state : weather::hand_set_states()) {
         if (state.name == name) return script.timeline.states[name];
     }
@@ -71,16 +87,20 @@ void read_keys(const TomlValue& keys, weather::Interpolation interpolation, Weat
             const std::string& key_name = name;
             const auto quantity = std::find_if(
                 known.begin(), known.end(), [&](const Quantity& q) { return q.name == key_name; });
-            Channel& channel = channel_of(script, name);
-            if (std::find(started.begin(), started.end(), name) == started.end()) {
-                started.push_back(name);
+            const std::string& target = quantity->to_unit ? quantity->channel : key_name;
+            Channel& channel = channel_of(script, target);
+            if (std::find(started.begin(), started.end(), target) == started.end()) {
+                started.push_back(target);
                 const bool hold = name == "script_controlled";  // a switch
                 channel = {.times = {},
                            .values = {},
                            .interpolation = hold ? weather::Interpolation::Hold : interpolation};
             }
+            if (!channel.times.empty() && channel.times.back() == *time)
+                key.refuse("one of " + target + " and the same in SI, not both");
             channel.times.push_back(*time);
-            channel.values.push_back(value.number(quantity->low, quantity->high));
+            const double number = value.number(quantity->low, quantity->high);
+            channel.values.push_back(quantity->to_unit ? quantity->to_unit(number) : number);
         }
     }
     for (const char* needed : {"temperature_c", "rainfall"}) {
@@ -157,16 +177,18 @@ WeatherScript weather_script_from(const TomlValue& weather_table)
     auto interpolation = weather::Interpolation::Linear;
     std::optional<double> duration_s;
     std::optional<TomlValue> keys;
-    for (const auto& [name, value] :
-         weather_table.entries({"model", "interpolation", "duration_s", "keys", "artist"})) {
+    for (const auto& [name, value] : weather_table.entries(
+             {"model", "interpolation", "duration_s", "loop", "keys", "artist"})) {
         if (name == "model") {
-            value.choice({"artist"});
+            value.choice({"artist", "auto"});
         } else if (name == "interpolation") {
             interpolation = *weather::interpolation_named(std::vector<std::string>{
                 "hold", "linear",
                 "smooth"}[static_cast<std::size_t>(value.choice({"hold", "linear", "smooth"}))]);
         } else if (name == "duration_s") {
             duration_s = value.number(0.0, 1e9);
+        } else if (name == "loop") {
+            script.loop = value.boolean();
         } else if (name == "keys") {
             keys = value;
         } else {

@@ -7,6 +7,7 @@
 #include "weather/models/artist/exact.h"
 #include "weather/models/artist/model.h"
 #include "weather/models/artist/timeline.h"
+#include "weather/moment.h"
 
 namespace petrichor::film {
 
@@ -20,6 +21,7 @@ namespace petrichor::film {
 ///   model = "artist"                      # the default, and the only model of these files
 ///   interpolation = "linear"              # hold, linear (default) or smooth
 ///   duration_s = 48.0                     # default: time of the last key
+///   loop = false                          # true: the keys begin again after duration_s
 ///   keys = [
 ///     { time_s =  0, temperature_c = 12, rainfall = 0.0, cloud_cover = 0.3 },
 ///     { time_s = 10, temperature_c = 11, rainfall = 0.6 },   # a key may leave out what does not
@@ -35,20 +37,20 @@ namespace petrichor::film {
 /// snow), cloud_cover (0 clear .. 1 overcast), wind_m_s (0..80), wind_from_deg (where it comes
 /// from; 0 north, 90 east; may pass 360 to keep turning), visibility_m (20..200000, 2 % contrast),
 /// and any number of [artist]; script_controlled (1 on, 0 off: the state is set by hand) and, for
-/// while it is off, wetness, cracks, puddles, snow, water_to_snow (0..1). Each quantity is
+/// while it is off, wetness, cracks, puddles, snow, water_to_snow (0..1). In SI, by the inverse of
+/// part C's maps on asphalt: rain_mm_h for rainfall (0..50), film_mm for wetness (0..9.5),
+/// snow_depth_m for snow (0..1.9), puddle_depth_m for puddles (0..0.015). Each quantity is
 /// interpolated between the keys that name it; one that no key names keeps the default below, or
 /// the parameter's own value.
 struct WeatherScript {
     std::string name;
     std::string description;
     double duration_s = 0.0;
+    bool loop = false;  ///< the keys begin again after duration_s; the state goes on
     weather::Timeline timeline;
     weather::ArtistParams params;
     weather::ArtistState initial;
-    weather::Channel cloud_cover = weather::constant_channel(0.3);
-    weather::Channel wind_m_s = weather::constant_channel(2.0);
-    weather::Channel wind_from_deg = weather::constant_channel(240.0);
-    weather::Channel visibility_m = weather::constant_channel(20000.0);
+    weather::SkyChannels sky;
 
     /// The solved weather, for any time.
     weather::ArtistTimeline solve() const

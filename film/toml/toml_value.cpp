@@ -131,6 +131,30 @@ KeyedNumber TomlValue::keyed(double low, double high) const
     return number;
 }
 
+std::vector<KeyedNumber> TomlValue::keyed_numbers(std::size_t count, double low, double high) const
+{
+    if (count == 1) return {keyed(low, high)};
+    std::vector<KeyedNumber> channels(count);
+    const toml::array* array = node_->as_array();
+    if (!array || array->empty() || !array->get(0)->is_array()) {
+        const auto values = numbers(count, low, high);
+        for (std::size_t i = 0; i < count; ++i) channels[i].keys.push_back({0.0, values[i]});
+        return channels;
+    }
+    for (const TomlValue& element : elements()) {
+        const toml::array* pair = element.node_->as_array();
+        if (!pair || pair->size() != 2)
+            element.refuse("a pair [time_s, [" + std::to_string(count) + " numbers]]");
+        const auto both = element.elements();
+        const double time_s = both[0].number(-1e9, 1e9);
+        const auto values = both[1].numbers(count, low, high);
+        if (!channels[0].keys.empty() && time_s <= channels[0].keys.back().time_s)
+            element.refuse("later than the key before it");
+        for (std::size_t i = 0; i < count; ++i) channels[i].keys.push_back({time_s, values[i]});
+    }
+    return channels;
+}
+
 Interpolation TomlValue::interpolation() const
 {
     static constexpr Interpolation kMeanings[] = {Interpolation::Hold, Interpolation::Linear,

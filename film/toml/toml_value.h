@@ -32,6 +32,9 @@ public:
     std::vector<std::string> texts() const;
     /// A number, or [[time_s, value], ...] with ascending times.
     KeyedNumber keyed(double low, double high) const;
+    /// `count` numbers over time: [a, b, ..], or [[time_s, [a, b, ..]], ...]; one number: as
+    /// keyed().
+    std::vector<KeyedNumber> keyed_numbers(std::size_t count, double low, double high) const;
     Interpolation interpolation() const;
     /// Elements of an array, each under the name key[i].
     std::vector<TomlValue> elements() const;

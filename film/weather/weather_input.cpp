@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 #include "base/error.h"
@@ -123,8 +124,8 @@ WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::s
     script.timeline = weather::artist_keys(table);
     script.duration_s = static_cast<double>(table.time_us.back() - table.time_us.front()) * 1e-6;
     script.params.time_scale = weather::kFileTimeScale;
-    script.cloud_cover = weather::channel_of_field(table, Field::Cloud);
-    script.wind_m_s = weather::channel_of_field(table, Field::Wind);
+    script.sky.cloud_cover = weather::channel_of_field(table, Field::Cloud);
+    script.sky.wind_m_s = weather::channel_of_field(table, Field::Wind);
     const auto complete = [&](Field field) {
         for (const double v : table[field]) {
             if (std::isnan(v)) return false;
@@ -132,9 +133,9 @@ WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::s
         return table.has(field);
     };
     if (complete(Field::WindFrom))
-        script.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
+        script.sky.wind_from_deg = unwound(weather::channel_of_field(table, Field::WindFrom));
     if (complete(Field::Visibility))
-        script.visibility_m = weather::channel_of_field(table, Field::Visibility);
+        script.sky.visibility_m = weather::channel_of_field(table, Field::Visibility);
     return script;
 }
 
@@ -145,14 +146,68 @@ WeatherScript faster_script(WeatherScript script, double factor)
             time = static_cast<weather::TimeUs>(std::llround(static_cast<double>(time) / factor));
     };
     for (weather::Channel* channel :
-         {&script.timeline.temperature_c, &script.timeline.rainfall, &script.cloud_cover,
-          &script.wind_m_s, &script.wind_from_deg, &script.visibility_m}) {
+         {&script.timeline.temperature_c, &script.timeline.rainfall, &script.sky.cloud_cover,
+          &script.sky.wind_m_s, &script.sky.wind_from_deg, &script.sky.visibility_m}) {
         quicken(*channel);
     }
     for (auto& [name, channel] : script.timeline.parameters) quicken(channel);
     for (auto& [name, channel] : script.timeline.states) quicken(channel);
     script.duration_s /= factor;
     script.params.time_scale *= factor;
+    return script;
+}
+
+WeatherScript looped_script(WeatherScript script, double end_s)
+{
+    const weather::TimeUs period = weather::to_time_us(script.duration_s);
+    if (!script.loop || period <= 0 || end_s <= script.duration_s) return script;
+    const auto loops = static_cast<std::int64_t>(std::ceil(end_s / script.duration_s));
+    constexpr std::int64_t kMostKeys = 1000000;
+    const auto repeat = [&](weather::Channel& channel) {
+        weather::Channel once;
+        once.interpolation = channel.interpolation;
+        for (std::size_t i = 0; i < channel.times.size(); ++i) {
+            if (channel.times[i] > period) break;
+            once.times.push_back(channel.times[i]);
+            once.values.push_back(channel.values[i]);
+        }
+        if (once.empty()) return;
+        // Both ends have a key, so that nothing is drawn from one loop into the next.
+        const double first = weather::value_at(channel, 0.0);
+        const double last = weather::value_at(channel, static_cast<double>(period));
+        if (once.times.front() != 0) {
+            once.times.insert(once.times.begin(), 0);
+            once.values.insert(once.values.begin(), first);
+        }
+        if (once.times.back() != period) {
+            once.times.push_back(period);
+            once.values.push_back(last);
+        }
+        if (loops * static_cast<std::int64_t>(once.times.size()) > kMostKeys) {
+            throw Error("weather: a loop of " + std::to_string(script.duration_s) +
+                            " s is repeated " + std::to_string(loops) +
+                            " times, more than a million keys",
+                        "Make weather.duration_s longer, or the film shorter.");
+        }
+        weather::Channel all;
+        all.interpolation = once.interpolation;
+        for (std::int64_t loop = 0; loop < loops; ++loop) {
+            for (std::size_t i = 0; i < once.times.size(); ++i) {
+                // A microsecond after the end of the loop before.
+                const weather::TimeUs after = loop > 0 && i == 0 ? 1 : 0;
+                all.times.push_back(loop * period + once.times[i] + after);
+                all.values.push_back(once.values[i]);
+            }
+        }
+        channel = std::move(all);
+    };
+    for (weather::Channel* channel :
+         {&script.timeline.temperature_c, &script.timeline.rainfall, &script.sky.cloud_cover,
+          &script.sky.wind_m_s, &script.sky.wind_from_deg, &script.sky.visibility_m}) {
+        repeat(*channel);
+    }
+    for (auto& [name, channel] : script.timeline.parameters) repeat(channel);
+    for (auto& [name, channel] : script.timeline.states) repeat(channel);
     return script;
 }
 

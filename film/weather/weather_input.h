@@ -1,28 +1,15 @@
 #ifndef PETRICHOR_FILM_WEATHER_WEATHER_INPUT_H
 #define PETRICHOR_FILM_WEATHER_WEATHER_INPUT_H
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "film/scenario/site_options.h"
 #include "film/scenario/weather_script.h"
 #include "film/weather/inputs.h"
 #include "weather/readers/read_weather.h"
 
 namespace petrichor::film {
-
-/// What the command line says about a weather file. What is not given comes from the file, then
-/// from defaults.
-struct SiteOptions {
-    std::optional<double> latitude_deg, longitude_deg, elevation_m, temp_height_m, wind_height_m;
-    std::optional<double> sky_view, canopy_vai;  ///< as in weather::PhysicalParams
-    std::string surface = "asphalt";
-    std::string station;                 ///< of a METAR file
-    std::string month;                   ///< "2024-02": of METAR reports, which name only the day
-    std::string missing_precip = "dry";  ///< dry or estimate
-    std::string ignore;                  ///< columns that may stay unread, by comma, or all
-    std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups
-};
 
 /// The [site] table of a parameter TOML under what the command line says. Other tables but [artist]
 /// are errors.
@@ -40,6 +27,11 @@ WeatherScript script_of_forcing(const weather::ForcingTable& table, const std::s
 /// The same weather in less time: every key `factor` times as early, the model as much faster. For
 /// films: with 3600 an hour of a weather file is a second.
 WeatherScript faster_script(WeatherScript script, double factor);
+
+/// The script with its keys repeated every duration_s until `end_s`, where it says `loop`; else as
+/// it is. A loop ends where the next begins: there the inputs jump.
+///   throws  Error when that takes more than a million keys
+WeatherScript looped_script(WeatherScript script, double end_s);
 
 /// Lines of text, for notes.
 std::vector<std::string> lines_of(const std::string& text);

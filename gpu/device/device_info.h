@@ -24,6 +24,7 @@ std::vector<DeviceInfo> list_devices();
 struct RendererOptions {
     std::string device;       ///< part of a device name or an index; empty: best GPU, else CPU
     bool validation = false;  ///< load the validation layer and collect its messages
+    int ripple_texture_size = 512;  ///< texels a side of the map of rings: a power of two, 64..4096
 };
 
 struct PassTime {

@@ -114,7 +114,7 @@ TEST_F(Render, ResumeRedoesWhatIsDamagedOrOtherwiseMade)
     EXPECT_THAT(other.err, HasSubstr("1 frames rendered"));
     const auto records = read_frame_records(place_ / "out");
     ASSERT_EQ(records.size(), 3u);
-    EXPECT_NE(records.at(1).settings, records.at(0).settings);
+    EXPECT_NE(records.at({1}).settings, records.at({0}).settings);
     for (const auto& [frame, record] : records)
         EXPECT_TRUE(files_are_whole(record, place_ / "out"));
 }
@@ -132,8 +132,8 @@ TEST_F(Render, CtrlCKeepsWholeFramesAndSaysHowToGoOn)
     EXPECT_GE(records.size(), 2u);
     EXPECT_LT(records.size(), 500u);
     std::size_t files = 1;  // frames.jsonl
-    for (const auto& [frame, record] : records) {
-        EXPECT_TRUE(files_are_whole(record, place_ / "out")) << frame;
+    for (const auto& [job, record] : records) {
+        EXPECT_TRUE(files_are_whole(record, place_ / "out")) << job.frame;
         files += record.files.size();
     }
     EXPECT_EQ(contents(place_ / "out").size(), files) << "nothing but what frames.jsonl names";

@@ -336,7 +336,7 @@ TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
     weather::ForcingTable turning = read.table;
     turning[weather::Field::WindFrom].assign(turning.rows(), 350.0);
     turning[weather::Field::WindFrom][1] = 10.0;
-    EXPECT_NEAR(weather::value_at(script_of_forcing(turning, "x").wind_from_deg, 1800e6), 360.0,
+    EXPECT_NEAR(weather::value_at(script_of_forcing(turning, "x").sky.wind_from_deg, 1800e6), 360.0,
                 1e-9);
     // A film of it: an hour is a second, the states are the same.
     const WeatherScript film = faster_script(script, 3600.0);

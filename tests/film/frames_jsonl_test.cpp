@@ -18,7 +18,7 @@ using testing_program::write_file;
 FrameFacts facts_of(int frame, const std::string& settings)
 {
     FrameFacts facts;
-    facts.frame = frame;
+    facts.job.frame = frame;
     facts.settings = settings;
     facts.files = {{"frame.png", 3}};
     facts.input.weather.rain = 0.1f;
@@ -29,14 +29,14 @@ TEST(FramesJsonl, LinesComeBackAndStayInOrder)
 {
     const Workplace place("jsonl");
     merge_frame_lines(place.path(),
-                      {{7, frame_line(facts_of(7, "a"))}, {2, frame_line(facts_of(2, "a"))}});
+                      {{{7}, frame_line(facts_of(7, "a"))}, {{2}, frame_line(facts_of(2, "a"))}});
     merge_frame_lines(place.path(),
-                      {{5, frame_line(facts_of(5, "b"))}, {7, frame_line(facts_of(7, "c"))}});
+                      {{{5}, frame_line(facts_of(5, "b"))}, {{7}, frame_line(facts_of(7, "c"))}});
     const auto records = read_frame_records(place.path());
     ASSERT_EQ(records.size(), 3u);
-    EXPECT_EQ(records.at(2).settings, "a");
-    EXPECT_EQ(records.at(7).settings, "c");
-    EXPECT_EQ(records.at(7).files.at("frame.png"), 3u);
+    EXPECT_EQ(records.at({2}).settings, "a");
+    EXPECT_EQ(records.at({7}).settings, "c");
+    EXPECT_EQ(records.at({7}).files.at("frame.png"), 3u);
     EXPECT_EQ(read_file(place / "frames.jsonl"), frame_line(facts_of(2, "a")) + "\n" +
                                                      frame_line(facts_of(5, "b")) + "\n" +
                                                      frame_line(facts_of(7, "c")) + "\n");
@@ -61,8 +61,8 @@ TEST(FramesJsonl, BrokenLinesAreLeftOut)
 TEST(FramesJsonl, FilesAreWholeOnlyWithTheirSize)
 {
     const Workplace place("whole");
-    merge_frame_lines(place.path(), {{1, frame_line(facts_of(1, "a"))}});
-    const auto record = read_frame_records(place.path()).at(1);
+    merge_frame_lines(place.path(), {{{1}, frame_line(facts_of(1, "a"))}});
+    const auto record = read_frame_records(place.path()).at({1});
     EXPECT_FALSE(files_are_whole(record, place.path()));
     write_file(place / "frame.png", "1234");
     EXPECT_FALSE(files_are_whole(record, place.path()));
@@ -79,7 +79,7 @@ TEST(FramesJsonl, WritersAtOnceLoseNothing)
         writers.emplace_back([&place, writer] {
             for (int i = 0; i < 25; ++i) {
                 const int frame = writer * 25 + i;
-                merge_frame_lines(place.path(), {{frame, frame_line(facts_of(frame, "a"))}});
+                merge_frame_lines(place.path(), {{{frame}, frame_line(facts_of(frame, "a"))}});
             }
         });
     }

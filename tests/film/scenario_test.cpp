@@ -35,7 +35,7 @@ TEST(Scenario, EmptyTextGivesTheDefaults)
     EXPECT_EQ(scenario.output.width, 640);
     EXPECT_EQ(scenario.output.height, 360);
     EXPECT_EQ(scenario.output.frames, 48);
-    EXPECT_FALSE(scenario.has_weather);
+    EXPECT_FALSE(scenario.weather.given());
 }
 
 TEST(Scenario, ReadsEveryKindOfValue)
@@ -73,7 +73,7 @@ sheltered = true
     EXPECT_EQ(scenario.lights.lamps, Lamps::Dusk);
     EXPECT_EQ(scenario.output.width, 320);
     EXPECT_THAT(scenario.output.aovs, testing::ElementsAre("depth", "wetness"));
-    EXPECT_TRUE(scenario.has_weather);
+    EXPECT_TRUE(scenario.weather.given());
     ASSERT_EQ(scenario.materials.size(), 2u);
     EXPECT_EQ(scenario.materials[0].glob, "*brick*");
     EXPECT_EQ(scenario.materials[0].values.size(), 2u);
@@ -139,7 +139,7 @@ TEST(Scenario, TheStarterParsesAsItStands)
 {
     const Scenario scenario = parse_scenario(starter_scenario("mine", "a.glb"), "mine.toml");
     EXPECT_EQ(scenario.scene.file, "a.glb");
-    EXPECT_TRUE(scenario.has_weather);
+    EXPECT_TRUE(scenario.weather.given());
     EXPECT_TRUE(scenario.materials.empty());
 }
 
@@ -165,6 +165,10 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
         std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";
         if (key.name == "look_at_m") text += "position_m = [0, 0, 0]\n";
+        const bool of_keys =
+            key.name == "interpolation" || key.name == "duration_s" || key.name == "loop";
+        if (key.table == "weather" && of_keys)
+            text += "keys = [{ time_s = 0, temperature_c = 1, rainfall = 0 }]\n";
         EXPECT_NO_THROW(parse_scenario(text, "s.toml")) << text;
         if (key.keyed) {
             EXPECT_NO_THROW(parse_scenario(

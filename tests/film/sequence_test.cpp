@@ -37,14 +37,13 @@ TEST(Size, AcceptsWhatCanBeRendered)
 
 Sequence sequence_of(const std::string& text)
 {
-    Sequence sequence;
-    sequence.scenario = parse_scenario(text, "s.toml");
+    Sequence sequence = make_sequence(parse_scenario(text, "s.toml"));
     sequence.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
     sequence.duration_s = 48.0;
-    sequence.weather = [](double time_s) {
-        WeatherMoment moment;
-        moment.surface.rain = static_cast<float>(time_s / 48.0);
-        moment.surface.cloud_fraction = 0.4f;
+    sequence.variants[0].weather.at = [](double time_s) {
+        weather::Moment moment;
+        moment.values.rain = static_cast<float>(time_s / 48.0);
+        moment.values.cloud_fraction = 0.4f;
         return moment;
     };
     sequence.content = "content";
@@ -56,13 +55,13 @@ TEST(FrameAt, TimesRunFromTheStartOverTheDuration)
     const Sequence sequence = sequence_of("[output]\nframes = 24\nstart_s = 10\nfps = 8\n");
     EXPECT_DOUBLE_EQ(frame_time_s(sequence, 0), 10.0);
     EXPECT_DOUBLE_EQ(frame_time_s(sequence, 12), 34.0);
-    EXPECT_DOUBLE_EQ(frame_at(sequence, 12).frame.settings.time_s, 1.5);
+    EXPECT_DOUBLE_EQ(frame_at(sequence, {12}).frame.settings.time_s, 1.5);
 }
 
 TEST(FrameAt, CloudsComeFromTheWeatherUnlessGiven)
 {
-    EXPECT_FLOAT_EQ(frame_at(sequence_of(""), 0).frame.sky.cloud_cover, 0.4f);
-    EXPECT_FLOAT_EQ(frame_at(sequence_of("[sky]\ncloud_cover = 0.9\n"), 0).frame.sky.cloud_cover,
+    EXPECT_FLOAT_EQ(frame_at(sequence_of(""), {0}).frame.sky.cloud_cover, 0.4f);
+    EXPECT_FLOAT_EQ(frame_at(sequence_of("[sky]\ncloud_cover = 0.9\n"), {0}).frame.sky.cloud_cover,
                     0.9f);
 }
 
@@ -72,11 +71,11 @@ TEST(FrameAt, LampsComeOnAtDusk)
         "[sun]\nelevation_degrees = [[0, 12], [48, 0]]\n[lights]\nlamps = \"dusk\"\ndusk_degrees = "
         "4\n"
         "dusk_fade_degrees = 4\nscale = 2\n");
-    EXPECT_EQ(frame_at(sequence, 0).frame.scene_light_scale, 0.0f);
-    EXPECT_EQ(frame_at(sequence, 47).frame.scene_light_scale, 2.0f);
+    EXPECT_EQ(frame_at(sequence, {0}).frame.scene_light_scale, 0.0f);
+    EXPECT_EQ(frame_at(sequence, {47}).frame.scene_light_scale, 2.0f);
     float before = 0.0f;
     for (int i = 0; i < 48; ++i) {
-        const float lamps = frame_at(sequence, i).frame.scene_light_scale;
+        const float lamps = frame_at(sequence, {i}).frame.scene_light_scale;
         EXPECT_GE(lamps, before);
         before = lamps;
     }
@@ -86,7 +85,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
 {
     const auto print = [](const std::string& text, int frame) {
         const Sequence sequence = sequence_of(text);
-        return frame_fingerprint(sequence, frame_at(sequence, frame).frame);
+        return frame_fingerprint(sequence, frame_at(sequence, {frame}));
     };
     const std::string base = print("", 5);
     EXPECT_EQ(print("", 5), base);
@@ -103,7 +102,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
     EXPECT_NE(print("", 6), base);
     Sequence sequence = sequence_of("");
     sequence.content = "another scene";
-    EXPECT_NE(frame_fingerprint(sequence, frame_at(sequence, 5).frame), base);
+    EXPECT_NE(frame_fingerprint(sequence, frame_at(sequence, {5})), base);
 }
 
 // Every corner of the bounds lies inside the frame, and one touches its edge (within the margin).
@@ -175,16 +174,17 @@ TEST(CameraTowards, LooksAtThePointWithYUp)
 }
 
 // Noon at the equinox: the sun stands in the south at 90 degrees minus the latitude.
-TEST(SolarPosition, KnownMoments)
+TEST(SunBySolarTime, KnownMoments)
 {
-    const SunDirection noon = solar_position(50.0 * kDegree, 81.0, 12.0);
+    const weather::SunAngles noon = weather::sun_angles_by_solar_time(80.0, 12.0, 50.0);
     EXPECT_NEAR(noon.elevation_rad / kDegree, 40.0, 0.5);
     EXPECT_NEAR(noon.azimuth_rad / kDegree, 180.0, 0.5);
-    const SunDirection morning = solar_position(50.0 * kDegree, 81.0, 6.0);
+    const weather::SunAngles morning = weather::sun_angles_by_solar_time(80.0, 6.0, 50.0);
     EXPECT_NEAR(morning.elevation_rad / kDegree, 0.0, 0.5);
     EXPECT_NEAR(morning.azimuth_rad / kDegree, 90.0, 0.5);
-    EXPECT_NEAR(solar_position(50.0 * kDegree, 172.0, 12.0).elevation_rad / kDegree, 63.45, 0.1);
-    EXPECT_LT(solar_position(50.0 * kDegree, 172.0, 0.0).elevation_rad, 0.0);
+    EXPECT_NEAR(weather::sun_angles_by_solar_time(172.0, 12.0, 50.0).elevation_rad / kDegree, 63.44,
+                0.02);
+    EXPECT_LT(weather::sun_angles_by_solar_time(172.0, 0.0, 50.0).elevation_rad, 0.0);
 }
 
 TEST(SunAt, FollowsTheScenesLightUnlessTold)
@@ -195,11 +195,11 @@ TEST(SunAt, FollowsTheScenesLightUnlessTold)
     light.direction =
         glm::normalize(glm::vec3(-1.0f, -1.0f, 0.0f));  // from the east, 45 degrees high
     scene.lights = {light};
-    EXPECT_NEAR(sun_at({}, scene, 0.0).elevation_rad / kDegree, 45.0, 1e-4);
-    EXPECT_NEAR(sun_at({}, scene, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
+    EXPECT_NEAR(sun_at({}, scene, {}, 0.0, 0.0).elevation_rad / kDegree, 45.0, 1e-4);
+    EXPECT_NEAR(sun_at({}, scene, {}, 0.0, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
     const Scenario told = parse_scenario("[sun]\nelevation_degrees = 10\n", "s.toml");
-    EXPECT_NEAR(sun_at(told.sun, scene, 0.0).elevation_rad / kDegree, 10.0, 1e-9);
-    EXPECT_NEAR(sun_at(told.sun, scene, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
+    EXPECT_NEAR(sun_at(told.sun, scene, {}, 0.0, 0.0).elevation_rad / kDegree, 10.0, 1e-9);
+    EXPECT_NEAR(sun_at(told.sun, scene, {}, 0.0, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
 }
 
 }  // namespace

@@ -22,39 +22,73 @@ double clearest_beam_w_m2(double sine_elevation, double extraterrestrial_w_m2)
     return extraterrestrial_w_m2 * detail::exponential(path * detail::logarithm(0.78));
 }
 
+// Days since 2000-01-01 12:00 UTC; 946728000 s after 1970.
+double days_since_2000(std::int64_t unix_us)
+{
+    return (static_cast<double>(unix_us) * 1e-6 - 946728000.0) / 86400.0;
+}
+
+// The sun on its yearly way.
+struct Ecliptic {
+    double sin_longitude, cos_longitude;
+    double cos_tilt;
+    double sin_declination, cos_declination;
+    double distance_au;
+};
+
+Ecliptic ecliptic(double days)
+{
+    const double mean_longitude = 280.460 + 0.9856474 * days;
+    const auto anomaly = detail::sine_cosine(radians(357.528 + 0.9856003 * days));
+    const double sin_2g = 2.0 * anomaly.sin * anomaly.cos;
+    const auto longitude =
+        detail::sine_cosine(radians(mean_longitude + 1.915 * anomaly.sin + 0.020 * sin_2g));
+    const auto tilt = detail::sine_cosine(radians(23.439 - 4.0e-7 * days));
+    Ecliptic sun;
+    sun.sin_longitude = longitude.sin;
+    sun.cos_longitude = longitude.cos;
+    sun.cos_tilt = tilt.cos;
+    sun.sin_declination = tilt.sin * longitude.sin;
+    sun.cos_declination = std::sqrt(1.0 - sun.sin_declination * sun.sin_declination);
+    sun.distance_au =
+        1.00014 - 0.01671 * anomaly.cos - 0.00014 * (2.0 * anomaly.cos * anomaly.cos - 1.0);
+    return sun;
+}
+
+SunDirection seen_from(double latitude_deg, const Ecliptic& at, double sin_hour, double cos_hour)
+{
+    const auto latitude = detail::sine_cosine(radians(latitude_deg));
+    SunDirection sun;
+    sun.east = -at.cos_declination * sin_hour;
+    sun.north = latitude.cos * at.sin_declination - latitude.sin * at.cos_declination * cos_hour;
+    sun.up = latitude.sin * at.sin_declination + latitude.cos * at.cos_declination * cos_hour;
+    sun.extraterrestrial_w_m2 = 1361.0 / (at.distance_au * at.distance_au);
+    return sun;
+}
+
 }  // namespace
 
 SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg)
 {
-    // Days since 2000-01-01 12:00 UTC; 946728000 s after 1970.
-    const double days = (static_cast<double>(unix_us) * 1e-6 - 946728000.0) / 86400.0;
-    const double mean_longitude = 280.460 + 0.9856474 * days;
-    const auto anomaly = detail::sine_cosine(radians(357.528 + 0.9856003 * days));
-    const double sin_2g = 2.0 * anomaly.sin * anomaly.cos;
-    const auto ecliptic =
-        detail::sine_cosine(radians(mean_longitude + 1.915 * anomaly.sin + 0.020 * sin_2g));
-    const auto tilt = detail::sine_cosine(radians(23.439 - 4.0e-7 * days));
-    const double sin_declination = tilt.sin * ecliptic.sin;
-
+    const double days = days_since_2000(unix_us);
+    const Ecliptic sun = ecliptic(days);
     // Right ascension enters only through its sine and cosine: no arc tangent is needed.
-    const double cos_declination = std::sqrt(1.0 - sin_declination * sin_declination);
-    const double cos_ascension = ecliptic.cos / cos_declination;
-    const double sin_ascension = tilt.cos * ecliptic.sin / cos_declination;
+    const double cos_ascension = sun.cos_longitude / sun.cos_declination;
+    const double sin_ascension = sun.cos_tilt * sun.sin_longitude / sun.cos_declination;
     const double sidereal_deg = 280.46062 + 360.98564737 * days + longitude_deg;
     const double turns = sidereal_deg / 360.0;
     const auto sidereal = detail::sine_cosine(2.0 * kPi * (turns - std::floor(turns)));
     const double cos_hour = sidereal.cos * cos_ascension + sidereal.sin * sin_ascension;
     const double sin_hour = sidereal.sin * cos_ascension - sidereal.cos * sin_ascension;
+    return seen_from(latitude_deg, sun, sin_hour, cos_hour);
+}
 
-    const auto latitude = detail::sine_cosine(radians(latitude_deg));
-    const double distance_au =
-        1.00014 - 0.01671 * anomaly.cos - 0.00014 * (2.0 * anomaly.cos * anomaly.cos - 1.0);
-    SunDirection sun;
-    sun.east = -cos_declination * sin_hour;
-    sun.north = latitude.cos * sin_declination - latitude.sin * cos_declination * cos_hour;
-    sun.up = latitude.sin * sin_declination + latitude.cos * cos_declination * cos_hour;
-    sun.extraterrestrial_w_m2 = 1361.0 / (distance_au * distance_au);
-    return sun;
+SunDirection sun_by_solar_time(double day_of_year, double solar_hour, double latitude_deg)
+{
+    // Noon of that day in 2001, a year between two leap years; hours past midnight are other days.
+    const double days = 366.0 - 0.5 + (day_of_year - 1.0) + solar_hour / 24.0;
+    const auto hour = detail::sine_cosine(radians(15.0 * (solar_hour - 12.0)));
+    return seen_from(latitude_deg, ecliptic(days), hour.sin, hour.cos);
 }
 
 double sine_of_elevation(double latitude_rad, double declination_rad, double solar_hour)

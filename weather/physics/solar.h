@@ -16,6 +16,10 @@ struct SunDirection {
 ///   source               low-precision solar coordinates of the Astronomical Almanac
 SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg);
 
+/// Sun by solar time (12 = noon, the sun in the south or north; hours beyond 0..24 are other days)
+/// on a day of the year (1..366), with the declination that the function above has at that noon.
+SunDirection sun_by_solar_time(double day_of_year, double solar_hour, double latitude_deg);
+
 /// Sine of the solar elevation from the declination and the solar time in hours (12 = noon).
 double sine_of_elevation(double latitude_rad, double declination_rad, double solar_hour);
 

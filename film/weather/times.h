@@ -1,12 +1,12 @@
-#ifndef PETRICHOR_CLI_REPORT_TIMES_H
-#define PETRICHOR_CLI_REPORT_TIMES_H
+#ifndef PETRICHOR_FILM_WEATHER_TIMES_H
+#define PETRICHOR_FILM_WEATHER_TIMES_H
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
-namespace petrichor::cli {
+namespace petrichor::film {
 
 /// A positive number of seconds without rounding: 1/60 is 1/60.
 struct Fraction {
@@ -35,6 +35,6 @@ Fraction parse_duration(std::string_view text, const std::string& option);
 double parse_time(const std::string& text, const std::string& option,
                   std::optional<std::int64_t> start_us);
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::film
 
 #endif

@@ -1,9 +1,21 @@
-#include "film/jobs/bridge.h"
+#include "weather/moment.h"
 
 #include <gtest/gtest.h>
 
+#include "film/scenario/weather_script.h"
+
 namespace petrichor::film {
 namespace {
+
+using weather::cloud_cover_at;
+using weather::frost_at;
+using weather::Moment;
+using weather::wind_vector_m_s;
+
+Moment moment_of(const WeatherScript& script, const weather::ArtistTimeline& solved, double time_s)
+{
+    return weather::artist_moment(solved, script.timeline, script.sky, time_s);
+}
 
 WeatherScript script_of(const std::string& keys)
 {
@@ -19,16 +31,16 @@ TEST(WeatherMoment, PublishesTheStateOfTheModel)
         const auto time = weather::to_time_us(time_s);
         const auto state = weather.state_at(time);
         const auto published = weather.outputs_at(time);
-        const WeatherMoment moment = weather_moment(script, weather, time_s);
-        EXPECT_FLOAT_EQ(moment.surface.rain, static_cast<float>(state.rain));
-        EXPECT_FLOAT_EQ(moment.surface.flood_puddles, static_cast<float>(published.flood_puddles));
-        EXPECT_FLOAT_EQ(moment.surface.snow_amount,
+        const Moment moment = moment_of(script, weather, time_s);
+        EXPECT_FLOAT_EQ(moment.values.rain, static_cast<float>(state.rain));
+        EXPECT_FLOAT_EQ(moment.values.flood_puddles, static_cast<float>(published.flood_puddles));
+        EXPECT_FLOAT_EQ(moment.values.snow_amount,
                         static_cast<float>(state.snow * state.water_to_snow));
-        EXPECT_FLOAT_EQ(moment.surface.water_to_snow, static_cast<float>(state.water_to_snow));
-        EXPECT_FLOAT_EQ(moment.surface.air_temperature_k,
+        EXPECT_FLOAT_EQ(moment.values.water_to_snow, static_cast<float>(state.water_to_snow));
+        EXPECT_FLOAT_EQ(moment.values.air_temperature_k,
                         static_cast<float>(published.temperature_c + 273.15));
     }
-    EXPECT_FLOAT_EQ(weather_moment(script, weather, 1.0).surface.snow_height_blend_m, 10.0f);
+    EXPECT_FLOAT_EQ(moment_of(script, weather, 1.0).values.snow_height_blend_m, 10.0f);
 }
 
 TEST(Frost, GrowsInDryColdAndGoesInWarmth)
@@ -64,16 +76,16 @@ TEST(CloudCover, ComesBeforeTheRainAndFollowsKeysWhenThereAreSome)
     const WeatherScript keyed =
         script_of(keys + ", { time_s = 41, cloud_cover = 0.5, visibility_m = 900 }");
     const auto weather = keyed.solve();
-    EXPECT_FLOAT_EQ(weather_moment(keyed, weather, 30.0).surface.cloud_fraction, 0.5f);
-    EXPECT_FLOAT_EQ(weather_moment(keyed, weather, 30.0).surface.visibility_m, 900.0f);
+    EXPECT_FLOAT_EQ(moment_of(keyed, weather, 30.0).values.cloud_fraction, 0.5f);
+    EXPECT_FLOAT_EQ(moment_of(keyed, weather, 30.0).values.visibility_m, 900.0f);
 }
 
 TEST(Visibility, ShrinksWithWhatFalls)
 {
-    EXPECT_DOUBLE_EQ(visibility_m(0.0, 0.0), 20000.0);
-    EXPECT_NEAR(visibility_m(1.0, 0.0), 3000.0, 100.0);
-    EXPECT_NEAR(visibility_m(0.0, 1.0), 600.0, 20.0);
-    EXPECT_LT(visibility_m(0.5, 0.5), visibility_m(0.0, 0.5));
+    EXPECT_DOUBLE_EQ(weather::visibility_in_m(0.0, 0.0), 20000.0);
+    EXPECT_NEAR(weather::visibility_in_m(1.0, 0.0), 3000.0, 100.0);
+    EXPECT_NEAR(weather::visibility_in_m(0.0, 1.0), 600.0, 20.0);
+    EXPECT_LT(weather::visibility_in_m(0.5, 0.5), weather::visibility_in_m(0.0, 0.5));
 }
 
 TEST(WindVector, BlowsAwayFromWhereItComes)

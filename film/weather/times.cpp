@@ -1,4 +1,4 @@
-#include "cli/report/times.h"
+#include "film/weather/times.h"
 
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "weather/readers/text.h"
 
-namespace petrichor::cli {
+namespace petrichor::film {
 namespace {
 
 [[noreturn]] void refuse_duration(std::string_view text, const std::string& option)
@@ -118,4 +118,4 @@ double parse_time(const std::string& text, const std::string& option,
                 "The weather begins at " + weather::iso_from_us(*start_us) + ".");
 }
 
-}  // namespace petrichor::cli
+}  // namespace petrichor::film

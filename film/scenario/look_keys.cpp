@@ -1,0 +1,59 @@
+#include "film/scenario/look_keys.h"
+
+#include <cstring>
+
+namespace petrichor::film {
+
+using shared::WeatherLook;
+
+#define LOOK(field) #field, sizeof(WeatherLook::field) / sizeof(float)
+
+const std::vector<LookKey>& look_keys()
+{
+    static const std::vector<LookKey> keys{
+        {LOOK(snow_color), 0.0, 4.0, "[0.92, 0.94, 0.97]",
+         "linear red, green and blue of snow; above 1 brighter than white",
+         offsetof(WeatherLook, snow_color)},
+        {LOOK(snow_specular), 0.0, 1.0, "[0.02, 0.02, 0.02]",
+         "reflectance of snow seen straight on", offsetof(WeatherLook, snow_specular)},
+        {LOOK(snow_tiling), 0.0, 100.0, "[0.35, 1.7, 0.09, 0.83]",
+         "repeats per metre: relief of the snow, its detail, where it lies, detail of that",
+         offsetof(WeatherLook, snow_tiling)},
+        {LOOK(snow_strength), 0.0, 10.0, "[1.0, 1.0]",
+         "bumpiness of the snow and of its detail, times the material's",
+         offsetof(WeatherLook, snow_strength)},
+        {LOOK(ripple_tiling), 0.0, 100.0, "0.8", "repeats of the rings of rain per metre",
+         offsetof(WeatherLook, ripple_tiling)},
+        {LOOK(ripple_speed), 0.0, 10.0, "1.0", "of the rings; 1 as photographed",
+         offsetof(WeatherLook, ripple_speed)},
+        {LOOK(ripple_refraction), 0.0, 10.0, "0.5", "how far rings shift what lies below",
+         offsetof(WeatherLook, ripple_refraction)},
+        {LOOK(ripple_strength), 0.0, 4.0, "0.35", "slope of the rings",
+         offsetof(WeatherLook, ripple_strength)},
+        {LOOK(detail_distance_m), 0.0, 1e6, "50.0",
+         "ripples, flow and the snow's detail are gone from this far on",
+         offsetof(WeatherLook, detail_distance_m)},
+        {LOOK(detail_fade_m), 0.0, 1e6, "15.0", "and fade over this much before it",
+         offsetof(WeatherLook, detail_fade_m)},
+    };
+    return keys;
+}
+#undef LOOK
+
+shared::WeatherLook look_at(const ScenarioLook& look, double time_s)
+{
+    WeatherLook result;
+    for (const auto& [name, channels] : look) {
+        for (const LookKey& key : look_keys()) {
+            if (key.name != name) continue;
+            for (std::size_t i = 0; i < key.count; ++i) {
+                const auto value = static_cast<float>(value_at(channels[i], time_s));
+                std::memcpy(reinterpret_cast<char*>(&result) + key.offset + i * sizeof(float),
+                            &value, sizeof value);
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace petrichor::film
