@@ -72,7 +72,7 @@ struct Renderer::Impl {
           pipelines(device),
           descriptors(device),
           shared_arena(device),
-          surface_maps(device, shared_arena),
+          surface_maps(device, shared_arena, options.ripple_texture_size),
           depth_maps(device, shared_arena),
           sky(device, shared_arena),
           target_arena(std::make_unique<MemoryArena>(device)),

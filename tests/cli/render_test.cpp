@@ -165,6 +165,66 @@ TEST_F(Render, ASceneNeedsNoScenario)
     EXPECT_EQ(files.count("frame_0002.exr"), 0u);
 }
 
+// Two variants from two views: names, records, resume and shards go by job.
+TEST_F(Render, VariantsAndViewsAreJobs)
+{
+    write_file(place_ / "s.toml",
+               std::string(kScenario) +
+                   "[[variant]]\nname = \"wet\"\n[[variant]]\nname = \"snow\"\n"
+                   "[variant.weather]\npreset = \"first-snow\"\n"
+                   "[[view]]\nname = \"near\"\n[view.camera]\nposition_m = [1, 1, 2]\n"
+                   "look_at_m = [0, 0, 0]\n"
+                   "[[view]]\nname = \"far\"\n[view.camera]\nposition_m = [2, 2, 4]\n"
+                   "look_at_m = [0, 0, 0]\n");
+    const Outcome whole = render({"-o", "whole", "--count", "2"});
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_THAT(whole.err, HasSubstr("8 frames rendered"));
+    const auto files = contents(place_ / "whole");
+    for (const char* name : {"frame_0000_wet_near.exr", "frame_0001_snow_far.png"})
+        EXPECT_EQ(files.count(name), 1u) << name;
+    EXPECT_NE(files.at("frame_0001_wet_far.png"), files.at("frame_0001_wet_near.png"));
+    EXPECT_NE(files.at("frame_0001_wet_far.png"), files.at("frame_0001_snow_far.png"));
+    const auto records = read_frame_records(place_ / "whole");
+    EXPECT_EQ(records.size(), 8u);
+    EXPECT_EQ(records.count({1, "snow", "far"}), 1u);
+
+    for (const char* shard : {"3/3", "1/3", "2/3"})
+        ASSERT_EQ(render({"-o", "parts", "--count", "2", "--shard", shard}).exit_code, 0);
+    EXPECT_TRUE(contents(place_ / "parts") == files);
+    const Outcome again = render({"-o", "parts", "--count", "2", "--resume"});
+    EXPECT_THAT(again.err, HasSubstr("0 frames rendered, 8 kept"));
+    const Outcome one = render(
+        {"-o", "one", "--frames", "1", "--count", "2", "--variants", "snow", "--views", "far"});
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_TRUE(contents(place_ / "one").at("frame_0001_snow_far.exr") ==
+                files.at("frame_0001_snow_far.exr"));
+    EXPECT_EQ(render({"-o", "no", "--variants", "dry"}).exit_code, 2);
+}
+
+TEST_F(Render, AScenarioOfOursIsFoundBesideAFolderOfItsName)
+{
+    fs::create_directory(place_ / "demo");
+    const Outcome outcome =
+        run_petrichor({.arguments = {"render", "demo", "--frames", "99"}}, place_.path());
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("the sequence has frames 0 to 47"));
+}
+
+TEST_F(Render, BenchTimesAFrameOfAScenario)
+{
+    const Outcome outcome =
+        run_petrichor({.arguments = {"bench", "s.toml", "--frame", "3", "--repeat", "1", "--json"}},
+                      place_.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* text : {"\"scenario\": \"s.toml\"", "\"frame\": 3", "\"width\": 48",
+                             "\"samples\": 2", "\"ripple\""}) {
+        EXPECT_THAT(outcome.out, HasSubstr(text));
+    }
+    EXPECT_EQ(
+        run_petrichor({.arguments = {"bench", "s.toml", "--frame", "6"}}, place_.path()).exit_code,
+        2);
+}
+
 TEST_F(Render, BenchReportsAndKeepsThePicture)
 {
     const Outcome outcome =

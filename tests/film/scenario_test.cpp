@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
 #include "film/scenario/material_keys.h"
@@ -151,6 +152,25 @@ TEST(Scenario, TheStarterNamesEveryKey)
         EXPECT_FALSE(key.meaning.empty()) << key.name;
         EXPECT_FALSE(table_meaning(key.table).empty()) << key.table;
     }
+}
+
+// [weather.artist] with every number of the model; uncommented it is accepted.
+TEST(Scenario, TheStarterNamesEveryParameterOfTheModel)
+{
+    const std::string text = starter_scenario("mine", "a.glb");
+    const std::size_t at = text.find("# [weather.artist]\n");
+    ASSERT_NE(at, std::string::npos);
+    std::string table = "[weather]\nfile = \"a.epw\"\nmodel = \"artist\"\n";
+    std::istringstream lines(text.substr(at, text.find("\n\n", at) - at));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find(" = ") != line.npos || line.find('[') == 2) table += line.substr(2) + "\n";
+    }
+    for (const auto& parameter : weather::artist_parameters())
+        EXPECT_THAT(table, HasSubstr("\n" + std::string(parameter.name) + " = "));
+    const Scenario scenario = parse_scenario(table, "s.toml");
+    ASSERT_TRUE(scenario.weather.artist.has_value());
+    EXPECT_EQ(scenario.weather.artist->params.accumulation_rate_snow,
+              weather::ArtistParams{}.accumulation_rate_snow);
 }
 
 // Each documented example is accepted by itself, whatever its table holds besides.

@@ -165,6 +165,50 @@ TEST_F(RendererTest, SnowGrowsWithTheAmount)
     EXPECT_GT(before, 0.98f);
 }
 
+// Snow and rain in one picture; each number of the look is turned, and its picture is another.
+TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
+{
+    Material stone = plain_material(glm::vec3(0.3f), 0.7f);
+    stone.weather.default_height = 0.0f;
+    stone.weather.snow_detail_strength = 1.0f;
+    renderer->load(scene_of({ground()}, {stone}), {});
+    Frame rain = small_frame(look({0, 1.2f, 3}, {0, 0, 0}));
+    rain.weather = downpour();
+    rain.settings.time_s = 1.3;
+    Frame snow = rain;
+    snow.weather = deep_snow();
+    snow.weather.snow_amount = 0.6f;
+    const std::size_t numbers = sizeof(shared::WeatherLook) / sizeof(float);
+    const auto rain_before = renderer->render(rain).beauty;
+    const auto snow_before = renderer->render(snow).beauty;
+    for (std::size_t i = 0; i < numbers; ++i) {
+        Frame changed[] = {rain, snow};
+        for (Frame& frame : changed) {
+            float* look_numbers = reinterpret_cast<float*>(&frame.look);
+            // The distance of detail comes before the camera, its fade beyond the scene.
+            const float old = look_numbers[i];
+            look_numbers[i] = old > 10.0f ? (old > 20.0f ? 3.2f : 60.0f) : old * 2.5f;
+        }
+        EXPECT_TRUE(renderer->render(changed[0]).beauty != rain_before ||
+                    renderer->render(changed[1]).beauty != snow_before)
+            << "number " << i << " of WeatherLook";
+    }
+}
+
+TEST_F(RendererTest, RingsHaveTheTexelsThatAreAskedFor)
+{
+    Renderer coarse({.device = "", .validation = true, .ripple_texture_size = 64});
+    Frame frame = small_frame(look({0, 1.2f, 3}, {0, 0, 0}));
+    frame.weather = downpour();
+    Material stone = plain_material(glm::vec3(0.3f), 0.7f);
+    stone.weather.default_height = 0.0f;
+    const Scene scene = scene_of({ground()}, {stone});
+    renderer->load(scene, {});
+    coarse.load(scene, {});
+    EXPECT_NE(renderer->render(frame).beauty, coarse.render(frame).beauty);
+    EXPECT_TRUE(coarse.validation_messages().empty());
+}
+
 // A frame never depends on what was rendered before it.
 TEST_F(RendererTest, AFrameAloneIsTheFrameOfASequence)
 {

@@ -1,13 +1,15 @@
 #include "gpu/passes/surface_maps/surface_maps.h"
 
+#include <bit>
+
 #include "gpu/passes/surface_maps/surface_maps_io.h"
 
 namespace petrichor::gpu {
 
 namespace {
 
-constexpr int kRippleSize = 512;
-constexpr int kRippleMips = 10;
+constexpr int kSnowSize = 512;
+constexpr int kSnowMips = 10;
 constexpr int kFlowSize = 256;
 constexpr int kFlowMips = 9;
 
@@ -32,11 +34,12 @@ void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
 
 }  // namespace
 
-SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena)
-    : ripple_source(map(arena, "ripple_source", kRippleSize, 1)),
-      ripple(map(arena, "ripple", kRippleSize, kRippleMips)),
+SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size)
+    : ripple_source(map(arena, "ripple_source", size, 1)),
+      ripple(map(arena, "ripple", size, std::bit_width(static_cast<unsigned>(size)))),
       flow(map(arena, "flow", kFlowSize, kFlowMips)),
-      snow(map(arena, "snow", kRippleSize, kRippleMips)),
+      snow(map(arena, "snow", kSnowSize, kSnowMips)),
+      ripple_size(size),
       trilinear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                              VK_SAMPLER_ADDRESS_MODE_REPEAT))
 {
@@ -44,19 +47,20 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena)
 
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
 {
-    const Groups groups = groups_over(kRippleSize, kRippleSize, SURFACE_MAPS_TILE);
+    const Groups rings = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE);
+    const Groups snow = groups_over(kSnowSize, kSnowSize, SURFACE_MAPS_TILE);
     graph.add(ComputePass{.name = "ripple_source",
                           .shader = "ripple_source.comp",
                           .constants = {},
                           .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.ripple_source)}},
                           .push = {},
-                          .groups = groups});
+                          .groups = rings});
     graph.add(ComputePass{.name = "snow_mask",
                           .shader = "snow_mask.comp",
                           .constants = {},
                           .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.snow, 0)}},
                           .push = {},
-                          .groups = groups});
+                          .groups = snow});
     add_mips(graph, "snow_mask_mips", *maps.snow);
 }
 
@@ -69,7 +73,7 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, 
                     .bindings = {{RIPPLE_SOURCE, sampled(*maps.ripple_source, maps.trilinear)},
                                  {RIPPLE_TARGET, storage(*maps.ripple, 0)}},
                     .push = PushBlock(shared::RippleParams{rain, time_s, speed}),
-                    .groups = groups_over(kRippleSize, kRippleSize, SURFACE_MAPS_TILE)});
+                    .groups = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE)});
     add_mips(graph, "ripple_mips", *maps.ripple);
 }
 

@@ -7,12 +7,14 @@ namespace petrichor::gpu {
 
 /// Tileable maps of the weather that every surface samples.
 struct SurfaceMaps {
-    SurfaceMaps(const Device& device, MemoryArena& arena);
+    /// ripple_size: texels a side of the rings, a power of two.
+    SurfaceMaps(const Device& device, MemoryArena& arena, int ripple_size);
 
     std::unique_ptr<GpuImage> ripple_source;  ///< drops: envelope, direction, time offset
     std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
+    int ripple_size = 0;
     SamplerHandle trilinear;
     bool generated = false;  ///< source and snow are made once
 };
