@@ -97,11 +97,21 @@ void add_bench(CLI::App& app)
     CLI::App* command = app.add_subcommand("bench",
                                            "Time one frame: medians of CPU time, wall time and "
                                            "each pass. `bench weather`, `bench texture`: those.");
-    CLI::Option* scene = command->add_option("--scene", o->scene, "a .glb or .gltf file");
-    command->add_option("-s,--size", o->size, "WIDTHxHEIGHT in pixels (1280x720)");
+    CLI::Option* input =
+        command->add_option("SCENARIO", o->scenario,
+                            "scenario (.toml), scene or preset, with its weather, sky and size");
+    command->add_option("--frame", o->frame, "of the scenario (0)")->check(CLI::Range(0, 999999));
+    command->add_option("--variant", o->variant, "of the scenario (its first)");
+    command->add_option("--view", o->view, "of the scenario (its first)");
+    CLI::Option* scene = command->add_option(
+        "--scene", o->scene, "instead: a .glb or .gltf file with nothing that is not asked for");
+    scene->excludes(input);
+    command->add_option("-s,--size", o->size,
+                        "WIDTHxHEIGHT in pixels (the scenario's; with --scene 1280x720)");
     command->add_option("-r,--repeat", o->repeat, "timed frames after one to warm up (5)")
         ->check(CLI::Range(1, 100000));
-    command->add_option("--samples", o->samples, "samples a pixel (1)")->check(CLI::Range(1, 256));
+    command->add_option("--samples", o->samples, "samples a pixel (the scenario's; with --scene 1)")
+        ->check(CLI::Range(1, 256));
     command->add_option("--camera", o->camera, "a camera of the scene (its first)");
     command->add_option("--device", o->device,
                         "part of a device name, or its number in `petrichor doctor`");
@@ -115,23 +125,25 @@ void add_bench(CLI::App& app)
             std::map<std::string, gpu::SurfacePath>{{"auto", gpu::SurfacePath::Auto},
                                                     {"fragment", gpu::SurfacePath::Fragment},
                                                     {"visibility", gpu::SurfacePath::Visibility}}));
-    command->add_flag("--shadows", o->shadows, "with shadows of the sun");
-    command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion");
-    command->add_flag("--ibl", o->image_based_light, "with light from the sky");
-    command->add_flag("--sky", o->sky, "with the sky drawn");
-    command->add_flag("--rain", o->rain, "in heavy rain: ripples, puddles, shelter");
+    command->add_flag("--shadows", o->shadows, "with shadows of the sun")->needs(scene);
+    command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion")->needs(scene);
+    command->add_flag("--ibl", o->image_based_light, "with light from the sky")->needs(scene);
+    command->add_flag("--sky", o->sky, "with the sky drawn")->needs(scene);
+    command->add_flag("--rain", o->rain, "in heavy rain: ripples, puddles, shelter")->needs(scene);
     command->footer(
-        "Example: petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
+        "Example: petrichor bench my.toml --frame 22\n"
+        "         petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
         "         petrichor bench weather\n"
         "         petrichor bench texture\n"
-        "Without flags: no shadows, occlusion, sky light or anti-aliasing; tone mapped. The time "
+        "With --scene and no flags: no shadows, occlusion, sky light or anti-aliasing; tone "
+        "mapped. The time "
         "runs from\n"
         "the call until the pixels can be read.");
     add_weather(*command);
     add_texture_bench(*command);
-    command->callback([o, command, scene] {
+    command->callback([o, command, scene, input] {
         if (!command->get_subcommands().empty()) return;
-        if (scene->empty()) throw CLI::RequiredError("--scene");
+        if (scene->empty() && input->empty()) throw CLI::RequiredError("SCENARIO or --scene");
         run_render_bench(*o);
     });
 }

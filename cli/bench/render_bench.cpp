@@ -1,18 +1,24 @@
 #include "cli/bench/render_bench.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "cli/bench/measure.h"
+#include "cli/render/scenario_input.h"
 #include "cli/rooms.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/render_job.h"
+#include "film/jobs/scene_source.h"
 #include "film/jobs/sequence.h"
+#include "film/scenario/material_keys.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
 #include "gpu/renderer.h"
@@ -66,7 +72,7 @@ gpu::Frame bench_frame(const scene::Scene& scene, const RenderBenchOptions& opti
     gpu::FrameSettings& settings = frame.settings;
     settings.width = size.width;
     settings.height = size.height;
-    settings.samples = options.samples;
+    settings.samples = std::max(1, options.samples);
     settings.surface_path = options.surface_path;
     settings.shadows = options.shadows;
     settings.ambient_occlusion = options.ambient_occlusion;
@@ -92,15 +98,20 @@ FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::Re
     return frame_cost;
 }
 
-void print_json(const RenderBenchOptions& options, const std::string& device,
+void print_json(const RenderBenchOptions& options, int samples, const std::string& device,
                 const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
 {
     nlohmann::ordered_json report;
-    report["scene"] = std::filesystem::path(options.scene).filename().string();
+    if (options.scene.empty()) {
+        report["scenario"] = std::filesystem::path(options.scenario).filename().string();
+        report["frame"] = options.frame;
+    } else {
+        report["scene"] = std::filesystem::path(options.scene).filename().string();
+    }
     report["device"] = device;
     report["width"] = result.width;
     report["height"] = result.height;
-    report["samples"] = options.samples;
+    report["samples"] = samples;
     report["repeat"] = options.repeat;
     report["cpu_ms_per_frame"] = median_of(costs, &Cost::cpu_ms);
     report["wall_ms_per_frame"] = median_of(costs, &Cost::wall_ms);
@@ -113,11 +124,15 @@ void print_json(const RenderBenchOptions& options, const std::string& device,
     std::cout << report.dump(2) << "\n";
 }
 
-void print_text(const RenderBenchOptions& options, const std::string& device,
+void print_text(const RenderBenchOptions& options, int samples, const std::string& device,
                 const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
 {
-    std::printf("%s, %d x %d, %d samples, on %s: medians of %d\n", options.scene.c_str(),
-                result.width, result.height, options.samples, device.c_str(), options.repeat);
+    const std::string name = options.scene.empty()
+                                 ? (options.scenario.empty() ? "demo" : options.scenario) +
+                                       ", frame " + std::to_string(options.frame)
+                                 : options.scene;
+    std::printf("%s, %d x %d, %d samples, on %s: medians of %d\n", name.c_str(), result.width,
+                result.height, samples, device.c_str(), options.repeat);
     std::printf(
         "  cpu_ms_per_frame   %10.2f\n  wall_ms_per_frame  %10.2f\n  peak_memory_mib    %10ld\n",
         median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), peak_memory_mib());
@@ -131,29 +146,82 @@ void print_text(const RenderBenchOptions& options, const std::string& device,
 
 }  // namespace
 
+namespace {
+
+// A renderer with its scene, and the frame to be timed.
+struct Workload {
+    gpu::Renderer renderer;
+    gpu::Frame frame;
+};
+
+Workload plain_workload(const RenderBenchOptions& options)
+{
+    const ImageSize size = parse_size(options.size.empty() ? "1280x720" : options.size);
+    scene::Scene scene = read_scene(options.scene).scene;
+    gpu::Renderer renderer({.device = options.device});
+    renderer.load(scene, prepare_textures(scene, {.threads = options.threads}));
+    return {std::move(renderer), bench_frame(scene, options, size)};
+}
+
+Workload scenario_workload(const RenderBenchOptions& options)
+{
+    Scenario scenario = scenario_of(options.scenario, "bench");
+    if (!options.size.empty()) {
+        const ImageSize size = parse_size(options.size);
+        scenario.output.width = size.width;
+        scenario.output.height = size.height;
+    }
+    if (options.samples > 0) scenario.output.samples = options.samples;
+    if (!options.camera.empty()) {
+        scenario.camera.name = options.camera;
+        scenario.camera.keys.clear();
+    }
+    if (options.frame >= scenario.output.frames) {
+        throw Error("bench: the scenario has frames 0 to " +
+                        std::to_string(scenario.output.frames - 1) + ", got " +
+                        std::to_string(options.frame),
+                    "Give --frame one of them.");
+    }
+    Sequence sequence = make_sequence(std::move(scenario));
+    load_sequence_scene(sequence, options.threads);
+    for (const std::string& unmatched :
+         apply_material_overrides(sequence.scenario.materials, sequence.scene.materials)) {
+        std::cerr << "warn " << unmatched << "\n";
+    }
+    RenderRequest request;
+    request.device = options.device;
+    request.threads = options.threads;
+    RenderReport report;
+    Job job{options.frame, options.variant, options.view};
+    // The first of those there are, where none is named.
+    if (job.variant.empty()) job.variant = sequence.variants.front().name;
+    if (job.view.empty()) job.view = sequence.views.front().name;
+    SequenceFrame frame = frame_at(sequence, job);
+    gpu::Renderer renderer = sequence_renderer(sequence, request, report);
+    set_environment_of(renderer, sequence, job);
+    return {std::move(renderer), std::move(frame.frame)};
+}
+
+}  // namespace
+
 void run_render_bench(const RenderBenchOptions& options)
 {
     if (options.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-    const ImageSize size = parse_size(options.size);
-    scene::Scene scene = read_scene(options.scene).scene;
-    gpu::Renderer renderer({.device = options.device});
-    TextureOptions textures;
-    textures.threads = options.threads;
-    textures.blocks = block_support(renderer.device());
-    textures.cache = user_cache();
-    renderer.load(scene, prepare_textures(scene, textures));
-    const gpu::Frame frame = bench_frame(scene, options, size);
+    Workload work = options.scene.empty() ? scenario_workload(options) : plain_workload(options);
     gpu::RenderResult result;
-    timed_render(renderer, frame, result);  // warm-up: shaders are compiled on first use
+    timed_render(work.renderer, work.frame, result);  // warm-up: shaders are compiled on first use
     std::vector<FrameCost> costs;
-    for (int i = 0; i < options.repeat; ++i) costs.push_back(timed_render(renderer, frame, result));
+    for (int i = 0; i < options.repeat; ++i)
+        costs.push_back(timed_render(work.renderer, work.frame, result));
     if (!options.picture.empty()) {
         texproc::write_png8(options.picture, result.width, result.height, 4, result.display);
     }
+    const std::string device = work.renderer.device().name;
+    const int samples = work.frame.settings.samples;
     if (options.json) {
-        print_json(options, renderer.device().name, costs, result);
+        print_json(options, samples, device, costs, result);
     } else {
-        print_text(options, renderer.device().name, costs, result);
+        print_text(options, samples, device, costs, result);
     }
 }
 

@@ -6,15 +6,18 @@
 
 namespace petrichor::cli {
 
-/// What `petrichor bench --scene` times: one frame, again and again.
+/// What `petrichor bench` times: a frame of a scenario, or a plain one of a scene, again and again.
 struct RenderBenchOptions {
-    std::string scene;
-    std::string size = "1280x720";
+    std::string scenario;  ///< .toml, scene, preset; its own weather, sky, size and samples
+    int frame = 0;         ///< of the scenario
+    std::string variant, view;
+    std::string scene;  ///< instead: a scene with nothing that is not asked for
+    std::string size;   ///< "": the scenario's, or 1280x720
     std::string camera;
     std::string device;
     std::string picture;
     int repeat = 5;
-    int samples = 1;
+    int samples = 0;  ///< 0: the scenario's, or 1
     int threads = 0;
     bool json = false;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;

@@ -16,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/progress.h"
+#include "cli/render/scenario_input.h"
 #include "cli/rooms.h"
 #include "cli/signals.h"
 #include "film/data/folders.h"
@@ -63,37 +64,6 @@ struct RenderOptions {
     bool list_aovs = false;
     std::vector<std::string> words;  // the command line as it was typed
 };
-
-bool is_scene(const fs::path& file)
-{
-    return file.extension() == ".glb" || file.extension() == ".gltf";
-}
-
-// The scenario of an input: a file, a scene with defaults around it, or the name of one of ours.
-Scenario scenario_of(const std::string& input)
-{
-    if (input.empty()) return read_scenario(data_folder() / "scenarios" / "demo.toml");
-    const fs::path file = input;
-    if (is_scene(file) || input.rfind("demo:", 0) == 0) {
-        Scenario scenario;
-        scenario.name = input;
-        scenario.scene.file = input;
-        return scenario;
-    }
-    const auto names = preset_names("scenarios");
-    // A folder may have the name of a scenario of ours: a render of it made one.
-    std::error_code ignored;
-    if (file.extension() == ".toml" || fs::is_regular_file(file, ignored))
-        return read_scenario(file);
-    for (const std::string& name : names) {
-        if (name == input) return read_scenario(data_folder() / "scenarios" / (name + ".toml"));
-    }
-    if (fs::exists(file, ignored)) return read_scenario(file);  // says what it is instead
-    throw Error("render: " + input +
-                    " is neither a scenario (.toml), nor a scene (.glb, .gltf), nor one of: " +
-                    join_words(names) + "." + did_you_mean(input, names),
-                "For example: petrichor render scene.glb --weather rain-then-snow");
-}
 
 // What the command line says of the weather: over the scenario's own and that of every variant.
 void apply_weather(ScenarioWeather& weather, const RenderOptions& options)
@@ -276,7 +246,7 @@ void render(const RenderOptions& options)
         // The CPU driver reads its number of threads from here.
         ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     }
-    Scenario asked = scenario_of(options.input);
+    Scenario asked = scenario_of(options.input, "render");
     apply_options(asked, options);
     Sequence sequence = make_sequence(std::move(asked));
     const Scenario& scenario = sequence.scenario;

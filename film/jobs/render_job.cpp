@@ -105,41 +105,11 @@ void finish_films(const Sequence& sequence, const RenderRequest& request, Render
         finish_film(sequence, request, part, records, report);
 }
 
-// The sky's picture of the job's variant; a renderer holds one at a time.
-void set_environment(gpu::Renderer& renderer, const Sequence& sequence, const Job& job)
-{
-    for (const SequenceVariant& variant : sequence.variants) {
-        if (variant.name != job.variant) continue;
-        const std::string& file = variant.conditions.sky.environment;
-        renderer.set_environment(file.empty() ? gpu::EnvironmentMap{}
-                                              : read_environment(sequence.scenario.folder / file));
-    }
-}
-
-gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request, RenderReport& report)
-{
-    gpu::Renderer renderer({.device = request.device,
-                            .validation = request.validation,
-                            .ripple_texture_size = sequence.scenario.render.ripple_texture_size});
-    std::vector<std::string>& warnings = sequence.scene.warnings;
-    const auto said = static_cast<std::ptrdiff_t>(warnings.size());
-    TextureOptions options;
-    options.max_size = sequence.scenario.scene.max_texture;
-    options.threads = request.threads;
-    options.stop = request.stop;
-    options.blocks = block_support(renderer.device());
-    options.cache = user_cache();
-    const auto textures = prepare_textures(sequence.scene, options);
-    report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
-    renderer.load(sequence.scene, textures);
-    return renderer;
-}
-
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report)
 {
     const ScenarioOutput& output = sequence.scenario.output;
-    gpu::Renderer renderer = make_renderer(sequence, request, report);
+    gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
     std::uint32_t overflows = 0;
@@ -149,7 +119,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
         for (const Pending& one : pending) {
             if (stopped(request)) break;
             if (one.frame.environment != environment) {
-                set_environment(renderer, sequence, one.job);
+                set_environment_of(renderer, sequence, one.job);
                 environment = one.frame.environment;
             }
             gpu::RenderResult result = renderer.render(one.frame.frame);
@@ -185,6 +155,36 @@ long peak_memory_mib()
 }
 
 }  // namespace
+
+void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const Job& job)
+{
+    for (const SequenceVariant& variant : sequence.variants) {
+        if (variant.name != job.variant) continue;
+        const std::string& file = variant.conditions.sky.environment;
+        renderer.set_environment(file.empty() ? gpu::EnvironmentMap{}
+                                              : read_environment(sequence.scenario.folder / file));
+    }
+}
+
+gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request,
+                                RenderReport& report)
+{
+    gpu::Renderer renderer({.device = request.device,
+                            .validation = request.validation,
+                            .ripple_texture_size = sequence.scenario.render.ripple_texture_size});
+    std::vector<std::string>& warnings = sequence.scene.warnings;
+    const auto said = static_cast<std::ptrdiff_t>(warnings.size());
+    TextureOptions options;
+    options.max_size = sequence.scenario.scene.max_texture;
+    options.threads = request.threads;
+    options.stop = request.stop;
+    options.blocks = block_support(renderer.device());
+    options.cache = user_cache();
+    const auto textures = prepare_textures(sequence.scene, options);
+    report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
+    renderer.load(sequence.scene, textures);
+    return renderer;
+}
 
 RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
 {

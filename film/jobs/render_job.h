@@ -46,6 +46,13 @@ struct RenderReport {
     std::string graph;                    ///< passes of the last frame, a line each
 };
 
+/// A renderer that holds the sequence's scene with its textures; notes go into the report. The
+/// scene loses its encoded images.
+gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request,
+                                RenderReport& report);
+/// Gives it the sky's picture of the job's variant, or none; a renderer holds one at a time.
+void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const Job& job);
+
 /// Renders the jobs of a range into a folder, writing while rendering: frame_0000.exr and .png
 /// (with the names of variant and view), frames.jsonl, and for each variant and view film.mp4 once
 /// every frame of it is there. The sequence's scene loses its encoded images on the way.
