@@ -184,7 +184,7 @@ TEST(Pack, RefusesWhatDoesNotFit)
     EXPECT_THROW(pack(pack_preset("normal-rg"), {{"normal", grey8({1})}}), Error);
 }
 
-// lux-texture.md, section 6.
+// docs/lux.md, 7.
 TEST(Pack, HoldsTheLayoutsOfLux)
 {
     const auto one = [](int value) {
