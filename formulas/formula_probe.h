@@ -8,12 +8,13 @@
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
 #include "formulas/light/spherical_harmonics.h"
+#include "formulas/weather/apply_weather.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 16;
+SHARED_CONST int kProbeKinds = 17;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -90,6 +91,30 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 13) {
         const vec3 t = air_transmittance(2000.0f * a.x, a.y, 1.5f + 8.0f * a.z);
         return vec4(t.x, t.y, t.z, 0.0f);
+    }
+    if (kind == 16) {
+        DryMaterial dry;
+        dry.base_color = vec3(a.x, a.y, a.z);
+        dry.metallic = a.w;
+        dry.f0 = vec3(0.04f);
+        dry.roughness = b.x;
+        dry.occlusion = b.y;
+        dry.porosity = b.z;
+        dry.water_color = vec4(0.3f, 0.2f, 0.1f, b.w);
+        dry.snow_opacity = 0.5f;
+        SurfaceState state;
+        state.film = 0.7f;
+        state.water = c.x;
+        state.snow = c.y;
+        state.frost = c.z;
+        state.snow_smoothness = 0.4f;
+        WeatherMoment moment;
+        moment.film_albedo = c.w;
+        moment.film_smoothness = 0.5f * c.w;
+        WeatherLook look;
+        look.snow_color = vec3(0.92f, 0.94f, 0.97f);
+        look.snow_specular = vec3(0.02f);
+        return probe_material(apply_weather(dry, state, moment, look));
     }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);

@@ -166,7 +166,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
-        add_lighting(graph, *r.targets, *r.lights, *r.sky, *r.depth_maps, constants, variant);
+        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }

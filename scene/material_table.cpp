@@ -108,6 +108,12 @@ Row choice(std::string_view name, std::vector<std::string_view> words, GltfPlace
     return r;
 }
 
+template <auto... Path>
+Row channel(std::string_view name, std::string_view texture, std::string_view help)
+{
+    return choice<Path...>(name, {"r", "g", "b", "a"}, {kWeather, texture, "channel"}, help);
+}
+
 Row or_also(Row r, float value)
 {
     r.also = value;
@@ -148,6 +154,8 @@ void add_gltf_rows(std::vector<Row>& t)
                                          "MASK: less alpha than this is a hole"));
     t.push_back(
         flag<&M::double_sided>("double_sided", {"", "", "doubleSided"}, "back faces are seen too"));
+    t.push_back(flag<&M::cull_front>("cull_front", {"", "extras", "cullFront"},
+                                     "front faces are not seen: a shell from within"));
     t.push_back(or_also(
         number<&M::ior>("ior", 1, 100, {"KHR_materials_ior", "", "ior"},
                         "index of refraction; 0: as if infinite, specular_factor alone counts"),
@@ -194,6 +202,15 @@ void add_weather_rows(std::vector<Row>& t)
         "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet; -1: from the "
         "roughness"));
     t.back().also = -1.0f;
+    t.push_back(choice<&M::weather, &W::wetness>(
+        "wetness", {"none", "simple", "ripples", "flow", "full"}, place("wetness"),
+        "standing water: none, flat, with rings of drops, with flowing waves, with both"));
+    t.push_back(channel<&M::weather, &W::height, &TextureUse::channel>(
+        "height_channel", "heightTexture", "channel of the height map that is read"));
+    t.push_back(channel<&M::weather, &W::puddle_mask, &TextureUse::channel>(
+        "puddle_mask_channel", "puddleMaskTexture", "channel of the puddle mask that is read"));
+    t.push_back(channel<&M::weather, &W::snow_mask, &TextureUse::channel>(
+        "snow_mask_channel", "snowMaskTexture", "channel of the snow mask that is read"));
     t.push_back(not_shaded(number<&M::weather, &W::height_scale_m>(
         "height_scale_m", 0, 10, place("heightScale"),
         "height 1 of the height map above height 0, metres")));
@@ -209,6 +226,9 @@ void add_weather_rows(std::vector<Row>& t)
     t.push_back(number<&M::weather, &W::water_color>(
         "water_color", 0, 1, place("waterColor"),
         "linear red, green, blue and opacity of standing water (mud, leaves)"));
+    t.push_back(number<&M::weather, &W::ripple_refraction>(
+        "ripple_refraction", 0, 1, place("rippleRefraction"),
+        "how far ripples shift what lies below, times the weather's own; 0: not at all"));
     t.push_back(number<&M::weather, &W::flow_tiling>("flow_tiling", 0, 1000, place("flowTiling"),
                                                      "repeats of the flowing water per metre"));
     t.push_back(number<&M::weather, &W::flow_speed>("flow_speed", 0, 2, place("flowSpeed"),
@@ -348,12 +368,12 @@ const std::vector<MaterialTexture>& material_textures()
         texture<&M::emissive_texture>("emissive_texture", {"", "", "emissiveTexture"},
                                       "sRGB colour"),
         texture<&M::weather, &W::height>("height_texture", {kWeather, "", "heightTexture"},
-                                         "red: 0 low .. 1 high"),
+                                         "0 low .. 1 high; height_channel"),
         texture<&M::weather, &W::puddle_mask>("puddle_mask_texture",
                                               {kWeather, "", "puddleMaskTexture"},
-                                              "red: 1 puddles may stand, 0 never"),
+                                              "1 puddles may stand, 0 never; puddle_mask_channel"),
         texture<&M::weather, &W::snow_mask>("snow_mask_texture", {kWeather, "", "snowMaskTexture"},
-                                            "red: 1 snow may lie, 0 never"),
+                                            "1 snow may lie, 0 never; snow_mask_channel"),
     };
     return table;
 }
@@ -365,7 +385,10 @@ std::vector<std::string_view> extension_members(std::string_view extension)
         if (t.gltf.extension == extension) members.push_back(t.gltf.member);
     }
     for (const MaterialProperty& p : material_table()) {
-        if (p.gltf.extension == extension) members.push_back(p.gltf.member);
+        // What lies inside a texture's object is not a member of the extension.
+        if (p.gltf.extension == extension && p.gltf.parent.empty()) {
+            members.push_back(p.gltf.member);
+        }
     }
     return members;
 }

@@ -17,6 +17,8 @@ inline constexpr TextureIndex kNoTexture = -1;
 
 enum class Wrap { Repeat, Clamp, Mirror };
 
+enum class Channel { R, G, B, A };
+
 /// How a material reads one texture (KHR_texture_transform folded in).
 /// uv' = rotate(rotation_rad) * (uv * scale) + offset, as the extension defines it.
 struct TextureUse {
@@ -25,22 +27,36 @@ struct TextureUse {
     glm::vec2 offset{0.0f};
     glm::vec2 scale{1.0f};
     float rotation_rad = 0.0f;
+    Channel channel = Channel::R;  ///< of a texture that holds one number
 
     bool present() const { return texture >= 0; }
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// How water stands on a material (the feature sets of Lux 2.02).
+enum class Wetness {
+    None,     ///< a film only, and what melting snow leaves
+    Simple,   ///< standing water with a flat surface
+    Ripples,  ///< ... with rings of rain drops
+    Flow,     ///< ... with waves of flowing water
+    Full,     ///< ... with both
 };
 
 /// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
-    TextureUse height;  ///< red: height, 0 low .. 1 high
+    Wetness wetness = Wetness::Full;
+    TextureUse height;  ///< 0 low .. 1 high
     float height_scale_m = 0.02f;
     float default_height = 0.25f;
-    TextureUse puddle_mask;  ///< red: 1 puddles may stand, 0 never
-    TextureUse snow_mask;    ///< red: 1 snow may lie, 0 never
+    TextureUse puddle_mask;  ///< 1 puddles may stand, 0 never
+    TextureUse snow_mask;    ///< 1 snow may lie, 0 never
     float porosity = -1.0f;  ///< negative: from the roughness
     float water_slope_damp = 0.5f;
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
     glm::vec4 water_color{0.0f};
+    float ripple_refraction = 1.0f;
     float flow_tiling = 2.0f;
     float flow_speed = 0.05f;
     float flow_interval_s = 1.0f;
@@ -54,7 +70,6 @@ struct MaterialWeather {
     bool sheltered = false;
 };
 
-enum class AlphaMode { Opaque, Mask, Blend };
 
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
@@ -84,6 +99,7 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    bool cull_front = false;
     bool unlit = false;
     MaterialWeather weather;
 };

@@ -212,8 +212,8 @@ gpu::Texture finish_plain(const scene::EncodedImage& encoded, const TextureRecip
         case Kind::Scalar:
             break;
     }
-    const Image red = channel_of(decode(encoded, ColorSpace::Data, 4), 0);
-    return rounded(texproc::plain_levels(red, "scalar", mips), gpu::TexelFormat::R8Unorm, options);
+    const Image one = channel_of(decode(encoded, ColorSpace::Data, 4), recipe.channel);
+    return rounded(texproc::plain_levels(one, "scalar", mips), gpu::TexelFormat::R8Unorm, options);
 }
 
 FinishedTextures finish_prepared(const scene::EncodedImage& encoded, const TextureRecipe& recipe,

@@ -42,6 +42,7 @@ void add_recipe(Hasher& hasher, const scene::Scene& scene, const TextureRecipe& 
     hasher.add(image.wrap_u);
     hasher.add(image.wrap_v);
     hasher.add(recipe.kind);
+    hasher.add(recipe.channel);
     for (const float value : {recipe.alpha_cutoff, recipe.normal_scale, recipe.roughness_factor})
         hasher.add(value);
     hasher.add(recipe.alpha_covers);

@@ -122,6 +122,17 @@ void plan_surface(scene::Material& material, const scene::Scene& scene, Planner&
     planner.use(normal, normal_recipe);
 }
 
+// One channel, which then is the only one; a file with its own levels keeps all it has.
+void plan_scalar(scene::TextureUse& use, Planner& planner)
+{
+    TextureRecipe recipe{.kind = Kind::Scalar};
+    if (use.present() && !planner.prepared(use)) {
+        recipe.channel = static_cast<int>(use.channel);
+        use.channel = scene::Channel::R;
+    }
+    planner.use(use, recipe);
+}
+
 }  // namespace
 
 std::vector<TextureRecipe> plan_textures(scene::Scene& scene)
@@ -130,9 +141,9 @@ std::vector<TextureRecipe> plan_textures(scene::Scene& scene)
     for (scene::Material& material : scene.materials) {
         plan_color(material, planner);
         plan_surface(material, scene, planner);
-        planner.use(material.weather.height, {.kind = Kind::Scalar});
-        planner.use(material.weather.puddle_mask, {.kind = Kind::Scalar});
-        planner.use(material.weather.snow_mask, {.kind = Kind::Scalar});
+        plan_scalar(material.weather.height, planner);
+        plan_scalar(material.weather.puddle_mask, planner);
+        plan_scalar(material.weather.snow_mask, planner);
     }
     return planner.take();
 }

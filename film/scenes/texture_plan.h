@@ -18,6 +18,7 @@ struct TextureRecipe {
     };
     int image = 0;  ///< index into Scene::textures as loaded
     Kind kind = Kind::Color;
+    int channel = 0;                ///< Scalar: the one that is kept, 0 red .. 3 alpha
     float alpha_cutoff = -1.0f;     ///< Color of a MASK material: keep the coverage in small levels
     bool alpha_covers = false;      ///< Color of a MASK or BLEND material: weighed by its alpha
     int normal_image = -1;          ///< Surface: the normal map whose lost detail becomes roughness

@@ -73,7 +73,9 @@ struct WeatherLook {
     vec2 snow_strength MOMENT_DEFAULT(vec2(1.0f));
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
-    float ripple_refraction MOMENT_DEFAULT(0.5f);
+    // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a
+    // repeat of the texture: more than a puddle does.
+    float ripple_refraction MOMENT_DEFAULT(0.05f);
     // A third of the slope in the map, as rings on a real puddle have (Lagarde 2013, 2b).
     float ripple_strength MOMENT_DEFAULT(0.35f);
     // Ripples, flow and snow detail are gone from this far on ...

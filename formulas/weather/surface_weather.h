@@ -1,4 +1,4 @@
-// Where water and snow lie on a surface point, and what they do to its material.
+// Where water and snow lie on a surface point. What they do to its material: apply_weather.h.
 //
 // One text for C++ and GLSL. Symbols: Lux 2.02 (docs/lux.md, 8 and 9), whose quirks are kept where
 // results would differ; divisions by zero are not. All values are dimensionless unless the name
@@ -33,7 +33,7 @@ struct WaterCover {
 // height         0 low .. 1 high, of the surface relief
 // puddle_mask    1 puddles may stand, 0 never
 // normal_up      y of the geometric normal
-// slope_damp     0 water on flat ground only .. 1 on any slope up to vertical
+// slope_damp     0 water stays on any slope .. 1 the less the steeper, none on walls
 SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, float normal_up,
                                  float slope_damp)
 {
@@ -91,80 +91,11 @@ SHARED_FN float melt_wetness(float water_anywhere, float snow_melt_mask, float m
     return saturate(water_anywhere + 0.75f * saturate(1.75f * snow_melt_mask * melt_exp));
 }
 
-// ---- what they do to a material
-// ------------------------------------------------------------------
-
-// A material in the specular workflow: metallic is converted before weather is applied.
-struct WeatheredMaterial {
-    vec3 albedo;
-    vec3 specular;     // F0
-    float smoothness;  // 1 - perceptual roughness
-    float occlusion;
-    float emission_scale;  // V: what is left of emission and translucency
-    float normal_mix;      // weight of the cover normal (ripples, flow) against the base normal
-};
-
 // Porosity of a dry dielectric from its smoothness: the thresholds are those of Lagarde 2013 (Water
 // drop 3b), in smoothness.
 SHARED_FN float porosity_from_smoothness(float smoothness)
 {
     return saturate((0.5f - smoothness) / 0.4f);
-}
-
-// Pores that fill darken the albedo to a fifth at most, and a film smooths what is above them: the
-// form of Lagarde 2013 (Water drop 3b) with the numbers of Lux.
-//
-// film           thin wetness for (albedo, smoothness), slope factor included
-// water          ax
-// water_color    linear RGB, alpha = opacity of standing water
-// porosity       0 dense .. 1 porous
-SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float water,
-                                        vec4 water_color, float porosity)
-{
-    const float specular_mean = 0.33f * (dry.specular.x + dry.specular.y + dry.specular.z);
-    const float metalness = saturate(1000.0f * specular_mean - 500.0f);
-    const float pore_factor = mix(1.0f, 0.2f, saturate((1.0f - metalness) * porosity));
-
-    const float t1 = max(water, film.x);
-    const float t2 = max(water, film.y * (1.0f - pore_factor));
-    const float t3 = max(water, film.y * (1.0f - pore_factor) * 0.5f);
-    const float opacity = water_color.w * water;
-
-    WeatheredMaterial wet = dry;
-    wet.albedo = dry.albedo * mix(1.0f, pore_factor, t1);
-    wet.albedo = mix(wet.albedo, vec3(water_color.x, water_color.y, water_color.z), opacity);
-    wet.occlusion = mix(dry.occlusion, 1.0f, opacity);
-    wet.emission_scale = dry.emission_scale * (1.0f - opacity);
-    wet.normal_mix = t3;
-    const float smoothed = mix(dry.smoothness, mix(0.85f, 0.60f, pore_factor), t2);
-    wet.smoothness = mix(smoothed, 0.9f, t2);
-    wet.specular = mix(dry.specular, vec3(0.02f), t2);
-    return wet;
-}
-
-// cover          sx
-// snow_opacity   how much of emission the snow swallows
-SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec3 snow_color,
-                                       vec3 snow_specular, float snow_smoothness,
-                                       float snow_opacity)
-{
-    WeatheredMaterial snowy = under;
-    snowy.albedo = mix(under.albedo, snow_color, cover);
-    snowy.specular = mix(under.specular, snow_specular, cover);
-    snowy.smoothness = mix(under.smoothness, snow_smoothness, cover);
-    snowy.occlusion = mix(under.occlusion, 1.0f, cover);
-    snowy.emission_scale = mix(under.emission_scale, 1.0f - cover * snow_opacity, cover);
-    return snowy;
-}
-
-// Hoar frost: a thin, rough, whitish crust of crystals. cover 0..1.
-SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
-{
-    WeatheredMaterial frosty = under;
-    frosty.albedo = mix(under.albedo, vec3(0.78f, 0.81f, 0.85f), 0.7f * cover);
-    frosty.specular = mix(under.specular, vec3(0.018f), cover);
-    frosty.smoothness = mix(under.smoothness, 0.35f, cover);
-    return frosty;
 }
 
 SHARED_END

@@ -29,6 +29,8 @@ struct GBufferTexel {
     float f0;      // reflectance of the dielectric part at normal incidence, 0..0.16
     uint model;
     vec4 weather;  // film, water, snow, frost
+    uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
+    float snow_smoothness;  // of the snow here
     vec3 emission; // radiance
 };
 
@@ -48,6 +50,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
                          float(texel.model | (encode_reflectance(texel.f0) << 1)) / 255.0);
     code.weather = texel.weather;
+    code.identity = vec4(float(texel.material) / 65535.0, texel.snow_smoothness, 0.0, 0.0);
     code.emission = vec4(texel.emission, 1.0);
     return code;
 }
@@ -66,6 +69,8 @@ GBufferTexel decode_gbuffer(GBufferCode code)
     texel.model = bits & 1u;
     texel.f0 = decode_reflectance(bits >> 1);
     texel.weather = code.weather;
+    texel.material = uint(code.identity.x * 65535.0 + 0.5);
+    texel.snow_smoothness = code.identity.y;
     texel.emission = code.emission.rgb;
     return texel;
 }

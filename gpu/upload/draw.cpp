@@ -79,9 +79,9 @@ void bind_geometry(VkCommandBuffer commands, const GpuScene& scene)
     vkCmdBindIndexBuffer(commands, scene.indices().buffer.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 
-void set_facing(VkCommandBuffer commands, bool double_sided, bool mirrored)
+void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored)
 {
-    vkCmdSetCullMode(commands, double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+    vkCmdSetCullMode(commands, cull);
     vkCmdSetFrontFace(commands,
                       mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }

@@ -25,7 +25,7 @@ std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& w
                                        const glm::vec3& camera_m);
 
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
-void set_facing(VkCommandBuffer commands, bool double_sided, bool mirrored);
+void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored);
 
 }  // namespace petrichor::gpu
 

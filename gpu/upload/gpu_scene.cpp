@@ -6,8 +6,9 @@
 #include <cstring>
 #include <tuple>
 
-#include "gpu/upload/material_constants.h"
+#include "base/error.h"
 #include "gpu/upload/detail/texel_format.h"
+#include "gpu/upload/material_constants.h"
 
 namespace petrichor::gpu {
 
@@ -34,6 +35,29 @@ VkSamplerAddressMode address_mode(Wrap wrap)
             return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
     }
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+VkCullModeFlags cull_mode(const Material& material)
+{
+    if (material.cull_front) return VK_CULL_MODE_FRONT_BIT;
+    return material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+}
+
+std::uint32_t water_bits(scene::Wetness wetness)
+{
+    switch (wetness) {
+        case scene::Wetness::None:
+            return 0;
+        case scene::Wetness::Simple:
+            return WATER_STANDS;
+        case scene::Wetness::Ripples:
+            return WATER_STANDS | WATER_RIPPLES;
+        case scene::Wetness::Flow:
+            return WATER_STANDS | WATER_FLOWS;
+        case scene::Wetness::Full:
+            break;
+    }
+    return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
 }
 
 }  // namespace
@@ -120,7 +144,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
             const GpuMaterial& m = materials_[d.material];
-            return std::make_tuple(m.blended, m.masked, m.double_sided, d.material);
+            return std::make_tuple(m.blended, m.masked, m.cull == VK_CULL_MODE_NONE, d.material);
         };
         return key(a) < key(b);
     });
@@ -182,6 +206,12 @@ const SamplerHandle& GpuScene::sampler(const Device& device, Wrap u, Wrap v, boo
 
 void GpuScene::make_materials(const Device& device, const Scene& scene)
 {
+    // The G-buffer counts them in 16 bits.
+    if (scene.materials.size() > 65536) {
+        throw Error("scene: " + std::to_string(scene.materials.size()) +
+                        " materials; at most 65536 can be told apart",
+                    "Merge materials that are alike.");
+    }
     std::vector<bool> loaded;
     for (const auto& image : images_) loaded.push_back(image != nullptr);
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
@@ -191,14 +221,18 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                                 .size = stride * scene.materials.size(),
                                 .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 .host = true});
+    std::vector<glm::vec4> looks;
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
         emissive_ = emissive_ || source.emissive * source.emissive_strength != glm::vec3(0.0f);
         const shared::MaterialConstants c = material_constants(source, loaded);
         std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
+        looks.push_back(c.water_color);
+        looks.emplace_back(c.snow_opacity, 0.0f, 0.0f, 0.0f);
         GpuMaterial material;
-        material.double_sided = source.double_sided;
+        material.cull = cull_mode(source);
+        material.water = water_bits(source.weather.wetness);
         material.masked = source.alpha_mode == AlphaMode::Mask;
         material.blended = is_blended(source);
         material.bindings.push_back(uniform(*constants_, i * stride, sizeof(c)));
@@ -214,6 +248,12 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         }
         materials_.push_back(std::move(material));
     }
+    looks_ = arena_.buffer(
+        {.name = "material_looks",
+         .size = looks.size() * sizeof(glm::vec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    upload_buffer(device, *looks_, std::as_bytes(std::span(looks)));
 }
 
 }  // namespace petrichor::gpu

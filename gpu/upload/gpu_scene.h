@@ -37,10 +37,11 @@ struct Draw {
 };
 
 struct GpuMaterial {
-    bool double_sided = false;
+    VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool masked = false;
     bool blended = false;
     std::uint32_t slots = 0;        ///< texture slots present, one bit each
+    std::uint32_t water = 0;        ///< WATER_... bits of its wetness
     std::vector<Binding> bindings;  ///< constants, then the texture slots
 };
 
@@ -57,6 +58,7 @@ public:
     GpuBuffer& index_texels() const { return *indices_; }
     const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
     const std::vector<GpuMaterial>& materials() const { return materials_; }
+    GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
     const std::vector<Light>& lights() const { return lights_; }
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
@@ -71,6 +73,7 @@ private:
     std::unique_ptr<GpuBuffer> vertices_;
     std::unique_ptr<GpuBuffer> indices_;
     std::unique_ptr<GpuBuffer> constants_;
+    std::unique_ptr<GpuBuffer> looks_;
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;
     std::vector<const SamplerHandle*> image_samplers_;

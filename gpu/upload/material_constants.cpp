@@ -43,6 +43,7 @@ shared::TextureSlot slot_constants(const TextureUse& use, const std::vector<bool
     shared::TextureSlot slot{};
     slot.row0 = {c * use.scale.x, s * use.scale.y, use.offset.x};
     slot.row1 = {-s * use.scale.x, c * use.scale.y, use.offset.y};
+    slot.channel[static_cast<int>(use.channel)] = 1.0f;
     slot.texcoord = use.texcoord == 1 ? 1u : 0u;
     const auto texture = static_cast<std::size_t>(use.texture);
     slot.present = use.present() && texture < loaded.size() && loaded[texture] ? 1u : 0u;

@@ -26,6 +26,7 @@
     X(float, water_slope_damp)     \
     X(vec4, water_accumulation)    \
     X(vec4, water_color)           \
+    X(float, ripple_refraction)    \
     X(float, flow_tiling)          \
     X(float, flow_speed)           \
     X(float, flow_interval_s)      \
@@ -64,9 +65,19 @@
 #define ALPHA_MASK 1u
 #define ALPHA_BLEND 2u
 
+// What a material's wetness lets water do (scene::Wetness).
+#define WATER_STANDS 1u
+#define WATER_RIPPLES 2u
+#define WATER_FLOWS 4u
+
 // Lighting models, in the G-buffer's model byte.
 #define MODEL_STANDARD 0u
 #define MODEL_UNLIT 1u
+
+// What lighting asks of a material, by its number in the G-buffer: texels of four floats.
+//   0  water_color
+//   1  snow_opacity, -, -, -
+#define MATERIAL_LOOK_TEXELS 2
 
 SHARED_BEGIN
 
@@ -75,6 +86,7 @@ struct TextureSlot {
     vec3 row1;
     uint texcoord;  // of the mesh, 0 or 1
     uint present;   // 0: there is no texture, white stands in
+    vec4 channel;   // 1 for the channel that is read of a texture of one number, else 0
 };
 
 #define MATERIAL_FIELD(type, name) type name;

@@ -10,6 +10,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/ripple.h"
+#include "formulas/weather/apply_weather.h"
 #include "formulas/weather/surface_weather.h"
 
 namespace petrichor::shared {
@@ -207,6 +208,72 @@ TEST(ApplyWater, DarkensPorousNotSmooth)
     const WeatheredMaterial same = apply_water(dry, glm::vec2(0.0f), 0.0f, glm::vec4(0.0f), 1.0f);
     EXPECT_EQ(same.albedo, dry.albedo);
     EXPECT_EQ(same.smoothness, dry.smoothness);
+}
+
+DryMaterial dry_stone()
+{
+    DryMaterial dry{};
+    dry.base_color = glm::vec3(0.4f);
+    dry.f0 = glm::vec3(0.04f);
+    dry.roughness = 0.8f;
+    dry.occlusion = 1.0f;
+    dry.porosity = 1.0f;
+    return dry;
+}
+
+// Section 12: the albedo is darkened, then tinted, so that the tint is as bright as it was given.
+TEST(ApplyWeather, WaterDarkensThenTints)
+{
+    DryMaterial dry = dry_stone();
+    dry.water_color = {0.3f, 0.2f, 0.1f, 0.5f};
+    SurfaceState flooded{};
+    flooded.water = 1.0f;
+    const WeatheredMaterial wet = apply_weather(dry, flooded, {}, {});
+    EXPECT_NEAR(wet.albedo.x, 0.5f * 0.4f * 0.2f + 0.5f * 0.3f, 1e-6f);
+    EXPECT_NEAR(wet.albedo.z, 0.5f * 0.4f * 0.2f + 0.5f * 0.1f, 1e-6f);
+    EXPECT_NEAR(wet.emission_scale, 0.5f, 1e-6f);
+    EXPECT_NEAR(wet.occlusion, 1.0f, 1e-6f);
+}
+
+TEST(ApplyWeather, DryStaysDry)
+{
+    const DryMaterial dry = dry_stone();
+    const WeatheredMaterial same = apply_weather(dry, {}, {}, {});
+    EXPECT_EQ(same.albedo, dry.base_color);
+    EXPECT_EQ(same.specular, dry.f0);
+    EXPECT_FLOAT_EQ(same.smoothness, 1.0f - dry.roughness);
+    EXPECT_EQ(same.normal_mix, 0.0f);
+    EXPECT_EQ(same.emission_scale, 1.0f);
+}
+
+// A film does not take a metal's reflectance; standing water does, for it is the water that mirrors.
+TEST(ApplyWeather, AWetMetalKeepsItsReflectance)
+{
+    DryMaterial metal = dry_stone();
+    metal.base_color = {0.95f, 0.64f, 0.54f};
+    metal.metallic = 1.0f;
+    SurfaceState state{};
+    state.film = 1.0f;
+    WeatherMoment rain;
+    rain.film_albedo = 0.85f;
+    rain.film_smoothness = 0.5f;
+    const WeatheredMaterial wet = apply_weather(metal, state, rain, {});
+    EXPECT_EQ(wet.specular, metal.base_color);
+    state.water = 1.0f;
+    EXPECT_NEAR(apply_weather(metal, state, rain, {}).specular.x, 0.02f, 1e-6f);
+}
+
+// Snow swallows emission by its opacity, over what murky water has left of it.
+TEST(ApplyWeather, SnowAndMurkDimWhatGlows)
+{
+    DryMaterial lamp = dry_stone();
+    lamp.water_color = {0, 0, 0, 0.4f};
+    lamp.snow_opacity = 0.9f;
+    SurfaceState state{};
+    state.water = 1.0f;
+    EXPECT_NEAR(apply_weather(lamp, state, {}, {}).emission_scale, 0.6f, 1e-6f);
+    state.snow = 1.0f;
+    EXPECT_NEAR(apply_weather(lamp, state, {}, {}).emission_scale, 0.1f, 1e-6f);
 }
 
 TEST(ApplySnow, CoversWhatIsUnder)

@@ -21,7 +21,7 @@ glm::vec4 another_value(const MaterialProperty& property)
 {
     glm::vec4 value = default_value(property);
     if (property.kind != PropertyKind::Number) {
-        value.x = value.x == 0.0f ? 1.0f : 0.0f;
+        value.x = value.x == property.high.x ? property.low.x : property.high.x;
         return value;
     }
     for (int i = 0; i < property.count; ++i) {
@@ -65,8 +65,7 @@ TEST_P(Property, IsKeptByGltf)
 {
     const MaterialProperty& property = *GetParam();
     Material material;
-    material.normal_texture.texture = 0;
-    material.occlusion_texture.texture = 0;
+    for (const MaterialTexture& texture : material_textures()) texture.edit(material).texture = 0;
     const glm::vec4 wanted = another_value(property);
     property.set(material, wanted);
     const Material read = through_gltf(material);

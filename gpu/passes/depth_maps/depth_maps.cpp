@@ -57,7 +57,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
             bound_material = draw.material;
         }
         // Thin things such as leaves and roofs of one polygon cast from both sides.
-        set_facing(commands, true, draw.mirrored);
+        set_facing(commands, VK_CULL_MODE_NONE, draw.mirrored);
         pass.push(clip_from_world * draw.to_world);
         vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, draw.vertex_offset, 0);
     }

@@ -11,7 +11,7 @@
 #include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.glsl"
-#include "formulas/weather/surface_weather.h"
+#include "formulas/weather/apply_weather.h"
 
 layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
 layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
@@ -29,6 +29,7 @@ layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
 layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
 layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
 layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
+layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
@@ -130,28 +131,31 @@ void main()
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
 
-        // Metallic to specular, then weather, then light.
-        WeatheredMaterial m;
-        m.albedo = g.base_color * (1.0 - g.metallic);
-        m.specular = mix(vec3(g.f0), g.base_color, g.metallic);
-        m.smoothness = 1.0 - g.roughness;
-        m.occlusion = g.occlusion;
-        m.emission_scale = 1.0;
-        m.normal_mix = 0.0;
+        DryMaterial dry;
+        dry.base_color = g.base_color;
+        dry.metallic = g.metallic;
+        dry.f0 = vec3(g.f0);
+        dry.roughness = g.roughness;
+        dry.occlusion = g.occlusion;
+        dry.porosity = g.porosity;
+        dry.water_color = vec4(0.0);
+        dry.snow_opacity = 0.0;
+        WeatheredMaterial m = dry_material(dry);
         vec3 n = g.base_normal;
         float closed = 0.0;  // share of a flat water surface over the relief
         if (WEATHER != 0u) {
-            const float film = g.weather.x;
-            m = apply_frost(m, g.weather.w);
-            // Murk (the opacity of standing water) is part of the base colour already, and emission has
-            // been dimmed by it and by snow: both are the material's own business.
-            m = apply_water(m, film * vec2(frame.weather.film_albedo, frame.weather.film_smoothness), g.weather.y, vec4(0.0), g.porosity);
-            m = apply_snow(m, g.weather.z, frame.look.snow_color, frame.look.snow_specular, 0.35, 0.0);
-            // A thin film follows the bumps, water that stands closes over them to a mirror.
-            closed = smooth_edge(0.08, 0.55, g.weather.y) * (1.0 - g.weather.z);
-            m.smoothness = mix(m.smoothness, 0.94, closed);
-            n = normalize(mix(n, g.cover_normal,
-                              saturate(max(max(m.normal_mix, closed), g.weather.z))));
+            SurfaceState state;
+            state.film = g.weather.x;
+            state.water = g.weather.y;
+            state.snow = g.weather.z;
+            state.frost = g.weather.w;
+            state.snow_smoothness = g.snow_smoothness;
+            const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
+            dry.water_color = texelFetch(material_looks, look);
+            dry.snow_opacity = texelFetch(material_looks, look + 1).x;
+            m = apply_weather(dry, state, frame.weather, frame.look);
+            closed = closed_water(state);
+            n = normalize(mix(n, g.cover_normal, m.normal_mix));
         }
         if (g.model == MODEL_UNLIT) {
             radiance = g.base_color + emission;

@@ -4,9 +4,9 @@
 
 namespace petrichor::gpu {
 
-void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, SkyMaps& sky,
-                  DepthMaps& depth_maps, const ConstantsRange& constants,
-                  const LightingVariant& variant)
+void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
+                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
+                  const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -27,6 +27,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, 
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},
                      {LIGHTING_LIGHTS, texels(*lights.texels)},
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
+                     {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},

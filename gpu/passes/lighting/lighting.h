@@ -22,8 +22,8 @@ struct LightingVariant {
 //
 //   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
-void add_lighting(FrameGraph& graph, FrameTargets& targets, LightTable& lights, SkyMaps& sky,
-                  DepthMaps& depth_maps, const ConstantsRange& constants,
+void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
+                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps, const ConstantsRange& constants,
                   const LightingVariant& variant);
 
 }  // namespace petrichor::gpu

@@ -26,6 +26,7 @@
 #define LIGHTING_RADIANCE 11
 #define LIGHTING_MIRROR_WEIGHT 12
 #define LIGHTING_MIRROR_SHAPE 13
-#define LIGHTING_GBUFFER 14  // depth, then the targets
+#define LIGHTING_MATERIALS 14
+#define LIGHTING_GBUFFER 15  // depth, then the targets
 
 #endif

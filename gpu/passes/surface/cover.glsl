@@ -11,6 +11,7 @@ struct Cover {
     float water;
     float snow;
     float frost;
+    float snow_smoothness;
     vec3 normal;      // of the water or snow
     vec2 refraction;  // shift of the texture coordinates below the water
 };
@@ -22,6 +23,7 @@ Cover no_cover(SurfaceInput at)
     c.water = 0.0;
     c.snow = 0.0;
     c.frost = 0.0;
+    c.snow_smoothness = 0.0;
     c.normal = at.normal;
     c.refraction = vec2(0.0);
     return c;
@@ -55,28 +57,34 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
     const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
     vec3 ripple = vec3(0.0, 0.0, 1.0);
-    vec3 flow = vec3(0.0, 0.0, 1.0);
-    if (WATER != 0u && frame.weather.rain * open > 0.0 && water.deep > 0.0 && fade > 0.001) {
+    Wave flow;
+    flow.lean = vec3(0.0);
+    flow.up = 1.0;
+    if ((WATER & WATER_RIPPLES) != 0u && frame.weather.rain * open > 0.0 && water.deep > 0.0 &&
+        fade > 0.001) {
         ripple = ripple_normal(at, water, open);
     }
-    if (WATER != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
-        flow = flow_normal(at, f, water);
+    if ((WATER & WATER_FLOWS) != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
+        flow = flow_wave(at, water);
     }
-    const vec3 bent = mix(vec3(0.0, 0.0, 1.0),
-                          normalize(vec3(ripple.xy + flow.xy, ripple.z * flow.z)), fade);
-    c.refraction =
-        (ripple.xy * frame.look.ripple_refraction + flow.xy * material.flow_refraction) *
-        water.deep * (1.0 - saturate(2.0 * snow.snow)) *
-        saturate(1.0 - frame.weather.water_to_snow + material.water_accumulation.z) * fade * 0.1;
-    c.normal = normalize(vec3(bent.x, 0.0, bent.y) + at.normal * max(bent.z, 0.05));
+    const vec3 rings = vec3(ripple.x, 0.0, ripple.y);
+    const vec4 bent = normalize(vec4(rings + flow.lean, ripple.z * flow.up));
+    const vec3 shift = rings * (frame.look.ripple_refraction * material.ripple_refraction) +
+                       flow.lean * material.flow_refraction;
+    c.refraction = vec2(dot(shift, f.tangent), dot(shift, f.bitangent)) * water.deep *
+                   (1.0 - saturate(2.0 * snow.snow)) *
+                   saturate(1.0 - frame.weather.water_to_snow + material.water_accumulation.z) *
+                   fade;
+    c.normal = normalize(bent.xyz * fade + at.normal * max(mix(1.0, bent.w, fade), 0.05));
 
     c.water = water.anywhere;
     c.snow = snow.snow;
     if (SNOW != 0u) {
         c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);
         const float snow_share = snow.snow / max(snow.snow + c.water, 1.0e-4);
-        c.normal = normalize(
-            mix(c.normal, snow_normal(at, amount, smoothed, fade), saturate(snow_share)));
+        const SnowRelief relief = snow_relief(at, amount, smoothed, fade);
+        c.snow_smoothness = relief.smoothness;
+        c.normal = normalize(mix(c.normal, relief.normal, saturate(snow_share)));
     }
     return c;
 }

@@ -42,14 +42,14 @@ SurfaceData evaluate_surface(SurfaceInput at)
         if (material.sheltered == 0u) cover = cover_on(at, f, mapped);
     }
 
-    // The dry material, seen through the water.
+    // The dry material. Water only moves where it is read; the rest is apply_weather's, in the light.
     const vec2 shift = cover.refraction;
     SurfaceData data;
-    vec4 base = material.base_color_factor * at.color;
+    vec3 base = material.base_color_factor.rgb * at.color.rgb;
     if (has(TEXTURE_BASE_COLOR)) {
-        base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift));
+        base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift)).rgb;
     }
-    data.hole = HOLES != 0u && hole_in(at, seen_alpha(base.a));
+    data.hole = HOLES != 0u && hole_in(at, alpha_at(at));
 
     float roughness = material.roughness_factor;
     float metallic = material.metallic_factor;
@@ -77,25 +77,22 @@ SurfaceData evaluate_surface(SurfaceInput at)
             data.emission *= texel(emissive_texture, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
         }
     }
-    roughness = widened_by_curvature(roughness, at);
+    // Pores are of the material: what the geometry does to the lobe tells nothing of them.
     const float porosity = material.porosity >= 0.0 ? material.porosity
                                                     : porosity_from_smoothness(1.0 - roughness);
-
-    // Murky water hides the ground: its colour takes the place of the material's, and with snow it
-    // covers what glows.
-    const float murk = material.water_color.a * cover.water;
-    data.emission *= frame.emissive_scale * ((1.0 - murk) *
-                     mix(1.0, 1.0 - cover.snow * material.snow_opacity, cover.snow));
-    data.texel.base_color = mix(base.rgb, material.water_color.rgb, murk);
-    data.texel.occlusion = mix(occlusion, 1.0, murk);
+    data.emission *= frame.emissive_scale;
+    data.texel.base_color = base;
+    data.texel.occlusion = occlusion;
     data.texel.base_normal = normal;
     data.texel.cover_normal = SURFACE_WEATHER != 0 ? cover.normal : normal;
-    data.texel.roughness = roughness;
-    data.texel.metallic = metallic * (1.0 - murk);
-    data.texel.porosity = porosity * (1.0 - murk);
+    data.texel.roughness = widened_by_curvature(roughness, at);
+    data.texel.metallic = metallic;
+    data.texel.porosity = porosity;
     data.texel.f0 = dielectric_reflectance();
     data.texel.model = material.unlit != 0u ? MODEL_UNLIT : MODEL_STANDARD;
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
+    data.texel.material = at.material_id;
+    data.texel.snow_smoothness = cover.snow_smoothness;
     return data;
 }
 

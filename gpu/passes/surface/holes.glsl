@@ -5,9 +5,14 @@
 #include "formulas/noise/noise.glsl"
 #include "gpu/passes/surface/textures.glsl"
 
-// What passes through a clear body is seen as transparency of its surface.
-float seen_alpha(float alpha)
+// Not where water shifts the lookup to: a hole stays where it is.
+float alpha_at(SurfaceInput at)
 {
+    float alpha = material.base_color_factor.a * at.color.a;
+    if (has(TEXTURE_BASE_COLOR)) {
+        alpha *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, vec2(0.0))).a;
+    }
+    // What passes through a clear body is seen as transparency of its surface.
     return alpha * (1.0 - 0.9 * material.transmission_factor);
 }
 

@@ -19,7 +19,7 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
 {
     float unique = at.weather.b;
     if (has(TEXTURE_SNOW_MASK)) {
-        unique *= texel(snow_mask_texture, coordinates(TEXTURE_SNOW_MASK, at, vec2(0.0))).r;
+        unique *= number_at(snow_mask_texture, TEXTURE_SNOW_MASK, at);
     }
     const float mask = texel_from_above(snow_map, at, frame.look.snow_tiling.z, vec2(0.0)).b;
     const float detail = texel_from_above(snow_map, at, frame.look.snow_tiling.w, vec2(0.0)).b;
@@ -30,16 +30,25 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
                       frame.weather.melt * material.snow_accumulation.y);
 }
 
+struct SnowRelief {
+    vec3 normal;       // world
+    float smoothness;
+};
+
 // A snow cover has its own, softer relief over that of the ground. smoothed: world.
-vec3 snow_normal(SurfaceInput at, float amount, vec3 smoothed, float fade)
+SnowRelief snow_relief(SurfaceInput at, float amount, vec3 smoothed, float fade)
 {
-    const vec2 coarse_xy = texel_from_above(snow_map, at, frame.look.snow_tiling.x, vec2(0.0)).xy;
+    const vec4 snow = texel_from_above(snow_map, at, frame.look.snow_tiling.x, vec2(0.0));
     const vec2 detail_xy = texel_from_above(snow_map, at, frame.look.snow_tiling.y, vec2(0.0)).xy;
-    const vec3 coarse = unpack_normal(coarse_xy, material.snow_normal_strength * frame.look.snow_strength.x);
+    const vec3 coarse =
+        unpack_normal(snow.xy, material.snow_normal_strength * frame.look.snow_strength.x);
     const vec3 detail = unpack_normal(
         detail_xy, material.snow_detail_strength * frame.look.snow_strength.y * fade);
-    return normalize(vec3(coarse.x + detail.x, 0.0, coarse.y + detail.y) +
-                     mix(smoothed, at.normal, 0.3 + 0.7 * amount) * (coarse.z * detail.z));
+    SnowRelief relief;
+    relief.normal = normalize(vec3(coarse.x + detail.x, 0.0, coarse.y + detail.y) +
+                              mix(smoothed, at.normal, 0.3 + 0.7 * amount) * (coarse.z * detail.z));
+    relief.smoothness = snow.a;
+    return relief;
 }
 
 #endif

@@ -61,7 +61,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                                       pass.descriptors().set(material_layout, material.bindings));
                         bound_material = draw.material;
                     }
-                    set_facing(commands, material.double_sided, draw.mirrored);
+                    set_facing(commands, material.cull, draw.mirrored);
                     pass.push(draw_constants(draw));
                     vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index,
                                      draw.vertex_offset, 0);
@@ -83,7 +83,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     shaded.specialization = {
                         {SURFACE_SPEC_HOLES, holes},
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
-                        {SURFACE_SPEC_WATER, weather.water},
+                        {SURFACE_SPEC_WATER,
+                         weather.water ? scene.materials()[draw->material].water : 0u},
                         {SURFACE_SPEC_SNOW, weather.snow}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);

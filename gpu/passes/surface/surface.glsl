@@ -46,6 +46,7 @@ void main()
     at.weather = in_weather;
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
+    at.material_id = draw.material_id;
 
     SurfaceData data = evaluate_surface(at);
     if (HOLES != 0u && data.hole) discard;

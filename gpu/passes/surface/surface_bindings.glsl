@@ -8,7 +8,7 @@
 
 layout(constant_id = SURFACE_SPEC_HOLES) const uint HOLES = 1u;
 layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 255u;
-layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 1u;
+layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 7u;
 layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };

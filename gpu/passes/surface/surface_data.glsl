@@ -21,6 +21,7 @@ struct SurfaceInput {
     vec4 weather;      // of the vertices: mix, puddle mask, snow mask, -
     ivec2 pixel;       // seeds what is drawn by chance
     uint instance_id;  // likewise
+    uint material_id;
 };
 
 struct SurfaceData {

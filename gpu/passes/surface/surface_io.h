@@ -6,7 +6,7 @@
 // both sides of every branch.
 #define SURFACE_SPEC_HOLES 1  // 0: opaque, so that hidden pixels are never shaded
 #define SURFACE_SPEC_SLOTS 2  // texture slots that the material has, one bit each
-#define SURFACE_SPEC_WATER 3  // 0: no water stands anywhere in this frame
+#define SURFACE_SPEC_WATER 3  // WATER_... bits; 0: no water stands on the material in this frame
 #define SURFACE_SPEC_SNOW 4   // 0: no snow lies anywhere in this frame
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.

@@ -37,6 +37,12 @@ vec4 texel(sampler2D map, Uv uv)
     return textureGrad(map, uv.at, uv.dx, uv.dy);
 }
 
+// Of a slot that holds one number: its channel.
+float number_at(sampler2D map, int slot, SurfaceInput at)
+{
+    return dot(texel(map, coordinates(slot, at, vec2(0.0))), material.slots[slot].channel);
+}
+
 // A map of the weather, laid over the world from above. tiling: repeats per metre.
 vec4 texel_from_above(sampler2D map, SurfaceInput at, float tiling, vec2 shift)
 {

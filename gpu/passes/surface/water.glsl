@@ -18,11 +18,11 @@ WaterCover water_on(SurfaceInput at, vec2 flood)
 {
     float height = material.default_height;
     if (has(TEXTURE_HEIGHT)) {
-        height = texel(height_texture, coordinates(TEXTURE_HEIGHT, at, vec2(0.0))).r;
+        height = number_at(height_texture, TEXTURE_HEIGHT, at);
     }
     float puddle_mask = at.weather.g;
     if (has(TEXTURE_PUDDLE_MASK)) {
-        puddle_mask *= texel(puddle_mask_texture, coordinates(TEXTURE_PUDDLE_MASK, at, vec2(0.0))).r;
+        puddle_mask *= number_at(puddle_mask_texture, TEXTURE_PUDDLE_MASK, at);
     }
     return water_cover(flood, height, puddle_mask, at.normal.y, material.water_slope_damp);
 }
@@ -35,22 +35,60 @@ vec3 ripple_normal(SurfaceInput at, WaterCover water, float open)
                water.deep * saturate(at.normal.y) * saturate(open * 2.0));
 }
 
-// Waves of water that runs down, and of wind on flat ground.
-vec3 flow_normal(SurfaceInput at, TangentFrame f, WaterCover water)
+// What bends a water surface: its normal is lean + up * normal of the geometry.
+struct Wave {
+    vec3 lean;  // world, along the surface
+    float up;
+};
+
+// Both phases of the flow map in one plane of the world; v: repeats that a phase runs.
+vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 {
-    const vec2 down = vec2(f.tangent.y, f.bitangent.y);
-    const vec2 v = down * material.flow_speed *
+    const float t = material.flow_tiling;
+    const vec2 first = textureGrad(flow_map, p * t + phases.first * v, p_dx * t, p_dy * t).xy;
+    const vec2 second = textureGrad(flow_map, p * t + phases.second * v, p_dx * t, p_dy * t).xy;
+    return unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength);
+}
+
+// Waves of water that runs down, and of wind on flat ground. The map is laid along the surface: from
+// above on flat ground, from the sides on walls, blended between.
+Wave flow_wave(SurfaceInput at, WaterCover water)
+{
+    const vec3 n = at.normal;
+    // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
+    const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed *
                    saturate(1.0 - frame.weather.freeze_exp + material.water_accumulation.z);
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
-    const float t = material.flow_tiling;
-    const vec2 first = texel_from_above(flow_map, at, t, phases.first * v).xy;
-    const vec2 second = texel_from_above(flow_map, at, t, phases.second * v).xy;
-    const float slope = 1.0 - saturate(at.normal.y) * saturate(at.normal.y);
+    const vec3 sides = max(n * n * n * n - 0.01, vec3(0.0));
+    const vec3 share = sides / (sides.x + sides.y + sides.z);
+    const vec3 p = at.position;
+    const vec3 dx = at.position_dx;
+    const vec3 dy = at.position_dy;
+    Wave wave;
+    wave.lean = vec3(0.0);
+    wave.up = 0.0;
+    if (share.y > 0.0) {
+        const vec3 m = flow_texel(p.xz, dx.xz, dy.xz, v.xz, phases);
+        wave.lean += share.y * vec3(m.x, 0.0, m.y);
+        wave.up += share.y * m.z;
+    }
+    if (share.x > 0.0) {
+        const vec3 m = flow_texel(p.zy, dx.zy, dy.zy, v.zy, phases);
+        wave.lean += share.x * vec3(0.0, m.y, m.x);
+        wave.up += share.x * m.z;
+    }
+    if (share.z > 0.0) {
+        const vec3 m = flow_texel(p.xy, dx.xy, dy.xy, v.xy, phases);
+        wave.lean += share.z * vec3(m.x, m.y, 0.0);
+        wave.up += share.z * m.z;
+    }
+    const float slope = 1.0 - saturate(n.y) * saturate(n.y);
     // On flat ground only the wind moves the water, a little.
     const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
-    return mix(vec3(0.0, 0.0, 1.0),
-               unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength),
-               max(slope, breeze * saturate(at.normal.y)) * water.anywhere);
+    const float strength = max(slope, breeze * saturate(n.y)) * water.anywhere;
+    wave.lean = (wave.lean - n * dot(n, wave.lean)) * strength;
+    wave.up = mix(1.0, wave.up, strength);
+    return wave;
 }
 
 #endif

@@ -17,6 +17,7 @@ layout(set = 0, binding = RESOLVE_DRAWS) uniform usamplerBuffer draws;
 layout(set = 0, binding = RESOLVE_TILES) uniform usamplerBuffer tiles;
 layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
 #define IMAGE_R8G8B8A8_UNORM rgba8
+#define IMAGE_R16G16_UNORM rg16
 #define IMAGE_R16G16B16A16_SNORM rgba16_snorm
 #define IMAGE_R16G16B16A16_SFLOAT rgba16f
 #define ROW(name, location_, format_, when_, meaning_)                     \
@@ -152,6 +153,7 @@ void main()
     s.weather = mixed(a.weather, b.weather, c.weather, at);
     s.pixel = pixel;
     s.instance_id = facts.w;
+    s.material_id = params.material;
 
     SurfaceData data = evaluate_surface(s);
     data.texel.emission = data.emission;

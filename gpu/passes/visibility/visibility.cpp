@@ -60,7 +60,7 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                     } else {
                         pass.bind(pass.pipelines().graphics(opaque));
                     }
-                    set_facing(pass.commands(), material.double_sided, draw->mirrored);
+                    set_facing(pass.commands(), material.cull, draw->mirrored);
                     pass.push(draw_constants(scene, *draw));
                     vkCmdDrawIndexed(pass.commands(), draw->index_count, 1, draw->first_index,
                                      draw->vertex_offset, 0);

@@ -18,10 +18,7 @@ void main()
     at.uv_dy = dFdy(in_uv);
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
-    float alpha = material.base_color_factor.a * in_alpha;
-    if (has(TEXTURE_BASE_COLOR)) {
-        alpha *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, vec2(0.0))).a;
-    }
-    if (hole_in(at, seen_alpha(alpha))) discard;
+    at.color = vec4(0.0, 0.0, 0.0, in_alpha);
+    if (hole_in(at, alpha_at(at))) discard;
     out_id = uvec2(draw.draw + 1u, uint(gl_PrimitiveID));
 }

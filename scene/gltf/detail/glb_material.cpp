@@ -40,6 +40,17 @@ json& holder_of(json& material, const GltfPlace& place)
     return place.parent.empty() ? *holder : (*holder)[std::string(place.parent)];
 }
 
+// The scale of a texture that is not there has no place.
+bool has_texture_of(const scene::Material& material, const GltfPlace& place)
+{
+    for (const MaterialTexture& texture : material_textures()) {
+        if (texture.gltf.extension == place.extension && texture.gltf.member == place.parent) {
+            return texture.get(material).present();
+        }
+    }
+    return true;
+}
+
 json value_of(const MaterialProperty& property, const glm::vec4& value)
 {
     if (property.kind == PropertyKind::Flag) return value.x != 0.0f;
@@ -106,9 +117,7 @@ void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Mate
     for (const MaterialProperty& property : material_table()) {
         const glm::vec4 value = property.get(m);
         if (value == default_value(property)) continue;
-        // The scale of a texture that is not there has no place.
-        const std::string parent(property.gltf.parent);
-        if (parent.ends_with("Texture") && !out.contains(parent)) continue;
+        if (!has_texture_of(m, property.gltf)) continue;
         json& holder = holder_of(out, property.gltf);
         if (!property.gltf.member.empty()) {
             holder[std::string(property.gltf.member)] = value_of(property, value);

@@ -1,0 +1,191 @@
+// Every row of the material table changes the picture: a property without effect cannot exist.
+#include <array>
+#include <cmath>
+
+#include "scene/material_table.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+using scene::MaterialProperty;
+using scene::PropertyKind;
+
+class MaterialRows : public GpuTest {};
+
+Texture chequers(const char* name, TexelFormat format, std::array<int, 4> low,
+                 std::array<int, 4> high)
+{
+    Texture texture;
+    texture.name = name;
+    texture.format = format;
+    texture.width = texture.height = 8;
+    texture.mips.emplace_back();
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            const auto& texel = (x / 2 + y / 2) % 2 == 0 ? low : high;
+            for (const int byte : texel) texture.mips[0].push_back(static_cast<std::byte>(byte));
+        }
+    }
+    return texture;
+}
+
+// One texture a slot, in the order of scene::material_textures(). Every channel of the weather's
+// masks says something else.
+std::vector<Texture> textures()
+{
+    std::vector<Texture> all;
+    for (const scene::MaterialTexture& row : scene::material_textures()) {
+        const std::string name(row.name);
+        const bool color = name.starts_with("base") || name.starts_with("emissive");
+        const bool normal = name.starts_with("normal");
+        all.push_back(
+            chequers(row.name.data(), color ? TexelFormat::Rgba8Srgb : TexelFormat::Rgba8Unorm,
+                     normal ? std::array{90, 128, 250, 255} : std::array{120, 60, 200, 90},
+                     normal ? std::array{150, 170, 250, 255} : std::array{200, 140, 80, 255}));
+    }
+    return all;
+}
+
+// Texture t of the scene: white stands in for the encoded bytes, which the renderer never reads.
+scene::TextureUse use_of(std::string_view name)
+{
+    scene::TextureUse use;
+    const auto& rows = scene::material_textures();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].name == name) use.texture = static_cast<int>(i);
+    }
+    use.scale = glm::vec2(2.0f);
+    return use;
+}
+
+// A material to which everything can happen: it is rough and grey, glows a little, and has all
+// textures but the height map.
+Material rich_material()
+{
+    Material m = plain_material(glm::vec3(0.5f, 0.4f, 0.3f), 0.6f, 0.3f);
+    m.base_color.a = 0.9f;
+    m.emissive = glm::vec3(0.3f);
+    m.emissive_strength = 1.0f;
+    for (const char* name :
+         {"base_color_texture", "normal_texture", "metallic_roughness_texture", "occlusion_texture",
+          "emissive_texture", "puddle_mask_texture", "snow_mask_texture"}) {
+        for (const scene::MaterialTexture& row : scene::material_textures()) {
+            if (row.name == name) row.edit(m) = use_of(name);
+        }
+    }
+    m.weather.water_color = {0.3f, 0.2f, 0.1f, 0.4f};
+    return m;
+}
+
+// What a row needs of the others to be seen.
+void make_visible(std::string_view row, Material& m)
+{
+    if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
+    if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
+    if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;
+    if (row == "height_channel") m.weather.height = use_of("height_texture");
+}
+
+// Flat ground, a slope, a wall seen from both sides.
+Scene stage(const Material& material)
+{
+    return scene_of(
+        {quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), quad({-2, 0, 0}, {2, 0, 0}, {0, 1, -1}),
+         quad({0.5f, 0, -1}, {1, 0, 0}, {0, 1.2f, 0}),
+         quad({2.0f, 0, 0}, {-0.8f, 0, -0.3f}, {0, 1, 0})},
+        {material});
+}
+
+// Rain on standing water, and snow that melts: a bit of each.
+Frame weathered()
+{
+    Frame frame;
+    frame.camera = look({0, 1.6f, 3.2f}, {0, 0.3f, -0.3f});
+    frame.settings.width = 96;
+    frame.settings.height = 64;
+    frame.settings.samples = 1;
+    frame.settings.time_s = 0.3;
+    frame.settings.exposure = 1.0f;
+    frame.sky.sun_illuminance = 20.0f;  // so dim that what glows is seen
+    frame.weather.wind_m_s = {6.0f, 0.0f};
+    frame.weather.rain = 0.8f;
+    frame.weather.flood_cracks = 0.5f;
+    frame.weather.flood_puddles = 1.4f;
+    frame.weather.film_albedo = 0.6f;
+    frame.weather.film_smoothness = 0.4f;
+    frame.weather.snow_amount = 0.45f;
+    frame.weather.water_to_snow = 0.2f;
+    frame.weather.melt = 0.5f;
+    frame.weather.melt_exp = 0.8f;
+    frame.sky.sun_elevation_rad = 0.8f;
+    frame.sky.sun_azimuth_rad = 2.5f;
+    return frame;
+}
+
+glm::vec4 another_value(const MaterialProperty& property, const Material& material)
+{
+    glm::vec4 value = property.get(material);
+    if (property.kind == PropertyKind::Flag) return glm::vec4(1.0f - value.x);
+    if (property.kind == PropertyKind::Choice) {
+        value.x = value.x == property.low.x ? property.low.x + 1.0f : property.low.x;
+        return value;
+    }
+    for (int i = 0; i < property.count; ++i) {
+        const float low = std::max(property.low[i], 0.0f);
+        const float high = std::min(property.high[i], 3.0f);
+        value[i] =
+            value[i] > 0.5f * (low + high) ? low + 0.1f * (high - low) : low + 0.9f * (high - low);
+    }
+    return value;
+}
+
+// Largest change of a pixel, relative to the brighter of the two.
+float difference(const RenderResult& a, const RenderResult& b)
+{
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < a.beauty.size(); ++i) {
+        const float x = half_to_float(a.beauty[i]);
+        const float y = half_to_float(b.beauty[i]);
+        largest = std::max(largest, std::abs(x - y) / std::max({x, y, 1e-3f}));
+    }
+    return largest;
+}
+
+TEST_F(MaterialRows, EachChangesThePictureIfItIsShaded)
+{
+    const std::vector<Texture> pixels = textures();
+    const Frame frame = weathered();
+    for (const MaterialProperty& property : scene::material_table()) {
+        Material material = rich_material();
+        make_visible(property.name, material);
+        renderer->load(stage(material), pixels);
+        const RenderResult before = renderer->render(frame);
+        property.set(material, another_value(property, material));
+        renderer->load(stage(material), pixels);
+        const float change = difference(before, renderer->render(frame));
+        if (property.shaded) {
+            EXPECT_GT(change, 0.005f) << property.name << " has no effect";
+        } else {
+            EXPECT_EQ(change, 0.0f) << property.name << " is shaded: say so in its row";
+        }
+    }
+}
+
+TEST_F(MaterialRows, EveryTextureChangesThePicture)
+{
+    const std::vector<Texture> pixels = textures();
+    const Frame frame = weathered();
+    for (const scene::MaterialTexture& row : scene::material_textures()) {
+        Material material = rich_material();
+        row.edit(material) = {};
+        renderer->load(stage(material), pixels);
+        const RenderResult without = renderer->render(frame);
+        row.edit(material) = use_of(row.name);
+        renderer->load(stage(material), pixels);
+        EXPECT_GT(difference(without, renderer->render(frame)), 0.005f) << row.name;
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::gpu

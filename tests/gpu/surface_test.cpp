@@ -1,0 +1,329 @@
+// What the surface pass writes: the dry material, and the weather where it lies.
+#include <cmath>
+#include <functional>
+
+#include "formulas/weather/surface_weather.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr int kSize = 48;
+
+class Surface : public GpuTest {
+protected:
+    RenderResult shot(const Scene& scene, const Frame& frame,
+                      const std::vector<Texture>& textures = {})
+    {
+        renderer->load(scene, textures);
+        return renderer->render(frame);
+    }
+};
+
+// Straight from above onto the ground, 2 m of it.
+Frame from_above(std::vector<std::string> aovs)
+{
+    Frame frame;
+    frame.camera = look({0, 2, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    frame.settings.width = kSize;
+    frame.settings.height = kSize;
+    frame.settings.samples = 1;
+    frame.settings.aovs = std::move(aovs);
+    return frame;
+}
+
+Primitive ground()
+{
+    return quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
+}
+
+void flood(Frame& frame)
+{
+    frame.weather.flood_cracks = 2.0f;
+    frame.weather.flood_puddles = 2.0f;
+    frame.weather.film_albedo = 1.0f;
+    frame.weather.film_smoothness = 1.0f;
+}
+
+Texture texture_of(int width, int height, const std::function<glm::ivec4(int, int)>& texel)
+{
+    Texture texture;
+    texture.name = "made up";
+    texture.width = width;
+    texture.height = height;
+    texture.nearest = true;
+    texture.mips.emplace_back();
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (int c = 0; c < 4; ++c) {
+                texture.mips[0].push_back(static_cast<std::byte>(texel(x, y)[c]));
+            }
+        }
+    }
+    return texture;
+}
+
+const std::vector<float>& pixels_of(const RenderResult& r, const std::string& name)
+{
+    for (const AovImage& image : r.aovs) {
+        if (image.name == name) return image.pixels;
+    }
+    throw Error("no AOV " + name, "Ask for it.");
+}
+
+// Murk, darkening, dimmed emission and closed occlusion belong to the weather: nothing of them is
+// in the dry material, even metres under snow.
+TEST_F(Surface, TheMaterialIsWrittenDry)
+{
+    const std::vector<std::string> dry_aovs{"base_color", "normal",   "metallic", "roughness",
+                                            "occlusion",  "emission", "porosity"};
+    Material m = plain_material({0.5f, 0.4f, 0.3f}, 0.6f, 0.25f);
+    m.emissive = glm::vec3(0.5f);
+    m.weather.water_color = {0.1f, 0.9f, 0.1f, 0.9f};
+    const Scene scene = scene_of({ground()}, {m});
+    Frame frame = from_above(dry_aovs);
+    const RenderResult dry = shot(scene, frame);
+    flood(frame);
+    const RenderResult wet = shot(scene, frame);
+    frame.weather.snow_amount = 1.0f;
+    frame.weather.frost = 1.0f;
+    const RenderResult snowy = shot(scene, frame);
+    for (const std::string& name : dry_aovs) {
+        EXPECT_EQ(pixels_of(wet, name), pixels_of(dry, name)) << name << " under water";
+        EXPECT_EQ(pixels_of(snowy, name), pixels_of(dry, name)) << name << " under snow";
+    }
+    EXPECT_NE(wet.beauty, dry.beauty);
+    EXPECT_NE(snowy.beauty, wet.beauty);
+}
+
+// Murky water has the colour it was given, whatever lies below.
+TEST_F(Surface, OpaqueWaterHidesTheGround)
+{
+    Frame frame = from_above({});
+    frame.sky.sun_illuminance = 0.0f;
+    flood(frame);
+    std::vector<glm::vec3> seen;
+    for (const float grey : {0.05f, 0.8f}) {
+        Material m = plain_material(glm::vec3(grey), 0.9f);
+        m.weather.water_color = {0.3f, 0.2f, 0.1f, 1.0f};
+        seen.push_back(pixel(shot(scene_of({ground()}, {m}), frame), kSize / 2, kSize / 2));
+    }
+    EXPECT_NEAR(glm::length(seen[0] - seen[1]) / glm::length(seen[1]), 0.0f, 0.01f);
+    EXPECT_GT(seen[0].r, seen[0].b);
+}
+
+// A wall under running water, one repeat of the flow map high.
+struct Wall {
+    Scene scene;
+    Frame frame;
+};
+Wall running_wall()
+{
+    Wall wall;
+    Material m = plain_material(glm::vec3(0.5f));
+    m.weather.water_slope_damp = 0.0f;
+    m.weather.default_height = 0.0f;
+    m.weather.flow_tiling = 2.0f;
+    m.weather.flow_speed = 2.0f;
+    m.weather.flow_interval_s = 0.01f;
+    wall.scene = scene_of({quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0})}, {m});
+    wall.frame = from_above({"cover_normal"});
+    wall.frame.camera = look({0, 0, 2}, {0, 0, 0});
+    wall.frame.camera.orthographic_height_m = 0.5f;
+    wall.frame.settings.shelter = false;
+    wall.frame.settings.time_s = 0.0;
+    flood(wall.frame);
+    return wall;
+}
+
+// Rows by which the normals of `later` lie lower in the picture than those of `before`.
+int rows_down(const RenderResult& before, const RenderResult& later)
+{
+    int best = 0;
+    float least = 1e30f;
+    for (int shift = -12; shift <= 12; ++shift) {
+        float sum = 0.0f;
+        for (int y = 12; y < kSize - 12; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                for (int c = 0; c < 2; ++c) {
+                    sum += std::abs(aov(later, "cover_normal", x, y + shift, c) -
+                                    aov(before, "cover_normal", x, y, c));
+                }
+            }
+        }
+        if (sum < least) {
+            least = sum;
+            best = shift;
+        }
+    }
+    return best;
+}
+
+// In a twentieth of the interval a phase runs 0.05 * 2 repeats of half a metre each: 5 cm, 4.8
+// rows.
+TEST_F(Surface, FlowRunsDownAWall)
+{
+    Wall wall = running_wall();
+    const RenderResult before = shot(wall.scene, wall.frame);
+    float varies = 0.0f;
+    for (int y = 1; y < kSize; ++y) {
+        varies = std::max(varies, std::abs(aov(before, "cover_normal", 20, y, 1) -
+                                           aov(before, "cover_normal", 20, 0, 1)));
+    }
+    EXPECT_GT(varies, 0.02f) << "with height";
+    wall.frame.settings.time_s = 0.0005;
+    EXPECT_NEAR(rows_down(before, shot(wall.scene, wall.frame)), 5, 1);
+}
+
+TEST_F(Surface, FrozenWaterStandsStill)
+{
+    Wall wall = running_wall();
+    wall.frame.weather.freeze_exp = 1.0f;
+    const RenderResult before = shot(wall.scene, wall.frame);
+    wall.frame.settings.time_s = 0.0005;
+    EXPECT_EQ(rows_down(before, shot(wall.scene, wall.frame)), 0);
+}
+
+// What a material's wetness lets water do.
+TEST_F(Surface, WetnessChoosesWhatWaterDoes)
+{
+    Frame frame = from_above({"water", "cover_normal"});
+    flood(frame);
+    frame.weather.rain = 1.0f;
+    frame.weather.wind_m_s = {6.0f, 0.0f};
+    frame.settings.time_s = 0.4;
+    const auto roughest = [](const RenderResult& r) {
+        float least = 1.0f;
+        for (int i = 0; i < kSize; ++i) least = std::min(least, aov(r, "cover_normal", i, i, 1));
+        return 1.0f - least;
+    };
+    std::vector<float> rough;
+    std::vector<float> water;
+    for (const auto wetness : {scene::Wetness::None, scene::Wetness::Simple,
+                               scene::Wetness::Ripples, scene::Wetness::Flow}) {
+        Material m = plain_material(glm::vec3(0.5f));
+        m.weather.wetness = wetness;
+        const RenderResult r = shot(scene_of({ground()}, {m}), frame);
+        rough.push_back(roughest(r));
+        water.push_back(aov(r, "water", 24, 24));
+    }
+    EXPECT_EQ(water[0], 0.0f);
+    for (int i = 1; i < 4; ++i) EXPECT_NEAR(water[static_cast<std::size_t>(i)], 1.0f, 1e-2f);
+    EXPECT_LT(rough[1], 1e-6f) << "simple: flat";
+    EXPECT_GT(rough[2], 3e-5f) << "ripples";
+    EXPECT_GT(rough[3], 3e-5f) << "flow: wind on flat ground";
+}
+
+// Lux's packed map: the puddle mask in red, the height in green.
+TEST_F(Surface, OneMapHoldsMaskAndHeight)
+{
+    const auto packed = texture_of(4, 4, [](int x, int) {
+        return x < 2 ? glm::ivec4(255, 51, 7, 7) : glm::ivec4(0, 102, 7, 7);
+    });
+    Material m = plain_material(glm::vec3(0.5f));
+    m.weather.height = {.texture = 0, .channel = scene::Channel::G};
+    m.weather.puddle_mask = {.texture = 0, .channel = scene::Channel::R};
+    Frame frame = from_above({"water"});
+    frame.weather.flood_cracks = 0.5f;
+    frame.weather.flood_puddles = 0.7f;
+    Primitive floor = quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    const RenderResult r = shot(scene_of({floor}, {m}), frame, {packed});
+    const auto expected = [](float height, float mask) {
+        return shared::water_cover({0.5f, 0.7f}, height, mask, 1.0f, 0.5f).anywhere;
+    };
+    EXPECT_NEAR(aov(r, "water", 10, 24), expected(0.2f, 1.0f), 0.01f);
+    EXPECT_NEAR(aov(r, "water", 38, 24), expected(0.4f, 0.0f), 0.01f);
+}
+
+// Chequers with holes, and rings that bend the view of them.
+struct Grid {
+    Scene scene;
+    Frame frame;
+    std::vector<Texture> textures;
+};
+Grid rainy_grid()
+{
+    Grid grid;
+    grid.textures.push_back(texture_of(16, 16, [](int x, int y) {
+        return (x + y) % 2 == 0 ? glm::ivec4(200, 200, 200, 255) : glm::ivec4(20, 20, 20, 0);
+    }));
+    Material m = plain_material(glm::vec3(1.0f));
+    m.base_color_texture.texture = 0;
+    Primitive floor = quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    grid.scene = scene_of({floor}, {m});
+    grid.frame = from_above({"base_color", "depth"});
+    flood(grid.frame);
+    grid.frame.weather.rain = 1.0f;
+    grid.frame.settings.time_s = 0.4;
+    grid.frame.look.ripple_refraction = 1.0f;
+    return grid;
+}
+
+TEST_F(Surface, RefractionCanBeSwitchedOff)
+{
+    Grid grid = rainy_grid();
+    const RenderResult bent = shot(grid.scene, grid.frame, grid.textures);
+    grid.scene.materials[0].weather.ripple_refraction = 0.0f;
+    grid.scene.materials[0].weather.flow_refraction = 0.0f;
+    const RenderResult straight = shot(grid.scene, grid.frame, grid.textures);
+    grid.frame.weather = {};
+    const RenderResult dry = shot(grid.scene, grid.frame, grid.textures);
+    EXPECT_NE(pixels_of(bent, "base_color"), pixels_of(dry, "base_color"));
+    EXPECT_EQ(pixels_of(straight, "base_color"), pixels_of(dry, "base_color"));
+}
+
+// The alpha test reads where the surface is, not where water shifts the view to.
+TEST_F(Surface, HolesStayWhereTheyAre)
+{
+    Grid grid = rainy_grid();
+    grid.scene.materials[0].alpha_mode = AlphaMode::Mask;
+    const RenderResult wet = shot(grid.scene, grid.frame, grid.textures);
+    grid.frame.weather = {};
+    EXPECT_EQ(pixels_of(wet, "depth"),
+              pixels_of(shot(grid.scene, grid.frame, grid.textures), "depth"));
+}
+
+TEST_F(Surface, DetailFadesWithDistance)
+{
+    Grid grid = rainy_grid();
+    grid.frame.settings.aovs = {"cover_normal"};
+    grid.frame.look.detail_distance_m = 1.0f;  // the camera is 2 m up
+    const RenderResult r = shot(grid.scene, grid.frame, grid.textures);
+    for (int i = 0; i < kSize; ++i) EXPECT_NEAR(aov(r, "cover_normal", i, i, 1), 1.0f, 1e-5f);
+}
+
+// Normals are turned by the inverse transpose: right under any scale, mirrored or not.
+TEST_F(Surface, NormalsAreRightUnderNonUniformScale)
+{
+    const glm::vec3 u(1, 0, 0.3f);
+    const glm::vec3 v(0.2f, 0.5f, -1);
+    for (const glm::vec3 scale : {glm::vec3(2, 1, 0.4f), glm::vec3(-1.5f, 0.3f, 1)}) {
+        Material m = plain_material(glm::vec3(0.5f));
+        m.double_sided = true;
+        Scene scene = scene_of({quad(-0.5f * (u + v), u, v)}, {m});
+        scene.instances[0].to_world = glm::scale(glm::mat4(1.0f), scale);
+        Frame frame = from_above({"normal"});
+        const RenderResult r = shot(scene, frame);
+        const glm::vec3 side = glm::cross(u * scale, v * scale);
+        const glm::vec3 expected = glm::normalize(side.y > 0.0f ? side : -side);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(aov(r, "normal", kSize / 2, kSize / 2, c), expected[c], 2e-4f) << scale.x;
+        }
+    }
+}
+
+TEST_F(Surface, FrontFacesCanBeCulled)
+{
+    Material m = plain_material(glm::vec3(0.5f));
+    m.cull_front = true;
+    Frame frame = from_above({"depth", "normal"});
+    EXPECT_TRUE(std::isinf(aov(shot(scene_of({ground()}, {m}), frame), "depth", 24, 24)));
+    const Primitive ceiling = quad({-4, 0, -4}, {8, 0, 0}, {0, 0, 8});  // looks down
+    const RenderResult r = shot(scene_of({ceiling}, {m}), frame);
+    EXPECT_NEAR(aov(r, "depth", 24, 24), 2.0f, 1e-3f);
+    EXPECT_NEAR(aov(r, "normal", 24, 24, 1), 1.0f, 1e-4f) << "towards the eye";
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
