@@ -26,7 +26,7 @@ const std::vector<LookKey>& look_keys()
          offsetof(WeatherLook, ripple_tiling)},
         {LOOK(ripple_speed), 0.0, 10.0, "1.0", "of the rings; 1 as photographed",
          offsetof(WeatherLook, ripple_speed)},
-        {LOOK(ripple_refraction), 0.0, 10.0, "0.5", "how far rings shift what lies below",
+        {LOOK(ripple_refraction), 0.0, 10.0, "0.05", "how far rings shift what lies below",
          offsetof(WeatherLook, ripple_refraction)},
         {LOOK(ripple_strength), 0.0, 4.0, "0.35", "slope of the rings",
          offsetof(WeatherLook, ripple_strength)},
