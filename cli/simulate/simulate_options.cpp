@@ -80,6 +80,8 @@ void add_site(CLI::App& command, SimulateOptions& o)
     add(command, group, "--point", "WORD", o.grid_point,
         "of a NetCDF or GRIB grid: bilinear (default) or nearest")
         ->check(CLI::IsMember({"bilinear", "nearest"}));
+    add(command, group, "--file-zone", "HOURS", site.file_zone_h,
+        "ahead of UTC: of times in the file that name no zone (default: UTC)");
     add(command, group, "--ignore", "NAMES", site.ignore,
         "columns of the file that may stay unread, by comma; or all");
     add(command, group, "--latitude", "DEG", site.latitude_deg,

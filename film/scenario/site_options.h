@@ -15,6 +15,7 @@ struct SiteOptions {
     std::string station;                 ///< of a METAR file
     std::string month;                   ///< "2024-02": of METAR reports, which name only the day
     std::string missing_precip = "dry";  ///< dry or estimate
+    std::optional<double> file_zone_h;   ///< of times that name no zone, hours ahead of UTC
     std::string ignore;                  ///< columns that may stay unread, by comma, or all
     std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups
 };

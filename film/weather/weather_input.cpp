@@ -26,6 +26,12 @@ weather::ReadOptions read_options(const SiteOptions& options)
     read.filling.missing_precip = options.missing_precip == "estimate"
                                       ? weather::MissingPrecip::Estimate
                                       : weather::MissingPrecip::Dry;
+    if (options.file_zone_h) {
+        if (!(std::abs(*options.file_zone_h) <= 14.0))
+            throw Error("simulate: --file-zone must be in -14..14 hours",
+                        "Give hours ahead of UTC: -7 for Mountain Standard Time.");
+        read.utc_offset_h = *options.file_zone_h;
+    }
     for (std::size_t at = 0; at < options.ignore.size();) {
         const std::size_t end = std::min(options.ignore.find(',', at), options.ignore.size());
         const auto name = weather::trimmed(std::string_view(options.ignore).substr(at, end - at));

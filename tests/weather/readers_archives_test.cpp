@@ -415,5 +415,60 @@ TEST(NeverMisread, MetarPlacesAreNotGuessed)
     EXPECT_THAT(notes(read.report), HasSubstr("give latitude and longitude"));
 }
 
+TEST(NeverMisread, LocalTimesWithoutAZoneAreNoticed)
+{
+    std::string text = "# latitude: 43.2\n# longitude: -116.8\ntime,air_temp_c,sw_down_w_m2\n";
+    for (int hour = 0; hour < 240; ++hour) {
+        const std::int64_t us = us_from_iso("2024-06-01").value() + hour * 3600000000LL;
+        const double sun = std::max(0.0, std::sin((hour % 24 - 6) * 3.14159 / 12.0));
+        text += iso_from_us(us).substr(0, 16) + ",15," + std::to_string(900.0 * sun) + "\n";
+    }
+    EXPECT_THAT(notes(raw(text).report), HasSubstr("--file-zone -8"));
+    ReadOptions options;
+    options.utc_offset_h = -8.0;
+    const auto moved = raw(text, options);
+    EXPECT_EQ(iso_from_us(moved.table.time_us.front()), "2024-06-01T08:00:00Z");
+    EXPECT_THAT(notes(moved.report), testing::Not(HasSubstr("--file-zone")));
+}
+
+TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
+{
+    const auto table =
+        raw("STATION,DATE,LATITUDE,LONGITUDE,ELEVATION,NAME,PRCP,SNOW,SNWD,TMAX,TMIN\n"
+            "US1,2024-01-01,45,-110,1000,X,100,100,120,20,-60\n"
+            "US1,2024-01-02,45,-110,1000,X,100,0,90,80,10\n"
+            "US1,2024-01-03,45,-110,1000,X,0,0,80,80,10\n")
+            .table;
+    EXPECT_EQ(table[Field::SnowShare].front(), 1.0);
+    EXPECT_EQ(table[Field::SnowShare][8], 0.0);
+    EXPECT_TRUE(std::isnan(table[Field::SnowShare][16]));
+    EXPECT_NEAR(table[Field::SnowDepth].front(), 0.12, 1e-12);
+}
+
+TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
+{
+    const char* assets = std::getenv("PETRICHOR_ASSETS");
+    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS is not set";
+    std::istringstream in(
+        text_of(std::filesystem::path(assets) / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
+    std::string text, line;
+    for (int n = 0; std::getline(in, line); ++n) {
+        const auto columns = split(line, ',');
+        if (n >= 8 && columns.size() > 34) {
+            std::string changed;
+            for (std::size_t i = 0; i < columns.size(); ++i)
+                changed.append(i ? "," : "").append(i == 33 ? "0" : std::string(columns[i]));
+            line = changed;
+        }
+        text += line + "\n";
+    }
+    ReadOptions options;
+    const auto dry = read_weather(text, options);
+    EXPECT_THAT(notes(dry.report), testing::AllOf(HasSubstr("taken as not measured"),
+                                                  HasSubstr("no precipitation in the file")));
+    options.filling.missing_precip = MissingPrecip::Estimate;
+    EXPECT_GT(total(read_weather(text, options).table, Field::Precip), 50.0);
+}
+
 }  // namespace
 }  // namespace petrichor::weather

@@ -21,7 +21,7 @@ namespace {
 
 struct Day {
     double low_c = kMissing, high_c = kMissing, mean_c = kMissing, precip_mm = kMissing,
-           wind_m_s = kMissing, depth_m = kMissing;
+           wind_m_s = kMissing, depth_m = kMissing, fresh_mm = kMissing;
     double total_mm = kMissing, total_days = kMissing;  ///< of several days that end with this one
     std::size_t line = 0;
 };
@@ -38,10 +38,11 @@ void put(RowCollector& rows, Day& day, std::size_t line, std::string_view elemen
         double scale, low, high;
     };
     constexpr Element kElements[] = {
-        {"TMIN", &Day::low_c, 0.1, -100, 65},   {"TMAX", &Day::high_c, 0.1, -100, 65},
-        {"TAVG", &Day::mean_c, 0.1, -100, 65},  {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
-        {"AWND", &Day::wind_m_s, 0.1, 0, 110},  {"SNWD", &Day::depth_m, 0.001, 0, 30},
-        {"MDPR", &Day::total_mm, 0.1, 0, 5000}, {"DAPR", &Day::total_days, 1, 1, 100}};
+        {"TMIN", &Day::low_c, 0.1, -100, 65},  {"TMAX", &Day::high_c, 0.1, -100, 65},
+        {"TAVG", &Day::mean_c, 0.1, -100, 65}, {"PRCP", &Day::precip_mm, 0.1, 0, 2000},
+        {"AWND", &Day::wind_m_s, 0.1, 0, 110}, {"SNWD", &Day::depth_m, 0.001, 0, 30},
+        {"SNOW", &Day::fresh_mm, 1, 0, 5000},  {"MDPR", &Day::total_mm, 0.1, 0, 5000},
+        {"DAPR", &Day::total_days, 1, 1, 100}};
     const auto known = std::find_if(std::begin(kElements), std::end(kElements),
                                     [&](const Element& e) { return element == e.name; });
     if (known == std::end(kElements) || trimmed(text).empty()) return;
@@ -275,6 +276,9 @@ static void read_ghcn_daily(std::string_view text, RowCollector& rows, const Rea
                 rows.missing(Field::Precip);
             else
                 rows.set(Field::Precip, day.precip_mm / 86400.0);
+            // Fresh snow: 10 mm of it hold about 1 mm of water, and no more than fell.
+            if (day.precip_mm > 0.0 && !std::isnan(day.fresh_mm))
+                rows.set(Field::SnowShare, std::min(0.1 * day.fresh_mm / day.precip_mm, 1.0));
             if (!std::isnan(day.wind_m_s)) rows.set(Field::Wind, day.wind_m_s);
             if (!std::isnan(day.depth_m)) rows.set(Field::SnowDepth, day.depth_m);
         }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 
@@ -49,6 +50,44 @@ void refuse_binary(std::string_view text)
         }
         if (text.size() <= kSample) break;
     }
+}
+
+// Whether the sun of the file rises when it should at its place: times without a zone may be local.
+void check_sun(const ForcingTable& table, ReadReport& report)
+{
+    const Site& site = table.site;
+    if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
+        std::isnan(site.longitude_deg) || table.rows() < 48 || report.typical_year)
+        return;
+    // The sun of at most 1500 rows, and how far it agrees when the clock is turned by whole hours.
+    const std::size_t stride = std::max<std::size_t>(1, table.rows() / 1500) | 1u;
+    double best = -1.0, here = 0.0;
+    int turn = 0;
+    for (int h = -12; h <= 12; ++h) {
+        double product = 0.0, sun2 = 0.0, file2 = 0.0;
+        for (std::size_t i = 0; i < table.rows(); i += stride) {
+            const double measured = table[Field::Shortwave][i];
+            if (std::isnan(measured)) continue;
+            const double sun = std::max(0.0, sun_direction(table.time_us[i] + h * 3600000000LL,
+                                                           site.latitude_deg, site.longitude_deg)
+                                                 .up);
+            product += sun * measured;
+            sun2 += sun * sun;
+            file2 += measured * measured;
+        }
+        const double agreement = product / std::sqrt(sun2 * file2 + 1e-30);
+        if (h == 0) here = agreement;
+        if (agreement > best) {
+            best = agreement;
+            turn = h;
+        }
+    }
+    if (std::abs(turn) < 2 || best < 0.7 || best < here + 0.1) return;
+    report.add({ReadNote::Kind::Warning, 0, "time",
+                "the sun of the file stands " + std::to_string(std::abs(turn)) + " h " +
+                    (turn > 0 ? "ahead of" : "behind") +
+                    " that of its place: if its times are local, give --file-zone " +
+                    std::to_string(-turn)});
 }
 
 }  // namespace
@@ -102,6 +141,13 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     ReadResult result;
     result.table = rows.finish();
     result.report = std::move(rows.report());
+    Site& placed = result.table.site;
+    if (!std::isnan(options.utc_offset_h) && std::isnan(placed.utc_offset_h)) {
+        placed.utc_offset_h = options.utc_offset_h;
+        for (std::int64_t& us : result.table.time_us)
+            us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
+    }
+    check_sun(result.table, result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);
     return result;
 }

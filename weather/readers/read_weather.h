@@ -20,6 +20,7 @@ struct ReadOptions {
     int year = 0, month = 0;        ///< METAR says only the day; 0: January 2020, with a note
     TafUse taf = TafUse::Expected;  ///< TAF: what to make of TEMPO and PROB groups
     std::size_t most_bytes = std::size_t{512} << 20;
+    double utc_offset_h = kMissing;     ///< of the file's times, where it names no zone; -14..14
     std::vector<std::string> ignore{};  ///< names of columns that may be left unread, or "all"
     bool fill = true;                   ///< run fill_forcing
     FillOptions filling{};
