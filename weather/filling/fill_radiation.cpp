@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3600LL * 1000000;
 constexpr std::int64_t kLongestDivided_us = 48 * kHour_us;
+constexpr double kFalls_kg_m2_s = 0.1 / 3600.0;
+constexpr double kFog_m = 1000.0;
 
 // Parts into which the interval after a row is divided.
 std::int64_t parts_of(std::int64_t length_us)
@@ -49,7 +51,7 @@ void follow_the_sun(std::vector<double>& net, const std::vector<double>& sun,
 
 // How many rows were filled in each way.
 struct Fills {
-    std::size_t cloud_from_sun = 0, cloud_from_sky = 0, cloud_assumed = 0;
+    std::size_t cloud_from_sun = 0, cloud_from_sky = 0, cloud_falling = 0, cloud_assumed = 0;
     std::size_t shortwave = 0, longwave = 0;
 };
 
@@ -70,6 +72,11 @@ public:
             from_ = nullptr;
             return last_ = cloud;
         }
+        // What falls comes from a cloud, and fog is one.
+        if (falls_or_fog(row)) {
+            ++fills.cloud_falling;
+            return 1.0;
+        }
         // A low sun tells little about clouds.
         if (!std::isnan(sw) && sine > 0.17 && sun_is_known_) {
             from_ = &fills.cloud_from_sun;
@@ -85,6 +92,13 @@ public:
     }
 
 private:
+    bool falls_or_fog(std::size_t row) const
+    {
+        for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
+            if (table_.has(f) && table_[f][row] >= kFalls_kg_m2_s) return true;
+        return table_.has(Field::Visibility) && table_[Field::Visibility][row] < kFog_m;
+    }
+
     const ForcingTable& table_;
     bool sun_is_known_;
     double last_;
@@ -181,12 +195,13 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     const char* cloud_name = field_info(Field::Cloud).name;
     note_filled(report, cloud_name, fills.cloud_from_sun, "from shortwave, kept through the night");
     note_filled(report, cloud_name, fills.cloud_from_sky, "from longwave (Prata 1996)");
+    note_filled(report, cloud_name, fills.cloud_falling, "full: something falls, or fog");
     note_filled(report, cloud_name, fills.cloud_assumed, "assumed");
     note_filled(report, field_info(Field::Shortwave).name, fills.shortwave,
                 "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where +
                     (net.empty() ? "" : "; what the ground takes up is the file's sw_net"));
     note_filled(report, field_info(Field::Longwave).name, fills.longwave,
-                "air and cloud (Prata 1996)");
+                "air and cloud (Prata 1996; cloud after Konzelmann et al. 1994)");
 }
 
 }  // namespace petrichor::weather

@@ -6,8 +6,9 @@ namespace petrichor::weather {
 /// Emissivity of a clear sky, Prata 1996: x = 46.5 e[hPa]/T; 1 - (1+x) exp(-sqrt(1.2 + 3x)).
 double clear_sky_emissivity(double temp_k, double vapour_pa);
 
-/// Longwave radiation from the sky, W/m2: Prata 1996 with clouds as ea (1 + 0.22 N^2.75), at
-/// most 1.
+/// Longwave radiation from the sky, W/m2: Prata 1996 for a clear sky ea; under cloud ea +
+/// (0.955 - ea) N^2: the form of Konzelmann et al. 1994, whose N^4 leaves half a cover too cold at
+/// Col de Porte, as Unsworth & Monteith's N leaves it too warm at Bondville (docs/weather.md).
 ///   cloud_fraction  0..1
 double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured longwave; 0 at or below the clear sky.
