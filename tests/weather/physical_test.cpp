@@ -12,6 +12,7 @@
 #include "weather/models/physical/detail/cell_steps.h"
 #include "weather/models/physical/mapping.h"
 #include "weather/models/physical/physical_grid.h"
+#include "weather/physics/evaporation.h"
 
 namespace petrichor::weather {
 namespace {
@@ -53,7 +54,7 @@ TEST(Physical, MassAndEnergyCloseOverAYear)
         EXPECT_GT(end.total_precip, 300) << name;
         EXPECT_GT(end.total_evaporation, 20) << name;
         EXPECT_GT(deepest, 0.1) << name;
-        EXPECT_GT(iciest, 0.05) << name;
+        EXPECT_GT(iciest, 0.03) << name;
         if (params.surface.infiltration.first_mm_h == 0)
             EXPECT_GT(wettest, 0.9 * params.surface.puddles.capacity_kg_m2()) << name;
         else
@@ -162,10 +163,69 @@ TEST(Water, SunDriesTheFilmFirst)
     PhysicalParams p;
     const PhysicalTimeline run(steady(295, 40, 3, 500, 4.0 / 3600, 24), p);
     const auto wet = run.state_at(3 * kHourUs), dry = run.state_at(24 * kHourUs);
-    EXPECT_GT(wet.film, 0.9);
+    EXPECT_GT(wet.film, 0.7);
     EXPECT_LT(dry.film, 0.05);
     EXPECT_LT(dry.crack, wet.crack);
     EXPECT_GT(dry.total_evaporation, 2);
+}
+
+// After a shower of 5 mm under a June sun: the film is gone first, then the puddles, the cracks
+// last. A road in use is dry within two hours (half an hour to two hours is what drivers report;
+// Harwood et al. 1988 fit such times to test sections), pavement with hollows shows dark seams
+// long after its film is gone.
+TEST(Water, FilmDriesFirstAndCracksLast)
+{
+    ForcingTable t;
+    t.site = {.latitude_deg = 48, .longitude_deg = 0, .elevation_m = 100};
+    for (int i = 0; i <= 14 * 6; ++i) {
+        t.time_us.push_back(1687168800LL * 1000000 + i * 600000000LL);
+        t[Field::AirTemp].push_back(296);
+        t[Field::RelHumidity].push_back(45);
+        t[Field::Wind].push_back(2.5);
+        t[Field::Shortwave].push_back(800);
+        t[Field::Cloud].push_back(0.2);
+        t[Field::Precip].push_back(i < 1 ? 5.0 / 600 : 0);
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    const auto gone_h = [&](const char* name, auto&& store) {
+        PhysicalParams p;
+        p.surface = surface_preset(name);
+        const PhysicalTimeline run(t, p);
+        for (std::int64_t us = run.begin_us() + kHourUs / 6; us <= run.end_us();
+             us += kHourUs / 6) {
+            if (store(run.state_at(us)) < 0.05)
+                return static_cast<double>(us - run.begin_us()) / static_cast<double>(kHourUs);
+        }
+        return 99.0;
+    };
+    const double film = gone_h("asphalt", [](const CellState& c) { return c.film; });
+    const double puddle = gone_h("asphalt", [](const CellState& c) { return c.puddle; });
+    const double crack = gone_h("asphalt", [](const CellState& c) { return c.crack; });
+    std::printf("  asphalt: film %.1f h, puddles %.1f h, cracks %.1f h\n", film, puddle, crack);
+    EXPECT_LE(film, 4.0);
+    EXPECT_GT(puddle, film);
+    EXPECT_GT(crack, puddle);
+    EXPECT_LE(gone_h("road", [](const CellState& c) { return c.film; }), 2.0);
+}
+
+// A full film evaporates as open water does (Penman), given the same net radiation.
+TEST(Water, AFullFilmEvaporatesAsPenmanSays)
+{
+    PhysicalParams p;
+    p.surface.film_capacity_kg_m2 = 50;
+    p.exchange.stability = Stability::Neutral;
+    ForcingTable t = steady(293.15, 50, 3, 500, 20.0 / 3600, 8);
+    const CellState c = PhysicalTimeline(t, p).state_at(8 * kHourUs);
+    ASSERT_GT(c.film, 49);
+    const PenmanForcing f{.net_radiation_w_m2 = c.flux_shortwave + c.flux_longwave,
+                          .ground_flux_w_m2 = c.flux_ground,
+                          .air_temp_k = 293.15,
+                          .rel_humidity_pct = 50,
+                          .pressure_pa = t[Field::Pressure].back(),
+                          .wind_m_s = 3,
+                          .exchange_coefficient = neutral_exchange(10, 2, p.surface.roughness_m)};
+    EXPECT_NEAR(c.flux_latent / penman_monteith(f).latent_w_m2, 1.0, 0.06);
 }
 
 TEST(Water, GroundThatDrinksKeepsNoPuddle)
@@ -332,7 +392,7 @@ TEST(Physical, OneHashEverywhere)
 {
     const PhysicalTimeline run(rough_year(3000), meadow());
     EXPECT_EQ(hash_text(state_hash(run.series(run.begin_us(), run.end_us(), 24 * kHourUs))),
-              "004134df9a68aae8");
+              "afb63db4a03e49fd");
 }
 
 TEST(Physical, ParametersOutOfRangeAreNamed)

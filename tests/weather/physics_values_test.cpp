@@ -137,7 +137,8 @@ TEST(Snow, Laws)
     EXPECT_NEAR(new_snow_density_hedstrom_pomeroy(kelvin(0)), 119.17, kDigits3);
     EXPECT_NEAR(settled_density(100, 300, 86400), 122.616, kDigits3);
     EXPECT_NEAR(settled_density(100, 500, 86400), 145.232, kDigits3);
-    const SnowParams p;
+    SnowParams p;
+    p.irreducible_water = 0.03;
     EXPECT_NEAR(aged_albedo(p, 0.85, 86400, false), 0.841700, kDigits6);
     EXPECT_NEAR(aged_albedo(p, 0.85, 86400, true), 0.775320, kDigits6);
     EXPECT_NEAR(refreshed_albedo(p, 0.6, 5), 0.698367, kDigits6);
@@ -147,6 +148,13 @@ TEST(Snow, Laws)
     EXPECT_NEAR(cold_content_j_m2(50, kelvin(-5)), 525000, 1e-6);
     EXPECT_NEAR(cold_content_j_m2(50, kelvin(-5)) / kLatentFusion, 1.571856, kDigits6);
     EXPECT_NEAR(liquid_capacity_kg_m2(p, 0.5, 150), 10.09269, kDigits5);
+    // Heavier and warmer snow settles faster, and water makes it soft.
+    const double settling = compaction_rate(p, 250, 100, kelvin(-5), 0.0);
+    EXPECT_GT(compaction_rate(p, 250, 200, kelvin(-5), 0.0), settling);
+    EXPECT_GT(compaction_rate(p, 250, 100, kelvin(-1), 0.0), settling);
+    EXPECT_NEAR(compaction_rate(p, 400, 100, kelvin(0), 0.02) /
+                    compaction_rate(p, 400, 100, kelvin(0), 0.0),
+                1.0 + 0.02 * p.viscosity_wetness, 0.01);
 }
 
 TEST(Snow, SimpleModels)

@@ -14,6 +14,7 @@ struct ExchangeParams {
     Stability stability = Stability::LouisCapped;
     double max_richardson = 0.1;  ///< cap in stable air, >= 0
     double min_wind_m_s = 0.1;    ///< wind is raised to this; > 0
+    double max_unstable = 2.0;    ///< most that unstable air adds to the exchange, as a factor >= 1
 };
 
 /// Exchange coefficient of heat in neutral air: k^2 / (ln(zU/z0) ln(zT/z0h)), z0h = z0/10.

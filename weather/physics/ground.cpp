@@ -1,5 +1,6 @@
 #include "weather/physics/ground.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "weather/physics/constants.h"
@@ -7,24 +8,71 @@
 
 namespace petrichor::weather {
 
+namespace {
+
+constexpr double kUnderBridge_w_m2_k = 10.0;
+// Nodes below a bridge: they carry no heat and resist nothing.
+constexpr double kNoResistance_w_m_k = 1e6, kNoCapacity_j_m3_k = 1e-3;
+
+}  // namespace
+
+GroundProfile make_ground_profile(std::span<const GroundLayer> layers, double conductivity,
+                                  double heat_capacity, bool open_below)
+{
+    GroundProfile profile;
+    if (layers.empty() && !open_below) {
+        profile.conductivity.fill(conductivity);
+        profile.heat_capacity.fill(heat_capacity);
+        return profile;
+    }
+    if (open_below) profile.bottom_resistance = 1.0 / kUnderBridge_w_m2_k;
+    const GroundLayer below{1e9, open_below ? kNoResistance_w_m_k : conductivity,
+                            open_below ? kNoCapacity_j_m3_k : heat_capacity};
+    std::size_t at = 0;
+    double left_m = layers.empty() ? below.thickness_m : layers[0].thickness_m;
+    for (std::size_t i = 0; i < kGroundLayers; ++i) {
+        double wanted_m = kGroundThickness_m[i], resistance = 0.0, capacity = 0.0;
+        while (wanted_m > 0.0) {
+            const GroundLayer& layer = at < layers.size() ? layers[at] : below;
+            const double part_m = std::min(wanted_m, left_m);
+            resistance += part_m / layer.conductivity_w_m_k;
+            capacity += part_m * layer.heat_capacity_j_m3_k;
+            wanted_m -= part_m;
+            left_m -= part_m;
+            if (left_m <= 0.0) {
+                ++at;
+                left_m = at < layers.size() ? layers[at].thickness_m : below.thickness_m;
+            }
+        }
+        profile.conductivity[i] = kGroundThickness_m[i] / resistance;
+        profile.heat_capacity[i] = capacity / kGroundThickness_m[i];
+    }
+    return profile;
+}
+
 GroundStack make_ground_stack(double conductivity, double heat_capacity, double dt_s)
+{
+    return make_ground_stack(make_ground_profile({}, conductivity, heat_capacity, false), dt_s);
+}
+
+GroundStack make_ground_stack(const GroundProfile& profile, double dt_s)
 {
     GroundStack stack;
     // From the bottom up. `y`: conductance seen below a point, towards the equivalent temperature
     // there.
     double y = 0.0;
     for (std::size_t i = kGroundLayers; i-- > 0;) {
-        const double half = 0.5 * kGroundThickness_m[i] / conductivity;
+        const double half = 0.5 * kGroundThickness_m[i] / profile.conductivity[i];
         // How much of the node its lower interface feels, and how much of the upper one the node.
         double share_down = 0.0;
         if (i + 1 == kGroundLayers) {
-            y = 1.0 / half;  // straight to the fixed temperature
+            y = 1.0 / (half + profile.bottom_resistance);  // straight to the fixed temperature
         } else {
             share_down = 1.0 / (1.0 + y * half);
             y = y * share_down;
             stack.weight_above[i + 1] *= share_down;
         }
-        const double storage = heat_capacity * kGroundThickness_m[i] / dt_s;
+        const double storage = profile.heat_capacity[i] * kGroundThickness_m[i] / dt_s;
         const double total = y + storage;
         stack.weight_below[i] = y / total;
         stack.weight_own[i] = storage / total;

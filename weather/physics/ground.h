@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace petrichor::weather {
 
@@ -30,6 +31,24 @@ struct GroundStack {
 
 /// Factors for a step of dt seconds; conductivity W m-1 K-1, capacity J m-3 K-1, all > 0.
 GroundStack make_ground_stack(double conductivity, double heat_capacity, double dt_s);
+
+/// A layer of a road or a roof.
+struct GroundLayer {
+    double thickness_m = 0.1;             ///< > 0
+    double conductivity_w_m_k = 0.8;      ///< > 0
+    double heat_capacity_j_m3_k = 2.1e6;  ///< > 0
+};
+/// Conductivity and heat capacity of every node: resistances of the layers within it add, and so do
+/// their capacities.
+struct GroundProfile {
+    std::array<double, kGroundLayers> conductivity{}, heat_capacity{};
+    double bottom_resistance = 0.0;  ///< m2 K / W, from the last node on to the fixed temperature
+};
+/// Layers from the top, over ground of the last two values; with `open_below` there is nothing
+/// below them but air, which takes heat away at 10 W m-2 K-1 (a bridge).
+GroundProfile make_ground_profile(std::span<const GroundLayer> layers, double conductivity,
+                                  double heat_capacity, bool open_below);
+GroundStack make_ground_stack(const GroundProfile& profile, double dt_s);
 
 /// Temperatures after one step with the surface held at `surface_temp_k`.
 struct GroundStep {

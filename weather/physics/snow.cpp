@@ -2,6 +2,7 @@
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/formulas.h"
+#include "weather/physics/detail/snow_kernel.h"
 #include "weather/physics/detail/snow_laws.h"
 
 namespace petrichor::weather {
@@ -20,6 +21,16 @@ double settled_density(double density, double limit, double dt_s)
 {
     return detail::settled_density_of(density, limit,
                                       detail::kept_after(dt_s, detail::kSettling_h));
+}
+
+double compaction_rate(const SnowParams& p, double density, double load_kg_m2, double temp_k,
+                       double wet)
+{
+    // The kernel's factor is a line in time.
+    constexpr double kLong_s = 1e6;
+    const double growth =
+        detail::settling_growth(density, load_kg_m2, temp_k - kZeroCelsiusK, wet, p, kLong_s);
+    return density * (growth - 1.0) / kLong_s;
 }
 
 double aged_albedo(const SnowParams& p, double albedo, double dt_s, bool melting)

@@ -16,7 +16,7 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"asphalt", 0.12, 0.08, 0.95, 0.005, 1.0, 1.5, 15.0, 0.0, 0.0, 0.75, 1.94e6},
+    {"asphalt", 0.12, 0.08, 0.95, 0.005, 0.4, 1.5, 15.0, 0.0, 0.0, 0.75, 1.94e6},
     {"concrete", 0.30, 0.20, 0.94, 0.003, 0.5, 0.8, 10.0, 0.0, 0.0, 1.5, 2.1e6},
     {"paving_stones", 0.25, 0.17, 0.94, 0.005, 0.5, 4.0, 10.0, 50.0, 10.0, 1.2, 2.0e6},
     {"cobblestone", 0.20, 0.13, 0.94, 0.01, 0.6, 8.0, 15.0, 50.0, 10.0, 1.5, 2.1e6},
@@ -30,6 +30,27 @@ constexpr Row kRows[] = {
     {"wood", 0.30, 0.18, 0.92, 0.003, 0.6, 1.5, 5.0, 0.0, 0.0, 0.15, 1.0e6},
     {"rock", 0.25, 0.17, 0.94, 0.01, 0.4, 3.0, 20.0, 0.0, 0.0, 2.5, 2.2e6},
 };
+
+// Crowned, swept by traffic and ploughed. Albedo, emissivity, heat from traffic and below, and how
+// fast snow goes are METRo's (Crevier & Delage 2001); roughness is that of the exchange METRo has.
+Surface road_in_use()
+{
+    Surface s;
+    s.name = "road";
+    s.albedo_dry = 0.10;
+    s.albedo_wet = 0.08;
+    s.emissivity = 0.92;
+    s.roughness_m = 0.001;
+    s.film_capacity_kg_m2 = 0.2;
+    s.cracks = uniform_hypsometry(0.2);
+    s.puddles = uniform_hypsometry(0.2);
+    s.layers = {{0.2, 0.8, 2.1e6}, {0.3, 0.95, 2.1e6}};  // asphalt on crushed rock
+    s.conductivity_w_m_k = 0.95;
+    s.heat_capacity_j_m3_k = 2.1e6;
+    s.traffic_heat_w_m2 = 10.0;
+    s.snow_clearing_1_h = 1.08;
+    return s;
+}
 
 std::vector<Surface> make_presets()
 {
@@ -50,6 +71,10 @@ std::vector<Surface> make_presets()
         s.heat_capacity_j_m3_k = row.heat_capacity;
         all.push_back(std::move(s));
     }
+    all.push_back(road_in_use());
+    all.push_back(all.back());
+    all.back().name = "bridge";
+    all.back().open_below = true;
     return all;
 }
 
@@ -127,6 +152,18 @@ void check_surface(const Surface& s)
             "heat_capacity_j_m3_k", s.heat_capacity_j_m3_k, "in 1e4..1e8");
     require(s.traffic_loss_1_h >= 0.0 && s.traffic_loss_1_h < 1e3, s, "traffic_loss_1_h",
             s.traffic_loss_1_h, "0 or more");
+    for (const GroundLayer& layer : s.layers) {
+        require(layer.thickness_m > 0.0 && layer.thickness_m <= 100.0, s, "layers.thickness_m",
+                layer.thickness_m, "in (0, 100]");
+        require(layer.conductivity_w_m_k > 0.0 && layer.conductivity_w_m_k < 1e3, s,
+                "layers.conductivity_w_m_k", layer.conductivity_w_m_k, "above 0");
+        require(layer.heat_capacity_j_m3_k >= 1e4 && layer.heat_capacity_j_m3_k < 1e8, s,
+                "layers.heat_capacity_j_m3_k", layer.heat_capacity_j_m3_k, "in 1e4..1e8");
+    }
+    require(s.snow_clearing_1_h >= 0.0 && s.snow_clearing_1_h < 1e3, s, "snow_clearing_1_h",
+            s.snow_clearing_1_h, "0 or more");
+    require(s.traffic_heat_w_m2 >= 0.0 && s.traffic_heat_w_m2 <= 1e3, s, "traffic_heat_w_m2",
+            s.traffic_heat_w_m2, "in 0..1000");
     require(s.traffic_wind_m_s >= 0.0 && s.traffic_wind_m_s < 50.0, s, "traffic_wind_m_s",
             s.traffic_wind_m_s, "0 or more");
 }

@@ -8,7 +8,7 @@ namespace petrichor::weather {
 
 // The one list. Its order matters: see weather_readers().
 #define PETRICHOR_WEATHER_READERS(add)                                                          \
-    add(pvgis_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis) add(midc)     \
+    add(metro) add(pvgis_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis) add(midc)     \
         add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(global_hourly) add(lcd) add(ghcnh) \
             add(dwd) add(environment_canada) add(meteostat) add(iem) add(isd) add(metar)        \
                 add(ghcn_daily) add(surfrad) add(uscrn) add(isd_lite) add(fsm) add(forcing_csv)

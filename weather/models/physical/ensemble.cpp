@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "weather/models/physical/physical_grid.h"
@@ -122,16 +123,28 @@ std::vector<EnsembleRow> run_ensemble(const ForcingTable& table, const PhysicalP
 std::vector<Sensitivity> sensitivity_table(const ForcingTable& table, const PhysicalParams& params,
                                            const EnsembleSpread& spread)
 {
+    const auto times = [](const char* what, double log_factor) {
+        char text[80];
+        std::snprintf(text, sizeof text, "%s x %.2f", what, detail::exponential(log_factor));
+        return std::string(text);
+    };
+    const auto plus = [](const char* what, double amount, const char* unit) {
+        char text[80];
+        std::snprintf(text, sizeof text, "%s %+g %s", what, amount, unit);
+        return std::string(text);
+    };
+    const double p = spread.precip_log, t = spread.air_k, u = spread.wind_log,
+                 c = spread.cloud_w_m2;
     const std::vector<std::pair<std::string, Change>> changes = {
         {"as given", {}},
-        {"precipitation down", {-spread.precip_log, 0, 0, 0}},
-        {"precipitation up", {spread.precip_log, 0, 0, 0}},
-        {"temperature down", {0, -spread.air_k, 0, 0}},
-        {"temperature up", {0, spread.air_k, 0, 0}},
-        {"wind down", {0, 0, -spread.wind_log, 0}},
-        {"wind up", {0, 0, spread.wind_log, 0}},
-        {"cloud down", {0, 0, 0, -spread.cloud_w_m2}},
-        {"cloud up", {0, 0, 0, spread.cloud_w_m2}},
+        {times("precipitation", -p), {-p, 0, 0, 0}},
+        {times("precipitation", p), {p, 0, 0, 0}},
+        {plus("temperature", -t, "K"), {0, -t, 0, 0}},
+        {plus("temperature", t, "K"), {0, t, 0, 0}},
+        {times("wind", -u), {0, 0, -u, 0}},
+        {times("wind", u), {0, 0, u, 0}},
+        {plus("sky", -c, "W/m2"), {0, 0, 0, -c}},
+        {plus("sky", c, "W/m2"), {0, 0, 0, c}},
     };
     std::vector<GridCell> cells;
     for (const auto& [name, change] : changes) cells.push_back(changed_cell(table, change));

@@ -54,10 +54,20 @@ void check_params(const PhysicalParams& p)
             "in 1e-6..0.5");
     require(s.emissivity > 0.0 && s.emissivity <= 1.0, "snow.emissivity", s.emissivity,
             "in (0, 1]");
+    require(s.new_density_factor > 0.0 && s.new_density_factor <= 5.0, "snow.new_density_factor",
+            s.new_density_factor, "in (0, 5]");
+    require(s.viscosity_pa_s >= 1e5 && s.viscosity_pa_s <= 1e10, "snow.viscosity_pa_s",
+            s.viscosity_pa_s, "in 1e5..1e10");
+    require(s.viscosity_density_m3_kg >= 0.0 && s.viscosity_density_m3_kg <= 0.1,
+            "snow.viscosity_density_m3_kg", s.viscosity_density_m3_kg, "in 0..0.1");
+    require(s.viscosity_wetness >= 0.0 && s.viscosity_wetness <= 1e4, "snow.viscosity_wetness",
+            s.viscosity_wetness, "in 0..1e4");
     require(s.constant_density_kg_m3 >= 10.0 && s.constant_density_kg_m3 <= 900.0,
             "snow.constant_density_kg_m3", s.constant_density_kg_m3, "in 10..900");
     require(p.exchange.min_wind_m_s > 0.0 && p.exchange.min_wind_m_s < 50.0,
             "exchange.min_wind_m_s", p.exchange.min_wind_m_s, "above 0");
+    require(p.exchange.max_unstable >= 1.0, "exchange.max_unstable", p.exchange.max_unstable,
+            "1 or more");
     require(p.exchange.max_richardson >= 0.0, "exchange.max_richardson", p.exchange.max_richardson,
             "0 or more");
     require(p.phase.all_rain_k > p.phase.all_snow_k, "phase.all_rain_k", p.phase.all_rain_k,

@@ -46,6 +46,7 @@ struct PartConstants {
     ReservoirConstants film, film_in_snow;
     HortonStep horton, horton_turn;  // over the substep, and over a turn of it
     double sprayed = 0.0;            // share of the film that traffic takes
+    double cleared = 0.0;            // and of the snow that wheels and ploughs take
 };
 // Factors that depend on the length of the step.
 struct StepConstants {

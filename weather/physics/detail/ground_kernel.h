@@ -9,8 +9,8 @@ namespace petrichor::weather::detail {
 
 // Fills equivalent[i], the equivalent temperature at node i; returns the one seen from the surface.
 template <class Real>
-PETRICHOR_INLINE Real ground_equivalent(const GroundStack& stack, const Real* temp, double deep,
-                                        Real* equivalent)
+PETRICHOR_INLINE Real ground_equivalent(const GroundStack& stack, const Real* temp,
+                                        const Real& deep, Real* equivalent)
 {
     Real below = deep;
     for (std::size_t i = kGroundLayers; i-- > 0;) {

@@ -23,7 +23,7 @@ PETRICHOR_INLINE Real new_snow_density_of(const CellConstants& k, const Real& ai
         case NewSnowDensity::Pahaut:
             break;
     }
-    return new_snow_density_pahaut_of(air_c, wind);
+    return new_snow_density_pahaut_of(air_c, wind) * k.snow.new_density_factor;
 }
 
 // New snow joins the top layer at the temperature of the air, at most 0 C.
@@ -231,6 +231,21 @@ PETRICHOR_KERNEL Real melt_base(CellVars<Real>& c, const Real& most, Real& flow)
     return most - wanted;
 }
 
+// Wheels and ploughs take a share of every layer; what they throw away, kg/m2.
+template <class Real>
+PETRICHOR_INLINE Real clear_snow(CellVars<Real>& c, double share)
+{
+    Real thrown = 0.0;
+    for (std::size_t i = 0; i < kSnowLayers; ++i) {
+        const Real ice = c.snow_ice[i] * share, liquid = c.snow_liquid[i] * share;
+        thrown += ice + liquid;
+        c.snow_ice[i] = c.snow_ice[i] - ice;
+        c.snow_liquid[i] = c.snow_liquid[i] - liquid;
+        c.snow_thickness[i] = c.snow_thickness[i] * (1.0 - share);
+    }
+    return thrown;
+}
+
 // Where the base of a pack would be above 0 C: melts it with the heat that the ground then gives,
 // and lowers the base's temperature by what that takes. Returns the water that leaves.
 template <class Real, class Mask>
@@ -317,14 +332,17 @@ PETRICHOR_INLINE void age_albedo(CellVars<Real>& c, const Real& melting, const C
 constexpr double kBroken_kg_m3 = 350.0;
 constexpr double kDensest_kg_m3 = 850.0;  // nothing settles beyond this
 
-// Anderson 1976: by which factor a layer becomes denser within dt seconds.
+// Anderson 1976, wet snow after Vionnet et al. 2012: by which factor a layer becomes denser within
+// dt seconds.
 //   load  on its middle, kg/m2
+//   wet   liquid water, m3 a m3
 template <class Real>
 PETRICHOR_INLINE Real settling_growth(const Real& density, const Real& load, const Real& temp_c,
-                                      double dt)
+                                      const Real& wet, const SnowParams& snow, double dt)
 {
-    const Real weight =
-        load * (kGravity_m_s2 / 3.7e7) * exponential(temp_c * 0.081 - density * 0.018);
+    const Real softness = wet * snow.viscosity_wetness + 1.0;
+    const Real weight = load * softness * (kGravity_m_s2 / snow.viscosity_pa_s) *
+                        exponential(temp_c * 0.081 - density * snow.viscosity_density_m3_kg);
     // Crystals of dense snow are broken: below a millionth an hour nothing is left to count.
     const auto whole = density < kBroken_kg_m3;
     Real breaking = 0.0;
@@ -359,7 +377,9 @@ PETRICHOR_KERNEL void age_snow(CellVars<Real>& c, const Real& snowfall, const Re
         const Real density = smaller(mass * per_thickness, Real(1000.0));
         Real growth;
         if (k.snow.settling == Settling::Overburden) {
-            growth = settling_growth(density, above + mass * 0.5, c.snow_temp_c[i], dt);
+            growth = settling_growth(density, above + mass * 0.5, c.snow_temp_c[i],
+                                     c.snow_liquid[i] * per_thickness * (1.0 / kWaterDensity),
+                                     k.snow, dt);
         } else {
             const Real limit = select(c.snow_temp_c[i] > -1e-9, Real(500.0), Real(300.0));
             const Real denser = settled_density_of(density, limit, s.settling);

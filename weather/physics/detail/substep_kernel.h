@@ -37,7 +37,8 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const auto covered = pack > zero;
     Real ground_equivalents[kGroundLayers];
     const Real ground_seen =
-        ground_equivalent(ground, c.ground_temp_c, k.deep_temp_c, ground_equivalents);
+        ground_equivalent(ground, c.ground_temp_c,
+                          k.surface.open_below ? w.air_c : Real(k.deep_temp_c), ground_equivalents);
     Real conductance = ground.conductance_w_m2_k;
     Real below_c = ground_seen;
     SnowColumn<Real> column;
@@ -68,7 +69,9 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     const Real emissivity = cover * (k.snow_emissivity - k.emissivity) + k.emissivity;
     const Real taken_up = 1.0 - albedo * w.reflecting;
     const Real absorbed_sw = taken_up * w.shortwave;
-    p.absorbed = absorbed_sw + emissivity * w.longwave;
+    // Traffic warms the road, not the snow that lies on it.
+    const Real given = absorbed_sw + (1.0 - cover) * k.surface.traffic_heat_w_m2;
+    p.absorbed = given + emissivity * w.longwave;
     p.emitting = emissivity * kStefanBoltzmann;
     p.air_c = w.air_c;
     p.q_air = w.q_air;
@@ -123,6 +126,7 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
                                   select(covered, larger(melt_mass, zero), zero),
                                   select(covered, rain_mass, zero), snow <= zero, k);
         runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
+        if (part.cleared > 0.0) c.total_drainage += clear_snow(c, part.cleared);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
         c.step_runoff += select(covered, runoff, zero);
@@ -135,7 +139,7 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
                bare_icy, slush, root.wet.shares, k, part);
 
     c.flux_shortwave += absorbed_sw * share;
-    c.flux_longwave += (f.net_radiation - absorbed_sw) * share;
+    c.flux_longwave += (f.net_radiation - given) * share;
     c.flux_sensible += f.sensible * share;
     c.flux_latent += f.latent * share;
     c.flux_ground += f.ground * share;

@@ -138,7 +138,8 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
     if (params.stability == Stability::Neutral) return p.exchange;
     Real ri = p.richardson_k * (p.air_c - surface_c);
     if (params.stability == Stability::LouisCapped) ri = smaller(ri, Real(params.max_richardson));
-    return p.exchange * stability_factor_of(ri, p.neutral, p.root_z);
+    return p.exchange *
+           smaller(stability_factor_of(ri, p.neutral, p.root_z), Real(params.max_unstable));
 }
 
 constexpr double kLongestStep_k = 20.0;

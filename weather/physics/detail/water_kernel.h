@@ -263,7 +263,7 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     const Real evaporation = select(icy, zero, to_air);
     const Real per_wet = evaporation / larger(wet.all.mean, Real(1e-12));
     const Real open = 1.0 - wet.puddle;
-    const Real film_wanted = per_wet * (open * (1.0 - wet.crack) * wet.film);
+    const Real film_wanted = per_wet * (open * wet.film);
     const auto film = drain_slush(c.film, (film_supply - film_wanted) * part.inverse_dt_1_s, slush,
                                   part.film_in_snow, part.film);
     c.film = film.water;
@@ -276,8 +276,9 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
 
     // ---- infiltration on the way down, then cracks and puddles fill
     const Real pores = pores_of(film_before, c.film, k);
-    const auto hollows =
-        hollows_after(c, film.drained, supply > zero, per_wet * open, per_wet, pores, k, part);
+    const auto hollows = hollows_after(c, film.drained, supply > zero,
+                                       per_wet * (open * (1.0 - wet.film) * kCrackExposure),
+                                       per_wet, pores, k, part);
     c.crack = hollows.crack;
     c.puddle = hollows.puddle;
     evaporated += hollows.evaporated;
@@ -295,8 +296,8 @@ PETRICHOR_KERNEL void move_water(CellVars<Real>& c, const Real& supply, const Re
     }
     if (any(owed > zero)) {
         Real left = taken_from(c.film, owed);
-        left = taken_from(c.crack, left);
         left = taken_from(c.puddle, left);
+        left = taken_from(c.crack, left);
         evaporated += owed - left;
     }
 

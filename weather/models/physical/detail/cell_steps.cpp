@@ -17,6 +17,7 @@ namespace {
 // The day's course of sun and air asks for this much, however long a step is.
 constexpr double kLongestPart_s = 3600.0;
 constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
+constexpr double kPlainDeck_m = 0.3;  // of a bridge whose layers are not given
 
 double year_angle(std::int64_t time_us, bool south)
 {
@@ -174,12 +175,19 @@ PartConstants make_part_constants(const CellConstants& k, double dt_s)
     PartConstants part;
     part.dt_s = dt_s;
     part.inverse_dt_1_s = 1.0 / dt_s;
-    part.ground = make_ground_stack(surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k, dt_s);
+    std::vector<GroundLayer> layers = surface.layers;
+    if (layers.empty() && surface.open_below)
+        layers.push_back({kPlainDeck_m, surface.conductivity_w_m_k, surface.heat_capacity_j_m3_k});
+    part.ground =
+        make_ground_stack(make_ground_profile(layers, surface.conductivity_w_m_k,
+                                              surface.heat_capacity_j_m3_k, surface.open_below),
+                          dt_s);
     part.film = reservoir_constants(surface.film_rate_1_s, k.film_capacity, dt_s);
     part.film_in_snow = reservoir_constants(surface.slush_rate_1_s, k.film_capacity, dt_s);
     part.horton = make_horton_step(horton, hours);
     part.horton_turn = make_horton_step(horton, hours / kFillingTurns);
     part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);
+    part.cleared = 1.0 - exponential(-surface.snow_clearing_1_h * hours);
     return part;
 }
 

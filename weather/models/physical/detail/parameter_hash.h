@@ -70,27 +70,33 @@ private:
     {
         // A name changes nothing.
         const auto& [name, albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2,
-                     film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration,
-                     conductivity_w_m_k, heat_capacity_j_m3_k, traffic_loss_1_h, traffic_wind_m_s] =
-            surface;
+                     film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration, layers,
+                     open_below, conductivity_w_m_k, heat_capacity_j_m3_k, traffic_loss_1_h,
+                     traffic_wind_m_s, snow_clearing_1_h, traffic_heat_w_m2] = surface;
         static_cast<void>(name);
         add(albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2, film_rate_1_s,
-            slush_rate_1_s, cracks, puddles, infiltration, conductivity_w_m_k, heat_capacity_j_m3_k,
-            traffic_loss_1_h, traffic_wind_m_s);
+            slush_rate_1_s, cracks, puddles, infiltration, open_below, conductivity_w_m_k,
+            heat_capacity_j_m3_k, traffic_loss_1_h, traffic_wind_m_s, snow_clearing_1_h,
+            traffic_heat_w_m2);
+        add(std::uint64_t{layers.size()});
+        for (const auto& [thickness_m, layer_w_m_k, layer_j_m3_k] : layers)
+            add(thickness_m, layer_w_m_k, layer_j_m3_k);
     }
     void put(const SnowParams& snow)
     {
-        const auto& [max_layers, new_density, constant_density_kg_m3, settling, albedo_max,
+        const auto& [max_layers, new_density, constant_density_kg_m3, new_density_factor, settling,
+                     viscosity_pa_s, viscosity_density_m3_kg, viscosity_wetness, albedo_max,
                      albedo_min, albedo_cold_h, albedo_melting_h, albedo_refresh_kg_m2,
                      irreducible_water, cover_depth_m, roughness_m, emissivity] = snow;
-        add(max_layers, new_density, constant_density_kg_m3, settling, albedo_max, albedo_min,
+        add(max_layers, new_density, constant_density_kg_m3, new_density_factor, settling,
+            viscosity_pa_s, viscosity_density_m3_kg, viscosity_wetness, albedo_max, albedo_min,
             albedo_cold_h, albedo_melting_h, albedo_refresh_kg_m2, irreducible_water, cover_depth_m,
             roughness_m, emissivity);
     }
     void put(const ExchangeParams& exchange)
     {
-        const auto& [stability, max_richardson, min_wind_m_s] = exchange;
-        add(stability, max_richardson, min_wind_m_s);
+        const auto& [stability, max_richardson, min_wind_m_s, max_unstable] = exchange;
+        add(stability, max_richardson, min_wind_m_s, max_unstable);
     }
     void put(const PhaseParams& phase)
     {

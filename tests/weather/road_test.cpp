@@ -1,0 +1,163 @@
+// Roads: layers, bridges, the measured start, traffic, ploughs, friction, METRo's files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "weather/models/physical/observed_start.h"
+#include "weather/physics/friction.h"
+#include "weather/readers/metro_xml.h"
+
+namespace petrichor::weather {
+namespace {
+
+constexpr std::int64_t kHourUs = 3600000000LL;
+
+ForcingTable steady(double air_k, double sw, double lw, double snow, int hours)
+{
+    ForcingTable t;
+    for (int i = 0; i <= hours; ++i) {
+        t.time_us.push_back(i * kHourUs);
+        t[Field::AirTemp].push_back(air_k);
+        t[Field::RelHumidity].push_back(70);
+        t[Field::Wind].push_back(2);
+        t[Field::Shortwave].push_back(sw);
+        t[Field::Longwave].push_back(lw);
+        t[Field::Precip].push_back(snow / 3600);
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    return t;
+}
+
+TEST(Road, UniformLayersAreTheGroundItself)
+{
+    const GroundLayer layer{0.37, 0.75, 1.94e6};
+    const auto plain = make_ground_stack(0.75, 1.94e6, 600);
+    const auto layered =
+        make_ground_stack(make_ground_profile({{layer, layer}}, 0.75, 1.94e6, false), 600);
+    EXPECT_NEAR(layered.conductance_w_m2_k, plain.conductance_w_m2_k, 1e-9);
+    for (std::size_t i = 0; i < kGroundLayers; ++i)
+        EXPECT_NEAR(layered.weight_own[i], plain.weight_own[i], 1e-12) << i;
+}
+
+TEST(Road, ABridgeFollowsTheAir)
+{
+    PhysicalParams road, bridge;
+    road.surface = surface_preset("road");
+    bridge.surface = surface_preset("bridge");
+    road.deep_temp_k = bridge.deep_temp_k = 283.15;
+    const ForcingTable frost = steady(265.15, 0, 260, 0, 72);
+    const double on_road = PhysicalTimeline(frost, road).state_at(72 * kHourUs).surface_temp_c;
+    const double on_bridge = PhysicalTimeline(frost, bridge).state_at(72 * kHourUs).surface_temp_c;
+    EXPECT_LT(on_bridge, on_road - 1.0);
+    EXPECT_NEAR(on_bridge, -8.0, 3.0);
+}
+
+TEST(Road, TrafficWarmsItAndPloughsClearIt)
+{
+    PhysicalParams quiet, busy;
+    quiet.surface = busy.surface = surface_preset("road");
+    quiet.surface.traffic_heat_w_m2 = quiet.surface.snow_clearing_1_h = 0.0;
+    const ForcingTable frost = steady(268.15, 0, 250, 0, 24);
+    const double k = PhysicalTimeline(frost, busy).state_at(24 * kHourUs).surface_temp_c -
+                     PhysicalTimeline(frost, quiet).state_at(24 * kHourUs).surface_temp_c;
+    EXPECT_GT(k, 0.3);
+    EXPECT_LT(k, 2.0);
+    const ForcingTable storm = steady(266.15, 0, 280, 2.0, 12);
+    const CellState deep = PhysicalTimeline(storm, quiet).state_at(12 * kHourUs);
+    const CellState swept = PhysicalTimeline(storm, busy).state_at(12 * kHourUs);
+    EXPECT_GT(diagnostics(deep).swe_kg_m2, 20);
+    // Fall over clearing rate, 2 / 1.08, less what is cleared at the end of the hour it fell in.
+    EXPECT_GT(diagnostics(swept).swe_kg_m2, 0.9);
+    EXPECT_LT(diagnostics(swept).swe_kg_m2, 2.0 / 1.08);
+    EXPECT_LE(std::abs(swept.mass_residual_most), 1e-9);
+}
+
+TEST(Road, TheMeasuredStartIsTakenAsItIs)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("road");
+    const ForcingTable t = steady(268.15, 0, 250, 0, 24);
+    const std::vector<std::int64_t> times{-2 * kHourUs, -kHourUs, 0};
+    const std::vector<double> surface{5.0, 3.0, 31.5}, below{8.0, 8.0, 8.0};
+    const CellState c = observed_start(t, p, {times, surface, below, 0.4});
+    EXPECT_EQ(c.surface_temp_c, 31.5);
+    EXPECT_GT(c.ground_temp_c[0], 5.0);
+    EXPECT_NEAR(c.ground_temp_c[6], 8.0, 0.5);
+    const std::vector<double> none{kMissing, kMissing, kMissing};
+    EXPECT_THROW(observed_start(t, p, {times, none, below, 0.4}), Error);
+}
+
+TEST(Friction, FallsWithWhatLiesThere)
+{
+    CellState c{};
+    c.surface_temp_c = 5;
+    EXPECT_NEAR(wheel_friction(c), 0.82, 1e-12);
+    EXPECT_EQ(road_condition(c), RoadCondition::Dry);
+    c.film = 1.0;
+    EXPECT_NEAR(wheel_friction(c), 0.70, 0.01);
+    EXPECT_EQ(road_condition(c), RoadCondition::Wet);
+    c.film = 0.0;
+    c.surface_temp_c = -5;
+    double before = 1.0;
+    for (const double ice : {0.0, 0.01, 0.05, 0.2, 1.0}) {
+        c.film_ice = ice;
+        EXPECT_LT(wheel_friction(c), before);
+        before = wheel_friction(c);
+    }
+    EXPECT_NEAR(before, 0.20, 0.01);
+    EXPECT_NEAR(glaze_mm(c), 1.0905, 1e-3);
+    EXPECT_EQ(road_condition(c), RoadCondition::IceOrSnow);
+    c.film = 0.5;
+    EXPECT_LT(wheel_friction(c), 0.10);  // wet ice
+    c.step_rain = 1.0;
+    EXPECT_EQ(road_condition(c), RoadCondition::IcingRain);
+    c = {};
+    c.snow_ice[0] = 5.0;
+    EXPECT_NEAR(wheel_friction(c), 0.25, 0.01);
+}
+
+constexpr const char* kStation =
+    "<?xml version=\"1.0\"?><station><header><road-station>x</road-station><coordinate>"
+    "<latitude>46.2</latitude><longitude>-60.28</longitude></coordinate>"
+    "<station-type>bridge</station-type></header><roadlayer-list><roadlayer><position>1</position>"
+    "<type>Crushed Rock</type><thickness>0.2</thickness></roadlayer></roadlayer-list></station>";
+
+TEST(Metro, StationForecastAndWhatIsWrong)
+{
+    const MetroStation s = read_metro_station(kStation);
+    EXPECT_TRUE(s.bridge);
+    ASSERT_EQ(s.layers.size(), 1u);
+    EXPECT_EQ(s.layers[0].conductivity_w_m_k, 0.95);
+    EXPECT_EQ(s.site.latitude_deg, 46.2);
+    std::string lava = kStation;
+    lava.replace(lava.find("Crushed Rock"), 12, "lava");
+    try {
+        read_metro_station(lava);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("lava"), std::string::npos);
+    }
+    const std::string forecast =
+        "<forecast><prediction-list>"
+        "<prediction><forecast-time>2004-01-30T12:00Z</forecast-time><at>-11</at><td>-14</td>"
+        "<ws>36</ws><ap>984</ap><cc>4</cc><ra>0</ra><sn>0</sn></prediction>"
+        "<prediction><forecast-time>2004-01-30T13:00Z</forecast-time><at>9999</at><td>-14</td>"
+        "<ws>18</ws><ap>984</ap><cc>8</cc><ra>1.5</ra><sn>2</sn></prediction>"
+        "</prediction-list></forecast>";
+    const ForcingTable t = read_metro_forecast(forecast);
+    ASSERT_EQ(t.rows(), 2u);
+    EXPECT_NEAR(t[Field::Wind][0], 10.0, 1e-12);
+    EXPECT_EQ(t[Field::Cloud][0], 0.5);
+    EXPECT_TRUE(std::isnan(t[Field::AirTemp][1]));
+    EXPECT_NEAR(t[Field::Rain][0] * 3600, 1.5, 1e-12);
+    EXPECT_NEAR(t[Field::Snow][0] * 3600, 2.0, 1e-12);
+    EXPECT_THROW(read_metro_forecast("<forecast></forecast>"), Error);
+    EXPECT_THROW(read_metro_forecast(forecast.substr(0, 120)), Error);
+    EXPECT_THROW(read_metro_station("<forecast>"), Error);
+    EXPECT_THROW(read_metro_observation(kStation), Error);
+}
+
+}  // namespace
+}  // namespace petrichor::weather

@@ -1,0 +1,324 @@
+#include "weather/readers/metro_xml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "weather/physics/constants.h"
+#include "weather/readers/formats.h"
+#include "weather/readers/text.h"
+
+namespace petrichor::weather {
+
+namespace {
+
+constexpr std::size_t kMostRows = 1000000;
+constexpr double kMetresPerSecond = 1.0 / 3.6;  // of a km/h
+
+std::size_t line_of(std::string_view text, std::size_t at)
+{
+    return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + at, '\n'));
+}
+
+// The elements of one name, in order. METRo's files have no attributes that matter and no element
+// inside one of its own name.
+class Elements {
+public:
+    Elements(std::string_view text, std::string_view name)
+        : text_(text), open_("<" + std::string(name) + ">"), close_("</" + std::string(name) + ">")
+    {
+    }
+    std::optional<std::string_view> next()
+    {
+        const std::size_t begin = text_.find(open_, at_);
+        if (begin == std::string_view::npos) return std::nullopt;
+        const std::size_t inside = begin + open_.size();
+        const std::size_t end = text_.find(close_, inside);
+        if (end == std::string_view::npos) {
+            throw Error("METRo: line " + std::to_string(line_of(text_, begin)) + ": " + open_ +
+                            " has no end",
+                        "Give the whole file.");
+        }
+        at_ = end + close_.size();
+        begin_ = begin;
+        return text_.substr(inside, end - inside);
+    }
+    std::size_t line() const { return line_of(text_, begin_); }
+
+private:
+    std::string_view text_;
+    std::string open_, close_;
+    std::size_t at_ = 0, begin_ = 0;
+};
+
+std::string_view text_of(std::string_view element, std::string_view name)
+{
+    return trimmed(Elements(element, name).next().value_or(""));
+}
+double number_of(std::string_view element, std::string_view name)
+{
+    const auto value = to_number(text_of(element, name));
+    if (!value || std::abs(*value) == 999.0 || std::abs(*value) == 9999.0) return kMissing;
+    return *value;
+}
+double within(double value, Field field)
+{
+    const FieldInfo& info = field_info(field);
+    return value >= info.low && value <= info.high ? value : kMissing;
+}
+
+void require_root(std::string_view text, const char* root)
+{
+    if (text.find("<" + std::string(root)) != std::string_view::npos) return;
+    throw Error("METRo: the text has no <" + std::string(root) + ">",
+                "Give METRo's " + std::string(root) + " file.");
+}
+
+// Rows of one kind with their times; rows that do not come later than the one before are dropped.
+class TimedRows {
+public:
+    TimedRows(std::string_view text, const char* element, const char* time)
+        : rows_(text, element), element_(element), time_(time)
+    {
+    }
+    std::optional<std::string_view> next()
+    {
+        while (const auto row = rows_.next()) {
+            const auto us = us_from_iso(text_of(*row, time_));
+            if (!us) {
+                throw Error("METRo: line " + std::to_string(rows_.line()) + ": " + time_ + " '" +
+                                shown(text_of(*row, time_)) + "' is not a time",
+                            "Write times as 2005-02-24T21:00Z.");
+            }
+            if (++count_ > kMostRows)
+                throw Error("METRo: more than a million rows", "Give a shorter file.");
+            if (us_ && *us <= *us_) continue;
+            us_ = us;
+            return row;
+        }
+        if (!us_) {
+            throw Error("METRo: there is no <" + element_ + ">",
+                        "Give a file with at least one <" + element_ + ">.");
+        }
+        return std::nullopt;
+    }
+    std::int64_t time_us() const { return *us_; }
+
+private:
+    Elements rows_;
+    std::string element_, time_;
+    std::optional<std::int64_t> us_;
+    std::size_t count_ = 0;
+};
+
+// Thermal properties that METRo gives its materials, W/m/K and J/m3/K (Crevier & Delage 2001).
+struct Material {
+    const char* name;
+    double conductivity, capacity;
+};
+constexpr Material kMaterials[] = {
+    {"asphalt", 0.8, 2.1e6},  {"asphalte", 0.8, 2.1e6}, {"cement", 2.2, 2.1e6},
+    {"concrete", 2.2, 2.1e6}, {"ciment", 2.2, 2.1e6},   {"crushedrock", 0.95, 2.1e6},
+    {"gravel", 0.95, 2.1e6},  {"gravier", 0.95, 2.1e6}, {"sand", 0.6, 1.6e6},
+    {"sable", 0.6, 1.6e6},
+};
+
+GroundLayer layer_of(std::string_view element, std::size_t line)
+{
+    const std::string_view type = text_of(element, "type");
+    const auto known = road_layer(type, 0.0);
+    const auto own = [&](const char* name, double GroundLayer::*value) {
+        const double given = number_of(element, name);
+        return std::isnan(given) && known ? (*known).*value : given;
+    };
+    GroundLayer layer;
+    layer.thickness_m = number_of(element, "thickness");
+    layer.conductivity_w_m_k = own("conductivity", &GroundLayer::conductivity_w_m_k);
+    layer.heat_capacity_j_m3_k = own("capacity", &GroundLayer::heat_capacity_j_m3_k);
+    const std::string where = "METRo: line " + std::to_string(line) + ": ";
+    if (!(layer.conductivity_w_m_k > 0.0 && layer.heat_capacity_j_m3_k > 0.0)) {
+        throw Error(where + "a layer of '" + shown(type) + "'",
+                    "Use asphalt, cement (concrete), crushed rock (gravel) or sand, or give "
+                    "conductivity and capacity.");
+    }
+    if (!(layer.thickness_m > 0.0 && layer.thickness_m <= 100.0)) {
+        throw Error(where + "a layer's thickness is '" + shown(text_of(element, "thickness")) + "'",
+                    "Give a thickness in metres, above 0.");
+    }
+    return layer;
+}
+
+}  // namespace
+
+std::optional<GroundLayer> road_layer(std::string_view material, double thickness_m)
+{
+    std::string plain;
+    for (const char c : lower(trimmed(material)))
+        if (c != ' ' && c != '-' && c != '_') plain += c;
+    for (const Material& known : kMaterials)
+        if (plain == known.name)
+            return GroundLayer{thickness_m, known.conductivity, known.capacity};
+    return std::nullopt;
+}
+
+bool looks_like_metro(std::string_view text)
+{
+    const std::string_view head = text.substr(0, 2048);
+    if (head.find('<') == std::string_view::npos) return false;
+    for (const char* root : {"<station>", "<observation>", "<forecast>", "<roadcast>"})
+        if (head.find(root) != std::string_view::npos) return true;
+    return false;
+}
+
+MetroStation read_metro_station(std::string_view text)
+{
+    require_root(text, "station");
+    MetroStation station;
+    station.site.name = std::string(text_of(text, "road-station").substr(0, 80));
+    station.site.latitude_deg = number_of(text, "latitude");
+    station.site.longitude_deg = number_of(text, "longitude");
+    if (!(std::abs(station.site.latitude_deg) <= 90.0)) {
+        throw Error("METRo: latitude '" + shown(text_of(text, "latitude")) + "'",
+                    "Give a latitude in -90..90.");
+    }
+    // METRo's air is that of 1.5 m, its wind that of 10 m.
+    station.site.temp_height_m = 1.5;
+    station.bridge = lower(text_of(text, "station-type")) == "bridge";
+    if (text_of(text, "sst-sensor-depth-type") == "1") station.subsurface_depth_m = 0.2;
+    const double depth_m = number_of(text, "sst-sensor-depth");
+    if (depth_m > 0.0 && depth_m < 5.0) station.subsurface_depth_m = depth_m;
+    Elements layers(text, "roadlayer");
+    while (const auto layer = layers.next())
+        station.layers.push_back(layer_of(*layer, layers.line()));
+    if (station.layers.empty()) {
+        throw Error("METRo: the station has no <roadlayer>",
+                    "Give at least one layer with its type and thickness.");
+    }
+    Elements directions(text, "direction");
+    while (const auto direction = directions.next()) {
+        const double elevation_deg = number_of(*direction, "elevation");
+        if (station.horizon_rad.size() < 3600)
+            station.horizon_rad.push_back(
+                (std::isnan(elevation_deg) ? 0.0 : std::clamp(elevation_deg, 0.0, 90.0)) * kPi /
+                180.0);
+    }
+    return station;
+}
+
+MetroObservation read_metro_observation(std::string_view text)
+{
+    require_root(text, "observation");
+    MetroObservation out;
+    TimedRows rows(text, "measure", "observation-time");
+    while (const auto row = rows.next()) {
+        ForcingTable& t = out.table;
+        t.time_us.push_back(rows.time_us());
+        const auto kelvin = [&](const char* name) { return number_of(*row, name) + kZeroCelsiusK; };
+        t[Field::AirTemp].push_back(within(kelvin("at"), Field::AirTemp));
+        t[Field::DewPoint].push_back(within(kelvin("td"), Field::DewPoint));
+        t[Field::Wind].push_back(within(number_of(*row, "ws") * kMetresPerSecond, Field::Wind));
+        const auto road = [&](const char* name) {
+            const double c = number_of(*row, name);
+            return c > -90.0 && c < 100.0 ? c : kMissing;
+        };
+        out.surface_c.push_back(road("st"));
+        out.subsurface_c.push_back(road("sst"));
+    }
+    return out;
+}
+
+ForcingTable read_metro_forecast(std::string_view text)
+{
+    require_root(text, "forecast");
+    ForcingTable t;
+    std::vector<double> rain_mm, snow_cm, shortwave, longwave;
+    TimedRows rows(text, "prediction", "forecast-time");
+    while (const auto row = rows.next()) {
+        const auto value = [&](const char* name) { return number_of(*row, name); };
+        t.time_us.push_back(rows.time_us());
+        t[Field::AirTemp].push_back(within(value("at") + kZeroCelsiusK, Field::AirTemp));
+        t[Field::DewPoint].push_back(within(value("td") + kZeroCelsiusK, Field::DewPoint));
+        t[Field::Wind].push_back(within(value("ws") * kMetresPerSecond, Field::Wind));
+        t[Field::Pressure].push_back(within(value("ap") * 100.0, Field::Pressure));
+        t[Field::Cloud].push_back(within(value("cc") / 8.0, Field::Cloud));
+        rain_mm.push_back(value("ra"));
+        snow_cm.push_back(value("sn"));
+        shortwave.push_back(within(value("sf"), Field::Shortwave));
+        longwave.push_back(within(value("ir"), Field::Longwave));
+    }
+    // Amounts count from the beginning; a centimetre of new snow is a millimetre of water.
+    const auto rates = [&](const std::vector<double>& sums) {
+        std::vector<double> out(sums.size(), 0.0);
+        for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
+            const double dt_s = static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
+            const double fallen = sums[i + 1] - sums[i];
+            if (fallen > 0.0) out[i] = std::min(fallen / dt_s, field_info(Field::Rain).high);
+        }
+        return out;
+    };
+    t[Field::Rain] = rates(rain_mm);
+    t[Field::Snow] = rates(snow_cm);
+    const auto known = [](const std::vector<double>& v) {
+        return std::any_of(v.begin(), v.end(), [](double x) { return !std::isnan(x); });
+    };
+    if (known(shortwave)) t[Field::Shortwave] = std::move(shortwave);
+    if (known(longwave)) t[Field::Longwave] = std::move(longwave);
+    return t;
+}
+
+MetroRoadcast read_metro_roadcast(std::string_view text)
+{
+    require_root(text, "roadcast");
+    MetroRoadcast out;
+    TimedRows rows(text, "prediction", "roadcast-time");
+    while (const auto row = rows.next()) {
+        const auto value = [&](const char* name) { return number_of(*row, name); };
+        out.time_us.push_back(rows.time_us());
+        out.air_c.push_back(value("at"));
+        out.dew_point_c.push_back(value("td"));
+        out.wind_m_s.push_back(value("ws") * kMetresPerSecond);
+        out.surface_c.push_back(value("st"));
+        out.subsurface_c.push_back(value("sst"));
+        out.shortwave_w_m2.push_back(value("sf"));
+        out.longwave_w_m2.push_back(value("ir"));
+        out.rain_mm_h.push_back(value("qp-ra"));
+        out.snow_mm_h.push_back(value("qp-sn"));
+        const double condition = value("rc");
+        out.condition.push_back(std::isnan(condition) ? 0 : static_cast<int>(condition));
+    }
+    return out;
+}
+
+// The air of a forecast or of what a station measured, as weather.
+static bool recognise(const FileHead& head)
+{
+    const std::string_view text = head.text.substr(0, 4096);
+    return text.find("<forecast>") != std::string_view::npos ||
+           text.find("<observation>") != std::string_view::npos;
+}
+
+static void read_metro(std::string_view text, RowCollector& rows, const ReadOptions&)
+{
+    const bool forecast = text.substr(0, 4096).find("<forecast>") != std::string_view::npos;
+    const ForcingTable table =
+        forecast ? read_metro_forecast(text) : read_metro_observation(text).table;
+    rows.site().temp_height_m = 1.5;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (!rows.begin_row(table.time_us[i], 0)) continue;
+        for (std::size_t f = 0; f < kFieldCount; ++f) {
+            const auto field = static_cast<Field>(f);
+            if (!table.has(field)) continue;
+            if (std::isnan(table[field][i]))
+                rows.missing(field);
+            else
+                rows.set(field, table[field][i]);
+        }
+    }
+}
+
+extern const Reader metro_reader;
+const Reader metro_reader{"METRo XML", "forecast or observation of METRo (station: --road)",
+                          recognise, read_metro};
+
+}  // namespace petrichor::weather

@@ -1,0 +1,59 @@
+#ifndef PETRICHOR_WEATHER_READERS_METRO_XML_H
+#define PETRICHOR_WEATHER_READERS_METRO_XML_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "weather/forcing/forcing.h"
+#include "weather/physics/ground.h"
+
+namespace petrichor::weather {
+
+// Files of METRo (Model of the Environment and Temperature of Roads, Environment Canada): a
+// station, what it measured, the forecast of the air, and what METRo made of them. Missing values
+// (nothing, 999, 9999) are NaN. All throw Error, with the line, for a text that is no such file.
+
+/// A road weather station.
+struct MetroStation {
+    Site site;
+    bool bridge = false;
+    std::vector<GroundLayer> layers;  ///< from the top
+    double subsurface_depth_m = 0.4;  ///< of the thermometer in the road (type 0; type 1: 0.2)
+    std::vector<double> horizon_rad;  ///< elevation of the horizon at equal azimuths from north
+};
+MetroStation read_metro_station(std::string_view text);
+
+/// What a station measured: air (K), dew point (K), wind (m/s) as a forcing table, and the road.
+struct MetroObservation {
+    ForcingTable table;
+    std::vector<double> surface_c, subsurface_c;
+};
+MetroObservation read_metro_observation(std::string_view text);
+
+/// Forecast of the air. Amounts since the beginning (mm of rain, cm of snow) become rates of the
+/// rows; sf and ir, where the file has them, are shortwave and longwave.
+ForcingTable read_metro_forecast(std::string_view text);
+
+/// METRo's own answer: the road's temperature, its condition, and the fluxes it used. Its sf and ir
+/// are what the road takes up.
+struct MetroRoadcast {
+    std::vector<std::int64_t> time_us;
+    std::vector<double> air_c, dew_point_c, wind_m_s, surface_c, subsurface_c;
+    std::vector<double> shortwave_w_m2, longwave_w_m2, rain_mm_h, snow_mm_h;
+    std::vector<int> condition;
+};
+MetroRoadcast read_metro_roadcast(std::string_view text);
+
+/// A layer of a material that METRo knows (asphalt, cement, concrete, crushed rock, gravel, sand;
+/// blanks and hyphens do not matter) with METRo's values, or nothing for another word.
+std::optional<GroundLayer> road_layer(std::string_view material, double thickness_m);
+
+/// True for a text that begins like one of these files.
+bool looks_like_metro(std::string_view text);
+
+}  // namespace petrichor::weather
+
+#endif
