@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "cli/bench/render_bench.h"
+#include "cli/bench/skill/board.h"
 #include "cli/bench/texture_bench.h"
 #include "cli/bench/weather_bench.h"
 #include "cli/commands.h"
+#include "cli/exit.h"
 
 namespace petrichor::cli {
 namespace {
@@ -52,6 +54,37 @@ void add_weather(CLI::App& bench)
     command->callback([o, rivals] {
         for (const std::string& text : *rivals) o->rivals.push_back(parse_rival(text));
         run_weather_bench(*o);
+    });
+}
+
+void add_skill(CLI::App& bench)
+{
+    auto o = std::make_shared<SkillOptions>();
+    auto rivals = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = bench.add_subcommand(
+        "skill", "Score the weather model against every measured winter, road and sky it finds.");
+    command->add_option("--data", o->data, "a folder; all below it is looked at (.)");
+    command->add_option("--html", o->html, "write the table as a page");
+    command->add_flag("--json", o->json, "report for programs");
+    command
+        ->add_option("--rival", *rivals,
+                     "another snow model, as NAME=COMMAND for the shell; may be repeated")
+        ->type_name("NAME=COMMAND")
+        ->allow_extra_args(false);
+    command->footer(
+        "Example: petrichor bench skill --data data/weather --html skill.html\n"
+        "Winters: met_X.txt beside obs_X.csv (place: site.toml with a [site] table). Roads: "
+        "station.xml,\n"
+        "observation.xml and roadcast_reference.xml of METRo in a folder. Skies: SURFRAD files.\n"
+        "A rival runs once a winter with the files in $MET and $OBS and prints CSV: "
+        "date,snow_depth_m,swe_kg_m2.\n"
+        "Exit code 1: a score is worse than it is stated to be (cli/bench/skill/stated.cpp).");
+    command->callback([o, rivals] {
+        for (const std::string& text : *rivals) {
+            const Rival rival = parse_rival(text);
+            o->rivals.push_back({rival.name, rival.command});
+        }
+        if (!run_skill_bench(*o)) throw ExitCode{1};
     });
 }
 
@@ -141,6 +174,7 @@ void add_bench(CLI::App& app)
         "the call until the pixels can be read.");
     add_weather(*command);
     add_texture_bench(*command);
+    add_skill(*command);
     command->callback([o, command, scene, input] {
         if (!command->get_subcommands().empty()) return;
         if (scene->empty() && input->empty()) throw CLI::RequiredError("SCENARIO or --scene");

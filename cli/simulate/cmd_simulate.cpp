@@ -12,6 +12,7 @@
 #include "cli/report/panel_choice.h"
 #include "cli/rooms.h"
 #include "cli/simulate/outputs.h"
+#include "cli/simulate/physics_keys.h"
 #include "cli/simulate/simulations.h"
 #include "film/data/folders.h"
 #include "film/weather/inputs.h"
@@ -41,6 +42,10 @@ void run(const SimulateOptions& options)
 {
     if (options.list) {
         for (const std::string& name : preset_names("weather")) std::cout << name << '\n';
+        return;
+    }
+    if (options.list_physics) {
+        std::cout << physics_listing(asked_params(options));
         return;
     }
     if (options.inputs.empty()) {

@@ -9,8 +9,10 @@
 #include "base/error.h"
 #include "cli/simulate/observations.h"
 #include "cli/simulate/physical_table.h"
+#include "cli/simulate/physics_keys.h"
 #include "weather/models/artist/fit.h"
 #include "weather/models/physical/ensemble.h"
+#include "weather/models/physical/observed_start.h"
 #include "weather/models/physical/physical_checkpoint.h"
 #include "weather/readers/text.h"
 
@@ -167,6 +169,21 @@ SimulationTable run_ensemble_table(const weather::ReadResult& read, const Physic
 weather::PhysicalTimeline timeline_of(const weather::ReadResult& read, const PhysicalRun& run,
                                       const weather::PhysicalParams& params)
 {
+    if (run.resume.empty() && !run.road_observed.surface_c.empty()) {
+        const weather::MetroObservation& o = run.road_observed;
+        return {read.table, params,
+                weather::observed_start(
+                    read.table, params,
+                    {o.table.time_us, o.surface_c, o.subsurface_c, run.road_depth_m}),
+                read.table.time_us.front()};
+    }
+    if (run.resume.empty() && run.initial_surface_c) {
+        const std::int64_t at_us = read.table.time_us.front();
+        const double ground_c = run.initial_ground_c.value_or(weather::kMissing);
+        const weather::RoadTemperatures measured{
+            {&at_us, 1}, {&*run.initial_surface_c, 1}, {&ground_c, 1}, run.initial_depth_m};
+        return {read.table, params, weather::observed_start(read.table, params, measured), at_us};
+    }
     if (run.resume.empty()) return {read.table, params};
     const auto from =
         weather::load_checkpoint(run.resume, weather::cell_identity(read.table, params));
@@ -208,13 +225,16 @@ std::string books_of(const weather::CellState& last)
 weather::PhysicalParams physical_params(const PhysicalRun& run)
 {
     weather::PhysicalParams params;
-    params.surface = weather::surface_preset(run.site.surface);
+    params.surface = run.road ? *run.road : weather::surface_preset(run.site.surface);
     if (run.cracks) params.surface.cracks = *run.cracks;
     if (run.puddles) params.surface.puddles = *run.puddles;
     params.phase.law = phase_named(run.phase);
     params.step_s = run.step_s;
     params.sky_view = run.site.sky_view.value_or(params.sky_view);
     params.canopy_vai = run.site.canopy_vai.value_or(params.canopy_vai);
+    if (!run.physics.empty()) apply_physics_toml(run.physics, run.physics_file, params);
+    for (const std::string& setting : run.settings) apply_physics_setting(setting, params);
+    if (!run.layers.empty()) apply_layers(run.layers, params);
     return params;
 }
 
@@ -235,6 +255,8 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     const weather::PhysicalParams params = physical_params(run);
     SimulationTable table = headed_table(read, name, params.surface.name);
     if (run.sensitivity) add_sensitivity(table, read, params);
+    if (run.members > 0 && run.initial_surface_c)
+        throw Error("ensemble: --initial is of one cell", "Leave --ensemble or --initial out.");
     if (run.members > 0) return run_ensemble_table(read, run, params, std::move(table));
 
     const weather::PhysicalTimeline timeline = timeline_of(read, run, params);

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/report/table.h"
 #include "cli/rooms.h"
 #include "film/weather/weather_input.h"
 #include "weather/models/physical/physical.h"
+#include "weather/readers/metro_xml.h"
 #include "weather/readers/read_weather.h"
 
 namespace petrichor::cli {
@@ -16,7 +18,15 @@ namespace petrichor::cli {
 /// How the physical model is run.
 struct PhysicalRun {
     SiteOptions site;
-    std::string phase = "linear";  ///< linear, humidity, wet-bulb, threshold
+    std::string phase = "linear";               ///< linear, humidity, wet-bulb, threshold
+    std::string physics, physics_file;          ///< text of a TOML file of constants, and its name
+    std::vector<std::string> settings;          ///< NAME=NUMBER, after the file
+    std::optional<weather::Surface> road;       ///< of a METRo station, instead of the preset
+    weather::MetroObservation road_observed{};  ///< the run begins at its last temperature
+    double road_depth_m = 0.4;                  ///< of its sub-surface thermometer
+    std::string layers;                         ///< asphalt:0.2,gravel:0.4, or empty
+    std::optional<double> initial_surface_c, initial_ground_c;  ///< measured start
+    double initial_depth_m = 0.4;                               ///< of the ground's temperature
     std::optional<weather::Hypsometry> cracks,
         puddles;  ///< of a height map, instead of the surface's own
     double step_s = 3600.0;

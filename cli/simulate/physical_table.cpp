@@ -7,6 +7,7 @@
 #include "weather/models/physical/mapping.h"
 #include "weather/physics/air.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/friction.h"
 
 namespace petrichor::cli {
 namespace {
@@ -66,6 +67,9 @@ constexpr const char* kColumns[] = {
     "puddles",
     "water_to_snow",
     "snow",
+    "wheel_friction",
+    "glaze_mm",
+    "road_condition",
 };
 
 PlotSeries line(const char* column, const char* label, const char* color, double scale = 1.0)
@@ -152,6 +156,9 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
         masks.puddles,
         masks.water_to_snow,
         masks.snow,
+        weather::wheel_friction(c),
+        weather::glaze_mm(c),
+        static_cast<double>(weather::road_condition(c)),
     };
 }
 

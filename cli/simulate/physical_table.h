@@ -13,7 +13,8 @@
 namespace petrichor::cli {
 
 /// The columns of the physical model's table, in order: time_s, the forcing, every state in SI,
-/// fluxes, running totals and residuals, then the 0..1 masks.
+/// fluxes, running totals and residuals, the 0..1 masks, and what a driver asks: wheel friction,
+/// thickness of clear ice, METRo's condition of the road (friction.h).
 const std::vector<std::string>& physical_columns();
 
 /// One row of that table: the state at `us`, whose last step took `interval_s` seconds.

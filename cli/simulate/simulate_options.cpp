@@ -94,7 +94,7 @@ void add_site(CLI::App& command, SimulateOptions& o)
         "anemometer above ground (default 10)");
     add(command, group, "--surface", "NAME", site.surface,
         "asphalt (default), concrete, paving_stones, cobblestone, brick, soil, sand,\ngravel, "
-        "grass, roof_metal, roof_tile, wood, rock");
+        "grass, roof_metal, roof_tile, wood, rock, road (in use), bridge");
     add(command, group, "--sky-view", "SHARE", site.sky_view,
         "of the sky that is seen, 0..1 (default 1); houses and trees hide it");
     add(command, group, "--canopy-vai", "M2", site.canopy_vai,
@@ -104,6 +104,34 @@ void add_site(CLI::App& command, SimulateOptions& o)
         "of the material, white is high: its own cracks and puddles");
     add(command, group, "--height-range-m", "M", o.height_range_m,
         "of that image from black to white (default 0.02)");
+}
+
+void add_physics(CLI::App& command, SimulateOptions& o)
+{
+    const char* group = "Physics (constants of the physical model)";
+    add(command, group, "--road", "STATION.xml", o.road,
+        "a METRo station: its layers, road or bridge, place; INPUT may be METRo's forecast");
+    add(command, group, "--road-observed", "OBS.xml", o.road_observed,
+        "what it measured: the run begins at its last temperature");
+    add(command, group, "--initial", "WORDS", o.initial,
+        "measured start: surface=-0.9,ground=-0.7@0.4 (C, at a depth in m)");
+    add(command, group, "--layers", "WORDS", o.physical.layers,
+        "of a road from the top: asphalt:0.2,gravel:0.4 (asphalt, concrete, gravel,\nsand)");
+    add(command, group, "--albedo", "SHARE", o.albedo, "of the surface, dry and wet");
+    add(command, group, "--conductivity", "W/m/K", o.conductivity, "of the ground");
+    add(command, group, "--deep-temp-c", "C", o.deep_temp_c,
+        "of the ground far below (default: the year's mean of the file)");
+    add(command, group, "--traffic-heat", "W/m2", o.traffic_heat, "on bare road; METRo takes 10");
+    add(command, group, "--slush-rate", "1/s", o.slush_rate,
+        "drainage under snow; METRo takes 0.0003");
+    add(command, group, "--precip-factor", "X", o.precip_factor,
+        "on all precipitation: gauges catch too little in wind");
+    add(command, group, "--physics", "FILE.toml", o.physics,
+        "tables [surface], [snow], [exchange], [phase], [model]");
+    add(command, group, "--set", "NAME=X", o.physical.settings,
+        "any constant by name, may be repeated: snow.albedo_min=0.45")
+        ->allow_extra_args(false);
+    command.add_flag("--list-physics", o.list_physics, "print all names and values")->group(group);
 }
 
 void add_output(CLI::App& command, SimulateOptions& o)
@@ -176,6 +204,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& o)
     add_model(command, o);
     add_time(command, o);
     add_site(command, o);
+    add_physics(command, o);
     add_output(command, o);
     add_uncertainty(command, o);
     add_grid(command, o);

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_CLI_SIMULATE_SIMULATE_OPTIONS_H
 #define PETRICHOR_CLI_SIMULATE_SIMULATE_OPTIONS_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ struct SimulateOptions {
     bool fit_artist = false;
     std::string height_map;
     double height_range_m = 0.02;
+    std::string road, road_observed;  ///< station and observation of METRo
+    std::string initial;              ///< "surface=-0.9,ground=-0.7@0.4", C and m
+    std::string physics;              ///< a TOML file of constants
+    std::optional<double> albedo, conductivity, traffic_heat, slush_rate, deep_temp_c,
+        precip_factor;  ///< words for constants that are often set
+    bool list_physics = false;
     TerrainOptions terrain;
     std::vector<std::string> maps, map_times;
     PhysicalRun physical;

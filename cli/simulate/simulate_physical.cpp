@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include "base/error.h"
@@ -6,6 +8,7 @@
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
 #include "film/weather/times.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::cli {
 
@@ -28,6 +31,129 @@ std::string title_of(const std::vector<Input>& inputs)
                : inputs.front().name + " and " + std::to_string(inputs.size() - 1) + " more";
 }
 
+namespace {
+
+// The file, then words for constants as settings, then --set.
+void read_constants(const SimulateOptions& options, PhysicalRun& run)
+{
+    if (!options.physics.empty()) {
+        run.physics = read_input_file(options.physics);
+        run.physics_file = options.physics;
+    }
+    std::vector<std::string> settings;
+    const auto put = [&](const char* name, const std::optional<double>& value) {
+        char text[80];
+        if (!value) return;
+        std::snprintf(text, sizeof text, "%s=%.17g", name, *value);
+        settings.emplace_back(text);
+    };
+    put("surface.albedo_dry", options.albedo);
+    put("surface.albedo_wet", options.albedo);
+    put("surface.conductivity_w_m_k", options.conductivity);
+    put("surface.traffic_heat_w_m2", options.traffic_heat);
+    put("surface.slush_rate_1_s", options.slush_rate);
+    put("model.deep_temp_c", options.deep_temp_c);
+    put("model.precip_factor", options.precip_factor);
+    run.settings.insert(run.settings.begin(), settings.begin(), settings.end());
+}
+
+// "surface=-0.9,ground=-0.7@0.4"
+void read_initial(const std::string& text, PhysicalRun& run)
+{
+    for (const std::string_view part : weather::split(text, ',', 10)) {
+        const std::string_view word = weather::trimmed(part);
+        const std::size_t equals = word.find('='), at = word.find('@');
+        const std::string_view name = word.substr(0, equals);
+        const auto value =
+            equals == std::string_view::npos
+                ? std::nullopt
+                : weather::to_number(
+                      word.substr(equals + 1, at == std::string_view::npos ? at : at - equals - 1));
+        const auto depth_m = at == std::string_view::npos ? std::optional(0.4)
+                                                          : weather::to_number(word.substr(at + 1));
+        const bool good = value && depth_m && *value > -90.0 && *value < 100.0 && *depth_m > 0.0 &&
+                          *depth_m < 20.0 && (name == "surface" || name == "ground");
+        if (!good) {
+            throw Error("simulate: --initial '" + std::string(word) + "'",
+                        "Write surface=-0.9 or surface=-0.9,ground=-0.7@0.4: degrees in -90..100 "
+                        "and a depth in metres below 20.");
+        }
+        if (name == "surface") {
+            run.initial_surface_c = value;
+        } else {
+            run.initial_ground_c = value;
+            run.initial_depth_m = *depth_m;
+        }
+    }
+    if (!run.initial_surface_c)
+        throw Error("simulate: --initial has no surface temperature",
+                    "Write surface=-0.9,ground=-0.7@0.4.");
+}
+
+// A METRo station is the site and the surface.
+void read_road(const std::string& file, PhysicalRun& run)
+{
+    const weather::MetroStation station = weather::read_metro_station(read_input_file(file));
+    SiteOptions& site = run.site;
+    if (!site.latitude_deg) site.latitude_deg = station.site.latitude_deg;
+    if (!site.longitude_deg && !std::isnan(station.site.longitude_deg))
+        site.longitude_deg = station.site.longitude_deg;
+    run.road = weather::surface_preset(station.bridge ? "bridge" : "road");
+    run.road->layers = station.layers;
+    run.road_depth_m = station.subsurface_depth_m;
+}
+
+// The forecast from the last measured temperature of the road on.
+void begin_at_measurement(const std::string& file, PhysicalInput& input)
+{
+    weather::MetroObservation& o = input.run.road_observed;
+    o = weather::read_metro_observation(read_input_file(file));
+    std::size_t count = o.surface_c.size();
+    while (count > 0 && std::isnan(o.surface_c[count - 1])) --count;
+    o.surface_c.resize(count);
+    o.subsurface_c.resize(count);
+    o.table.time_us.resize(count);
+    weather::ForcingTable& t = input.read.table;
+    const bool inside = count > 0 && o.table.time_us.back() < t.time_us.back();
+    const std::int64_t at_us = inside ? o.table.time_us.back() : 0;
+    if (!inside || at_us < t.time_us.front() - 6LL * 3600 * 1000000) {
+        throw Error("simulate: --road-observed " + file +
+                        " has no road temperature in the time of the weather, or in the six hours "
+                        "before it",
+                    "Give the observation that belongs to the forecast.");
+    }
+    weather::ForcingTable cut;
+    cut.site = t.site;
+    const auto first = static_cast<std::size_t>(
+        std::upper_bound(t.time_us.begin(), t.time_us.end(), at_us) - t.time_us.begin());
+    cut.time_us.push_back(at_us);
+    cut.time_us.insert(cut.time_us.end(), t.time_us.begin() + static_cast<std::ptrdiff_t>(first),
+                       t.time_us.end());
+    for (std::size_t f = 0; f < weather::kFieldCount; ++f) {
+        const auto field = static_cast<weather::Field>(f);
+        if (!t.has(field)) continue;
+        const auto& from = t[field];
+        // Before the forecast its first row holds.
+        cut[field].push_back(weather::field_info(field).is_rate
+                                 ? (first > 0 ? from[first - 1] : 0.0)
+                                 : weather::value_at(t, field, at_us));
+        cut[field].insert(cut[field].end(), from.begin() + static_cast<std::ptrdiff_t>(first),
+                          from.end());
+    }
+    t = std::move(cut);
+    input.notes.push_back("the run begins at " + weather::iso_from_us(at_us) +
+                          " with the measured road");
+}
+
+}  // namespace
+
+weather::PhysicalParams asked_params(const SimulateOptions& options)
+{
+    PhysicalRun run = options.physical;
+    read_constants(options, run);
+    return physical_params(run);
+}
+
 PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOptions& options)
 {
     if (inputs.front().kind != InputKind::Weather) {
@@ -39,7 +165,9 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     PhysicalRun& run = input.run;
     run = options.physical;
     run.site = with_site_table(run.site, params_text(options));
+    if (!options.road.empty()) read_road(options.road, run);
     input.read = read_forcing(inputs, run.site);
+    if (!options.road_observed.empty()) begin_at_measurement(options.road_observed, input);
     const std::int64_t start_us = input.read.table.time_us.front();
     run.from_s = time_of(options.from, "--from", start_us);
     run.to_s = time_of(options.to, "--to", start_us);
@@ -56,6 +184,8 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
             throw Error("observations: " + options.observed + " is empty",
                         "Give a file with observations.");
     }
+    read_constants(options, run);
+    if (!options.initial.empty()) read_initial(options.initial, run);
     if (!options.height_map.empty()) {
         const Relief relief = read_relief(options.height_map, options.height_range_m);
         run.cracks = relief.cracks;

@@ -32,6 +32,8 @@ struct PhysicalInput {
     PhysicalRun run;
     std::vector<std::string> notes;
 };
+/// The constants that the options ask for, without reading any weather.
+weather::PhysicalParams asked_params(const SimulateOptions& options);
 PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOptions& options);
 
 std::string title_of(const std::vector<Input>& inputs);

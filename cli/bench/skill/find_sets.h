@@ -1,0 +1,42 @@
+#ifndef PETRICHOR_CLI_BENCH_SKILL_FIND_SETS_H
+#define PETRICHOR_CLI_BENCH_SKILL_FIND_SETS_H
+
+#include <string>
+#include <vector>
+
+#include "cli/bench/skill/road.h"
+#include "cli/bench/skill/winter.h"
+
+namespace petrichor::cli {
+
+/// A file of weather with measured longwave, and another with its place.
+struct LongwaveStation {
+    std::string name;
+    weather::ForcingTable raw;  ///< as read, nothing filled
+};
+struct WinterSet {
+    Winter winter;
+    weather::ForcingTable raw;  ///< as read, nothing filled
+    std::string weather_file, observed_file;
+};
+struct SkillSets {
+    std::vector<WinterSet> winters;
+    std::vector<RoadCase> roads;
+    std::vector<LongwaveStation> stations;
+    std::vector<std::string> notes;  ///< what was found and could not be used, and why
+};
+
+/// Every data set below a folder:
+///
+///   met_X.txt or .csv beside obs_X.txt or .csv, X_met_hourly.csv beside X_obs_daily.csv: winters
+///   station.xml, observation.xml and roadcast_reference.xml in one folder: a road of METRo
+///   *.dat of SURFRAD, and Bondville's champaign_*.dat: stations with longwave
+///
+/// A file site.toml in the folder of a winter gives its place (table [site]); winters of Col de
+/// Porte are known by name.
+///   throws  Error when the folder does not exist or holds none of these
+SkillSets find_skill_sets(const std::string& folder);
+
+}  // namespace petrichor::cli
+
+#endif

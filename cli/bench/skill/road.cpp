@@ -1,0 +1,126 @@
+#include "cli/bench/skill/road.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weather/models/physical/observed_start.h"
+#include "weather/physics/constants.h"
+
+namespace petrichor::cli {
+namespace {
+
+using weather::Field;
+using weather::ForcingTable;
+
+constexpr double kStep_s = 600.0;
+constexpr std::int64_t kThreeHours_us = 3LL * 3600 * weather::kMicrosPerSecond;
+
+std::size_t last_measured(const weather::MetroObservation& observed)
+{
+    std::size_t last = observed.surface_c.size();
+    for (std::size_t i = 0; i < observed.surface_c.size(); ++i)
+        if (!std::isnan(observed.surface_c[i])) last = i;
+    return last;
+}
+
+weather::RoadTemperatures temperatures(const RoadCase& road, std::size_t count)
+{
+    const weather::MetroObservation& o = road.observed;
+    return {std::span(o.table.time_us).first(count), std::span(o.surface_c).first(count),
+            std::span(o.subsurface_c).first(count), road.station.subsurface_depth_m};
+}
+
+// Air and fluxes that METRo used, from the last measurement on.
+ForcingTable table_of(const RoadCase& road, std::int64_t begin_us, double emissivity)
+{
+    const weather::MetroRoadcast& r = road.roadcast;
+    ForcingTable t;
+    t.site = road.station.site;
+    const auto add = [&](std::int64_t us, std::size_t i) {
+        t.time_us.push_back(us);
+        t[Field::AirTemp].push_back(r.air_c[i] + weather::kZeroCelsiusK);
+        t[Field::DewPoint].push_back(r.dew_point_c[i] + weather::kZeroCelsiusK);
+        t[Field::Wind].push_back(r.wind_m_s[i]);
+        const std::size_t next = std::min(i + 1, r.air_c.size() - 1);
+        t[Field::NetShortwave].push_back(0.5 * (r.shortwave_w_m2[i] + r.shortwave_w_m2[next]));
+        t[Field::Longwave].push_back(r.longwave_w_m2[i] / emissivity);
+        t[Field::Rain].push_back(std::max(r.rain_mm_h[next], 0.0) / 3600.0);
+        t[Field::Snow].push_back(std::max(r.snow_mm_h[next], 0.0) / 3600.0);
+    };
+    if (begin_us < r.time_us.front()) add(begin_us, 0);
+    for (std::size_t i = 0; i < r.time_us.size(); ++i)
+        if (r.time_us[i] >= begin_us) add(r.time_us[i], i);
+    weather::ReadReport report;
+    weather::fill_forcing(t, report);
+    return t;
+}
+
+SkillRow row_of(const RoadCase& road, const char* quantity, const ErrorSum& sum, bool mae)
+{
+    return {
+        road.name,           quantity, "K", sum.count(), mae ? sum.mae() : sum.rmse(), sum.bias(),
+        mae ? "MAE" : "RMSE"};
+}
+
+}  // namespace
+
+weather::Surface road_surface(const weather::MetroStation& station)
+{
+    weather::Surface surface = weather::surface_preset(station.bridge ? "bridge" : "road");
+    surface.layers = station.layers;
+    return surface;
+}
+
+std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params)
+{
+    const std::size_t last = last_measured(road.observed);
+    if (last == road.observed.surface_c.size() || road.roadcast.time_us.empty()) return {};
+    weather::PhysicalParams p = params;
+    p.surface = road_surface(road.station);
+    p.step_s = p.substep_s = kStep_s;
+    const std::int64_t begin_us =
+        std::min(road.observed.table.time_us[last], road.roadcast.time_us.front());
+    const ForcingTable table = table_of(road, begin_us, p.surface.emissivity);
+    const weather::CellState start =
+        weather::observed_start(table, p, temperatures(road, last + 1));
+    const weather::PhysicalTimeline run(table, p, start, table.time_us.front());
+    ErrorSum ours, air;
+    for (std::size_t i = 0; i < road.roadcast.time_us.size(); ++i) {
+        const double metro_c = road.roadcast.surface_c[i];
+        ours.add(run.state_at(road.roadcast.time_us[i]).surface_temp_c - metro_c);
+        air.add(road.roadcast.air_c[i] - metro_c);
+    }
+    return {row_of(road, "road beside METRo", ours, true),
+            row_of(road, "air beside METRo", air, true)};
+}
+
+std::vector<SkillRow> measured_road_rows(const RoadCase& road,
+                                         const weather::PhysicalParams& params)
+{
+    const std::vector<std::int64_t>& times = road.observed.table.time_us;
+    std::size_t first = 0;
+    while (first < times.size() && std::isnan(road.observed.surface_c[first])) ++first;
+    if (first == times.size() || times.back() - times[first] < kThreeHours_us) return {};
+    weather::PhysicalParams p = params;
+    p.surface = road_surface(road.station);
+    p.step_s = p.substep_s = kStep_s;
+    ForcingTable table = road.observed.table;
+    table.site = road.station.site;
+    weather::ReadReport report;
+    weather::fill_forcing(table, report);
+    const weather::CellState start =
+        weather::observed_start(table, p, temperatures(road, first + 1));
+    if (times[first] != table.time_us.front()) return {};
+    const weather::PhysicalTimeline run(table, p, start, table.time_us.front());
+    ErrorSum ours, air;
+    for (std::size_t i = first + 1; i < times.size(); ++i) {
+        const double seen_c = road.observed.surface_c[i];
+        ours.add(run.state_at(times[i]).surface_temp_c - seen_c);
+        if (!std::isnan(seen_c))
+            air.add(road.observed.table[Field::AirTemp][i] - weather::kZeroCelsiusK - seen_c);
+    }
+    return {row_of(road, "road measured", ours, false),
+            row_of(road, "air beside the measured road", air, false)};
+}
+
+}  // namespace petrichor::cli

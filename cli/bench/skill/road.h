@@ -1,0 +1,36 @@
+#ifndef PETRICHOR_CLI_BENCH_SKILL_ROAD_H
+#define PETRICHOR_CLI_BENCH_SKILL_ROAD_H
+
+#include <string>
+#include <vector>
+
+#include "cli/bench/skill/skill_row.h"
+#include "weather/models/physical/physical.h"
+#include "weather/readers/metro_xml.h"
+
+namespace petrichor::cli {
+
+/// A road weather station with a forecast and METRo's answer to it.
+struct RoadCase {
+    std::string name;
+    weather::MetroStation station;
+    weather::MetroObservation observed;
+    weather::MetroRoadcast roadcast;
+};
+
+/// The preset road or bridge with the station's own layers.
+weather::Surface road_surface(const weather::MetroStation& station);
+
+/// Mean absolute difference to METRo's road temperature, under the air and radiation that METRo
+/// used, from the measured start; and beside it that of the air. Snow on the road counts.
+std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params);
+
+/// Root mean square error against the measured road over the hours before the forecast, from their
+/// first value on: air, dew point and wind as measured, the sky at half cloud. Empty where there
+/// are less than three hours.
+std::vector<SkillRow> measured_road_rows(const RoadCase& road,
+                                         const weather::PhysicalParams& params);
+
+}  // namespace petrichor::cli
+
+#endif
