@@ -6,6 +6,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
+#include "gpu/upload/draw.h"
 #include "gpu/passes/visibility/visibility.h"
 
 namespace petrichor::gpu {
@@ -89,6 +90,22 @@ void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResourc
     add_sky_light(graph, sky, metering);
 }
 
+// The lighting models of what may be seen, by number; a pixel around the view counts, since samples
+// are jittered.
+std::vector<bool> visible_models(const GpuScene& scene, const shared::FrameConstants& c)
+{
+    std::vector<bool> models(scene.lighting_models().count(), false);
+    const Frustum frustum(c.world_to_clip);
+    for (const Draw& draw : scene.draws()) {
+        const std::uint32_t model = scene.materials()[draw.material].lighting_model;
+        if (models[model]) continue;
+        const float pixel_m =
+            c.pixel_angle * std::max(1.0f, glm::length(draw.centre_m - c.camera_m));
+        if (frustum.touches(draw.centre_m, draw.radius_m + pixel_m)) models[model] = true;
+    }
+    return models;
+}
+
 void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResources& r)
 {
     const DepthMaps& maps = *r.depth_maps;
@@ -134,16 +151,19 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_depth_maps(graph, frame, sun, r, weather.any);
     add_sky(graph, frame, sun, r);
 
-    const LightingVariant variant{weather.any,
-                                  settings.shadows,
-                                  settings.image_based_light,
-                                  settings.ambient_occlusion,
-                                  r.scene->emissive(),
-                                  settings.all_lights};
+    LightingVariant variant;
+    variant.weather = weather.any;
+    variant.shadows = settings.shadows;
+    variant.image_based_light = settings.image_based_light;
+    variant.ambient_occlusion = settings.ambient_occlusion;
+    variant.emission = r.scene->emissive();
+    variant.all_lights = settings.all_lights;
+    if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, r);
+        if (i == 0) variant.models = visible_models(*r.scene, c);
         constants.offset = i * r.constants_stride;
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 

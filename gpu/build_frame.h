@@ -24,6 +24,7 @@ struct FrameResources {
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;
     bool scene_has_constant_weather = false;
+    bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
 
 /// The passes of one frame in order. Also writes the constants of every sample.

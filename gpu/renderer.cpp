@@ -160,6 +160,7 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> resolve_arena;
     ResolveTables resolve;
     bool constant_weather = false;
+    bool own_lighting = false;
     std::string graph_text;
 };
 
@@ -179,6 +180,10 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->depth_maps.sky_valid = false;
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
     impl_->constant_weather = has_constant_weather(scene);
+    auto own_lighting = impl_->scene->lighting_models().compile_lighting();
+    impl_->own_lighting = !own_lighting.empty();
+    if (impl_->own_lighting)
+        impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
 }
 
 void Renderer::set_environment(const EnvironmentMap& map)
@@ -241,6 +246,7 @@ RenderResult Renderer::render(const Frame& frame)
     resources.constants = impl.constants.get();
     resources.constants_stride = impl.constants_stride;
     resources.scene_has_constant_weather = impl.constant_weather;
+    resources.own_lighting = impl.own_lighting;
     FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
     impl.graph_text = graph.describe();
 

@@ -163,9 +163,9 @@ void add_gltf_rows(std::vector<Row>& t)
     t.push_back(number<&M::specular>("specular_factor", 0, 1,
                                      {"KHR_materials_specular", "", "specularFactor"},
                                      "times the reflectance of a dielectric"));
-    t.push_back(not_shaded(number<&M::specular_color>(
-        "specular_color_factor", 0, kLargest, {"KHR_materials_specular", "", "specularColorFactor"},
-        "linear tint of a dielectric's reflectance")));
+    t.push_back(number<&M::specular_color>("specular_color_factor", 0, kLargest,
+                                           {"KHR_materials_specular", "", "specularColorFactor"},
+                                           "linear tint of a dielectric's reflectance"));
     t.push_back(number<&M::transmission>(
         "transmission_factor", 0, 1, {"KHR_materials_transmission", "", "transmissionFactor"},
         "light that passes; shown as transparency of the surface, up to nine tenths"));

@@ -100,7 +100,9 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool cull_front = false;
-    bool unlit = false;
+    bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
+    std::string
+        lighting_model;  ///< built-in name or path of a GLSL file; empty: the standard model
     MaterialWeather weather;
 };
 

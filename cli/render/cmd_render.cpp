@@ -272,7 +272,7 @@ void render(const RenderOptions& options)
     for (const std::string& warning : sequence.scene.warnings)
         std::cerr << "warn scene: " << warning << "\n";
     for (const std::string& unmatched :
-         apply_material_overrides(scenario.materials, sequence.scene.materials)) {
+         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene.materials)) {
         std::cerr << "warn " << unmatched << "\n";
     }
     for (const std::string& line : scene::unshaded_properties(sequence.scene))

@@ -303,6 +303,7 @@ std::string frame_fingerprint(const Sequence& sequence, const SequenceFrame& wha
     hasher.add(sequence.scenario.render.ripple_texture_size);
     for (const MaterialOverride& one : sequence.scenario.materials) {
         hasher.add(one.glob);
+        hasher.add(one.lighting_model);
         for (const auto& [name, values] : one.values) {
             hasher.add(name);
             hasher.add_numbers(std::span<const double>(values));

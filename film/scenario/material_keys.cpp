@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "base/words.h"
+#include "film/data/folders.h"
+#include "gpu/lighting/lighting_models.h"
 #include "scene/material_table.h"
 
 namespace petrichor::film {
@@ -14,6 +17,7 @@ namespace {
 using scene::MaterialProperty;
 using scene::PropertyKind;
 
+constexpr const char* kLightingModel = "lighting_model";
 constexpr double kAny = std::numeric_limits<float>::max();
 
 std::string ranges(const MaterialProperty& property)
@@ -59,8 +63,28 @@ std::vector<double> read_value(const MaterialProperty& property, const TomlValue
     return numbers;
 }
 
-void apply(const MaterialOverride& override, scene::Material& material)
+// A file is looked for beside the scenario, then among the shaders of the data.
+std::string found_model(const std::string& name, const std::filesystem::path& folder)
 {
+    const std::filesystem::path path(name);
+    if (path.extension() != ".glsl") return name;
+    const std::filesystem::path beside = folder / path;
+    std::error_code none;
+    if (std::filesystem::exists(beside, none)) return beside.string();
+    if (const auto data = find_data_folder()) {
+        if (std::filesystem::exists(*data / "shaders" / path, none)) {
+            return (*data / "shaders" / path).string();
+        }
+    }
+    return beside.string();  // refused by name when the scene is loaded
+}
+
+void apply(const MaterialOverride& override, const std::filesystem::path& folder,
+           scene::Material& material)
+{
+    if (!override.lighting_model.empty()) {
+        material.lighting_model = found_model(override.lighting_model, folder);
+    }
     for (const auto& [name, values] : override.values) {
         glm::vec4 value(0.0f);
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -81,6 +105,12 @@ std::vector<ScenarioKey> material_keys()
                         .example = property.value_text(scene::default_value(property)),
                         .meaning = std::string(property.help) + ranges(property)});
     }
+    keys.push_back({.table = "materials",
+                    .name = kLightingModel,
+                    .example = "\"standard\"",
+                    .meaning = "how it answers to light: " +
+                               join_words(gpu::built_in_lighting_models(), " | ") +
+                               ", or a GLSL file of your own as data/shaders/minnaert.glsl"});
     return keys;
 }
 
@@ -91,11 +121,16 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
     for (const MaterialProperty& property : scene::material_table()) {
         known.emplace_back(property.name);
     }
+    known.emplace_back(kLightingModel);
     std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
     for (const auto& [glob, node] : materials) {
         const TomlValue value(node, file, "[materials.\"" + std::string(glob.str()) + "\"]");
         MaterialOverride one{std::string(glob.str()), value.place(), {}};
         for (const auto& [name, entry] : value.entries(known)) {
+            if (name == kLightingModel) {
+                one.lighting_model = entry.text();
+                continue;
+            }
             one.values.emplace_back(name, read_value(*scene::find_property(name), entry));
         }
         found.emplace_back(node.source().begin.line, std::move(one));
@@ -109,6 +144,7 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
 }
 
 std::vector<std::string> apply_material_overrides(const std::vector<MaterialOverride>& overrides,
+                                                  const std::filesystem::path& folder,
                                                   std::vector<scene::Material>& materials)
 {
     std::vector<std::string> unmatched;
@@ -117,7 +153,7 @@ std::vector<std::string> apply_material_overrides(const std::vector<MaterialOver
         for (scene::Material& material : materials) {
             if (!glob_matches(one.glob, material.name)) continue;
             matched = true;
-            apply(one, material);
+            apply(one, folder, material);
         }
         if (matched) continue;
         std::vector<std::string> names;

@@ -10,7 +10,8 @@
 
 namespace petrichor::film {
 
-/// The keys of [materials."glob"]: one for each row of scene/material_table.h, by its name.
+/// The keys of [materials."glob"]: one for each row of scene/material_table.h, by its name, and
+/// lighting_model.
 std::vector<ScenarioKey> material_keys();
 
 /// Reads the tables under [materials]. Throws Error for an unknown key and for a value of the wrong
@@ -19,8 +20,9 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
                                                       const std::string& file);
 
 /// Applies the overrides in the order of the file (a later one wins) and returns the globs that
-/// match no material, with a hint, for the log.
+/// match no material, with a hint, for the log. Files they name are looked for in `folder`.
 std::vector<std::string> apply_material_overrides(const std::vector<MaterialOverride>& overrides,
+                                                  const std::filesystem::path& folder,
                                                   std::vector<scene::Material>& materials);
 
 }  // namespace petrichor::film

@@ -122,6 +122,7 @@ struct MaterialOverride {
     std::string glob;
     std::string place;  ///< "file:line", for messages
     std::vector<std::pair<std::string, std::vector<double>>> values;
+    std::string lighting_model = {};  ///< as written; empty: left as it is
 };
 
 /// [look]: keys of look_keys() with their values over time, one number a channel.

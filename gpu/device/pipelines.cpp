@@ -164,11 +164,22 @@ VkPipelineLayout PipelineCache::layout(const std::vector<BindingTypes>& sets)
     return made;
 }
 
+void PipelineCache::add_shader(const std::string& name, std::vector<std::uint32_t> code)
+{
+    auto& slot = added_[name];
+    if (slot == code) return;
+    slot = std::move(code);
+    modules_.erase(name);
+    std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.rfind(name, 0) == 0; });
+}
+
 VkShaderModule PipelineCache::module(const std::string& shader)
 {
     auto& slot = modules_[shader];
     if (slot) return slot.get();
-    const auto code = embedded_shader(shader);
+    const auto added = added_.find(shader);
+    const auto code = added != added_.end() ? std::span<const std::uint32_t>(added->second)
+                                            : embedded_shader(shader);
     if (code.empty()) throw std::logic_error("no embedded shader " + shader);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;

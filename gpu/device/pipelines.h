@@ -82,6 +82,8 @@ public:
                             const std::vector<Specialization>& specialization,
                             const std::vector<BindingTypes>& sets);
     const Pipeline& graphics(const GraphicsDesc& desc);
+    /// Makes SPIR-V known by a name; the same name again replaces it and its pipelines.
+    void add_shader(const std::string& name, std::vector<std::uint32_t> code);
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 
 private:
@@ -91,6 +93,7 @@ private:
     const Device* device_;
     std::map<BindingTypes, SetLayoutHandle> set_layouts_;
     std::map<std::vector<BindingTypes>, PipelineLayoutHandle> layouts_;
+    std::map<std::string, std::vector<std::uint32_t>> added_;
     std::map<std::string, ShaderModuleHandle> modules_;
     std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
 };

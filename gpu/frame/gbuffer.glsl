@@ -6,18 +6,6 @@
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/gbuffer_table_io.h"
 
-// Reflectance in seven bits, by its root: 63 is 0.04, that of glass.
-uint encode_reflectance(float f0)
-{
-    return uint(sqrt(clamp(f0, 0.0, 0.16) / 0.16) * 126.0 + 0.5);
-}
-
-float decode_reflectance(uint code)
-{
-    const float root = float(code) / 126.0;
-    return 0.16 * root * root;
-}
-
 struct GBufferTexel {
     vec3 base_color;
     float occlusion;
@@ -26,8 +14,8 @@ struct GBufferTexel {
     float roughness;
     float metallic;
     float porosity;
-    float f0;      // reflectance of the dielectric part at normal incidence, 0..0.16
-    uint model;
+    vec3 f0;       // reflectance of what is not metal at normal incidence, 0..1
+    uint model;    // lighting model, 0..255
     vec4 weather;  // film, water, snow, frost
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
@@ -48,7 +36,8 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
     code.normals =
         vec4(octahedral_encode(texel.base_normal), octahedral_encode(texel.cover_normal));
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
-                         float(texel.model | (encode_reflectance(texel.f0) << 1)) / 255.0);
+                         float(texel.model) / 255.0);
+    code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), 0.0);  // 0.04 is exact
     code.weather = texel.weather;
     code.identity = vec4(float(texel.material) / 65535.0, texel.snow_smoothness, 0.0, 0.0);
     code.emission = vec4(texel.emission, 1.0);
@@ -65,9 +54,8 @@ GBufferTexel decode_gbuffer(GBufferCode code)
     texel.roughness = code.material.x;
     texel.metallic = code.material.y;
     texel.porosity = code.material.z;
-    const uint bits = uint(code.material.w * 255.0 + 0.5);
-    texel.model = bits & 1u;
-    texel.f0 = decode_reflectance(bits >> 1);
+    texel.model = uint(code.material.w * 255.0 + 0.5);
+    texel.f0 = code.payload.rgb * code.payload.rgb;
     texel.weather = code.weather;
     texel.material = uint(code.identity.x * 65535.0 + 0.5);
     texel.snow_smoothness = code.identity.y;

@@ -15,15 +15,17 @@
     ROW(normals, 1, R16G16B16A16_SNORM, ALWAYS,                                            \
         "octahedral: base normal, cover normal (of water or snow)")                        \
     ROW(material, 2, R8G8B8A8_UNORM, ALWAYS,                                               \
-        "perceptual roughness, metallic, porosity; lighting model and reflectance")
+        "perceptual roughness, metallic, porosity; lighting model")                        \
+    ROW(payload, 3, R8G8B8A8_UNORM, ALWAYS,                                                \
+        "root of the reflectance at normal incidence, not of metal; free")
 #define GBUFFER_WEATHER(ROW)                                                                 \
-    ROW(weather, 3, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
-    ROW(identity, 4, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow")
-#define GBUFFER_EMISSION(ROW) ROW(emission, 5, R16G16B16A16_SFLOAT, EMISSION, "radiance")
+    ROW(weather, 4, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
+    ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow")
+#define GBUFFER_EMISSION(ROW) ROW(emission, 6, R16G16B16A16_SFLOAT, EMISSION, "radiance")
 
 #define GBUFFER_TABLE(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW)
 
 // Bindings of a pass that reads the G-buffer: depth at the first, the targets behind it.
-#define GBUFFER_BINDINGS 7
+#define GBUFFER_BINDINGS 8
 
 #endif

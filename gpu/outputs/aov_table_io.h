@@ -36,7 +36,7 @@
     ROW(porosity, 1, "Y", "1", HALF, "porosity: how far water darkens the dry surface, 0..1",   \
         p.g.porosity, 0.0)                                                                      \
     ROW(specular, 3, "RGB", "1", HALF, "dry reflectance at normal incidence, metals included",  \
-        mix(vec3(p.g.f0), p.g.base_color, p.g.metallic), 0.0)                                   \
+        mix(p.g.f0, p.g.base_color, p.g.metallic), 0.0)                                   \
     ROW(lighting_model, 1, "Y", "1", HALF, "number of the lighting model; -1 where nothing is", \
         float(p.g.model), -1.0)
 

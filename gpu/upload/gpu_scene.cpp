@@ -60,6 +60,12 @@ std::uint32_t water_bits(scene::Wetness wetness)
     return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
 }
 
+std::string lighting_model_of(const Material& material)
+{
+    if (!material.lighting_model.empty()) return material.lighting_model;
+    return material.unlit ? "unlit" : "standard";
+}
+
 }  // namespace
 
 const std::vector<VertexAttribute>& vertex_attributes()
@@ -212,6 +218,9 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                         " materials; at most 65536 can be told apart",
                     "Merge materials that are alike.");
     }
+    std::vector<std::string> models;
+    for (const Material& material : scene.materials) models.push_back(lighting_model_of(material));
+    lighting_models_ = LightingModels(models);
     std::vector<bool> loaded;
     for (const auto& image : images_) loaded.push_back(image != nullptr);
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
@@ -226,7 +235,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
         emissive_ = emissive_ || source.emissive * source.emissive_strength != glm::vec3(0.0f);
-        const shared::MaterialConstants c = material_constants(source, loaded);
+        shared::MaterialConstants c = material_constants(source, loaded);
+        c.lighting_model = lighting_models_.number_of(models[i]);
         std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
         looks.push_back(c.water_color);
         looks.emplace_back(c.snow_opacity, 0.0f, 0.0f, 0.0f);
@@ -235,6 +245,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         material.water = water_bits(source.weather.wetness);
         material.masked = source.alpha_mode == AlphaMode::Mask;
         material.blended = is_blended(source);
+        material.lighting_model = c.lighting_model;
         material.bindings.push_back(uniform(*constants_, i * stride, sizeof(c)));
         const auto slots = slots_of(source);
         for (std::uint32_t slot = 0; slot < TEXTURE_SLOTS; ++slot) {

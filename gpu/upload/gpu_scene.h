@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/device/pipelines.h"
+#include "gpu/lighting/lighting_models.h"
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/texture.h"
 
@@ -40,14 +41,16 @@ struct GpuMaterial {
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool masked = false;
     bool blended = false;
-    std::uint32_t slots = 0;        ///< texture slots present, one bit each
-    std::uint32_t water = 0;        ///< WATER_... bits of its wetness
-    std::vector<Binding> bindings;  ///< constants, then the texture slots
+    std::uint32_t slots = 0;           ///< texture slots present, one bit each
+    std::uint32_t water = 0;           ///< WATER_... bits of its wetness
+    std::uint32_t lighting_model = 0;  ///< its number
+    std::vector<Binding> bindings;     ///< constants, then the texture slots
 };
 
 /// A scene on the device: geometry in one buffer, textures, material constants.
 class GpuScene {
 public:
+    /// Throws Error when a material names a lighting model that does not exist.
     GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures);
 
     const GpuBuffer& vertices() const { return *vertices_; }
@@ -62,6 +65,7 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
+    const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
     void upload_geometry(const Device& device, const Scene& scene);
@@ -81,6 +85,7 @@ private:
     std::vector<Draw> draws_;
     std::vector<GpuMaterial> materials_;
     std::vector<Light> lights_;
+    LightingModels lighting_models_;
     Bounds bounds_;
     bool emissive_ = false;
     bool as_texels_ = false;

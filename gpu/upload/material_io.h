@@ -19,8 +19,8 @@
     X(float, alpha_cutoff)         \
     X(float, ior)                  \
     X(float, specular_factor)      \
+    X(vec3, specular_color_factor) \
     X(float, transmission_factor)  \
-    X(uint, unlit)                 \
     X(float, porosity)             \
     X(float, default_height)       \
     X(float, water_slope_damp)     \
@@ -70,10 +70,6 @@
 #define WATER_RIPPLES 2u
 #define WATER_FLOWS 4u
 
-// Lighting models, in the G-buffer's model byte.
-#define MODEL_STANDARD 0u
-#define MODEL_UNLIT 1u
-
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color
 //   1  snow_opacity, -, -, -
@@ -92,6 +88,7 @@ struct TextureSlot {
 #define MATERIAL_FIELD(type, name) type name;
 struct MaterialConstants {
     MATERIAL_FIELDS(MATERIAL_FIELD)
+    uint lighting_model;  // its number (gpu/lighting/models_io.h)
     TextureSlot slots[TEXTURE_SLOTS];
 };
 #undef MATERIAL_FIELD

@@ -207,7 +207,7 @@ TEST(MaterialOverrides, MatchByGlobAndTheLaterOneWins)
     std::vector<scene::Material> materials(2);
     materials[0].name = "z_stone";
     materials[1].name = "brick";
-    const auto unmatched = apply_material_overrides(scenario.materials, materials);
+    const auto unmatched = apply_material_overrides(scenario.materials, {}, materials);
     EXPECT_FLOAT_EQ(materials[0].weather.porosity, 0.9f);
     EXPECT_FLOAT_EQ(materials[0].weather.snow_accumulation.y, 2.0f);
     EXPECT_LT(materials[1].weather.porosity, 0.0f);

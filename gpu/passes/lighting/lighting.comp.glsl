@@ -3,9 +3,8 @@
 // the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "formulas/light/brdf.h"
+#include "gpu/lighting/models_io.h"
 #include "formulas/light/spherical_harmonics.h"
-#include "gpu/upload/material_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
@@ -20,6 +19,10 @@ layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIG
 layout(constant_id = LIGHTING_SPEC_AMBIENT_OCCLUSION) const uint AMBIENT_OCCLUSION = 1u;
 layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
 layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
+#define ROW(number_, name_) \
+    layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
+LIGHTING_MODELS(ROW)
+#undef ROW
 
 layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
@@ -110,6 +113,90 @@ vec3 background(vec3 direction)
     return radiance;
 }
 
+// The answer of the surface's model. A model that nothing in the picture has is not compiled.
+const bool ONE_MODEL = (0u
+#define ROW(number_, name_) + USES_##name_
+LIGHTING_MODELS(ROW)
+#undef ROW
+) == 1u;
+
+vec3 model_light(LitPoint p, vec3 to_light)
+{
+    vec3 radiance = vec3(0.0);
+#define ROW(number_, name_)                                                \
+    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
+        radiance = name_##_light(p, to_light);                             \
+    }
+    LIGHTING_MODELS(ROW)
+#undef ROW
+    return radiance;
+}
+
+Reflected model_surround(LitPoint p, Surroundings s)
+{
+    Reflected reflected = Reflected(vec3(0.0), vec3(0.0));
+#define ROW(number_, name_)                                                \
+    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
+        reflected = name_##_surround(p, s);                                \
+    }
+    LIGHTING_MODELS(ROW)
+#undef ROW
+    return reflected;
+}
+
+vec3 model_own(LitPoint p)
+{
+    vec3 radiance = vec3(0.0);
+#define ROW(number_, name_)                                                \
+    if (USES_##name_ != 0u && (ONE_MODEL || p.model == uint(number_))) {   \
+        radiance = name_##_own(p);                                         \
+    }
+    LIGHTING_MODELS(ROW)
+#undef ROW
+    return radiance;
+}
+
+// One light of the table; zero out of its range or behind the surface.
+vec3 punctual_light(LitPoint p, int light)
+{
+    const vec4 sphere = texelFetch(lights, light * 3);
+    const vec3 to_light = sphere.xyz - p.position;
+    const float d2 = dot(to_light, to_light);
+    if (d2 >= sphere.w * sphere.w) return vec3(0.0);
+    const float distance_m = sqrt(d2);
+    const vec3 l = to_light / max(distance_m, 1.0e-4);
+    if (dot(p.normal, l) <= 0.0) return vec3(0.0);
+    const vec4 color = texelFetch(lights, light * 3 + 1);
+    const vec4 axis = texelFetch(lights, light * 3 + 2);
+    float falloff = light_attenuation(distance_m, sphere.w);
+    if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
+        falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
+    }
+    return model_light(p, l) * color.rgb * falloff;
+}
+
+// Adds lights far away, then those that reach this tile, in the order of the table.
+void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
+{
+    for (uint i = 0u; i < frame.directional_count; ++i) {
+        const vec4 color = texelFetch(lights, int(i * 3u + 1u));
+        const vec4 direction = texelFetch(lights, int(i * 3u + 2u));
+        radiance += model_light(p, -direction.xyz) * color.rgb;
+    }
+    if (ALL_LIGHTS != 0u) {
+        for (uint i = frame.directional_count; i < frame.light_count; ++i) {
+            radiance += punctual_light(p, int(i));
+        }
+        return;
+    }
+    const ivec2 tile = texel / LIGHT_TILE;
+    const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
+    const uint count = min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
+    for (uint i = 0u; i < count; ++i) {
+        radiance += punctual_light(p, int(texelFetch(light_lists, list + 1 + int(i)).r));
+    }
+}
+
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -126,7 +213,6 @@ void main()
     } else {
         const GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u));
-        const vec3 emission = g.emission;
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -134,7 +220,7 @@ void main()
         DryMaterial dry;
         dry.base_color = g.base_color;
         dry.metallic = g.metallic;
-        dry.f0 = vec3(g.f0);
+        dry.f0 = g.f0;
         dry.roughness = g.roughness;
         dry.occlusion = g.occlusion;
         dry.porosity = g.porosity;
@@ -157,100 +243,64 @@ void main()
             closed = closed_water(state);
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
         }
-        if (g.model == MODEL_UNLIT) {
-            radiance = g.base_color + emission;
-        } else {
-            // A normal map must not turn a visible point away from the eye.
-            const float facing = dot(n, v);
-            if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
-            const float roughness = clamp(1.0 - m.smoothness, 0.045, 1.0);
-            const float alpha = roughness * roughness;
-            const vec3 diffuse =
-                m.albedo * (1.0 - max(m.specular.r, max(m.specular.g, m.specular.b)));
+        // A normal map must not turn a visible point away from the eye.
+        const float facing = dot(n, v);
+        if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+        LitPoint p;
+        p.position = position;
+        p.normal = n;
+        p.view = v;
+        p.base_color = g.base_color;
+        p.albedo = m.albedo;
+        p.diffuse = m.albedo * (1.0 - max(m.specular.r, max(m.specular.g, m.specular.b)));
+        p.specular = m.specular;
+        p.roughness = clamp(1.0 - m.smoothness, 0.045, 1.0);
+        p.emission = g.emission * m.emission_scale;
+        p.exposure = sky_light.exposure;
+        p.model = g.model;
+        p.lobe = make_lobe(n, v, p.diffuse, m.specular, p.roughness * p.roughness);
 
-            const Lobe lobe = make_lobe(n, v, diffuse, m.specular, alpha);
-            radiance = emission * m.emission_scale;
-            const float sun_lit = dot(n, frame.sun_direction);
-            if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
-                const float visible =
-                    SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
-                if (visible > 0.0) {
-                    radiance += shade_lobe(lobe, frame.sun_direction) *
-                                frame.sun_illuminance * visible;
-                }
+        radiance = model_own(p);
+        const float sun_lit = dot(n, frame.sun_direction);
+        if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
+            const float visible =
+                SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
+            if (visible > 0.0) {
+                radiance += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
             }
-            for (uint i = 0u; i < frame.directional_count; ++i) {
-                const vec4 color = texelFetch(lights, int(i * 3u + 1u));
-                const vec4 direction = texelFetch(lights, int(i * 3u + 2u));
-                radiance += shade_lobe(lobe, -direction.xyz) * color.rgb;
-            }
-            const ivec2 tile = texel / LIGHT_TILE;
-            const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
-            const uint count = ALL_LIGHTS != 0u
-                                   ? frame.light_count - frame.directional_count
-                                   : min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
-            for (uint i = 0u; i < count; ++i) {
-                const int light = ALL_LIGHTS != 0u
-                                      ? int(frame.directional_count + i) * 3
-                                      : int(texelFetch(light_lists, list + 1 + int(i)).r) * 3;
-                const vec4 sphere = texelFetch(lights, light);
-                const vec3 to_light = sphere.xyz - position;
-                const float d2 = dot(to_light, to_light);
-                if (d2 >= sphere.w * sphere.w) continue;
-                const float distance_m = sqrt(d2);
-                const vec3 l = to_light / max(distance_m, 1.0e-4);
-                if (dot(n, l) <= 0.0) continue;
-                const vec4 color = texelFetch(lights, light + 1);
-                const vec4 axis = texelFetch(lights, light + 2);
-                float falloff = light_attenuation(distance_m, sphere.w);
-                if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
-                    falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
-                }
-                radiance += shade_lobe(lobe, l) * color.rgb * falloff;
-            }
-
-            if (IMAGE_BASED_LIGHT != 0u) {
-                const float screen =
-                    AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
-                const float sky_open =
-                    AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
-                const float occlusion = m.occlusion * screen;
-                // A water surface lies above the crevices that its ground has.
-                const float mirror_occlusion = mix(occlusion, 1.0, closed);
-                const float nv = clamp(dot(n, v), 0.0, 1.0);
-                const vec2 size = vec2(textureSize(env_brdf, 0));
-                const vec2 at = (vec2(nv, roughness) * (size - 1.0) + 0.5) / size;
-                const vec2 ab = textureLod(env_brdf, at, 0.0).rg;
-                // Energy that one bounce loses comes back (Fdez-Aguera 2019).
-                const vec3 single = m.specular * ab.x + vec3(ab.y);
-                const float lost = 1.0 - (ab.x + ab.y);
-                const vec3 average = m.specular + (vec3(1.0) - m.specular) * (1.0 / 21.0);
-                const vec3 multiple = single * average * lost / (vec3(1.0) - average * lost);
-                // Where the sky is hidden, walls and ground send some of its light on, warmer.
-                const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
-                const vec3 irradiance = sky_irradiance(n) * (sky_open + (1.0 - sky_open) * hidden);
-                // Lagarde and de Rousiers 2014.
-                const float specular_occlusion =
-                    saturate(pow(nv + mirror_occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 +
-                             mirror_occlusion);
-                // Light that a bright surface throws back into its own crevices (Jimenez et al. 2016).
-                const vec3 a = 2.0404 * m.albedo - 0.3324;
-                const vec3 b = -4.7951 * m.albedo + 0.6417;
-                const vec3 c = 2.7552 * m.albedo + 0.6903;
-                const vec3 bounced =
-                    max(vec3(occlusion), ((occlusion * a + b) * occlusion + c) * occlusion);
-                radiance += (multiple + m.albedo * (vec3(1.0) - single - multiple)) * irradiance *
-                            bounced * frame.ambient_scale;
-                const vec3 reflectance = single * (specular_occlusion * frame.ambient_scale);
-                if (roughness < kMirrorRoughness) {
-                    mirror = vec4(reflectance, closed);
-                    shape = vec4(octahedral_encode(n), roughness, sky_open);
-                } else {
-                    const vec3 reflected = reflect(-v, n);
-                    const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
-                    radiance += reflectance * textureLod(specular_map, reflected, lod).rgb *
-                                (sky_open + (1.0 - sky_open) * hidden);
-                }
+        }
+        add_lights(radiance, p, texel);
+        if (IMAGE_BASED_LIGHT != 0u) {
+            const float screen =
+                AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
+            const float sky_open =
+                AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
+            // Where the sky is hidden, walls and ground send some of its light on, warmer.
+            const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
+            const vec3 seen = sky_open + (1.0 - sky_open) * hidden;
+            const float nv = clamp(dot(n, v), 0.0, 1.0);
+            Surroundings s;
+            s.irradiance = sky_irradiance(n) * seen;
+            s.occlusion = m.occlusion * screen;
+            // A water surface lies above the crevices that its ground has.
+            const float mirror_occlusion = mix(s.occlusion, 1.0, closed);
+            // Lagarde and de Rousiers 2014.
+            s.specular_occlusion =
+                saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +
+                         mirror_occlusion);
+            const vec2 size = vec2(textureSize(env_brdf, 0));
+            const vec2 at = (vec2(nv, p.roughness) * (size - 1.0) + 0.5) / size;
+            s.split_sum = textureLod(env_brdf, at, 0.0).rg;
+            s.scale = frame.ambient_scale;
+            const Reflected reflected = model_surround(p, s);
+            radiance += reflected.radiance;
+            if (p.roughness < kMirrorRoughness) {
+                mirror = vec4(reflected.mirror, closed);
+                shape = vec4(octahedral_encode(n), p.roughness, sky_open);
+            } else {
+                const float lod = p.roughness * float(SKY_PREFILTER_MIPS - 1);
+                radiance +=
+                    reflected.mirror * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
             }
         }
         if (frame.fog_per_m > 0.0) {

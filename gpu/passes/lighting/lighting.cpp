@@ -11,7 +11,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
         .name = "lighting",
-        .shader = "lighting.comp",
+        .shader = variant.shader,
         .constants = {{LIGHTING_SPEC_WEATHER, variant.weather},
                       {LIGHTING_SPEC_SHADOWS, variant.shadows},
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
@@ -35,6 +35,10 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)}},
         .push = {},
         .groups = groups_over(targets.width, targets.height, LIGHTING_TILE)};
+    for (std::size_t i = 0; i < variant.models.size(); ++i) {
+        const auto id = static_cast<std::uint32_t>(LIGHTING_SPEC_MODEL + i);
+        pass.constants.push_back({id, variant.models[i]});
+    }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
     graph.add(std::move(pass));
 }

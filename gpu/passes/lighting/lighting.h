@@ -7,6 +7,10 @@
 
 namespace petrichor::gpu {
 
+inline constexpr const char* kLightingShader = "lighting.comp";
+/// With users' own models in it; added to the pipelines when a scene has some.
+inline constexpr const char* kOwnLightingShader = "own_lighting.comp";
+
 /// What a frame wants of the lighting pass; each choice is a compiled variant.
 struct LightingVariant {
     bool weather = true;
@@ -15,6 +19,8 @@ struct LightingVariant {
     bool ambient_occlusion = true;
     bool emission = true;
     bool all_lights = false;  ///< without lists: what they are tested against
+    std::string shader = kLightingShader;
+    std::vector<bool> models{true};  ///< by number: something in the picture has it
 };
 
 // Applies weather to the dry material, then light. Without image-based light the sample is added to

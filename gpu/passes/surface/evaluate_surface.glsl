@@ -25,11 +25,11 @@ float widened_by_curvature(float roughness, SurfaceInput at)
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
 }
 
-// At normal incidence.
-float dielectric_reflectance()
+// At normal incidence (KHR_materials_ior, KHR_materials_specular).
+vec3 dielectric_reflectance()
 {
     const float root = (material.ior - 1.0) / (material.ior + 1.0);
-    return root * root * material.specular_factor;
+    return min(root * root * material.specular_color_factor, vec3(1.0)) * material.specular_factor;
 }
 
 SurfaceData evaluate_surface(SurfaceInput at)
@@ -89,7 +89,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.metallic = metallic;
     data.texel.porosity = porosity;
     data.texel.f0 = dielectric_reflectance();
-    data.texel.model = material.unlit != 0u ? MODEL_UNLIT : MODEL_STANDARD;
+    data.texel.model = material.lighting_model;
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;

@@ -1,0 +1,57 @@
+// What a lighting model is: how a surface answers to light. One file a model, found by its name; a
+// user's own is compiled at run time against this text. The file NAME.glsl defines
+//
+//   vec3 NAME_light(LitPoint p, vec3 to_light)
+//       radiance towards the eye per lux of a light that the surface would face, its cosine included;
+//       `to_light` is a unit vector and may come from behind
+//   Reflected NAME_surround(LitPoint p, Surroundings s)
+//       the answer to light from all around
+//   vec3 NAME_own(LitPoint p)
+//       radiance, cd/m2, that needs no light
+//
+// Only the models of what is in the picture are compiled into its shader.
+#ifndef PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
+#define PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
+
+#include "formulas/light/brdf.h"
+
+// A surface point; weather is on it already.
+struct LitPoint {
+    vec3 position;     // world, metres
+    vec3 normal;       // unit, of the material or of what covers it
+    vec3 view;         // unit, to the eye
+    vec3 base_color;   // dry, linear, 0..1
+    vec3 albedo;       // of what is not metal
+    vec3 diffuse;      // albedo without the share that is mirrored
+    vec3 specular;     // F0, the reflectance at normal incidence
+    float roughness;   // perceptual, 0.045..1
+    vec3 emission;     // radiance, cd/m2
+    float exposure;    // radiance times this is 1 where the display is white
+    uint model;        // its number
+    Lobe lobe;         // of GGX, made ready for shade_lobe()
+};
+
+// Light from all around a point.
+struct Surroundings {
+    vec3 irradiance;           // divided by pi: what a white Lambert surface sends out
+    float occlusion;           // 1 open; of the material and the screen
+    float specular_occlusion;  // the same for what is mirrored
+    vec2 split_sum;            // scale and offset of F0 for GGX at this roughness and angle
+    float scale;               // of the environment
+};
+
+struct Reflected {
+    vec3 radiance;  // cd/m2
+    vec3 mirror;    // factor of what is seen in the mirror direction, blurred by the roughness
+};
+
+// Light that a bright surface throws back into its own crevices (Jimenez et al. 2016).
+vec3 bounced_occlusion(vec3 albedo, float occlusion)
+{
+    const vec3 a = 2.0404 * albedo - 0.3324;
+    const vec3 b = -4.7951 * albedo + 0.6417;
+    const vec3 c = 2.7552 * albedo + 0.6903;
+    return max(vec3(occlusion), ((occlusion * a + b) * occlusion + c) * occlusion);
+}
+
+#endif

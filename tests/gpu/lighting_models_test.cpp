@@ -1,0 +1,227 @@
+// Lighting models: the built-in ones, a user's own, and what is said of a bad one.
+#include "gpu/lighting/lighting_models.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kMinnaert = PETRICHOR_SOURCE_DIR "/data/shaders/minnaert.glsl";
+
+class LightingModelsTest : public GpuTest {
+protected:
+    void SetUp() override
+    {
+        folder = fs::temp_directory_path() / ("petrichor-models-" + std::to_string(getpid()));
+        fs::create_directories(folder);
+        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
+        GpuTest::SetUp();
+    }
+    void TearDown() override
+    {
+        GpuTest::TearDown();
+        unsetenv("PETRICHOR_CACHE");
+        fs::remove_all(folder);
+    }
+    std::string write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder / name) << text;
+        return (folder / name).string();
+    }
+    std::size_t cached_shaders() const
+    {
+        std::size_t count = 0;
+        if (!fs::exists(folder / "cache" / "shaders")) return 0;
+        for (const auto& entry : fs::directory_iterator(folder / "cache" / "shaders")) {
+            count += entry.path().extension() == ".spv" ? 1u : 0u;
+        }
+        return count;
+    }
+    // What load() says of a model.
+    std::string refusal(const std::string& model) const
+    {
+        Material material = plain_material(glm::vec3(0.5f));
+        material.lighting_model = model;
+        try {
+            renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {material}), {});
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+    fs::path folder;
+};
+
+constexpr float kLux = 1000.0f;
+
+// A plate seen from `eye` under one light of kLux straight from above, and nothing else.
+Frame lit_plate(const glm::vec3& eye)
+{
+    Frame frame;
+    frame.camera = look(eye, {0, 0, 0}, 0.1f);
+    frame.settings.width = 17;
+    frame.settings.height = 17;
+    frame.settings.samples = 1;
+    frame.settings.image_based_light = false;
+    frame.settings.shadows = false;
+    frame.sky.analytic_sun = false;
+    frame.sky.sun_illuminance = 0.0f;
+    frame.weather.visibility_m = 1e9f;
+    return frame;
+}
+
+Scene plate(const Material& material, const glm::vec3& light_direction)
+{
+    Scene scene = scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6})}, {material});
+    Light light;
+    light.kind = LightKind::Directional;
+    light.intensity = kLux;
+    light.direction = glm::normalize(light_direction);
+    scene.lights = {light};
+    return scene;
+}
+
+TEST(LightingModels, NumbersGoByName)
+{
+    const LightingModels models({"lambert", "", kMinnaert, "unlit", kMinnaert});
+    EXPECT_EQ(models.number_of("standard"), 0u);
+    EXPECT_EQ(models.number_of(""), 0u);
+    EXPECT_EQ(models.number_of("lambert"), 2u);
+    EXPECT_EQ(models.number_of(kMinnaert), built_in_lighting_models().size());
+    EXPECT_EQ(models.count(), built_in_lighting_models().size() + 1);
+}
+
+// The example of data/shaders against its law, written once more in C++.
+TEST_F(LightingModelsTest, AUsersOwnModelFollowsItsLaw)
+{
+    Material material = plain_material({0.25f, 0.5f, 0.81f}, 0.9f);
+    material.lighting_model = kMinnaert;
+    const glm::vec3 from_light(0.6f, -0.8f, 0.0f);
+    renderer->load(plate(material, from_light), {});
+    for (const glm::vec3 eye : {glm::vec3(0, 5, 0.01f), glm::vec3(4, 3, 0), glm::vec3(0, 1, -5)}) {
+        const glm::vec3 seen = pixel(renderer->render(lit_plate(eye)), 8, 8);
+        const float nl = 0.8f;
+        const float nv = glm::normalize(eye).y;
+        const float k = 1.5f;
+        const glm::vec3 expected = glm::vec3(0.25f, 0.5f, 0.81f) / 3.14159265f * std::pow(nl, k) *
+                                   std::pow(nv, k - 1.0f) * kLux;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 0.015f * expected[c]);
+    }
+    EXPECT_EQ(cached_shaders(), 1u);
+    renderer->load(plate(material, from_light), {});
+    EXPECT_EQ(cached_shaders(), 1u) << "a second start is warm";
+}
+
+TEST_F(LightingModelsTest, APerfectDiffuserMirrorsNothing)
+{
+    Material material = plain_material(glm::vec3(0.5f), 0.05f);
+    material.lighting_model = "lambert";
+    renderer->load(plate(material, {0, -1, 0}), {});
+    const float above = pixel(renderer->render(lit_plate({0, 5, 0.01f})), 8, 8).g;
+    const float aside = pixel(renderer->render(lit_plate({4, 1, 0})), 8, 8).g;
+    EXPECT_NEAR(above, kLux * 0.5f / 3.14159265f, 1.0f);
+    EXPECT_NEAR(aside, above, 0.5f) << "the same from everywhere";
+    // In a constant sky too: E = pi L.
+    Scene dark = plate(material, {0, -1, 0});
+    dark.lights.clear();
+    renderer->load(dark, {});
+    renderer->set_environment(constant_environment(2.0f));
+    Frame frame = lit_plate({4, 1, 0});
+    frame.settings.image_based_light = true;
+    frame.settings.ambient_occlusion = false;
+    EXPECT_NEAR(pixel(renderer->render(frame), 8, 8).g, 1.0f, 0.02f);
+}
+
+TEST_F(LightingModelsTest, UnlitIsTheSameByDayAndByNight)
+{
+    Material material = plain_material(glm::vec3(0.5f));
+    material.unlit = true;
+    renderer->load(scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6})}, {material}), {});
+    for (const float elevation : {1.0f, 0.05f, -0.4f}) {
+        Frame frame = lit_plate({0, 5, 0.01f});
+        frame.sky = {};
+        frame.sky.sun_elevation_rad = elevation;
+        frame.settings.image_based_light = true;
+        frame.settings.tone_map = false;
+        const RenderResult result = renderer->render(frame);
+        EXPECT_NEAR(pixel(result, 8, 8).g * result.exposure, 0.5f, 0.01f) << elevation;
+        EXPECT_NEAR(result.display[(8 * 17 + 8) * 4], 188, 2) << "sRGB of one half";
+    }
+}
+
+// Models side by side are what they are alone, and only those in view are compiled.
+TEST_F(LightingModelsTest, ModelsStandSideBySide)
+{
+    std::vector<Material> materials;
+    std::vector<Primitive> plates;
+    for (const std::string& model : {std::string(), std::string("lambert"), kMinnaert}) {
+        Material material = plain_material(glm::vec3(0.5f), 0.3f);
+        material.lighting_model = model;
+        const auto index = static_cast<std::uint32_t>(materials.size());
+        plates.push_back(
+            quad({-1.5f + static_cast<float>(index), 0, 1}, {1, 0, 0}, {0, 0, -2}, index));
+        materials.push_back(material);
+    }
+    Scene together = scene_of(plates, materials);
+    together.lights = plate(materials[0], {0.3f, -1, 0.2f}).lights;
+    Frame frame = lit_plate({0, 4, 0.01f});
+    frame.camera = look({0, 4, 0.01f}, {0, 0, 0}, 0.6f);
+    frame.settings.width = 48;
+    frame.settings.aovs = {"lighting_model"};
+    renderer->load(together, {});
+    const RenderResult all = renderer->render(frame);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        Scene alone = together;
+        alone.meshes[0].primitives = {plates[i]};
+        renderer->load(alone, {});
+        const RenderResult one = renderer->render(frame);
+        int seen = 0;
+        for (int x = 0; x < 48; ++x) {
+            if (aov(all, "lighting_model", x, 8) != static_cast<float>(i < 1 ? 0 : i < 2 ? 2 : 3)) {
+                continue;
+            }
+            ++seen;
+            EXPECT_EQ(pixel(all, x, 8), pixel(one, x, 8)) << "model " << i << " at " << x;
+        }
+        EXPECT_GT(seen, 4);
+    }
+}
+
+TEST_F(LightingModelsTest, ABadModelIsRefusedByFileAndLine)
+{
+    EXPECT_NE(refusal("lambet").find("standard, unlit, lambert"), std::string::npos);
+    EXPECT_NE(refusal((folder / "none.glsl").string()).find("none.glsl"), std::string::npos);
+    EXPECT_NE(refusal(write("empty.glsl", "")).find("empty_light"), std::string::npos);
+    EXPECT_NE(refusal(write("2d.glsl", "")).find("2d"), std::string::npos);
+    const std::string bad = write("bad.glsl",
+                                  "#include \"gpu/lighting/models/lighting_model.glsl\"\n"
+                                  "vec3 bad_light(LitPoint p, vec3 l) { return wrong; }\n"
+                                  "vec3 bad_own(LitPoint p) { return vec3(0); }\n"
+                                  "Reflected bad_surround(LitPoint p, Surroundings s)\n"
+                                  "{ return Reflected(vec3(0), vec3(0)); }\n");
+    const std::string said = refusal(bad);
+    EXPECT_NE(said.find("bad.glsl:2"), std::string::npos) << said;
+    EXPECT_NE(said.find("wrong"), std::string::npos) << said;
+    EXPECT_EQ(cached_shaders(), 0u);
+}
+
+// Macros that unfold without end are stopped by the compiler's limits, not by ours running out.
+TEST_F(LightingModelsTest, ATextThatUnfoldsWithoutEndIsStopped)
+{
+    std::string text = "#define A0 1.0+1.0\n";
+    for (int i = 1; i < 40; ++i) {
+        const std::string before = "A" + std::to_string(i - 1);
+        text += "#define A" + std::to_string(i) + " " + before + "+" + before + "\n";
+    }
+    text += "float bomb_light_surround_own_bomb_surround_bomb_own = A39;\n";
+    EXPECT_NE(refusal(write("bomb.glsl", text)), "");
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
