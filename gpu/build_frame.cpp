@@ -192,7 +192,6 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
     }
     add_resolve(graph, *r.targets, *r.sky, constants);
-    graph.read_back({r.targets->light_lists.get()});
     return graph;
 }
 

@@ -101,6 +101,8 @@ struct Renderer::Impl {
             if (lights.back().intensity <= 0.0f) lights.pop_back();
         }
         lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
+        check_light_lists(device.limits(), lights.size(), frame.settings.width,
+                          frame.settings.height);
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);
         light_table = make_light_table(device, *light_arena, lights);
@@ -263,7 +265,6 @@ RenderResult Renderer::render(const Frame& frame)
     shared::SkyLight light{};
     std::memcpy(&light, impl.sky.light->mapped, sizeof(light));
     result.exposure = light.exposure;
-    result.light_list_overflows = count_overflows(impl.targets);
     for (const std::size_t row : aov_rows) {
         const AovInfo& info = aov_table()[row];
         result.aovs.push_back({info.name, static_cast<int>(info.channels.size()),

@@ -30,7 +30,6 @@ struct RenderResult {
     float exposure = 1.0f;              ///< the scale that display used
     std::vector<AovImage> aovs;
     std::vector<PassTime> passes;
-    std::uint32_t light_list_overflows = 0;  ///< tiles that saw more lights than a list holds
 };
 
 /// Renders frames of one scene. Movable, not copyable; not thread-safe. Same input, same bytes.

@@ -116,7 +116,6 @@ void print_json(const RenderBenchOptions& options, int samples, const std::strin
     report["cpu_ms_per_frame"] = median_of(costs, &Cost::cpu_ms);
     report["wall_ms_per_frame"] = median_of(costs, &Cost::wall_ms);
     report["peak_memory_mib"] = peak_memory_mib();
-    report["light_list_overflows"] = result.light_list_overflows;
     report["passes"] = nlohmann::ordered_json::array();
     for (const gpu::PassTime& pass : median_passes(costs)) {
         report["passes"].push_back({{"name", pass.name}, {"wall_ms", pass.milliseconds}});
@@ -138,9 +137,6 @@ void print_text(const RenderBenchOptions& options, int samples, const std::strin
         median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), peak_memory_mib());
     for (const gpu::PassTime& pass : median_passes(costs)) {
         std::printf("    %-24s %8.2f ms\n", pass.name.c_str(), pass.milliseconds);
-    }
-    if (result.light_list_overflows > 0) {
-        std::printf("  %u tiles see more lights than a list holds\n", result.light_list_overflows);
     }
 }
 

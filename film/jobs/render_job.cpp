@@ -112,7 +112,6 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
-    std::uint32_t overflows = 0;
     std::string environment;  // fingerprint of what the renderer holds
     {
         FrameWriter writer(request.folder, {output.exr, output.png});
@@ -123,7 +122,6 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                 environment = one.frame.environment;
             }
             gpu::RenderResult result = renderer.render(one.frame.frame);
-            overflows = std::max(overflows, result.light_list_overflows);
             FrameFacts facts;
             facts.job = one.job;
             facts.time_s = one.frame.time_s;
@@ -139,11 +137,6 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
         if (request.watcher) request.watcher->written(report.rendered);
     }
     report.graph = renderer.describe_graph();
-    if (overflows > 0) {
-        report.notes.push_back(
-            "up to " + std::to_string(overflows) +
-            " tiles of a frame see more lights than a list holds; the faintest are left out");
-    }
     report.validation = renderer.validation_messages();
 }
 

@@ -72,6 +72,13 @@ void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
 #undef ROW
 }
 
+VkDeviceSize light_lists_bytes(int width, int height, int light_words)
+{
+    const auto tiles = static_cast<VkDeviceSize>(divide_up(width, LIGHT_TILE)) *
+                       static_cast<VkDeviceSize>(divide_up(height, LIGHT_TILE));
+    return tiles * (static_cast<VkDeviceSize>(light_words) + 1) * sizeof(glm::uvec2);
+}
+
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
                                 int light_words)
 {
@@ -104,7 +111,6 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
 
     const auto pixels = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height);
-    const auto tiles = static_cast<VkDeviceSize>(targets.tiles_x() * targets.tiles_y());
     const auto coarse = static_cast<VkDeviceSize>(targets.coarse_x() * targets.coarse_y());
     const VkBufferUsageFlags table =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -114,10 +120,9 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                       .usage = table,
                       .texel_format = VK_FORMAT_R32_UINT});
     targets.light_lists = arena.buffer({.name = "light_lists",
-                                        .size = tiles * (LIGHT_LIST_MAX + 1) * 4,
+                                        .size = light_lists_bytes(width, height, light_words),
                                         .usage = table,
-                                        .texel_format = VK_FORMAT_R32_UINT,
-                                        .host = true});
+                                        .texel_format = VK_FORMAT_R32G32_UINT});
     targets.beauty = arena.buffer({.name = "beauty", .size = pixels * 8, .host = true});
     targets.display = arena.buffer({.name = "display", .size = pixels * 4, .host = true});
     return targets;

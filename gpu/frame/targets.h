@@ -55,6 +55,7 @@ struct FrameTargets {
 };
 
 /// light_words: 32-bit words for one bit a light.
+VkDeviceSize light_lists_bytes(int width, int height, int light_words);
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,
                                 int light_words);
 

@@ -190,10 +190,13 @@ void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
         return;
     }
     const ivec2 tile = texel / LIGHT_TILE;
-    const int list = (tile.y * frame.light_tiles.x + tile.x) * (LIGHT_LIST_MAX + 1);
-    const uint count = min(texelFetch(light_lists, list).r, uint(LIGHT_LIST_MAX));
-    for (uint i = 0u; i < count; ++i) {
-        radiance += punctual_light(p, int(texelFetch(light_lists, list + 1 + int(i)).r));
+    const int list = (tile.y * frame.light_tiles.x + tile.x) * int(frame.light_words + 1u);
+    const int words = int(texelFetch(light_lists, list).r);
+    for (int i = 1; i <= words; ++i) {
+        const uvec2 word = texelFetch(light_lists, list + i).rg;
+        for (uint bits = word.g; bits != 0u; bits &= bits - 1u) {
+            radiance += punctual_light(p, int(word.r * 32u) + findLSB(bits));
+        }
     }
 }
 

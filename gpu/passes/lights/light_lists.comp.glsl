@@ -1,5 +1,7 @@
 #version 460
 // Second step of light culling: one list a tile, in the order of the lights, by sides and depth range.
+// A list holds words of 32 lights, those that are not empty: (their number, 0), then (word, bits). It
+// has room for every word, so that no light is ever dropped.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/lights/light_volume.glsl"
@@ -10,13 +12,13 @@ layout(binding = LIGHT_LISTS_FRAME, scalar) uniform Frame { FrameConstants frame
 layout(binding = LIGHT_LISTS_LIGHTS) uniform samplerBuffer lights;
 layout(binding = LIGHT_LISTS_WORDS) uniform usamplerBuffer words;
 layout(binding = LIGHT_LISTS_DEPTH) uniform sampler2D depth_map;
-layout(binding = LIGHT_LISTS_LISTS, scalar) writeonly buffer Lists { uint lists[]; };
+layout(binding = LIGHT_LISTS_LISTS, scalar) writeonly buffer Lists { uvec2 lists[]; };
 
 void main()
 {
     const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(tile, frame.light_tiles))) return;
-    const uint list = uint(tile.y * frame.light_tiles.x + tile.x) * uint(LIGHT_LIST_MAX + 1);
+    const uint list = uint(tile.y * frame.light_tiles.x + tile.x) * (frame.light_words + 1u);
 
     float nearest = 0.0;
     float farthest = 2.0;
@@ -53,6 +55,7 @@ void main()
         const uint first = uint(coarse.y * frame.coarse_tiles.x + coarse.x) * frame.light_words;
         for (uint w = 0u; w < frame.light_words; ++w) {
             uint bits = texelFetch(words, int(first + w)).r;
+            uint kept = 0u;
             while (bits != 0u) {
                 const int bit = findLSB(bits);
                 bits &= bits - 1u;
@@ -66,10 +69,13 @@ void main()
                 const float gap_z = max(max(near_m - along, along - far_m), 0.0);
                 if (dot(gap, gap) + gap_z * gap_z > sphere.w * sphere.w) continue;
                 if (!touches_sides(volume, sphere.xyz, sphere.w)) continue;
-                if (count < uint(LIGHT_LIST_MAX)) lists[list + 1u + count] = light;
+                kept |= 1u << uint(bit);
+            }
+            if (kept != 0u) {
                 ++count;
+                lists[list + count] = uvec2(w, kept);
             }
         }
     }
-    lists[list] = count;
+    lists[list] = uvec2(count, 0u);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
+#include "base/error.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/lights/lights_io.h"
 
@@ -17,6 +17,27 @@ float light_radius_m(const Light& light)
     const float faded = std::sqrt(std::max(strongest, 0.0f) / 0.01f);
     const float radius = light.range_m > 0.0f ? light.range_m : faded;
     return std::clamp(radius, 0.0f, 5000.0f);
+}
+
+void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
+                       int height)
+{
+    if (lights > kMostLights) {
+        throw Error("render: " + std::to_string(lights) + " lights; at most " +
+                        std::to_string(kMostLights) + " are possible in one frame",
+                    "Leave out the faintest, or render the scene in parts.");
+    }
+    const auto words = static_cast<int>((lights + 31) / 32);
+    const VkDeviceSize bytes = light_lists_bytes(width, height, words);
+    const VkDeviceSize elements = std::max<VkDeviceSize>(bytes / sizeof(glm::uvec2), 3 * lights);
+    if (bytes > limits.maxStorageBufferRange || elements > limits.maxTexelBufferElements) {
+        throw Error("render: the lists of " + std::to_string(lights) + " lights over " +
+                        std::to_string(width) + " x " + std::to_string(height) + " pixels take " +
+                        std::to_string(bytes >> 20) + " MiB; this device holds " +
+                        std::to_string(limits.maxStorageBufferRange >> 20) + " MiB and " +
+                        std::to_string(limits.maxTexelBufferElements) + " texels in one buffer",
+                    "Choose a smaller --size or fewer lights.");
+    }
 }
 
 LightTable make_light_table(const Device& device, MemoryArena& arena,
@@ -74,19 +95,6 @@ void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& light
                      {LIGHT_LISTS_LISTS, storage_buffer(*targets.light_lists)}},
         .push = {},
         .groups = groups_over(targets.tiles_x(), targets.tiles_y(), LIGHT_LISTS_TILE)});
-}
-
-std::uint32_t count_overflows(const FrameTargets& targets)
-{
-    std::uint32_t overflows = 0;
-    const int tiles = targets.tiles_x() * targets.tiles_y();
-    for (int i = 0; i < tiles; ++i) {
-        std::uint32_t count = 0;
-        const auto offset = static_cast<std::size_t>(i) * (LIGHT_LIST_MAX + 1) * 4;
-        std::memcpy(&count, targets.light_lists->mapped + offset, 4);
-        if (count > LIGHT_LIST_MAX) ++overflows;
-    }
-    return overflows;
 }
 
 }  // namespace petrichor::gpu

@@ -25,6 +25,14 @@ struct LightTable {
 /// Distance at which a light of unlimited range is taken to have faded away, metres.
 float light_radius_m(const Light& light);
 
+/// Most lights of a frame: CPU drivers cut the loops of one invocation at 65 535 turns, all
+/// together.
+inline constexpr std::size_t kMostLights = 60000;
+
+/// Throws Error when the lists of so many lights at that size are more than the device can bind.
+void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
+                       int height);
+
 LightTable make_light_table(const Device& device, MemoryArena& arena,
                             const std::vector<Light>& lights);
 
@@ -34,9 +42,6 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
 //   writes   coarse_lights, light_lists (ordered by light: sums are bit-exact)
 void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& lights,
                      const ConstantsRange& constants);
-
-/// Tiles of the last frame whose list was too short.
-std::uint32_t count_overflows(const FrameTargets& targets);
 
 }  // namespace petrichor::gpu
 
