@@ -100,6 +100,30 @@ TEST_F(RendererTest, ASunBehindAWallGivesShadow)
     EXPECT_LT(shadow, 0.01f * lit);
 }
 
+// A pane takes away as much light as it is opaque; rain falls past it as before.
+TEST_F(RendererTest, ABlendedPaneCastsAPartOfAShadow)
+{
+    Material pane = plain_material(glm::vec3(0.5f));
+    pane.alpha_mode = AlphaMode::Blend;
+    const Primitive roof = quad({-2, 2, 2}, {4, 0, 0}, {0, 0, -4}, 1);
+    float lit[3];
+    const float alphas[] = {0.0f, 0.5f, 1.0f};
+    for (int i = 0; i < 3; ++i) {
+        pane.base_color.a = alphas[i];
+        renderer->load(scene_of({ground(), roof}, {plain_material(glm::vec3(0.5f)), pane}), {});
+        Frame frame = small_frame(look({0, 1.2f, 1.2f}, {0, 0, 0}, 0.3f), 32, 32, 16);
+        frame.settings.image_based_light = false;
+        frame.sky.sun_elevation_rad = 1.5f;
+        const RenderResult result = renderer->render(frame);
+        lit[i] = 0.0f;
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 32; ++x) lit[i] += luminance(pixel(result, x, y)) / 1024.0f;
+        }
+    }
+    EXPECT_NEAR(lit[1] / lit[0], 0.5f, 0.06f);
+    EXPECT_LT(lit[2], 0.02f * lit[0]);
+}
+
 TEST_F(RendererTest, RainDarkensPorousGroundAndSnowBrightensIt)
 {
     Material porous = plain_material(glm::vec3(0.35f), 0.9f);

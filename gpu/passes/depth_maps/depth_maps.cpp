@@ -22,8 +22,12 @@ ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uin
     return {device.handle(), view};
 }
 
+// What a map is for: light passes through what is blended, in part; rain and snow are not asked.
+enum class Falls { Light, Rain };
+
 // Draws every caster that the view can see.
-void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world)
+void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
+                  Falls falls)
 {
     const VkCommandBuffer commands = pass.commands();
     bind_geometry(commands, scene);
@@ -43,15 +47,16 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     std::uint32_t bound_material = UINT32_MAX;
     for (const Draw& draw : scene.draws()) {
         const GpuMaterial& material = scene.materials()[draw.material];
-        if (material.blended) continue;
+        if (material.blended && falls == Falls::Rain) continue;
+        const bool holes = material.masked || material.blended;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
-        const Pipeline& wanted = pass.pipelines().graphics(material.masked ? masked : plain);
+        const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
         if (bound != &wanted) {
             pass.bind(wanted);
             bound = &wanted;
             bound_material = UINT32_MAX;
         }
-        if (material.masked && bound_material != draw.material) {
+        if (holes && bound_material != draw.material) {
             const std::vector<Binding> bindings{material.bindings[0], material.bindings[1]};
             pass.bind_set(0, pass.descriptors().set(wanted.set_layouts[0], bindings));
             bound_material = draw.material;
@@ -64,7 +69,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
 }
 
 void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
-                   const DepthView& view, GpuImage& map, VkImageView layer)
+                   const DepthView& view, GpuImage& map, VkImageView layer, Falls falls)
 {
     graph.add(DrawPass{.name = name,
                        .colors = {},
@@ -72,8 +77,8 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                        .width = map.width,
                        .height = map.height,
                        .bindings = {},
-                       .record = [&scene, &view](PassContext& pass) {
-                           draw_casters(pass, scene, view.clip_from_world);
+                       .record = [&scene, &view, falls](PassContext& pass) {
+                           draw_casters(pass, scene, view.clip_from_world, falls);
                        }});
 }
 
@@ -115,7 +120,7 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
 {
     for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
         add_depth_map(graph, "shadow", scene, maps.shadow_views[i], *maps.shadow,
-                      maps.shadow_layers[i].get());
+                      maps.shadow_layers[i].get(), Falls::Light);
     }
 }
 
@@ -123,14 +128,14 @@ void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scen
 {
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
         add_depth_map(graph, "sky_visibility", scene, maps.sky_views[i], *maps.sky,
-                      maps.sky_layers[i].get());
+                      maps.sky_layers[i].get(), Falls::Light);
     }
 }
 
 void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
 {
     add_depth_map(graph, "shelter", scene, maps.shelter_view, *maps.shelter,
-                  maps.shelter->view.get());
+                  maps.shelter->view.get(), Falls::Rain);
 }
 
 }  // namespace petrichor::gpu

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/noise/noise.glsl"
 #include "gpu/upload/material_io.h"
 
 layout(set = 0, binding = 0, scalar) uniform Material { MaterialConstants material; };
@@ -16,5 +17,9 @@ void main()
     float alpha = material.base_color_factor.a;
     if (t.present != 0u) alpha *= texture(base_color_map, uv).a;
     alpha *= 1.0 - 0.9 * material.transmission_factor;
-    if (alpha < material.alpha_cutoff) discard;
+    if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) discard;
+    // What lets light through by chance is as dense in the map as it is opaque; the filter of the
+    // shadow makes a grey of it.
+    const bool chance = material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0;
+    if (chance && alpha <= dither(ivec2(gl_FragCoord.xy), 0u)) discard;
 }
