@@ -180,8 +180,8 @@ Workload scenario_workload(const RenderBenchOptions& options)
     }
     Sequence sequence = make_sequence(std::move(scenario));
     load_sequence_scene(sequence, options.threads);
-    for (const std::string& unmatched :
-         apply_material_overrides(sequence.scenario.materials, sequence.scene.materials)) {
+    for (const std::string& unmatched : apply_material_overrides(
+             sequence.scenario.materials, sequence.scenario.folder, sequence.scene.materials)) {
         std::cerr << "warn " << unmatched << "\n";
     }
     RenderRequest request;
