@@ -9,6 +9,7 @@
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
+#include "gpu/upload/material_io.h"
 #include "formulas/noise/noise.glsl"
 #include "formulas/weather/apply_weather.h"
 
