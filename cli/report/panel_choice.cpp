@@ -12,7 +12,7 @@ namespace {
 
 bool shows_something(const SimulationTable& table, const PlotPanel& panel)
 {
-    if (panel.forcing || !panel.dots.empty()) return true;
+    if (!panel.dots.empty()) return true;
     for (const PlotSeries& series : panel.series) {
         for (const double value : series_values(table, series, series.column)) {
             if (std::abs(value) > 1e-6) return true;

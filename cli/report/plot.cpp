@@ -15,10 +15,11 @@ constexpr double kWidth = 960.0;
 constexpr double kLeft = 62.0;
 constexpr double kRight = 22.0;
 constexpr double kTop = 58.0;
-constexpr double kPanelGap = 44.0;
+constexpr double kPanelGap = 58.0;
 constexpr double kForcingHeight = 110.0;
 constexpr double kStateHeight = 180.0;
 constexpr double kBottom = 46.0;
+constexpr double kMostHeight = 1600.0;
 constexpr std::size_t kMostPoints = 3000;  // more rows than this are thinned
 constexpr std::size_t kMostEvents = 40;
 
@@ -124,6 +125,56 @@ void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel
     }
 }
 
+// A long series of many rows a day: what a line would smear becomes the mean of each day between
+// its lowest and highest hour. A day is that of the table's clock.
+struct DailyBand {
+    std::vector<DrawnPoint> mean, low, high;
+};
+bool wants_days(const SimulationTable& table)
+{
+    if (!table.dated || table.rows.size() < 1000) return false;
+    const double span = table.rows.back()[0] - table.rows.front()[0];
+    return span > 120.0 * 86400.0 && span / static_cast<double>(table.rows.size()) < 4.0 * 3600.0;
+}
+std::vector<DailyBand> daily_bands(const SimulationTable& table, const TimeAxis& time,
+                                   const std::vector<double>& values,
+                                   const std::function<double(double)>& y)
+{
+    std::vector<DailyBand> bands(1);
+    double sum = 0.0, low = 0.0, high = 0.0;
+    std::size_t count = 0;
+    const double origin_s = static_cast<double>(table.utc_start_us) * 1e-6 + table.utc_offset_s;
+    double day = 0.0;
+    const auto close = [&] {
+        if (count == 0) return;
+        const double x =
+            time.x(std::clamp((day + 0.5) * 86400.0 - origin_s, time.first_s, time.last_s));
+        bands.back().mean.push_back({x, y(sum / static_cast<double>(count))});
+        bands.back().low.push_back({x, y(low)});
+        bands.back().high.push_back({x, y(high)});
+        count = 0;
+        sum = 0.0;
+    };
+    for (std::size_t r = 0; r < values.size(); ++r) {
+        const double today = std::floor((table.rows[r][0] + origin_s) / 86400.0);
+        if (today != day) {
+            close();
+            day = today;
+        }
+        if (std::isnan(values[r])) {
+            close();
+            if (!bands.back().mean.empty()) bands.emplace_back();
+            continue;
+        }
+        low = count ? std::min(low, values[r]) : values[r];
+        high = count ? std::max(high, values[r]) : values[r];
+        sum += values[r];
+        ++count;
+    }
+    close();
+    return bands;
+}
+
 void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries& series,
                 const TimeAxis& time, const std::function<double(double)>& y, double bottom)
 {
@@ -139,6 +190,17 @@ void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries
             band.points.insert(band.points.end(), upper[i].rbegin(), upper[i].rend());
             drawing.shapes.push_back(std::move(band));
         }
+    }
+    if (!series.filled && series.band_low.empty() && wants_days(table)) {
+        for (const DailyBand& band :
+             daily_bands(table, time, series_values(table, series, series.column), y)) {
+            if (band.mean.empty()) continue;
+            DrawnArea area{band.low, series.color, 0.28};
+            area.points.insert(area.points.end(), band.high.rbegin(), band.high.rend());
+            drawing.shapes.push_back(std::move(area));
+            drawing.shapes.push_back(DrawnLine{band.mean, series.color, 1.4, false});
+        }
+        return;
     }
     for (const auto& points : pieces(series.column)) {
         if (series.filled) {
@@ -189,7 +251,8 @@ std::string subtitle(const SimulationTable& table)
 {
     if (!table.dated || table.rows.empty()) return "";
     return time_text(table, table.rows.front()[0]) + " to " +
-           time_text(table, table.rows.back()[0]) + " UTC";
+           time_text(table, table.rows.back()[0]) + " " + clock_name(table) +
+           (table.typical_year ? "; a typical year: months of different years" : "");
 }
 
 // The numbered list of events below the panels, in two columns, and their numbers under the time
@@ -227,9 +290,16 @@ Drawing plot_of(const SimulationTable& table)
     const double head =
         kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
     drawing.height = head + kBottom - kPanelGap + 22.0;
-    for (const PlotPanel& panel : table.panels) {
-        drawing.height += (panel.forcing ? kForcingHeight : kStateHeight) + kPanelGap;
-    }
+    // Many panels are made lower, so that the picture stays one that can be looked at.
+    double panels = 0.0;
+    for (const PlotPanel& panel : table.panels)
+        panels += panel.forcing ? kForcingHeight : kStateHeight;
+    const double gaps = kPanelGap * static_cast<double>(table.panels.size());
+    const double room =
+        kMostHeight - drawing.height - gaps - 40.0 -
+        18.0 * static_cast<double>((std::min(table.events.size(), kMostEvents) + 1) / 2);
+    const double shrink = std::clamp(room / std::max(panels, 1.0), 0.33, 1.0);
+    drawing.height += shrink * panels + gaps;
     const double list_top = drawing.height;
     const std::size_t half = (std::min(table.events.size(), kMostEvents) + 1) / 2;
     if (half > 0) drawing.height += 14.0 + 18.0 * static_cast<double>(half);
@@ -240,7 +310,9 @@ Drawing plot_of(const SimulationTable& table)
         time.last_s = table.rows.back()[0];
     }
     const auto ticks = table.dated
-                           ? calendar_ticks(table.utc_start_us, time.first_s, time.last_s, 12)
+                           ? calendar_ticks(table.utc_start_us +
+                                                static_cast<std::int64_t>(table.utc_offset_s * 1e6),
+                                            time.first_s, time.last_s, 13)
                            : elapsed_ticks(time.first_s, time.last_s, 12);
     drawing.shapes.push_back(
         DrawnText{{kLeft, 26},
@@ -258,18 +330,19 @@ Drawing plot_of(const SimulationTable& table)
     }
     double top = head + 18.0;
     for (const PlotPanel& panel : table.panels) {
-        const double height = panel.forcing ? kForcingHeight : kStateHeight;
+        const double height = shrink * (panel.forcing ? kForcingHeight : kStateHeight);
         add_panel(drawing, table, panel, time, ticks, top, height);
+        for (const TimeTick& tick : ticks) {
+            const double side = 0.5 * text_width(tick.label, 12.0);
+            add_label(
+                drawing,
+                {std::clamp(time.x(tick.time_s), side, kWidth - side - 2.0), top + height + 16.0},
+                Anchor::Middle, tick.label);
+        }
         top += height + kPanelGap;
     }
     const double bottom = top - kPanelGap;
-    for (const TimeTick& tick : ticks) {
-        const double room = 0.5 * text_width(tick.label, 12.0);
-        add_label(drawing,
-                  {std::clamp(time.x(tick.time_s), room, kWidth - room - 2.0), bottom + 34},
-                  Anchor::Middle, tick.label);
-    }
-    add_events(drawing, table, time, bottom + 14, list_top);
+    add_events(drawing, table, time, bottom + 34, list_top);
     return drawing;
 }
 

@@ -31,11 +31,40 @@ std::vector<double> series_values(const SimulationTable& table, const PlotSeries
 
 std::vector<std::size_t> rows_to_draw(const SimulationTable& table, std::size_t most)
 {
-    std::vector<std::size_t> rows;
     const std::size_t count = table.rows.size();
-    const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
-    for (std::size_t r = 0; r < count; r += stride) rows.push_back(r);
-    if (count > 0 && rows.back() != count - 1) rows.push_back(count - 1);
+    std::vector<std::size_t> rows(count);
+    for (std::size_t r = 0; r < count; ++r) rows[r] = r;
+    if (count <= most) return rows;
+    // Every curve keeps its lowest and highest row of each bucket.
+    std::vector<std::size_t> columns;
+    for (const PlotPanel& panel : table.panels) {
+        for (const PlotSeries& series : panel.series) {
+            for (const std::string& name : {series.column, series.band_low, series.band_high}) {
+                const std::size_t c = column_index(table, name);
+                if (c < table.columns.size()) columns.push_back(c);
+            }
+        }
+    }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    const std::size_t buckets =
+        std::max<std::size_t>(1, most / (2 * std::max<std::size_t>(1, columns.size()) + 1));
+    const std::size_t width = (count + buckets - 1) / buckets;
+    std::vector<bool> kept(count, false);
+    for (std::size_t begin = 0; begin < count; begin += width) {
+        const std::size_t end = std::min(begin + width, count);
+        kept[begin] = true;
+        for (const std::size_t c : columns) {
+            std::size_t low = begin, high = begin;
+            for (std::size_t r = begin; r < end; ++r) {
+                if (table.rows[r][c] < table.rows[low][c]) low = r;
+                if (table.rows[r][c] > table.rows[high][c]) high = r;
+            }
+            kept[low] = kept[high] = true;
+        }
+    }
+    kept[count - 1] = true;
+    std::erase_if(rows, [&](std::size_t r) { return !kept[r]; });
     return rows;
 }
 

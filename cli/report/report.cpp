@@ -1,7 +1,9 @@
 #include "cli/report/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/report/plot.h"
@@ -12,15 +14,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostRows = 4000;
+constexpr std::size_t kMostRows = 20000;
 
-// What the script draws: times, panels with their values, events. Seven digits are plenty for
+// What the script draws: times, panels with their values, events. Five digits are plenty for
 // pixels.
 std::string data_json(const SimulationTable& table)
 {
     const auto rows = rows_to_draw(table, kMostRows);
     const auto short_number = [](double value) {
-        return static_cast<double>(static_cast<float>(value));
+        char digits[40];
+        std::snprintf(digits, sizeof digits, "%.5g", value);
+        return std::isnan(value) ? value : std::strtod(digits, nullptr);
     };
     ordered_json times = ordered_json::array();
     for (std::size_t r : rows) times.push_back(table.rows[r][0]);
@@ -63,8 +67,11 @@ std::string data_json(const SimulationTable& table)
         events.push_back({{"t", event.time_s}, {"text", event.text}});
     }
     ordered_json all{{"times", times}, {"panels", panels}, {"events", events}};
-    // Milliseconds since 1970 of time 0, for the names of days.
-    if (table.dated) all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3;
+    // Milliseconds since 1970 of time 0 by the clock shown, for the names of days.
+    if (table.dated) {
+        all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3 + table.utc_offset_s * 1e3;
+        all["clock"] = clock_name(table);
+    }
     std::string text = all.dump();
     for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");  // a title must not end the script
@@ -155,10 +162,18 @@ const panels=D.panels.map((p,index)=>{const box=document.createElement("div");bo
  const canvas=document.createElement("canvas");canvas.setAttribute("role","img");canvas.setAttribute("aria-label",p.title);box.append(canvas);charts.append(box);
  return{p,canvas,reads,last:index===D.panels.length-1}});
 const LEFT=44,RIGHT=10;
+// Over months a line of hours is a smear: the mean of each day between its lowest and highest hour.
+const DAYS=S===undefined?null:T.map(t=>Math.floor((S/1000+t)/86400)),daily=new Map();
+function days(s){if(daily.has(s))return daily.get(s);const out=[];let cur=null;
+ for(let i=0;i<N;i++){const v=s.values[i];if(v===null){cur=null;continue}
+  if(!cur||cur.d!==DAYS[i]){cur={d:DAYS[i],t:(DAYS[i]+.5)*86400-S/1000,lo:v,hi:v,sum:0,n:0,gap:!cur};out.push(cur)}
+  cur.lo=Math.min(cur.lo,v);cur.hi=Math.max(cur.hi,v);cur.sum+=v;cur.n++}
+ daily.set(s,out);return out}
+const PERDAY=(t1-t0)>0?N*86400/(t1-t0):0;
 function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),mark=css("--mark"),ink=css("--ink"),dot=css("--dot");
  const width=charts.clientWidth,inner=width-LEFT-RIGHT,x=t=>LEFT+inner*(t-from)/(to-from);
  const tt=timeTicks(from,to,Math.max(2,Math.floor(inner/66)));
- for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:8,top=6,ratio=window.devicePixelRatio||1;
+ for(const{p,canvas,reads,last}of panels){const base=p.forcing?104:168,narrow=width<560?.86:1,h=Math.round(base*narrow),foot=last?40:22,top=6,ratio=window.devicePixelRatio||1;
   canvas.style.height=h+foot+top+"px";canvas.width=Math.round(width*ratio);canvas.height=Math.round((h+foot+top)*ratio);
   const c=canvas.getContext("2d");c.scale(ratio,ratio);c.clearRect(0,0,width,h+foot+top);c.font="12px system-ui,'DejaVu Sans',sans-serif";
   const y=v=>top+h*(1-(Math.min(p.high,Math.max(p.low,v))-p.low)/(p.high-p.low));
@@ -166,24 +181,27 @@ function draw(){const soft=css("--soft"),grid=css("--grid"),axis=css("--axis"),m
   for(const v of valueTicks(p.low,p.high,p.forcing?4:5)){c.beginPath();c.moveTo(LEFT,y(v));c.lineTo(width-RIGHT,y(v));c.stroke();c.fillText(tidy(v),LEFT-6,y(v))}
   c.textAlign="center";c.textBaseline="top";
   for(const[t,s]of tt){c.beginPath();c.moveTo(x(t),top);c.lineTo(x(t),top+h);c.stroke();
-   if(last){const half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+22)}}
+   const half=c.measureText(s).width/2;c.fillText(s,Math.min(width-half,Math.max(half,x(t))),top+h+(last?22:6))}
   if(p.low<0&&p.high>0){c.strokeStyle=axis;c.beginPath();c.moveTo(LEFT,y(0));c.lineTo(width-RIGHT,y(0));c.stroke()}
   c.save();c.beginPath();c.rect(LEFT,0,inner,h+top+1);c.clip();
   const i0=rowBefore(from),i1=Math.min(N-1,rowBefore(to)+1);
   const crowd=i1-i0>1500?1.2:2;
-  for(const s of p.series){if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
+  for(const s of p.series){if(DAYS&&PERDAY>5&&to-from>120*86400&&!s.filled&&!s.low){const d=days(s).filter(o=>o.t>=from-86400&&o.t<=to+86400);
+   for(let a=0;a<d.length;){let b=a+1;while(b<d.length&&!d[b].gap)b++;c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].hi));for(let k=b-1;k>=a;k--)c.lineTo(x(d[k].t),y(d[k].lo));c.closePath();c.globalAlpha=.3;c.fillStyle=s.color;c.fill();c.globalAlpha=1;
+    c.beginPath();for(let k=a;k<b;k++)c.lineTo(x(d[k].t),y(d[k].sum/d[k].n));c.strokeStyle=s.color;c.lineWidth=1.3;c.lineJoin="round";c.stroke();a=b}continue}
+   if(s.low){c.beginPath();for(let i=i0;i<=i1;i++)c.lineTo(x(T[i]),y(s.high[i]));for(let i=i1;i>=i0;i--)c.lineTo(x(T[i]),y(s.low[i]));c.closePath();c.globalAlpha=.25;c.fillStyle=s.color;c.fill();c.globalAlpha=1}
    c.beginPath();let pen=false;for(let i=i0;i<=i1;i++){const v=s.values[i];if(v===null){pen=false;continue}const X=x(T[i]),Y=y(v);pen?c.lineTo(X,Y):c.moveTo(X,Y);pen=true}
    c.strokeStyle=s.color;c.lineWidth=crowd;c.lineJoin="round";c.stroke();
    if(s.filled&&!s.values.includes(null)){c.lineTo(x(T[i1]),y(p.low));c.lineTo(x(T[i0]),y(p.low));c.closePath();c.globalAlpha=.2;c.fillStyle=s.color;c.fill();c.globalAlpha=1}}
   for(const d of p.dots){c.fillStyle=dot;for(let i=0;i<d.times.length;i++)if(d.times[i]>=from&&d.times[i]<=to){c.beginPath();c.arc(x(d.times[i]),y(d.values[i]),d.times.length>150&&to-from>.5*(t1-t0)?1.6:2.6,0,7);c.fill()}}
   c.restore();
   let lastX=-99;c.fillStyle=soft;c.textBaseline="top";
-  D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+(last?4:foot));c.stroke();c.setLineDash([]);
+  D.events.forEach((e,i)=>{if(e.t<from||e.t>to)return;const X=x(e.t);c.strokeStyle=mark;c.lineWidth=1;c.setLineDash([3,4]);c.beginPath();c.moveTo(X,0);c.lineTo(X,top+h+4);c.stroke();c.setLineDash([]);
    if(last&&X-lastX>14){lastX=X;c.fillText(String(i+1),X,top+h+6)}});
   if(cursor!==null&&cursor>=from&&cursor<=to){c.strokeStyle=ink;c.lineWidth=1;c.beginPath();c.moveTo(x(cursor),0);c.lineTo(x(cursor),top+h);c.stroke();
    for(const s of p.series){if(valueAt(s.values,cursor)===null)continue;c.fillStyle=s.color;c.beginPath();c.arc(x(cursor),y(valueAt(s.values,cursor)),3.5,0,7);c.fill()}}
   p.series.forEach((s,i)=>{const v=cursor===null?null:valueAt(s.values,cursor);reads[i].textContent=cursor===null?"":v===null?"\u2013":v.toFixed(p.high-p.low>5?1:3)})}
- $("now").textContent=cursor===null?"point to read values":nowText(cursor);drawn=true}
+ $("now").textContent=cursor===null?"point to read values"+(D.clock?"; times are "+D.clock:""):nowText(cursor);drawn=true}
 let asked=false;function redraw(){if(asked)return;asked=true;requestAnimationFrame(()=>{asked=false;draw()})}
 function view(a,b){const least=(t1-t0)/2000,span=Math.min(t1-t0,Math.max(least,b-a));let f=Math.max(t0,Math.min(a,t1-span));from=f;to=f+span;redraw()}
 function zoom(at,factor){view(at-(at-from)*factor,at+(to-at)*factor)}
@@ -258,7 +276,8 @@ std::string period(const SimulationTable& table)
 {
     if (!table.dated || table.rows.empty()) return "";
     return time_text(table, table.rows.front()[0]) + " to " +
-           time_text(table, table.rows.back()[0]) + " UTC; ";
+           time_text(table, table.rows.back()[0]) + " " + clock_name(table) + "; " +
+           (table.typical_year ? "a typical year: months of different years; " : "");
 }
 
 }  // namespace

@@ -1,17 +1,40 @@
 #include "cli/report/table.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/report/plot_axes.h"
 #include "weather/readers/text.h"
-#include "weather/text/csv.h"
 
 namespace petrichor::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+void append_shortest(std::string& text, double value)
+{
+    char digits[40];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+// "2005-12-01T06:00:00Z", by another clock "2005-12-01T06:00:00-07:00".
+std::string stamp(const SimulationTable& table, double time_s)
+{
+    std::string text = weather::iso_from_us(
+        table.utc_start_us +
+        static_cast<std::int64_t>(std::llround((time_s + table.utc_offset_s) * 1e6)));
+    const int minutes = static_cast<int>(std::lround(table.utc_offset_s / 60.0));
+    if (minutes == 0) return text;
+    char offset[16];
+    std::snprintf(offset, sizeof offset, "%c%02d:%02d", minutes < 0 ? '-' : '+',
+                  std::abs(minutes) / 60, std::abs(minutes) % 60);
+    text.pop_back();
+    return text + offset;
+}
 
 ordered_json head_of(const SimulationTable& table)
 {
@@ -27,6 +50,8 @@ ordered_json head_of(const SimulationTable& table)
                       {"table_hash", hash_text(table.table_hash)},
                       {"warnings", table.warnings},
                       {"notes", table.notes}};
+    if (table.dated) json["clock"] = clock_name(table);
+    if (table.typical_year) json["typical_year"] = true;
     if (table.dated) json["utc_start"] = weather::iso_from_us(table.utc_start_us);
     for (const auto& [key, text] : table.json_parts) json[key] = ordered_json::parse(text);
     if (!table.scores.empty()) {
@@ -55,10 +80,21 @@ std::string hash_text(std::uint64_t hash)
     return digits;
 }
 
+std::string clock_name(const SimulationTable& table)
+{
+    const int minutes = static_cast<int>(std::lround(table.utc_offset_s / 60.0));
+    if (minutes == 0) return "UTC";
+    std::string text = minutes < 0 ? "UTC-" : "UTC+";
+    text += std::to_string(std::abs(minutes) / 60);
+    if (minutes % 60) text += ":" + std::to_string(std::abs(minutes) % 60);
+    return text;
+}
+
 std::string time_text(const SimulationTable& table, double time_s)
 {
     if (!table.dated) return number_text(time_s, 3) + " s";
-    const auto us = table.utc_start_us + static_cast<std::int64_t>(std::llround(time_s * 1e6));
+    const auto us = table.utc_start_us +
+                    static_cast<std::int64_t>(std::llround((time_s + table.utc_offset_s) * 1e6));
     std::string text = weather::iso_from_us(us).substr(0, 16);
     text[10] = ' ';
     return text;
@@ -70,17 +106,16 @@ std::string csv_text(const SimulationTable& table, bool with_hash)
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         if (c > 0) text += ',';
         text += table.columns[c];
-        if (c == 0 && table.utc) text += ",time_utc";
+        if (c == 0 && table.utc) text += table.utc_offset_s == 0.0 ? ",time_utc" : ",time_local";
     }
     text += '\n';
     for (const auto& row : table.rows) {
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (c > 0) text += ',';
-            text += weather::number_17(row[c]);
+            append_shortest(text, row[c]);
             if (c == 0 && table.utc) {
                 text += ',';
-                text += weather::iso_from_us(table.utc_start_us +
-                                             static_cast<std::int64_t>(std::llround(row[0] * 1e6)));
+                text += stamp(table, row[0]);
             }
         }
         text += '\n';

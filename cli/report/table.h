@@ -65,6 +65,8 @@ struct SimulationTable {
     std::vector<std::string> columns;  ///< the first is time_s
     bool utc = false;                  ///< the CSV has time_utc after time_s
     bool dated = false;                ///< the axes show dates
+    double utc_offset_s = 0.0;         ///< of the clock that times are shown in, east positive
+    bool typical_year = false;         ///< months of different years
     std::int64_t utc_start_us = 0;     ///< of time_s 0, microseconds since 1970, when utc or dated
     std::vector<std::vector<double>> rows;  ///< as many numbers a row as columns
     std::vector<SimulationEvent> events;    ///< ascending
@@ -81,10 +83,15 @@ struct SimulationTable {
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
-/// The time of a row for people: "2005-12-01 06:00" when dated, else seconds.
+/// The clock of a table: "UTC", "UTC-7", "UTC+5:30".
+std::string clock_name(const SimulationTable& table);
+
+/// The time of a row for people: "2005-12-01 06:00" by that clock when dated, else seconds.
 std::string time_text(const SimulationTable& table, double time_s);
 
-/// Header and rows, 17 significant digits; with `with_hash` a last line "# hash ...".
+/// Header and rows, as many digits as give the same bits again; times in `time_utc`, or where the
+/// file has another clock in `time_local` with its offset. With `with_hash` a last line "# hash
+/// ...".
 std::string csv_text(const SimulationTable& table, bool with_hash = false);
 
 /// Columns, rows, events, hashes and notes.

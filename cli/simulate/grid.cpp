@@ -233,6 +233,7 @@ SimulationTable headed_table(const weather::ReadResult& read, const std::string&
     table.mode = "grid of " + std::to_string(cells) + " cells";
     table.utc = table.dated = true;
     table.utc_start_us = read.table.time_us.front();
+    table.typical_year = read.report.typical_year;
     add_read_report(table, read);
     table.notes.push_back(terrain.note);
     table.columns.assign(std::begin(kColumns), std::end(kColumns));
@@ -281,6 +282,7 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
     const Cells inside = cells_of(terrain);
     weather::PhysicalGrid grid(read.table, params, inside.cells);
     SimulationTable table = headed_table(read, name, terrain, inside.cells.size());
+    table.utc_offset_s = run.model.clock_offset_s;
     const Plan plan = plan_of(read.table, run, grid);
     const auto identity = weather::grid_identity(read.table, params, inside.cells);
     if (!run.model.resume.empty()) resume(table, grid, identity, run, plan);

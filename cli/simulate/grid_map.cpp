@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 
 #include "base/error.h"
 #include "cli/report/drawing.h"
+#include "cli/report/table.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/models/physical/mapping.h"
 #include "weather/readers/text.h"
@@ -144,8 +146,68 @@ std::string length_text(double metres)
     return text;
 }
 
+std::string hex_of(const Rgb& color)
+{
+    char text[8];
+    const auto byte = [&](std::size_t k) {
+        return static_cast<int>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0)));
+    };
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(0), byte(1), byte(2));
+    return text;
+}
+
+void add_box(Drawing& strip, double x, double y, double width, double height, const Rgb& color)
+{
+    strip.shapes.push_back(DrawnArea{
+        {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, hex_of(color), 1.0});
+}
+
+// Colours of the map: bare ground, wet ground and ice as boxes, snow as a scale of depth. The
+// colours are those of cells, in plain light.
+void add_legend(Drawing& strip, const Terrain& terrain)
+{
+    constexpr const char* kInk = "#1b2430";
+    const auto cell = [&](double snow_m, double film, double ice) {
+        CellState state;
+        state.snow_thickness[0] = snow_m;
+        state.snow_albedo = 0.8;
+        state.film = film;
+        state.film_ice = ice;
+        return cell_color(
+            terrain.surfaces.empty() ? std::string("grass") : terrain.surfaces.front(), state);
+    };
+    double x = 10.0;
+    const auto box = [&](const Rgb& color, const char* words) {
+        add_box(strip, x, 52.0, 16.0, 12.0, color);
+        strip.shapes.push_back(
+            DrawnText{{x + 22.0, 62.0}, words, kInk, 12.0, Anchor::Start, false});
+        x += 34.0 + text_width(words, 12.0) * 1.1;
+    };
+    box(cell(0.0, 0.0, 0.0), "dry");
+    box(cell(0.0, 2.0, 0.0), "wet");
+    box(cell(0.0, 0.0, 2.0), "ice");
+    constexpr double kDepths[] = {0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3};
+    const double left = 10.0, step = 34.0;
+    for (std::size_t i = 0; i < std::size(kDepths); ++i) {
+        const double at = left + step * static_cast<double>(i);
+        add_box(strip, at, 70.0, step, 8.0, cell(kDepths[i], 0.0, 0.0));
+        char words[16];
+        std::snprintf(words, sizeof words, "%g", 100.0 * kDepths[i]);
+        strip.shapes.push_back(
+            DrawnText{{at + 0.5 * step, 90.0}, words, kInk, 11.0, Anchor::Middle, false});
+    }
+    strip.shapes.push_back(
+        DrawnText{{left + step * static_cast<double>(std::size(kDepths)) + 8.0, 90.0},
+                  "cm of snow",
+                  kInk,
+                  11.0,
+                  Anchor::Start,
+                  false});
+}
+
 // What the map shows, in two lines below it, with a bar of a round length at the right.
-Drawing caption(const Terrain& terrain, const GridMap& map, std::size_t width, std::size_t zoom)
+Drawing caption(const Terrain& terrain, const GridMap& map, const PhysicalRun& model,
+                std::size_t width, std::size_t zoom)
 {
     constexpr const char* kInk = "#1b2430";
     double low_m = 1e9, high_m = -1e9, cover = 0.0, depth_m = 0.0;
@@ -160,14 +222,19 @@ Drawing caption(const Terrain& terrain, const GridMap& map, std::size_t width, s
         ++count;
     }
     const double cells = static_cast<double>(std::max<std::size_t>(count, 1));
-    Drawing strip{.width = static_cast<double>(width), .height = 46.0, .shapes = {}};
-    std::string when = weather::iso_from_us(map.time_us).substr(0, 16);
+    Drawing strip{.width = static_cast<double>(width), .height = 94.0, .shapes = {}};
+    std::string when =
+        weather::iso_from_us(map.time_us + static_cast<std::int64_t>(model.clock_offset_s * 1e6))
+            .substr(0, 16);
     when[10] = ' ';
+    SimulationTable shown;
+    shown.utc_offset_s = model.clock_offset_s;
+    const std::string clock = clock_name(shown);
     char snow[120];
     std::snprintf(snow, sizeof snow, "snow on %.0f %%, mean depth %.2f m; ground %.0f to %.0f m",
                   100.0 * cover / cells, depth_m / cells, low_m, high_m);
     strip.shapes.push_back(
-        DrawnText{{10, 19}, when + " UTC, north is up", kInk, 13.0, Anchor::Start, true});
+        DrawnText{{10, 19}, when + " " + clock + ", north is up", kInk, 13.0, Anchor::Start, true});
     strip.shapes.push_back(DrawnText{{10, 37}, snow, kInk, 12.0, Anchor::Start, false});
     const double pixel_m = terrain.spacing_m / static_cast<double>(zoom);
     const double bar_m = round_length_m(0.22 * strip.width * pixel_m);
@@ -176,10 +243,12 @@ Drawing caption(const Terrain& terrain, const GridMap& map, std::size_t width, s
         DrawnLine{{{left, 10}, {left, 16}, {right, 16}, {right, 10}}, kInk, 1.5});
     strip.shapes.push_back(
         DrawnText{{right, 33}, length_text(bar_m), kInk, 12.0, Anchor::End, false});
+    add_legend(strip, terrain);
     return strip;
 }
 
-void write_preview(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map)
+void write_preview(const std::filesystem::path& path, const Terrain& terrain, const GridMap& map,
+                   const PhysicalRun& model)
 {
     const std::size_t zoom = std::max<std::size_t>(1, (512 + terrain.width - 1) / terrain.width);
     std::vector<Rgb> small(terrain.cells(), {0.93, 0.94, 0.95});
@@ -218,7 +287,7 @@ void write_preview(const std::filesystem::path& path, const Terrain& terrain, co
             }
         }
     }
-    const Pixels words = to_pixels(caption(terrain, map, width, zoom), 1.0);
+    const Pixels words = to_pixels(caption(terrain, map, model, width, zoom), 1.0);
     rgb.insert(rgb.end(), words.rgb.begin(), words.rgb.end());
     texproc::write_png8(path, static_cast<int>(width), static_cast<int>(height) + words.height, 3,
                         rgb, {{"time_utc", weather::iso_from_us(map.time_us)}});
@@ -233,7 +302,7 @@ void write_grid_map(const std::filesystem::path& path, const Terrain& terrain, c
     if (kind == ".exr")
         write_layers(path, terrain, map, model.step_s);
     else if (kind == ".png")
-        write_preview(path, terrain, map);
+        write_preview(path, terrain, map, model);
     else
         throw Error(
             "grid: cannot write the map " + path.string() + ": unknown kind \"" + kind + "\"",

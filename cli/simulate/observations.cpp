@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/words.h"
 #include "cli/report/plot_axes.h"
+#include "weather/physics/constants.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {
@@ -276,14 +277,15 @@ Score score_of(const Rows& rows, const Observations& observed, const ObservedCol
 PlotDots dots_of(const SimulationTable& table, const Observations& observed,
                  const ObservedColumn& one)
 {
-    PlotDots dots{"observed", "#111827", {}, {}};
+    PlotDots dots{observed.label, "#111827", {}, {}};
     const double shift_s = observed.daily ? 0.5 * kDay_s : 0.0;
     for (std::size_t i = 0; i < one.values.size(); ++i) {
         const double at_s =
             static_cast<double>(one.time_us[i] - table.utc_start_us) * 1e-6 + shift_s;
         if (table.rows.empty() || at_s < table.rows.front()[0] || at_s > table.rows.back()[0])
             continue;
-        if (one.column == "snow_albedo" && depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1)
+        if (observed.daily && one.column == "snow_albedo" &&
+            depth_on(observed, one.time_us[i]).value_or(1.0) <= 0.1)
             continue;
         dots.time_s.push_back(at_s);
         dots.values.push_back(one.values[i]);
@@ -308,6 +310,42 @@ Observations read_observations(std::string_view text, const std::string& file,
         });
     return fsm ? read_fsm_observations(text, file)
                : read_csv_observations(text, file, table_columns);
+}
+
+Observations observations_of(const weather::ForcingTable& table)
+{
+    using weather::Field;
+    Observations out;
+    out.label = "in the file";
+    const auto take = [&](Field field, const char* column, double offset) {
+        if (!table.has(field)) return;
+        ObservedColumn one{column, {}, {}};
+        bool any = false;
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            const double value = table[field][i];
+            if (std::isnan(value)) continue;
+            any = any || value != 0.0;
+            one.time_us.push_back(table.time_us[i]);
+            one.values.push_back(value + offset);
+        }
+        if (any) out.columns.push_back(std::move(one));
+    };
+    take(Field::SnowDepth, "snow_depth_m", 0.0);
+    take(Field::SnowWater, "swe_kg_m2", 0.0);
+    take(Field::SurfaceTemp, "surface_temp_c", -weather::kZeroCelsiusK);
+    if (table.has(Field::Reflected) && table.has(Field::Shortwave)) {
+        ObservedColumn albedo{"snow_albedo", {}, {}};
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            const double sun = table[Field::Shortwave][i], up = table[Field::Reflected][i];
+            const bool snow = !table.has(Field::SnowDepth) || table[Field::SnowDepth][i] > 0.1;
+            // A low sun measures the mast and the tilt of the sensor.
+            if (!(sun > 150.0) || std::isnan(up) || !snow || up > sun) continue;
+            albedo.time_us.push_back(table.time_us[i]);
+            albedo.values.push_back(up / sun);
+        }
+        if (!albedo.values.empty()) out.columns.push_back(std::move(albedo));
+    }
+    return out;
 }
 
 void compare(const SimulationTable& fine, const Observations& observed, SimulationTable& table)

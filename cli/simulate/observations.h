@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/report/table.h"
+#include "weather/forcing/forcing.h"
 
 namespace petrichor::cli {
 
@@ -17,7 +18,8 @@ struct ObservedColumn {
     std::vector<double> values;
 };
 struct Observations {
-    bool daily = false;  ///< dates without a time of day
+    std::string label = "observed";  ///< in legends
+    bool daily = false;              ///< dates without a time of day
     std::vector<ObservedColumn> columns;
     std::vector<std::string> notes;
 };
@@ -30,6 +32,10 @@ struct Observations {
 ///   throws  Error with the lines when nothing can be compared
 Observations read_observations(std::string_view text, const std::string& file,
                                const std::vector<std::string>& table_columns);
+
+/// What a weather file itself observed of the ground: snow depth, snow water, surface temperature,
+/// albedo from reflected sun. Columns of nothing but zeros are left out.
+Observations observations_of(const weather::ForcingTable& table);
 
 /// Compares and draws: adds scores, notes and dots on the panels that show an observed column.
 ///

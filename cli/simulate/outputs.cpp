@@ -1,5 +1,7 @@
 #include "cli/simulate/outputs.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "base/error.h"
@@ -45,7 +47,10 @@ void write_table(const SimulationTable& table, const std::filesystem::path& path
     } else if (kind == ".html") {
         write_text_file(path, html_report(table));
     } else {
-        const Pixels pixels = to_pixels(plot_of(table), 2.0);
+        // Sharp where there is room; never more than 2000 pixels high.
+        const Drawing drawing = plot_of(table);
+        const Pixels pixels = to_pixels(
+            drawing, std::min(2.0, std::floor(1999.0 / drawing.height * 1000.0) / 1000.0));
         texproc::write_png8(path, pixels.width, pixels.height, 3, pixels.rgb,
                             {{"state_hash", hash_text(table.state_hash)}});
     }

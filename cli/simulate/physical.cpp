@@ -58,7 +58,7 @@ Window window_of(const PhysicalRun& run, std::int64_t origin_us, std::int64_t be
 }
 
 SimulationTable headed_table(const weather::ReadResult& read, const std::string& name,
-                             const std::string& mode)
+                             const std::string& mode, const PhysicalRun& run)
 {
     SimulationTable table;
     table.title = name;
@@ -66,6 +66,8 @@ SimulationTable headed_table(const weather::ReadResult& read, const std::string&
     table.mode = mode;
     table.utc = table.dated = true;
     table.utc_start_us = read.table.time_us.front();
+    table.utc_offset_s = run.clock_offset_s;
+    table.typical_year = read.report.typical_year;
     add_read_report(table, read);
     return table;
 }
@@ -253,7 +255,7 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
                              const PhysicalRun& run)
 {
     const weather::PhysicalParams params = physical_params(run);
-    SimulationTable table = headed_table(read, name, params.surface.name);
+    SimulationTable table = headed_table(read, name, params.surface.name, run);
     if (run.sensitivity) add_sensitivity(table, read, params);
     if (run.members > 0 && run.initial_surface_c)
         throw Error("ensemble: --initial is of one cell", "Leave --ensemble or --initial out.");
@@ -265,9 +267,11 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     fill_rows(table, read, params, timeline, window);
     table.panels = physical_panels();
     add_physical_events(table);
-    if (!run.observed.empty()) {
-        const Observations observed =
-            read_observations(run.observed, run.observed_file, physical_columns());
+    Observations observed =
+        run.observed.empty()
+            ? observations_of(read.table)
+            : read_observations(run.observed, run.observed_file, physical_columns());
+    if (!observed.columns.empty()) {
         SimulationTable fine;
         const bool coarse = run.every_s > 3600.0;
         if (coarse) {

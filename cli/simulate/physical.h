@@ -36,10 +36,12 @@ struct PhysicalRun {
     std::string* checkpoint = nullptr;
     int members = 0;  ///< > 0: an ensemble, percentiles instead of one state
     std::uint64_t seed = 1;
-    int threads = 0;            ///< 0 becomes all cores at the command line; else >= 1
-    bool sensitivity = false;   ///< adds the sensitivity table to notes and JSON
-    std::string observed;       ///< text of observations to compare with, or empty
-    std::string observed_file;  ///< its name
+    int threads = 0;              ///< 0 becomes all cores at the command line; else >= 1
+    bool sensitivity = false;     ///< adds the sensitivity table to notes and JSON
+    bool utc = false;             ///< times in UTC, not by the file's clock
+    double clock_offset_s = 0.0;  ///< of the clock that times are shown in
+    std::string observed;         ///< text of observations to compare with, or empty
+    std::string observed_file;    ///< its name
 };
 
 /// Parameters of the model that a run asks for. Throws Error for a surface or phase law that does

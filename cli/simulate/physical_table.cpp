@@ -72,6 +72,12 @@ constexpr const char* kColumns[] = {
     "road_condition",
 };
 
+// Files say -14.9; kelvin and back must not make it -14.899999999999977.
+double to_celsius(double kelvin)
+{
+    return std::round((kelvin - weather::kZeroCelsiusK) * 1e9) / 1e9;
+}
+
 PlotSeries line(const char* column, const char* label, const char* color, double scale = 1.0)
 {
     return {.column = column, .label = label, .color = color, .scale = scale};
@@ -103,7 +109,7 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
     const double rain_mm_h = c.step_rain * per_s * 3600.0;
     return {
         static_cast<double>(us - table.time_us.front()) * 1e-6,
-        at(Field::AirTemp) - weather::kZeroCelsiusK,
+        to_celsius(at(Field::AirTemp)),
         at(Field::RelHumidity),
         at(Field::Wind),
         at(Field::Pressure),
@@ -116,7 +122,7 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
         d.swe_kg_m2,
         d.snow_liquid_kg_m2,
         d.snow_density_kg_m3,
-        d.snow_temp_k - weather::kZeroCelsiusK,
+        to_celsius(d.snow_temp_k),
         c.snow_albedo,
         c.canopy_snow,
         c.surface_temp_c,

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/error.h"
 #include "base/output_file.h"
 #include "cli/simulate/artist.h"
@@ -73,7 +75,12 @@ SimulationTable simulate_artist(const std::vector<Input>& inputs, const Simulate
 {
     const ArtistInput input = artist_input(inputs, options);
     std::optional<std::int64_t> start_us;
-    if (input.read) start_us = input.read->table.time_us.front();
+    double offset_s = 0.0;  // of the clock of the file
+    if (input.read) {
+        start_us = input.read->table.time_us.front();
+        const double zone_h = input.read->table.site.utc_offset_h;
+        if (!options.physical.utc && !std::isnan(zone_h)) offset_s = zone_h * 3600.0;
+    }
     ArtistRun run;
     run.stepped = options.mode == "stepped";
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt");
@@ -81,8 +88,8 @@ SimulationTable simulate_artist(const std::vector<Input>& inputs, const Simulate
                                         : parse_duration(options.every, "--every");
     if (options.every.empty() && run.stepped && run.step_s.value() > run.every_s.value())
         run.every_s = run.step_s;
-    run.from_s = time_of(options.from, "--from", start_us).value_or(0.0);
-    run.to_s = time_of(options.to, "--to", start_us);
+    run.from_s = time_of(options.from, "--from", start_us, offset_s).value_or(0.0);
+    run.to_s = time_of(options.to, "--to", start_us, offset_s);
     std::string checkpoint;
     if (!options.checkpoint.empty()) run.checkpoint = &checkpoint;
     if (!options.resume.empty()) run.resume = read_checkpoint_file(options.resume);
@@ -91,6 +98,8 @@ SimulationTable simulate_artist(const std::vector<Input>& inputs, const Simulate
         add_read_report(table, *input.read);
         table.dated = true;
         table.utc_start_us = *start_us;
+        table.utc_offset_s = offset_s;
+        table.typical_year = input.read->report.typical_year;
     }
     table.notes.insert(table.notes.end(), input.notes.begin(), input.notes.end());
     if (!options.checkpoint.empty()) write_text_file(options.checkpoint, checkpoint);

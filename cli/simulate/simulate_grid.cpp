@@ -37,7 +37,7 @@ std::vector<std::int64_t> map_times_us(const SimulateOptions& options, const Phy
     };
     std::vector<std::int64_t> times;
     for (const std::string& text : options.map_times)
-        times.push_back(at(parse_time(text, "--at", start_us)));
+        times.push_back(at(parse_time(text, "--at", start_us, input.run.clock_offset_s)));
     if (!options.maps.empty() && times.empty()) {
         times.push_back(at(input.run.to_s.value_or(
             static_cast<double>(input.read.table.time_us.back() - start_us) * 1e-6)));

@@ -69,6 +69,10 @@ void add_time(CLI::App& command, SimulateOptions& o)
         "Time (90, 1/60, 30min, 6h, 1d; weather files also 2005-12-01T06:00, 12-01)";
     add(command, group, "--from", "TIME", o.from, "first row");
     add(command, group, "--to", "TIME", o.to, "last row (default: the last of the input)");
+    command
+        .add_flag("--utc", o.physical.utc,
+                  "times in UTC, also those of --from, not by the clock of the file")
+        ->group(group);
     add(command, group, "--every", "TIME", o.every,
         "rows at whole multiples: keys 1 s, weather files 1h, --grid 1d");
 }
@@ -213,7 +217,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& o)
         "Examples:\n"
         "  petrichor simulate rain-then-snow -o report.html            a preset, as a report\n"
         "  petrichor simulate keys.csv --interp linear -o state.csv    a few keys of an artist\n"
-        "  petrichor simulate denver.epw --from 01-01 --to 02-01 --plot masks -o street.png\n"
+        "  petrichor simulate denver.epw --from 04-20 --to 04-28 -o april.png\n"
         "  petrichor simulate road.metar --month 2024-01 --surface asphalt -o road.html\n"
         "  petrichor simulate met.txt --latitude 45.3 --longitude 5.77 --elevation-m 1325 \\\n"
         "      --surface grass --observed obs.txt -o winter.html       model and observation\n"

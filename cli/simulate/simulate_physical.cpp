@@ -18,10 +18,10 @@ std::string params_text(const SimulateOptions& options)
 }
 
 std::optional<double> time_of(const std::string& text, const char* option,
-                              std::optional<std::int64_t> start_us)
+                              std::optional<std::int64_t> start_us, double offset_s)
 {
     if (text.empty()) return std::nullopt;
-    return parse_time(text, option, start_us);
+    return parse_time(text, option, start_us, offset_s);
 }
 
 std::string title_of(const std::vector<Input>& inputs)
@@ -169,8 +169,11 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     input.read = read_forcing(inputs, run.site);
     if (!options.road_observed.empty()) begin_at_measurement(options.road_observed, input);
     const std::int64_t start_us = input.read.table.time_us.front();
-    run.from_s = time_of(options.from, "--from", start_us);
-    run.to_s = time_of(options.to, "--to", start_us);
+    const double zone_h = input.read.table.site.utc_offset_h;
+    const double offset_s = run.utc || std::isnan(zone_h) ? 0.0 : zone_h * 3600.0;
+    run.clock_offset_s = offset_s;
+    run.from_s = time_of(options.from, "--from", start_us, offset_s);
+    run.to_s = time_of(options.to, "--to", start_us, offset_s);
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt").value();
     run.every_s =
         options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();

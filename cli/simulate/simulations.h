@@ -41,7 +41,7 @@ std::string title_of(const std::vector<Input>& inputs);
 std::string params_text(const SimulateOptions& options);
 /// Seconds since the start; nothing for an empty text.
 std::optional<double> time_of(const std::string& text, const char* option,
-                              std::optional<std::int64_t> start_us);
+                              std::optional<std::int64_t> start_us, double offset_s = 0.0);
 
 }  // namespace petrichor::cli
 

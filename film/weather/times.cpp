@@ -83,7 +83,7 @@ Fraction parse_duration(std::string_view text, const std::string& option)
 }
 
 double parse_time(const std::string& text, const std::string& option,
-                  std::optional<std::int64_t> start_us)
+                  std::optional<std::int64_t> start_us, double offset_s)
 {
     if (const auto seconds = weather::to_number(text)) {
         if (*seconds >= 0.0 && *seconds <= 9e9) return *seconds;
@@ -102,15 +102,16 @@ double parse_time(const std::string& text, const std::string& option,
                     "Give seconds from the start of the run.");
     }
     if (is_month_and_day(text)) {
-        const long long year = weather::civil_from_us(*start_us).year;
+        const long long year =
+            weather::civil_from_us(*start_us + static_cast<std::int64_t>(offset_s * 1e6)).year;
         for (const long long y : {year, year + 1}) {
-            const auto us = weather::us_from_iso(std::to_string(y) + "-" + text);
+            const auto us = weather::us_from_iso(std::to_string(y) + "-" + text, offset_s);
             if (us && *us >= *start_us) return seconds_of(*us);
             // The first hours of 1 January may lie before the first row, where the file's clock is
             // behind UTC.
             if (us && *us > *start_us - 86400LL * 1000000) return 0.0;
         }
-    } else if (const auto us = weather::us_from_iso(text)) {
+    } else if (const auto us = weather::us_from_iso(text, offset_s)) {
         return seconds_of(*us);
     }
     throw Error(option + ": \"" + text +

@@ -29,11 +29,11 @@ Fraction parse_duration(std::string_view text, const std::string& option);
 ///
 /// Numbers are seconds. With `start_us` (microseconds since 1970 of second 0) also dates in ISO
 /// 8601
-/// ("2005-12-01", "2005-12-01T06:00+01:00"; UTC without a zone), and month and day alone ("01-15",
-/// "01-15T12:00"): the first such day from the start on, for typical years.
+/// ("2005-12-01", "2005-12-01T06:00+01:00"; without a zone `offset_s` ahead of UTC), and month and
+/// day alone ("01-15", "01-15T12:00"): the first such day from the start on, for typical years.
 ///   throws  Error that names `option`, and says when dates cannot be used
 double parse_time(const std::string& text, const std::string& option,
-                  std::optional<std::int64_t> start_us);
+                  std::optional<std::int64_t> start_us, double offset_s = 0.0);
 
 }  // namespace petrichor::film
 

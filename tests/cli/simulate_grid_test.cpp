@@ -235,7 +235,7 @@ TEST(Grid, MapsHoldEveryStateAndShowTheSnow)
     const auto brightness = [&](const char* file) {
         const Image image = texproc::read_image(work / file);
         EXPECT_GE(image.width, 512);
-        EXPECT_EQ(image.height, image.width + 46) << "a square, and two lines of words";
+        EXPECT_EQ(image.height, image.width + 94) << "a square, two lines of words, a legend";
         double sum = 0;
         for (const float v : image.pixels) sum += static_cast<double>(v);
         return sum / static_cast<double>(image.pixels.size());

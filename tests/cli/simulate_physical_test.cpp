@@ -13,6 +13,7 @@
 #include "cli/report/plot.h"
 #include "cli/report/plot_axes.h"
 #include "cli/report/report.h"
+#include "cli/report/table.h"
 #include "weather/physics/stores.h"
 
 namespace petrichor::cli {
@@ -342,6 +343,88 @@ TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
     const WeatherScript film = faster_script(script, 3600.0);
     EXPECT_NEAR(film.duration_s, 239.0, 1e-9);
     EXPECT_NEAR(film.solve().state_at(weather::to_time_us(8)).wetness, wet.wetness, 1e-9);
+}
+
+// ---- clocks, and what a reader of a report sees ----
+
+TEST(Report, TimesAreThoseOfTheFilesClock)
+{
+    PhysicalRun run = city();
+    run.clock_offset_s = -7 * 3600.0;
+    const SimulationTable t = simulated(weather_csv(), run);
+    EXPECT_EQ(clock_name(t), "UTC-7");
+    EXPECT_EQ(time_text(t, 0.0), "2024-01-31 17:00");
+    const std::string csv = csv_text(t);
+    EXPECT_EQ(csv.substr(0, 18), "time_s,time_local,");
+    EXPECT_NE(csv.find("\n0,2024-01-31T17:00:00-07:00,9,"), std::string::npos);
+    EXPECT_NE(html_report(t).find("UTC-7; "), std::string::npos);
+    EXPECT_NE(svg_plot(t).find("UTC-7"), std::string::npos);
+    run.clock_offset_s = 5.5 * 3600.0;
+    EXPECT_EQ(clock_name(simulated(weather_csv(), run)), "UTC+5:30");
+}
+
+TEST(Report, CelsiusOfAFileStayAsTheyAre)
+{
+    const SimulationTable t = simulated(
+        "time,air_temp_c,wind_m_s\n2024-01-01T00:00,-14.9,2\n2024-01-01T01:00,-3.3,2\n", city());
+    EXPECT_EQ(t.rows[0][at(t, "air_temp_c")], -14.9);
+    EXPECT_EQ(t.rows[1][at(t, "air_temp_c")], -3.3);
+}
+
+// Three years of minutes-like rows with one storm.
+SimulationTable long_table()
+{
+    SimulationTable t;
+    t.columns = {"time_s", "rain"};
+    t.dated = true;
+    for (int i = 0; i < 60000; ++i) t.rows.push_back({i * 1800.0, i == 43210 ? 34.0 : 0.1});
+    t.panels = {{.title = "rain, mm/h",
+                 .series = {{.column = "rain", .label = "", .color = "#000000"}},
+                 .low = 0.0,
+                 .high = 0.0}};
+    return t;
+}
+
+TEST(Report, TheStormSurvivesThinning)
+{
+    const SimulationTable t = long_table();
+    const auto rows = rows_to_draw(t, 20000);
+    EXPECT_LE(rows.size(), 20000u);
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 43210u));
+    EXPECT_NE(html_report(t).find("34.0"), std::string::npos);
+}
+
+TEST(Report, PicturesStayOnesThatCanBeLookedAt)
+{
+    SimulationTable t = long_table();
+    t.panels.assign(12, t.panels.front());
+    for (int i = 0; i < 60; ++i) t.events.push_back({i * 1e6, "snow on the ground"});
+    EXPECT_LE(plot_of(t).height, 1999.0);
+}
+
+TEST(Report, ATypicalYearSaysThatItIsOne)
+{
+    SimulationTable t = long_table();
+    t.typical_year = true;
+    EXPECT_NE(html_report(t).find("typical year"), std::string::npos);
+    EXPECT_NE(svg_plot(t).find("typical year"), std::string::npos);
+}
+
+TEST(Report, WhatTheFileObservedIsDrawn)
+{
+    const SimulationTable t = simulated(
+        "time,air_temp_c,precip_mm,snow_depth_m,surface_temp_c\n2024-01-01T00:00,-5,2,0.10,-6\n"
+        "2024-01-01T01:00,-5,2,0.12,-6\n2024-01-01T02:00,-5,0,0.13,-7\n",
+        city());
+    std::vector<std::string> drawn;
+    for (const PlotPanel& panel : t.panels) {
+        for (const PlotDots& dots : panel.dots) {
+            EXPECT_EQ(dots.label, "in the file");
+            drawn.push_back(panel.title.substr(0, 12));
+        }
+    }
+    EXPECT_EQ(drawn, (std::vector<std::string>{"snow depth, ", "surface temp"}));
+    EXPECT_EQ(t.scores.size(), 2u);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
     }
     const double zone = place.size() >= 10 ? to_number(place[8]).value_or(kMissing) : kMissing;
     if (zone >= -12.0 && zone <= 14.0)
-        zone_h = zone;
+        rows.site().utc_offset_h = zone_h = zone;
     else
         rows.note(ReadNote::Kind::Time, 1, "time",
                   "no time zone in the LOCATION line, taken as UTC");

@@ -72,6 +72,7 @@ static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOpti
         rows.note(ReadNote::Kind::Warning, 2, "time", "no time zone in the file, taken as UTC");
         zone_h = 0.0;
     }
+    site.utc_offset_h = zone_h;
     const std::string_view header = lines.next().value_or("");
     const Table table = read_names(header, lines.number(), about);
     rows.note(ReadNote::Kind::Info, 0, "precip", "NSRDB has no precipitation");

@@ -124,6 +124,7 @@ static void read_open_meteo_json(std::string_view text, RowCollector& rows, cons
     rows.site().elevation_m = number("elevation", kMissing);
     double offset = number("utc_offset_seconds", 0.0);
     if (!(std::abs(offset) <= 50400.0)) offset = 0.0;
+    rows.site().utc_offset_h = offset / 3600.0;
     const Json* time = hourly->find("time");
     if (!time || time->kind != Json::Kind::Array) {
         throw Error("weather: JSON 'hourly' has no array 'time'",
@@ -199,7 +200,7 @@ static void read_open_meteo_csv(std::string_view text, RowCollector& rows, const
         if (place_names[i] == "longitude") rows.site().longitude_deg = value.value_or(kMissing);
         if (place_names[i] == "elevation") rows.site().elevation_m = value.value_or(kMissing);
         if (place_names[i] == "utc_offset_seconds" && value && std::abs(*value) <= 50400.0)
-            offset = *value;
+            rows.site().utc_offset_h = (offset = *value) / 3600.0;
     }
     std::vector<OpenMeteoColumn> columns;
     std::size_t width = 0, air_at = 0;

@@ -66,6 +66,7 @@ static void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptio
         rows.site().elevation_m = to_number(place[6]).value_or(kMissing);
     }
     if (!(zone_h >= -12.0 && zone_h <= 14.0)) zone_h = 0.0;
+    rows.site().utc_offset_h = zone_h;
     const auto names = split(lines.next().value_or(""), ',', 256);
     std::vector<std::size_t> index(std::size(kColumns), names.size());
     std::size_t depth_at = names.size(), hours_at = names.size();
