@@ -196,9 +196,9 @@ protected:
     {
         write_file(work / "input", text);
         write_file(work / "out.csv", "keep me");
-        return run_petrichor(
-            {{"simulate", "input", "--model", "physical", "--elevation-m", "100", "-o", "out.csv"}},
-            work.path());
+        return run_petrichor({{"simulate", "input", "--model", "physical", "--latitude", "47",
+                               "--longitude", "8", "--elevation-m", "100", "-o", "out.csv"}},
+                             work.path());
     }
     void expect_refused(const std::string& text, const std::string& part)
     {

@@ -172,7 +172,7 @@ TEST(SimulatePhysical, EnsembleSpreadsAndRepeats)
     const SimulationTable s = simulated(weather_csv(), run);
     std::string notes;
     for (const auto& n : s.notes) notes += n + "\n";
-    EXPECT_NE(notes.find("precipitation up"), std::string::npos);
+    EXPECT_NE(notes.find("precipitation x"), std::string::npos) << notes;
     EXPECT_NE(json_summary(s).find("\"peak_swe_kg_m2\""), std::string::npos);
 }
 
@@ -184,11 +184,11 @@ TEST(SimulatePhysical, FittedRatesArePlausible)
     const auto rate = [&](const std::string& key) {
         return std::stod(toml.substr(toml.find(key) + key.size() + 3));
     };
-    EXPECT_GT(rate("accumulation_rate_wetness"), 0.3);
+    EXPECT_GT(rate("accumulation_rate_wetness"), 0.1);
     EXPECT_LT(rate("accumulation_rate_wetness"), 50);
-    // Puddles keep the film covered here, so it dries slowly.
-    EXPECT_GT(rate("evaporation_rate_wetness"), 1e-4);
-    EXPECT_GT(rate("evaporation_rate_puddles"), rate("evaporation_rate_wetness"));
+    // The film dries first, puddles after it.
+    EXPECT_GT(rate("evaporation_rate_puddles"), 1e-4);
+    EXPECT_GT(rate("evaporation_rate_wetness"), rate("evaporation_rate_puddles"));
     EXPECT_NE(toml.find("residual"), std::string::npos);
 }
 

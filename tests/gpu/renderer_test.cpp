@@ -195,7 +195,17 @@ TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
     Material stone = plain_material(glm::vec3(0.3f), 0.7f);
     stone.weather.default_height = 0.0f;
     stone.weather.snow_detail_strength = 1.0f;
-    renderer->load(scene_of({ground()}, {stone}), {});
+    stone.base_color_texture.texture =
+        0;  // what lies below the rings must differ from place to place
+    Scene scene = scene_of({ground()}, {stone});
+    scene.textures.resize(1);
+    Texture stripes;
+    stripes.width = stripes.height = 64;
+    stripes.mips.emplace_back(64 * 64 * 4, std::byte{255});
+    for (std::size_t i = 0; i < stripes.mips[0].size(); ++i) {
+        if (i % 4 != 3 && i / 4 % 2 == 0) stripes.mips[0][i] = std::byte{40};
+    }
+    renderer->load(scene, {stripes});
     Frame rain = small_frame(look({0, 1.2f, 3}, {0, 0, 0}));
     rain.weather = downpour();
     rain.settings.time_s = 1.3;

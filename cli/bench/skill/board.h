@@ -17,7 +17,7 @@ struct SkillRival {
 /// What `petrichor bench skill` scores.
 struct SkillOptions {
     std::string data = ".";  ///< a folder; everything below it is looked at
-    std::string html;        ///< a page to write, or empty
+    std::string html = {};   ///< a page to write, or empty
     bool json = false;
     std::vector<SkillRival> rivals{};  ///< run once a winter
 };
