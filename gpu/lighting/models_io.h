@@ -1,7 +1,7 @@
 // The lighting models that are built in: a row and an include each. The number stands in the
 // G-buffer (8 bits); users' own models are numbered behind them.
 //
-//   ROW(number, name)   name.glsl in gpu/lighting/models; numbers count from 0
+//   ROW(number, name)   number from 0; the file of that name in gpu/lighting/models
 #ifndef PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 #define PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 
