@@ -8,8 +8,8 @@ SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const G
     if (!device.primitive_ids() || !scene.as_texels()) return SurfacePath::Fragment;
     if (asked != SurfacePath::Auto) return asked;
     if (device.info().kind != "cpu") return SurfacePath::Fragment;
-    // From about a triangle for every 16 pixels on; set after seeing the three scenes of the page.
-    constexpr double kPixelsATriangle = 16.0;
+    // From about a triangle for every 8 pixels on; set after seeing the scenes of the page.
+    constexpr double kPixelsATriangle = 8.0;
     double triangles = 0.0;
     for (const Draw& draw : scene.draws()) triangles += draw.index_count / 3.0;
     const double pixels = static_cast<double>(width) * static_cast<double>(height);

@@ -193,6 +193,9 @@ Workload scenario_workload(const RenderBenchOptions& options)
     if (job.variant.empty()) job.variant = sequence.variants.front().name;
     if (job.view.empty()) job.view = sequence.views.front().name;
     SequenceFrame frame = frame_at(sequence, job);
+    if (options.surface_path != gpu::SurfacePath::Auto) {
+        frame.frame.settings.surface_path = options.surface_path;
+    }
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     set_environment_of(renderer, sequence, job);
     return {std::move(renderer), std::move(frame.frame)};
