@@ -343,8 +343,8 @@ TEST_F(Io, AMaximumSideGivesTheMipLevelThatFits)
             ASSERT_EQ(small.pixels.size(), expected.pixels.size());
             for (std::size_t k = 0; k < small.pixels.size(); ++k) {
                 const float tolerance = 1e-5f * std::max(1.0f, std::abs(expected.pixels[k]));
-                if (std::isfinite(expected.pixels[k]))
-                    ASSERT_NEAR(small.pixels[k], expected.pixels[k], tolerance) << name << " " << k;
+                if (!std::isfinite(expected.pixels[k])) continue;
+                ASSERT_NEAR(small.pixels[k], expected.pixels[k], tolerance) << name << " " << k;
             }
         }
     }
