@@ -59,6 +59,10 @@ struct ChildLimits {
     unsigned open_files = 32;
 };
 
+/// A program that is trusted with everything we have (ffmpeg): no limits, our environment and
+/// folder; still a process group of its own, and it dies with this program.
+enum class Trust { None, Full };
+
 /// How a child ended.
 struct ChildEnd {
     bool exited = false;  ///< by itself, with `code`
@@ -74,7 +78,8 @@ public:
     /// it has in the child, 0..9; 0, 1 and 2 are /dev/null unless given. Throws Error when it
     /// cannot be started.
     LimitedChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                 const ChildLimits& limits, const std::vector<std::pair<int, int>>& descriptors);
+                 const ChildLimits& limits, const std::vector<std::pair<int, int>>& descriptors,
+                 Trust trust = Trust::None);
     LimitedChild(LimitedChild&& other) noexcept;
     LimitedChild& operator=(LimitedChild&& other) noexcept;
     ~LimitedChild();

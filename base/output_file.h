@@ -1,85 +1,76 @@
 #ifndef PETRICHOR_BASE_OUTPUT_FILE_H
 #define PETRICHOR_BASE_OUTPUT_FILE_H
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
-#include <system_error>
-
-#include "base/error.h"
+#include <vector>
 
 namespace petrichor {
 
-/// A file that appears whole or not at all: it is written under a temporary name beside its
-/// destination and renamed by commit(). Without commit() the destructor removes the temporary.
-///
-/// The temporary keeps the extension of the destination, since writers choose formats by it.
+// Everything that is written appears whole or not at all: it is made under a random name,
+// ".petrichor-0123456789abcdef.ext", in the folder where it will lie, and then renamed. The writer
+// holds a lock on it as long as it lives, so the next program that writes into the folder can tell
+// what a killed one left behind (it gets the lock) from what is being written, and removes the
+// former.
+
+/// A file on its way. Without commit() the destructor removes it.
 class OutputFile {
 public:
-    explicit OutputFile(std::filesystem::path destination) : destination_(std::move(destination))
-    {
-        if (destination_.has_parent_path()) {
-            std::error_code failed;
-            std::filesystem::create_directories(destination_.parent_path(), failed);
-            if (failed) {
-                throw Error("output: cannot create the folder " +
-                                destination_.parent_path().string() + ": " + failed.message(),
-                            "Choose a folder that you may write to.");
-            }
-        }
-        std::filesystem::path name =
-            "." + destination_.stem().string() + ".part" + std::to_string(::getpid());
-        name += destination_.extension();
-        temporary_ = destination_.parent_path() / name;
-    }
+    /// Makes the folder and the temporary (O_EXCL, O_NOFOLLOW), which keeps the extension of the
+    /// destination, since writers choose formats by it. Throws Error: a destination that is a link,
+    /// a device or a folder (a rename would replace it), no room, no permission.
+    explicit OutputFile(std::filesystem::path destination);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
-    ~OutputFile()
-    {
-        std::error_code ignored;
-        if (!committed_) std::filesystem::remove(temporary_, ignored);
-    }
+    ~OutputFile();
 
     const std::filesystem::path& temporary() const { return temporary_; }
     const std::filesystem::path& destination() const { return destination_; }
 
+    /// Appends to the temporary. Throws Error (disk full, over a limit).
+    void write(std::string_view bytes);
     /// Renames the temporary to the destination. Throws Error when that fails.
-    void commit()
-    {
-        std::error_code failed;
-        std::filesystem::rename(temporary_, destination_, failed);
-        if (failed) {
-            throw Error("output: cannot write " + destination_.string() + ": " + failed.message(),
-                        "Check that the folder is writable and the disk is not full.");
-        }
-        committed_ = true;
-    }
+    void commit();
 
 private:
     std::filesystem::path destination_;
     std::filesystem::path temporary_;
+    int fd_ = -1;
     bool committed_ = false;
 };
 
 /// Writes `content` to `path`, whole or not at all. Throws Error (disk full, read-only folder,
 /// ...).
-inline void write_text_file(const std::filesystem::path& path, std::string_view content)
-{
-    OutputFile file(path);
-    std::ofstream out(file.temporary(), std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.close();
-    if (!out) {
-        throw Error("output: cannot write " + path.string() + ": " + std::strerror(errno),
-                    "Check that the folder is writable and the disk is not full.");
-    }
-    file.commit();
-}
+void write_text_file(const std::filesystem::path& path, std::string_view content);
+
+/// A folder inside `folder` for files that belong together: they are made in it, and publish() then
+/// puts them beside each other. The destructor removes what is left of it.
+class ScratchFolder {
+public:
+    explicit ScratchFolder(const std::filesystem::path& folder);
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ~ScratchFolder();
+
+    const std::filesystem::path& path() const { return path_; }
+    /// Renames files (names relative to path(), folders allowed in them) into `folder`. All of them
+    /// are whole by then, so renaming is all that is left. Throws Error, before the first when one
+    /// of the places is taken by a folder, a link or a device.
+    void publish(const std::vector<std::string>& files);
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+
+/// Removes what killed programs left in a folder, never what a living one is writing. Writing into
+/// a folder for the first time does it by itself.
+void remove_dead_temporaries(const std::filesystem::path& folder);
+
+/// Removes every temporary of this process: the last act before it ends without unwinding.
+void remove_own_temporaries() noexcept;
 
 }  // namespace petrichor
 
