@@ -43,10 +43,13 @@ const scene::EncodedImage& image_at(const scene::Scene& scene, int index)
     return scene.textures[static_cast<std::size_t>(index)];
 }
 
-Image decode(const scene::EncodedImage& encoded, ColorSpace space, int channels)
+Image decode(const scene::EncodedImage& encoded, ColorSpace space, int channels,
+             const TextureOptions& options)
 {
-    return with_channels(texproc::decode_image(encoded.bytes, encoded.name, {.space = space}),
-                         channels);
+    return with_channels(
+        texproc::decode_image(encoded.bytes, encoded.name,
+                              {.space = space, .max_side = options.max_size, .stop = options.stop}),
+        channels);
 }
 
 Image first_channels(const Image& image, int channels)
@@ -88,10 +91,11 @@ void scale_normals(Image& normals, float scale)
 }
 
 // Level 0 of a normal map: three channels. Prepared ones may hold two, from which z follows.
-Image decode_normals(const scene::EncodedImage& encoded)
+Image decode_normals(const scene::EncodedImage& encoded, const TextureOptions& options)
 {
-    if (!has_own_levels(encoded.bytes)) return decode(encoded, ColorSpace::Data, 3);
-    const Image image = texproc::decode_image(encoded.bytes, encoded.name);
+    if (!has_own_levels(encoded.bytes)) return decode(encoded, ColorSpace::Data, 3, options);
+    const Image image = texproc::decode_image(encoded.bytes, encoded.name,
+                                              {.max_side = options.max_size, .stop = options.stop});
     if (image.channels != 2) return with_channels(image, 3);
     Image normals(image.width, image.height, 3, ColorSpace::Data);
     for (std::size_t i = 0; 2 * i < image.pixels.size(); ++i) {
@@ -158,7 +162,7 @@ std::vector<gpu::Texture> finish_surface(const scene::Scene& scene,
     const texproc::MipOptions mips = mip_options(encoded, recipe);
     std::vector<Image> levels;
     {
-        Image surface = decode(encoded, ColorSpace::Data, 4);
+        Image surface = decode(encoded, ColorSpace::Data, 4, options);
         for (std::size_t i = 1; i < surface.pixels.size(); i += 4)
             surface.pixels[i] *= recipe.roughness_factor;
         levels = texproc::plain_levels(surface, "surface", mips);
@@ -166,7 +170,8 @@ std::vector<gpu::Texture> finish_surface(const scene::Scene& scene,
     std::vector<Image> normal_chain;
     const bool joint = job.normal_texture >= 0;
     Image normals;
-    if (recipe.normal_image >= 0) normals = decode_normals(image_at(scene, recipe.normal_image));
+    if (recipe.normal_image >= 0)
+        normals = decode_normals(image_at(scene, recipe.normal_image), options);
     const bool filtered = normals.width == levels[0].width && normals.height == levels[0].height &&
                           options.prefilter.rule != "none";
     if (joint) normal_chain = normal_levels(normals, mips);
@@ -203,16 +208,16 @@ gpu::Texture finish_plain(const scene::EncodedImage& encoded, const TextureRecip
     const texproc::MipOptions mips = mip_options(encoded, recipe);
     switch (recipe.kind) {
         case Kind::Color:
-            return rounded(
-                texproc::plain_levels(decode(encoded, ColorSpace::Linear, 4), "albedo", mips),
-                gpu::TexelFormat::Rgba8Srgb, options);
+            return rounded(texproc::plain_levels(decode(encoded, ColorSpace::Linear, 4, options),
+                                                 "albedo", mips),
+                           gpu::TexelFormat::Rgba8Srgb, options);
         case Kind::Normal:
-            return rounded_normals(normal_levels(decode_normals(encoded), mips), options);
+            return rounded_normals(normal_levels(decode_normals(encoded, options), mips), options);
         case Kind::Surface:
         case Kind::Scalar:
             break;
     }
-    const Image red = channel_of(decode(encoded, ColorSpace::Data, 4), 0);
+    const Image red = channel_of(decode(encoded, ColorSpace::Data, 4, options), 0);
     return rounded(texproc::plain_levels(red, "scalar", mips), gpu::TexelFormat::R8Unorm, options);
 }
 

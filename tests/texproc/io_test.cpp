@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "texproc/filter/mips.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -324,6 +325,31 @@ TEST_F(Io, ACrashOfTheImageLibraryIsAnError)
         }
         EXPECT_EQ(read_raw(folder / "a.png").width, 8) << "after " << name;
     }
+}
+
+// Reduced while it is decoded, an image is the level of its box mip chain that fits: row by row
+// (PNG, EXR, TIFF) as all at once (DDS, TGA read whole), odd sizes included, colour as light.
+TEST_F(Io, AMaximumSideGivesTheMipLevelThatFits)
+{
+    for (const ColorSpace space : {ColorSpace::Data, ColorSpace::Linear}) {
+        for (const char* name : {"a.png", "a.tif", "a.exr", "a.tga", "a.jpg"}) {
+            const bool exr = std::string(name) == "a.exr";
+            write_raw(folder / name, ramp(75, 53, 3, exr ? PixelType::F16 : PixelType::U8));
+            const Image full = read_image(folder / name, {.space = space});
+            const Image small = read_image(folder / name, {.space = space, .max_side = 20});
+            const Image expected = mip_chain(full)[2];
+            ASSERT_EQ(small.width, 18);
+            ASSERT_EQ(small.height, 13);
+            ASSERT_EQ(small.pixels.size(), expected.pixels.size());
+            for (std::size_t k = 0; k < small.pixels.size(); ++k) {
+                const float tolerance = 1e-5f * std::max(1.0f, std::abs(expected.pixels[k]));
+                if (std::isfinite(expected.pixels[k]))
+                    ASSERT_NEAR(small.pixels[k], expected.pixels[k], tolerance) << name << " " << k;
+            }
+        }
+    }
+    const Image same = read_image(folder / "a.png", {.max_side = 75});
+    EXPECT_EQ(same.pixels, read_image(folder / "a.png").pixels);
 }
 
 }  // namespace

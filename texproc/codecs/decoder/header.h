@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,18 @@ struct Header {
     }
 };
 
-/// Sees the header, may throw, and returns where the pixels go.
-using Accept = std::function<std::byte*(const Header&)>;
+/// Takes what a reader finds. Each call that has a header sees it before anything is made room for,
+/// and may throw.
+class Accept {
+public:
+    virtual ~Accept() = default;
+    /// Where all pixels go at once.
+    virtual std::byte* operator()(const Header&) const = 0;
+    /// True: the image is larger than what is wanted of it, so hand it over row by row from the top
+    /// (memory for a few rows is enough). False: call the above.
+    virtual bool by_rows(const Header&) const = 0;
+    virtual void row(const std::byte*) const = 0;
+};
 
 }  // namespace petrichor::texproc::decoder
 

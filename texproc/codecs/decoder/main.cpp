@@ -18,11 +18,13 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/confine.h"
 #include "texproc/codecs/decoder/image_library.h"
 #include "texproc/codecs/decoder/png.h"
 #include "texproc/codecs/decoder/psd.h"
+#include "texproc/codecs/decoder/reduce.h"
 #include "texproc/codecs/decoder/sgi.h"
 #include "texproc/codecs/decoder/texture.h"
 #include "texproc/codecs/files/detail/message.h"
@@ -75,7 +77,8 @@ void set_text(char (&to)[detail::kTextBytes], const std::string& text)
 }
 
 // The numbers that a request allows, checked before anything is allocated.
-void check_size(const Header& h, const Request& request)
+// `kept` is what will be in memory of it.
+void check_size(const Header& h, const Request& request, const Header& kept)
 {
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(h.width) * static_cast<std::uint64_t>(h.height);
@@ -84,7 +87,9 @@ void check_size(const Header& h, const Request& request)
                                  std::to_string(h.height) + ", more than the limit of " +
                                  std::to_string(request.max_pixels) + " pixels");
     }
-    if (pixels * static_cast<std::uint64_t>(h.channels) * 4 > request.max_bytes) {
+    const std::uint64_t kept_pixels =
+        static_cast<std::uint64_t>(kept.width) * static_cast<std::uint64_t>(kept.height);
+    if (kept_pixels * static_cast<std::uint64_t>(h.channels) * 4 > request.max_bytes) {
         throw std::runtime_error("it is " + std::to_string(h.width) + " x " +
                                  std::to_string(h.height) + " with " + std::to_string(h.channels) +
                                  " channels, more than the limit of " +
@@ -103,7 +108,9 @@ void read_pixels(std::span<const std::byte> file, const std::string& format, con
 {
     if (format == "dds" || format == "ktx2") {
         read_gpu_texture(file, format,
-                         {.max_pixels = request.max_pixels, .max_bytes = request.max_bytes},
+                         {.max_pixels = request.max_pixels,
+                          .max_bytes = request.max_bytes,
+                          .max_side = request.max_side},
                          accept);
     } else if (format == "png") {
         read_png(file, accept);
@@ -115,6 +122,73 @@ void read_pixels(std::span<const std::byte> file, const std::string& format, con
     }
 }
 
+struct ShapeIsEnough {};
+
+// Pixels go into shared memory: as they are, or reduced on the way.
+class Taker : public Accept {
+public:
+    Taker(const Request& request, int fd, Reply& reply) : request_(request), fd_(fd), reply_(reply)
+    {
+    }
+
+    std::byte* operator()(const Header& h) const override
+    {
+        if (!Reducer::needed(h, request_.max_side)) return begin(h, h);
+        check_size(h, request_, h);
+        begin_reduced(h);
+        full_.resize(h.bytes());
+        return full_.data();
+    }
+    bool by_rows(const Header& h) const override
+    {
+        if (!Reducer::needed(h, request_.max_side)) return false;
+        begin_reduced(h);
+        return true;
+    }
+    void row(const std::byte* from) const override { reducer_->row(from); }
+
+    // Readers that gave all pixels at once: they are reduced now.
+    void finish() const
+    {
+        if (full_.empty()) return;
+        for (std::size_t at = 0; at < full_.size(); at += row_bytes_) reducer_->row(&full_[at]);
+    }
+
+private:
+    void begin_reduced(const Header& h) const
+    {
+        reducer_ = std::make_unique<Reducer>(
+            h, request_.max_side, request_.linear ? ColorSpace::Linear : ColorSpace::Data);
+        row_bytes_ = h.bytes() / static_cast<std::size_t>(h.height);
+        reducer_->write_to(begin(h, reducer_->reduced()));
+    }
+    std::byte* begin(const Header& full, const Header& h) const
+    {
+        check_size(full, request_, h);
+        reply_.width = h.width;
+        reply_.height = h.height;
+        reply_.channels = h.channels;
+        reply_.type = static_cast<std::uint32_t>(h.type);
+        if (request_.task == detail::Task::Shape) throw ShapeIsEnough{};
+        const std::size_t bytes = h.bytes();
+        if (ftruncate(fd_, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
+        mapping_ = std::make_unique<Mapping>(fd_, bytes, PROT_READ | PROT_WRITE);
+        reply_.last = full.bytes() > kRecycleBytes;
+        std::string names;
+        for (const std::string& n : h.channel_names) names += n + "\n";
+        set_text(reply_.text, names);
+        return static_cast<std::byte*>(mapping_->at);
+    }
+
+    const Request& request_;
+    int fd_;
+    Reply& reply_;
+    mutable std::unique_ptr<Mapping> mapping_;
+    mutable std::unique_ptr<Reducer> reducer_;
+    mutable std::vector<std::byte> full_;
+    mutable std::size_t row_bytes_ = 0;
+};
+
 Fd decode(const Request& request, int input_fd, const ImageLibrary* library, Reply& reply)
 {
     limit_cpu(kBaseSeconds);
@@ -123,24 +197,13 @@ Fd decode(const Request& request, int input_fd, const ImageLibrary* library, Rep
     const Mapping file(input_fd, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
     Fd pixels(memfd_create("petrichor-pixels", MFD_CLOEXEC));
     if (pixels.fd < 0) throw std::runtime_error(std::strerror(errno));
-    std::unique_ptr<Mapping> mapping;
-    const Accept accept = [&](const Header& h) {
-        check_size(h, request);
-        const std::size_t bytes = h.bytes();
-        if (ftruncate(pixels.fd, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
-        mapping = std::make_unique<Mapping>(pixels.fd, bytes, PROT_READ | PROT_WRITE);
-        reply.width = h.width;
-        reply.height = h.height;
-        reply.channels = h.channels;
-        reply.type = static_cast<std::uint32_t>(h.type);
-        reply.last = bytes > kRecycleBytes;
-        std::string names;
-        for (const std::string& n : h.channel_names) names += n + "\n";
-        set_text(reply.text, names);
-        return static_cast<std::byte*>(mapping->at);
-    };
-    read_pixels({static_cast<const std::byte*>(file.at), file.size}, request.format, request,
-                library, accept);
+    const Taker taker(request, pixels.fd, reply);
+    try {
+        read_pixels({static_cast<const std::byte*>(file.at), file.size}, request.format, request,
+                    library, taker);
+        taker.finish();
+    } catch (const ShapeIsEnough&) {
+    }
     return pixels;
 }
 

@@ -3,6 +3,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "texproc/codecs/decoder/image_library.h"
@@ -55,6 +56,36 @@ void warm_up_oiio()
     for (const char* name : {"a.tif", "a.tga", "a.jpg"}) OIIO::ImageOutput::create(name);
 }
 
+namespace {
+
+// A row of tiles, or some scanlines, at a time.
+void read_by_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Header& header,
+                  const Accept& accept)
+{
+    const bool tiled = spec.tile_width > 0;
+    const int rows = tiled ? spec.tile_height : 64;
+    const std::size_t row_bytes = static_cast<std::size_t>(header.width) *
+                                  static_cast<std::size_t>(header.channels) * size_of(header.type);
+    std::vector<std::byte> some(row_bytes * static_cast<std::size_t>(rows));
+    for (int y = 0; y < spec.height; y += rows) {
+        const int end = std::min(y + rows, spec.height);
+        const int from = spec.y + y, to = spec.y + end;
+        const bool good = tiled ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, from, to,
+                                                   spec.z, spec.z + 1, 0, spec.nchannels,
+                                                   type_desc(header.type), some.data())
+                                : input.read_scanlines(0, 0, from, to, spec.z, 0, spec.nchannels,
+                                                       type_desc(header.type), some.data());
+        if (!good) {
+            const std::string why = input.geterror();
+            throw std::runtime_error(why.empty() ? "its pixels cannot be decoded" : why);
+        }
+        for (int i = 0; i < end - y; ++i)
+            accept.row(some.data() + row_bytes * static_cast<std::size_t>(i));
+    }
+}
+
+}  // namespace
+
 void read_with_oiio(std::span<const std::byte> file, const std::string& format,
                     const Accept& accept)
 {
@@ -75,6 +106,10 @@ void read_with_oiio(std::span<const std::byte> file, const std::string& format,
         throw std::runtime_error("it has no pixels");
     }
     Header header{spec.width, spec.height, spec.nchannels, stored_type(spec), spec.channelnames};
+    if (accept.by_rows(header)) {
+        read_by_rows(*input, spec, header, accept);
+        return;
+    }
     std::byte* pixels = accept(header);
     if (!input->read_image(0, 0, 0, spec.nchannels, type_desc(header.type), pixels)) {
         const std::string why = input->geterror();

@@ -56,6 +56,18 @@ bool read_header(Reader& reader)
     return true;
 }
 
+// Row by row, for images without interlacing. `row` owns nothing that a jump would leave behind.
+bool read_each_row(Reader& reader, png_bytep row, int height, const Accept& accept)
+{
+    if (setjmp(png_jmpbuf(reader.png))) return false;
+    for (int y = 0; y < height; ++y) {
+        png_read_row(reader.png, row, nullptr);
+        accept.row(reinterpret_cast<const std::byte*>(row));
+    }
+    png_read_end(reader.png, nullptr);
+    return true;
+}
+
 bool read_rows(Reader& reader, png_bytep* rows)
 {
     if (setjmp(png_jmpbuf(reader.png))) return false;
@@ -95,6 +107,12 @@ void read_png(std::span<const std::byte> file, const Accept& accept)
         {}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
     for (int c = 0; c < header.channels; ++c) {
         header.channel_names.push_back(kNames[header.channels][c]);
+    }
+    const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;
+    if (!interlaced && accept.by_rows(header)) {
+        std::vector<png_byte> one(png_get_rowbytes(reader.png, reader.info));
+        if (!read_each_row(reader, one.data(), header.height, accept)) throw undecodable(reader);
+        return;
     }
     std::byte* pixels = accept(header);
     const std::size_t row = static_cast<std::size_t>(header.width) *

@@ -1,5 +1,6 @@
 #include "texproc/codecs/decoder/texture.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "texproc/codecs/files/detail/dds.h"
@@ -12,7 +13,13 @@ void read_gpu_texture(std::span<const std::byte> file, const std::string& format
 {
     const MipTexture texture =
         format == "dds" ? detail::parse_dds(file, limits) : detail::parse_ktx2(file, limits);
-    const RawImage image = decode_level(texture, 0, 1);
+    // A smaller level of the file's own is better than one that is made here.
+    int level = 0;
+    while (limits.max_side > 0 && level + 1 < static_cast<int>(texture.levels.size()) &&
+           std::max(texture.width >> level, texture.height >> level) > limits.max_side) {
+        ++level;
+    }
+    const RawImage image = decode_level(texture, level, 1);
     static const char* const kNames[4] = {"R", "G", "B", "A"};
     Header header{image.width, image.height, image.channels, image.type, {}};
     for (int c = 0; c < image.channels; ++c) header.channel_names.push_back(kNames[c]);

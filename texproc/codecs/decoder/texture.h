@@ -9,7 +9,8 @@
 
 namespace petrichor::texproc::decoder {
 
-/// Reads the largest level of a DDS or KTX2 file that lies in memory, as read_with_oiio() does.
+/// Reads the largest level of a DDS or KTX2 file that lies in memory, as read_with_oiio() does;
+/// with limits.max_side the largest that fits, where the file has one.
 void read_gpu_texture(std::span<const std::byte> file, const std::string& format,
                       const ReadOptions& limits, const Accept& accept);
 

@@ -76,19 +76,9 @@ void check_shape(const fs::path& path, int width, int height, int channels)
 void write_pieces(const fs::path& path, const std::function<void(const detail::ByteSink&)>& produce)
 {
     OutputFile file(path);
-    const auto failed = [&] {
-        return Error("output: cannot write " + path.string() + ": " + std::strerror(errno),
-                     "Check that the folder is writable and the disk is not full.");
-    };
-    struct Close {
-        void operator()(std::FILE* f) const { std::fclose(f); }
-    };
-    std::unique_ptr<std::FILE, Close> out(std::fopen(file.temporary().c_str(), "wb"));
-    if (!out) throw failed();
     produce([&](std::span<const std::byte> bytes) {
-        if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) throw failed();
+        file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     });
-    if (std::fclose(out.release()) != 0) throw failed();
     file.commit();
 }
 
@@ -156,6 +146,13 @@ RawImage decode_raw(std::span<const std::byte> bytes, const std::string& name,
 std::string decoder_confinement()
 {
     return detail::decoder_confinement();
+}
+
+RawImage image_shape(std::span<const std::byte> bytes, const std::string& name,
+                     const ReadOptions& options)
+{
+    check_not_empty(bytes, name);
+    return detail::shape_in_child(name, bytes, options);
 }
 
 void write_bytes(const fs::path& path, std::span<const std::byte> bytes)

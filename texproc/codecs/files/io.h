@@ -25,6 +25,11 @@ struct ReadOptions {
     ColorSpace space = ColorSpace::Data;   ///< Linear: 8- and 16-bit colour is decoded from sRGB
     std::int64_t max_pixels = 1 << 28;     ///< larger images are refused before they are decoded
     std::uint64_t max_bytes = 2ull << 30;  ///< the same for width x height x channels x 4 bytes
+    /// Larger images are made smaller while they are decoded, row by row where the format allows it
+    /// (PNG, EXR, TIFF, JPEG, ...), so that the whole is never in memory: halved until both sides
+    /// are at most this, a texel the mean of its area. max_bytes is then about what is left. 0:
+    /// never.
+    int max_side = 0;
     StopRequest stop = {};  ///< asked every 50 ms; decoding then ends with Interrupted
 };
 
@@ -39,6 +44,11 @@ Image decode_image(std::span<const std::byte> bytes, const std::string& name,
 
 /// The same in the numbers of the file; options.space has no effect.
 RawImage read_raw(const std::filesystem::path& path, const ReadOptions& options = {});
+/// Width, height, channels and type that decode_image() with these options would give, without
+/// pixels: only the head of the file is looked at (of DDS and KTX2 all of it).
+RawImage image_shape(std::span<const std::byte> bytes, const std::string& name,
+                     const ReadOptions& options = {});
+
 RawImage decode_raw(std::span<const std::byte> bytes, const std::string& name,
                     const ReadOptions& options = {});
 

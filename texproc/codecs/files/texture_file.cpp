@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <fstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "texproc/codecs/files/detail/dds.h"
 #include "texproc/codecs/files/detail/exr_mips.h"
 #include "texproc/codecs/files/detail/ktx2.h"
@@ -53,22 +53,9 @@ void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
 
 std::vector<std::byte> file_bytes(const fs::path& path, std::uint64_t most)
 {
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-    if (size < 0) {
-        throw Error("image " + path.string() + ": it cannot be read",
-                    "Check the path; it is relative to the folder that you are in.");
-    }
-    if (static_cast<std::uint64_t>(size) > most) {
-        throw Error("image " + path.string() + ": it has " + std::to_string(size >> 20) +
-                        " MiB, more than the limit of " + std::to_string(most >> 20),
-                    "Use a smaller image, or raise the limit (--max-pixels).");
-    }
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(bytes.data()), size);
-    if (!in) throw Error("image " + path.string() + ": it cannot be read", "Check the file.");
-    return bytes;
+    const std::string text = read_file(path, "image", most);
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return {bytes, bytes + text.size()};
 }
 
 }  // namespace

@@ -251,7 +251,9 @@ void Decoded::read(std::uint64_t offset, std::span<std::byte> to) const
     }
 }
 
-Decoded decode_in_child(const std::string& name, int file, const ReadOptions& options)
+namespace {
+
+Decoded decode(Task task, const std::string& name, int file, const ReadOptions& options)
 {
     const std::string what = "image " + printable(name);
     std::byte head[32];
@@ -267,6 +269,9 @@ Decoded decode_in_child(const std::string& name, int file, const ReadOptions& op
                     "if it is damaged.");
     }
     Request request;
+    request.task = task;
+    request.max_side = options.max_side;
+    request.linear = options.space == ColorSpace::Linear ? 1 : 0;
     request.max_pixels = options.max_pixels;
     request.max_bytes = options.max_bytes;
     std::memcpy(request.format, format.c_str(), format.size() + 1);
@@ -296,6 +301,20 @@ Decoded decode_in_child(const std::string& name, int file, const ReadOptions& op
     std::istringstream names(reply.text);
     for (std::string line; std::getline(names, line);) shape.channel_names.push_back(line);
     return Decoded(outcome.fd, std::move(shape));
+}
+
+}  // namespace
+
+Decoded decode_in_child(const std::string& name, int file, const ReadOptions& options)
+{
+    return decode(Task::Decode, name, file, options);
+}
+
+RawImage shape_in_child(const std::string& name, std::span<const std::byte> bytes,
+                        const ReadOptions& options)
+{
+    const Memory memory(bytes, "image " + printable(name));
+    return decode(Task::Shape, name, memory.fd, options).shape();
 }
 
 Decoded decode_in_child(const std::string& name, std::span<const std::byte> bytes,

@@ -44,6 +44,10 @@ Decoded decode_in_child(const std::string& name, int file, const ReadOptions& op
 Decoded decode_in_child(const std::string& name, std::span<const std::byte> bytes,
                         const ReadOptions& options);
 
+/// The same without pixels.
+RawImage shape_in_child(const std::string& name, std::span<const std::byte> bytes,
+                        const ReadOptions& options);
+
 /// The bytes of a file that a decoder process made from pixels with the image library (JPEG, TIFF,
 /// TGA, by the extension of `path`).
 std::vector<std::byte> encode_in_child(const std::filesystem::path& path, const RawImage& image,

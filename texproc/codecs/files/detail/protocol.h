@@ -10,10 +10,13 @@ namespace petrichor::texproc::detail {
 inline constexpr int kDecoderSocket = 3;  // the child's end, by convention of the spawn
 inline constexpr std::uint32_t kTextBytes = 8192;
 
-enum class Task : std::uint32_t { Decode = 1, Encode = 2, Report = 3 };
+enum class Task : std::uint32_t { Decode = 1, Encode = 2, Report = 3, Shape = 4 };
 
 struct Request {
-    Task task = Task::Decode;  // Report: only how well the child is locked in, as text
+    Task task = Task::Decode;   // Report: only how well the child is locked in, as text;
+                                // Shape: Decode that stops before the pixels
+    std::int32_t max_side = 0;  // Decode: larger images are made smaller on the way; 0: never
+    std::uint32_t linear = 0;   // Decode, for that: integers are sRGB codes of light
     std::uint32_t reserved = 0;
     std::int64_t max_pixels = 0;  // Decode; the attached descriptor holds the file
     std::uint64_t max_bytes = 0;  // Decode: of the decoded pixels, four bytes a number
