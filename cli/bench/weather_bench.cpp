@@ -256,7 +256,7 @@ std::string json_report(const WeatherBenchOptions& options, const std::vector<Be
         if (row.memory_mib > 0.0) entry["memory_mib"] = row.memory_mib;
         report["rows"].push_back(std::move(entry));
     }
-    return report.dump(2);
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void run_weather_bench(const WeatherBenchOptions& options)

@@ -43,6 +43,9 @@ struct RenderOptions {
     std::vector<std::string> aovs;
     int threads = 0;
     bool resume = false;
+    bool verify = false;
+    std::uint64_t memory_mib = 0;
+    bool allow_outside = false;
     bool no_exr = false;
     bool no_png = false;
     bool no_film = false;
@@ -64,7 +67,7 @@ Scenario scenario_of(const std::string& input)
     const fs::path file = input;
     if (is_scene(file)) {
         Scenario scenario;
-        scenario.name = input;
+        scenario.name = printable(input);
         scenario.scene.file = input;
         return scenario;
     }
@@ -73,7 +76,7 @@ Scenario scenario_of(const std::string& input)
     for (const std::string& name : names) {
         if (name == input) return read_scenario(data_folder() / "scenarios" / (name + ".toml"));
     }
-    throw Error("render: " + input +
+    throw Error("render: " + printable(input) +
                     " is neither a scenario (.toml), nor a scene (.glb, .gltf), nor one of: " +
                     join_words(names) + "." + did_you_mean(input, names),
                 "For example: petrichor render scene.glb --weather rain-then-snow");
@@ -179,7 +182,7 @@ void render(const RenderOptions& options)
         list_aovs();
         return;
     }
-    watch_for_interrupt();
+    set_way_to_go_on(resume_command(options));
     if (options.threads > 0) {
         // The CPU driver reads its number of threads from here.
         ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
@@ -194,7 +197,10 @@ void render(const RenderOptions& options)
     request.range = {0, scenario.output.frames - 1};
     if (!options.frames.empty())
         request.range = parse_frame_range(options.frames, scenario.output.frames);
-    request.resume = options.resume;
+    request.resume = options.resume || options.verify;
+    request.verify = options.verify;
+    request.memory_budget = options.memory_mib << 20;
+    scenario.scene.allow_outside = options.allow_outside;
     request.device = options.device;
     request.threads = options.threads;
     request.validation = options.validate;
@@ -254,8 +260,18 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     command->add_option("--device", o->device,
                         "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
-    command->add_flag("--resume", o->resume,
-                      "keep frames that are there and would come out the same");
+    command->add_flag(
+        "--resume", o->resume,
+        "keep frames whose files have the hashes they were written with and that would "
+        "come out the same");
+    command->add_flag("--verify", o->verify,
+                      "--resume that also decodes the pictures and compares their pixels");
+    command
+        ->add_option("--memory", o->memory_mib,
+                     "MiB that the scene may take (three quarters of the machine's)")
+        ->check(CLI::Range(64, 1 << 30));
+    command->add_flag("--allow-outside", o->allow_outside,
+                      "links in the scene's folder may lead out of it");
     command->add_flag("--no-exr", o->no_exr, "write no EXR");
     command->add_flag("--no-png", o->no_png, "write no PNG, and so no film");
     command->add_flag("--no-film", o->no_film, "write no film");

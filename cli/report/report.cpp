@@ -65,7 +65,7 @@ std::string data_json(const SimulationTable& table)
     ordered_json all{{"times", times}, {"panels", panels}, {"events", events}};
     // Milliseconds since 1970 of time 0, for the names of days.
     if (table.dated) all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3;
-    std::string text = all.dump();
+    std::string text = all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");  // a title must not end the script
     }

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "cli/report/times.h"
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
@@ -28,6 +29,27 @@ std::string title_of(const std::vector<Input>& inputs)
                : inputs.front().name + " and " + std::to_string(inputs.size() - 1) + " more";
 }
 
+namespace {
+
+// A century of hours. A row of the table and its state take some 2 KB.
+constexpr double kMostRows = 1e6;
+constexpr double kMostSteps = 2e7;
+
+void check_rows(const PhysicalRun& run, double last_s)
+{
+    const double span_s = run.to_s.value_or(last_s) - run.from_s.value_or(0.0);
+    const double rows = span_s / run.every_s, steps = span_s / run.step_s;
+    if (rows <= kMostRows && steps <= kMostSteps) return;
+    throw Error("simulate: " + petrichor::number_text(std::round(span_s / 864.0 / 365.25) / 100.0) +
+                    " years are " + petrichor::number_text(std::round(rows)) + " rows and " +
+                    petrichor::number_text(std::round(steps)) + " steps, at most " +
+                    petrichor::number_text(kMostRows) + " and " +
+                    petrichor::number_text(kMostSteps) + " are computed",
+                "Name a part with --from and --to, or longer steps with --every and --dt.");
+}
+
+}  // namespace
+
 PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOptions& options)
 {
     if (inputs.front().kind != InputKind::Weather) {
@@ -46,6 +68,7 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt").value();
     run.every_s =
         options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();
+    check_rows(run, static_cast<double>(input.read.table.time_us.back() - start_us) * 1e-6);
     if (run.threads == 0)
         run.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!options.resume.empty()) run.resume = read_checkpoint_file(options.resume);

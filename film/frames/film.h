@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "base/interrupted.h"
+
 namespace petrichor::film {
 
 /// The ffmpeg that PATH finds, or "".
@@ -13,9 +15,9 @@ std::string find_ffmpeg();
 /// or not at all. Odd sizes are cut by one pixel, which the format needs.
 ///
 ///   first, count   frames first .. first + count - 1 must be there
-///   throws         Error with ffmpeg's last words
+///   throws         Error with ffmpeg's last words; Interrupted (ffmpeg is ended then)
 void make_film(const std::filesystem::path& folder, int first, int count, double fps,
-               const std::filesystem::path& film);
+               const std::filesystem::path& film, const StopRequest& stop = {});
 
 }  // namespace petrichor::film
 

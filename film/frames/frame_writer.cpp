@@ -78,7 +78,7 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
         const std::string name = frame_file_name(facts.frame, "exr");
         texproc::write_exr(folder / name, result.width, result.height, exr_channels(result),
                            metadata);
-        facts.files[name] = fs::file_size(folder / name);
+        facts.files[name] = file_mark(folder / name);
     }
     if (kinds.png) {
         const std::string name = frame_file_name(facts.frame, "png");
@@ -90,7 +90,7 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
                        {result.display[i], result.display[i + 1], result.display[i + 2]});
         }
         texproc::write_png8(folder / name, result.width, result.height, 3, rgb, metadata);
-        facts.files[name] = fs::file_size(folder / name);
+        facts.files[name] = file_mark(folder / name);
     }
     return frame_line(facts);
 }
@@ -99,6 +99,7 @@ struct FrameWriter::Impl {
     fs::path folder;
     WrittenKinds kinds;
     std::size_t waiting = 2;
+    StopRequest stop;
     std::mutex guard;
     std::condition_variable changed;
     std::deque<std::pair<FrameFacts, gpu::RenderResult>> queue;
@@ -115,12 +116,28 @@ struct FrameWriter::Impl {
         lines.clear();
     }
 
+    void flush_or_note()
+    {
+        try {
+            flush();
+        } catch (...) {
+            const std::lock_guard lock(guard);
+            if (!problem) problem = std::current_exception();
+        }
+    }
+
     void run()
     {
         auto last_flush = std::chrono::steady_clock::now();
         for (;;) {
             std::unique_lock lock(guard);
-            changed.wait(lock, [&] { return closing || !queue.empty(); });
+            const auto ready = [&] { return closing || !queue.empty(); };
+            if (!changed.wait_for(lock, std::chrono::milliseconds(100), ready)) {
+                // Who asked for a stop may not wait until the frame at hand is done.
+                lock.unlock();
+                if (stop && stop()) flush_or_note();
+                continue;
+            }
             if (queue.empty()) break;
             auto [facts, result] = std::move(queue.front());
             queue.pop_front();
@@ -132,7 +149,8 @@ struct FrameWriter::Impl {
                 const int frame = facts.frame;
                 lines[frame] = write_frame(folder, kinds, std::move(facts), result);
                 ++written;
-                if (std::chrono::steady_clock::now() - last_flush > std::chrono::seconds(1)) {
+                if ((stop && stop()) ||
+                    std::chrono::steady_clock::now() - last_flush > std::chrono::seconds(1)) {
                     flush();
                     last_flush = std::chrono::steady_clock::now();
                 }
@@ -141,12 +159,7 @@ struct FrameWriter::Impl {
                 problem = std::current_exception();
             }
         }
-        try {
-            flush();  // frames that are on the disk stay known even when a later one failed
-        } catch (...) {
-            const std::lock_guard lock(guard);
-            if (!problem) problem = std::current_exception();
-        }
+        flush_or_note();  // frames that are on the disk stay known even when a later one failed
     }
 
     void close()
@@ -160,11 +173,12 @@ struct FrameWriter::Impl {
     }
 };
 
-FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, int waiting)
+FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, int waiting, StopRequest stop)
     : impl_(std::make_unique<Impl>())
 {
     impl_->folder = std::move(folder);
     impl_->kinds = kinds;
+    impl_->stop = std::move(stop);
     impl_->waiting = static_cast<std::size_t>(waiting);
     impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
 }

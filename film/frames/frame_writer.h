@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/interrupted.h"
 #include "film/frames/frames_jsonl.h"
 #include "gpu/renderer.h"
 
@@ -22,7 +23,9 @@ struct WrittenKinds {
 /// are held in memory besides the one being written. frames.jsonl follows about once a second.
 class FrameWriter {
 public:
-    FrameWriter(std::filesystem::path folder, WrittenKinds kinds, int waiting = 2);
+    /// `stop`: once it says so, frames.jsonl is brought up to date at once.
+    FrameWriter(std::filesystem::path folder, WrittenKinds kinds, int waiting = 2,
+                StopRequest stop = {});
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
     ~FrameWriter();  ///< writes what waits, and drops the error if there is one

@@ -4,10 +4,17 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "gpu/frame/sun.h"
 
@@ -18,6 +25,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "frames.jsonl";
+constexpr std::uint64_t kMostBytes = 1ull << 30;  // half a million frames
 
 // A float as the shortest decimal that reads back as the same float, not as its widened double.
 double shortest(float value)
@@ -141,14 +149,21 @@ std::string frame_line(const FrameFacts& facts)
     json["aovs"] = settings.aovs;
     json["beauty_hash"] = facts.beauty_hash;
     json["settings"] = facts.settings;
-    json["files"] = facts.files;
-    return json.dump();
+    Json hashes = Json::object();
+    for (const auto& [name, mark] : facts.files) {
+        json["files"][name] = mark.bytes;
+        hashes[name] = mark.hash;
+    }
+    json["file_hashes"] = hashes;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::map<int, FrameRecord> read_frame_records(const fs::path& folder)
 {
     std::map<int, FrameRecord> records;
-    std::ifstream in(folder / kName);
+    std::error_code failed;
+    if (!fs::exists(fs::symlink_status(folder / kName, failed))) return records;
+    std::istringstream in(read_file(folder / kName, "frames", kMostBytes));
     std::string line;
     while (std::getline(in, line)) {
         const Json json = Json::parse(line, nullptr, false);
@@ -160,21 +175,64 @@ std::map<int, FrameRecord> read_frame_records(const fs::path& folder)
             record.settings = json["settings"];
         if (json.contains("files") && json["files"].is_object()) {
             for (const auto& [name, bytes] : json["files"].items()) {
-                if (bytes.is_number_unsigned()) record.files[name] = bytes.get<std::uintmax_t>();
+                // Only names that lie in this folder: the file may have been edited.
+                if (bytes.is_number_unsigned() && name.find('/') == std::string::npos)
+                    record.files[name].bytes = bytes.get<std::uintmax_t>();
             }
         }
+        if (json.contains("file_hashes") && json["file_hashes"].is_object()) {
+            for (const auto& [name, hash] : json["file_hashes"].items()) {
+                const auto file = record.files.find(name);
+                if (file != record.files.end() && hash.is_string()) file->second.hash = hash;
+            }
+        }
+        if (json.contains("beauty_hash") && json["beauty_hash"].is_string())
+            record.beauty_hash = json["beauty_hash"];
         records[json["frame"].get<int>()] = std::move(record);
     }
     return records;
 }
 
-bool files_are_whole(const FrameRecord& record, const fs::path& folder)
+FileMark file_mark(const fs::path& file)
 {
-    for (const auto& [name, bytes] : record.files) {
-        std::error_code failed;
-        if (fs::file_size(folder / name, failed) != bytes || failed) return false;
+    const InputFile in = open_regular_file(file, "frame");
+    Hasher hasher;
+    std::vector<std::byte> piece(1 << 20);
+    FileMark mark;
+    for (;;) {
+        std::size_t filled =
+            0;  // whole pieces, so that the hash does not depend on how they arrive
+        while (filled < piece.size()) {
+            const ssize_t got = ::read(in.fd(), piece.data() + filled, piece.size() - filled);
+            if (got < 0 && errno == EINTR) continue;
+            if (got < 0) {
+                throw Error(
+                    "frame " + file.string() + ": it cannot be read: " + std::strerror(errno),
+                    "Check the disk that it lies on.");
+            }
+            if (got == 0) break;
+            filled += static_cast<std::size_t>(got);
+        }
+        if (filled == 0) break;
+        hasher.add_bytes({piece.data(), filled});
+        mark.bytes += filled;
     }
-    return !record.files.empty();
+    mark.hash = hasher.text();
+    return mark;
+}
+
+std::string wrong_with_files(const FrameRecord& record, const fs::path& folder)
+{
+    if (record.files.empty()) return "no files of it are known";
+    for (const auto& [name, mark] : record.files) {
+        std::error_code failed;
+        const auto bytes = fs::file_size(folder / name, failed);
+        if (failed) return name + " is missing";
+        if (mark.hash.empty()) return name + " was written by an older version, without a hash";
+        if (bytes != mark.bytes || file_mark(folder / name).hash != mark.hash)
+            return name + " is not the file that was written";
+    }
+    return "";
 }
 
 void merge_frame_lines(const fs::path& folder, const std::map<int, std::string>& lines)

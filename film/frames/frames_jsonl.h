@@ -10,6 +10,12 @@
 
 namespace petrichor::film {
 
+/// What tells a file that was written from any other.
+struct FileMark {
+    std::uintmax_t bytes = 0;
+    std::string hash;  ///< of all its bytes; "" in lines of version 0.1.0, which had sizes only
+};
+
 /// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the
 /// same frame gives the same line on every run.
 struct FrameFacts {
@@ -20,8 +26,11 @@ struct FrameFacts {
     std::string beauty_hash;  ///< of the half-float pixels
     float exposure = 1.0f;    ///< scale from scene light to the PNG
     gpu::Frame input;
-    std::map<std::string, std::uintmax_t> files;  ///< name -> bytes
+    std::map<std::string, FileMark> files;  ///< by name
 };
+
+/// The mark of a file as it lies there now. Throws Error when it cannot be read.
+FileMark file_mark(const std::filesystem::path& file);
 
 /// One line, without the line break: JSON with a fixed order of keys and shortest exact numbers.
 /// Matrices are rows of rows. "projection" maps camera space to clip space with y up and reversed
@@ -31,7 +40,8 @@ std::string frame_line(const FrameFacts& facts);
 /// What is needed of a line to tell whether its frame can be kept.
 struct FrameRecord {
     std::string settings;
-    std::map<std::string, std::uintmax_t> files;
+    std::string beauty_hash;
+    std::map<std::string, FileMark> files;
     std::string line;
 };
 
@@ -39,8 +49,9 @@ struct FrameRecord {
 /// empty.
 std::map<int, FrameRecord> read_frame_records(const std::filesystem::path& folder);
 
-/// True when every file of the record lies in the folder with its size.
-bool files_are_whole(const FrameRecord& record, const std::filesystem::path& folder);
+/// "" when every file of the record lies in the folder with its size and its hash, else what is
+/// wrong: "frame_0003.png is not the file that was written".
+std::string wrong_with_files(const FrameRecord& record, const std::filesystem::path& folder);
 
 /// Adds or replaces lines in folder/frames.jsonl, in order of frames, whole or not at all. Several
 /// programs may do this to one folder at once: each sees what the others wrote.

@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
+#include "base/hash.h"
+#include "base/words.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "film/frames/frame_writer.h"
 #include "film/frames/frames_jsonl.h"
+#include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "texproc/codecs/files/io.h"
 
 namespace petrichor::film {
 namespace {
@@ -33,41 +40,100 @@ struct Pending {
     std::string fingerprint;
 };
 
-bool is_kept(const std::map<int, FrameRecord>& records, int frame, const std::string& fingerprint,
-             const ScenarioOutput& output, const fs::path& folder)
+// Reads the pictures again: a file may have been damaged before its hash was taken.
+std::string wrong_with_pixels(const FrameRecord& record, const fs::path& folder)
 {
-    const auto found = records.find(frame);
-    if (found == records.end() || found->second.settings != fingerprint) return false;
-    const auto has = [&](const char* extension) {
-        return found->second.files.count(frame_file_name(frame, extension)) != 0;
-    };
-    return (!output.exr || has("exr")) && (!output.png || has("png")) &&
-           files_are_whole(found->second, folder);
+    for (const auto& [name, mark] : record.files) {
+        try {
+            const texproc::RawImage image = texproc::read_raw(folder / name);
+            if (fs::path(name).extension() != ".exr" || record.beauty_hash.empty()) continue;
+            std::size_t at[4];
+            for (std::size_t c = 0; c < 4; ++c) {
+                const auto& names = image.channel_names;
+                const auto found = std::find(names.begin(), names.end(), std::string(1, "RGBA"[c]));
+                if (found == names.end()) return name + " lacks a channel of the beauty";
+                at[c] = static_cast<std::size_t>(found - names.begin());
+            }
+            const std::size_t pixels =
+                static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+            const auto channels = static_cast<std::size_t>(image.channels);
+            std::vector<std::uint16_t> beauty(pixels * 4);
+            for (std::size_t i = 0; i < pixels; ++i) {
+                for (std::size_t c = 0; c < 4; ++c) {
+                    // With an AOV of full floats beside it the library gives all channels as
+                    // floats.
+                    const std::size_t from = i * channels + at[c];
+                    if (image.type == texproc::PixelType::F16) {
+                        std::memcpy(&beauty[4 * i + c], &image.bytes[2 * from], 2);
+                    } else {
+                        float value = 0.0f;
+                        std::memcpy(&value, &image.bytes[4 * from], 4);
+                        beauty[4 * i + c] = glm::packHalf1x16(value);
+                    }
+                }
+            }
+            Hasher hasher;
+            hasher.add_numbers(std::span<const std::uint16_t>(beauty));
+            if (hasher.text() != record.beauty_hash) return name + " holds other pixels";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    }
+    return "";
 }
 
-std::vector<Pending> pending_frames(const Sequence& sequence, const RenderRequest& request)
+// "" when the frame can stay, else why not.
+std::string why_again(const std::map<int, FrameRecord>& records, int frame,
+                      const std::string& fingerprint, const ScenarioOutput& output,
+                      const fs::path& folder, bool verify)
+{
+    const auto found = records.find(frame);
+    if (found == records.end()) return "it is not there";
+    if (found->second.settings != fingerprint) return "it would come out differently";
+    for (const char* extension : {"exr", "png"}) {
+        const bool wanted = extension[0] == 'e' ? output.exr : output.png;
+        const std::string name = frame_file_name(frame, extension);
+        if (wanted && found->second.files.count(name) == 0) return name + " was not asked for then";
+    }
+    const std::string wrong = wrong_with_files(found->second, folder);
+    return wrong.empty() && verify ? wrong_with_pixels(found->second, folder) : wrong;
+}
+
+std::vector<Pending> pending_frames(const Sequence& sequence, const RenderRequest& request,
+                                    std::vector<std::string>& notes)
 {
     std::map<int, FrameRecord> records;
     if (request.resume) records = read_frame_records(request.folder);
     std::vector<Pending> pending;
+    constexpr std::size_t kMostNotes = 8;
+    std::size_t again = 0;
     for (int i = request.range.first; i <= request.range.last; ++i) {
+        if (stopped(request)) throw Interrupted("interrupted while comparing frames");
         Pending one{i, frame_at(sequence, i), ""};
         one.fingerprint = frame_fingerprint(sequence, one.frame.frame);
-        if (is_kept(records, i, one.fingerprint, sequence.scenario.output, request.folder))
-            continue;
+        const std::string why = why_again(records, i, one.fingerprint, sequence.scenario.output,
+                                          request.folder, request.verify);
+        if (request.resume && why.empty()) continue;
+        if (records.count(i) != 0 && ++again <= kMostNotes)
+            notes.push_back("frame " + std::to_string(i) + " is rendered again: " + why);
         pending.push_back(std::move(one));
     }
+    if (again > kMostNotes)
+        notes.push_back("... and " + std::to_string(again - kMostNotes) + " more");
     return pending;
 }
 
 // Frames of the whole sequence that are not there as they should be, for the film.
-int frames_missing_for_film(const Sequence& sequence, const fs::path& folder)
+int frames_missing_for_film(const Sequence& sequence, const RenderRequest& request)
 {
-    const auto records = read_frame_records(folder);
+    const auto records = read_frame_records(request.folder);
     int missing = 0;
     for (int i = 0; i < sequence.scenario.output.frames; ++i) {
+        if (stopped(request)) throw Interrupted("interrupted while comparing frames");
         const auto fingerprint = frame_fingerprint(sequence, frame_at(sequence, i).frame);
-        if (!is_kept(records, i, fingerprint, sequence.scenario.output, folder)) ++missing;
+        if (!why_again(records, i, fingerprint, sequence.scenario.output, request.folder, false)
+                 .empty())
+            ++missing;
     }
     return missing;
 }
@@ -82,7 +148,7 @@ void finish_film(const Sequence& sequence, const RenderRequest& request, RenderR
         report.notes.push_back("no film: ffmpeg is not installed (apt-get install ffmpeg)");
         return;
     }
-    if (const int missing = frames_missing_for_film(sequence, request.folder)) {
+    if (const int missing = frames_missing_for_film(sequence, request)) {
         // An older film would show other frames than those beside it.
         std::error_code ignored;
         fs::remove(film, ignored);
@@ -90,12 +156,18 @@ void finish_film(const Sequence& sequence, const RenderRequest& request, RenderR
                                std::to_string(output.frames) + " frames are not rendered");
         return;
     }
-    make_film(request.folder, 0, output.frames, output.fps, film);
+    make_film(request.folder, 0, output.frames, output.fps, film, request.stop);
     report.film = true;
 }
 
 gpu::Renderer make_renderer(Sequence& sequence, const RenderRequest& request, RenderReport& report)
 {
+    const ScenarioOutput& output = sequence.scenario.output;
+    check_memory(sequence.scene,
+                 {.max_size = sequence.scenario.scene.max_texture,
+                  .threads = request.threads,
+                  .stop = request.stop},
+                 output.width, output.height, request.memory_budget);
     gpu::Renderer renderer({.device = request.device, .validation = request.validation});
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
@@ -124,7 +196,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
     std::uint32_t overflows = 0;
     {
-        FrameWriter writer(request.folder, {output.exr, output.png});
+        FrameWriter writer(request.folder, {output.exr, output.png}, 2, request.stop);
         for (const Pending& one : pending) {
             if (stopped(request)) break;
             gpu::RenderResult result = renderer.render(one.frame.frame);
@@ -167,10 +239,10 @@ RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
     const int asked = request.range.last - request.range.first + 1;
     const auto stop = [&](int done) {
         return Interrupted("interrupted: " + std::to_string(done) + " of " + std::to_string(asked) +
-                           " frames are in " + request.folder.string() +
+                           " frames are in " + printable(request.folder.string()) +
                            "\n  Go on with: " + request.command);
     };
-    const auto pending = pending_frames(sequence, request);
+    const auto pending = pending_frames(sequence, request, report.notes);
     report.kept = asked - static_cast<int>(pending.size());
     try {
         if (!pending.empty()) render_frames(sequence, request, pending, report);

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_FILM_JOBS_RENDER_JOB_H
 #define PETRICHOR_FILM_JOBS_RENDER_JOB_H
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,13 +25,16 @@ public:
 struct RenderRequest {
     std::filesystem::path folder;  ///< where the frames go
     FrameRange range;
-    bool resume = false;       ///< keep frames that are whole and would come out the same
-    std::string device;        ///< as in gpu::RendererOptions
-    int threads = 0;           ///< of the image readers; 0: all cores
-    bool validation = false;   ///< run the validation layer; its messages are an error
-    std::string weather_name;  ///< for frames.jsonl
-    std::string command;       ///< how to go on after a stop: the command line with --resume
-    StopRequest stop = {};     ///< asked between frames
+    bool resume = false;  ///< keep frames whose files have the hashes they were written with and
+                          ///< that would come out the same
+    bool verify = false;  ///< with resume: also decode the pictures and compare their pixels
+    std::string device;   ///< as in gpu::RendererOptions
+    std::uint64_t memory_budget = 0;  ///< bytes that the scene may take; 0: default_memory_budget()
+    int threads = 0;                  ///< of the image readers; 0: all cores
+    bool validation = false;          ///< run the validation layer; its messages are an error
+    std::string weather_name;         ///< for frames.jsonl
+    std::string command;              ///< how to go on after a stop: the command line with --resume
+    StopRequest stop = {};            ///< asked between frames
     RenderWatcher* watcher = nullptr;
 };
 

@@ -34,7 +34,7 @@ LoadedScene load(const Scenario& scenario, int threads)
                         did_you_mean(file, {kDemoStreet}),
                     std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
     }
-    return read_scene(scenario.folder / file);
+    return read_scene(scenario.folder / file, scenario.scene.allow_outside);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 #include "film/jobs/weather_source.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -10,6 +8,7 @@
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "film/scenario/weather_script.h"
+#include "film/toml/toml_value.h"
 #include "film/weather/inputs.h"
 #include "film/weather/weather_input.h"
 
@@ -17,18 +16,6 @@ namespace petrichor::film {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file)
-{
-    const auto refuse = [&] {
-        throw Error("weather: cannot read " + file.string(), "Check the name of the file.");
-    };
-    if (fs::is_directory(file)) refuse();
-    std::ifstream in(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in) refuse();
-    return text;
-}
 
 WeatherSource from_script(WeatherScript script, std::string name)
 {
@@ -59,14 +46,15 @@ WeatherSource named(const std::string& asked, const fs::path& folder)
     for (const std::string& preset : presets) {
         if (preset != asked) continue;
         const fs::path file = data_folder() / "weather" / (preset + ".toml");
-        return from_script(read_weather_script(text_of(file), file.filename().string()), preset);
+        return from_script(
+            read_weather_script(read_toml_text(file, "weather"), file.filename().string()), preset);
     }
     for (const fs::path& file : {folder / asked, fs::path(asked)}) {
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) continue;
-        const std::string name = fs::path(asked).stem().string();
+        const std::string name = printable(fs::path(asked).stem().string());
         if (file.extension() == ".toml")
-            return from_script(read_weather_script(text_of(file), asked), name);
+            return from_script(read_weather_script(read_toml_text(file, "weather"), asked), name);
         return from_weather_file(file, name);
     }
     throw Error(

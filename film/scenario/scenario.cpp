@@ -306,12 +306,11 @@ Scenario read_scenario(const std::filesystem::path& file)
         throw Error("scenario: " + file.string() + " is a folder",
                     "Name a scenario (.toml) or a scene (.glb, .gltf) in it.");
     }
-    std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in) {
+    if (!std::filesystem::exists(file)) {
         throw Error("scenario: cannot read " + file.string(),
                     "Check the name; `petrichor init NAME` writes a scenario to start from.");
     }
+    const std::string text = read_toml_text(file, "scenario");
     Scenario scenario = parse_scenario(text, file.string());
     scenario.folder = file.parent_path();
     return scenario;

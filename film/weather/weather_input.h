@@ -21,6 +21,7 @@ struct SiteOptions {
     std::string month;                   ///< "2024-02": of METAR reports, which name only the day
     std::string missing_precip = "dry";  ///< dry or estimate
     std::string ignore;                  ///< columns that may stay unread, by comma, or all
+    double max_gap_days = 60.0;          ///< between two rows; longer ones are asked about
     std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups
 };
 
@@ -29,7 +30,8 @@ struct SiteOptions {
 SiteOptions with_site_table(SiteOptions options, const std::string& toml_text);
 
 /// Reads weather files as one series, filled, with the sensor heights of the options.
-///   throws  Error as weather::read_weather_files, and for heights or months out of range
+///   throws  Error as weather::read_weather_files, for heights or months out of range, and for a
+///           gap of more than max_gap_days: years without weather are a slip more often than a wish
 weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOptions& options);
 
 /// The artist model's script of a weather file: the map of artist_keys(). time_s counts seconds of
