@@ -217,6 +217,16 @@ void report_weather(const Sequence& sequence)
             std::cerr << line << "\n";
         }
     }
+    const ScenarioSun& sun = sequence.scenario.sun;
+    const bool own_sun = sun.time_of_day_hours.given() || sun.elevation_degrees.given() ||
+                         sun.azimuth_degrees.given();
+    for (const SequenceVariant& variant : sequence.variants) {
+        if (!own_sun || !variant.weather.at(0.0).sun) continue;
+        std::cerr << "info sun: [sun] of the scenario is used, not the place and clock of "
+                  << variant.weather.name
+                  << "; leave its angles and hours out to follow the file\n";
+        break;
+    }
 }
 
 // The log line at the start, and a progress line.
