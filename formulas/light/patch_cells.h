@@ -1,0 +1,115 @@
+// Where the patches of a scene lie (scene/patches/patches.h): the key of a cell, the place of a key
+// in the table, sky bins and the directions of visibility bits. Rows told once for C++ and GLSL.
+#ifndef PETRICHOR_FORMULAS_LIGHT_PATCH_CELLS_H
+#define PETRICHOR_FORMULAS_LIGHT_PATCH_CELLS_H
+
+#include "base/interop.h"
+#include "formulas/codec/octahedral.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kSkyBinsAcross = 32;  // octahedral, whole sphere
+SHARED_CONST int kSkyBins = 1024;
+SHARED_CONST int kVisibilityAcross = 16;  // hemi-octahedral about +y
+SHARED_CONST int kPatchLevels = 16;
+// A cell of level 0 is counted from here, so that no index is negative: 2^19 cells along an axis.
+SHARED_CONST int kPatchCellBias = 262144;
+// The grid is shifted by an irrational share of a cell: surfaces at whole metres are then not on a
+// border.
+SHARED_CONST float kPatchGridShift = 0.41421356f;
+
+struct PatchKey {
+    uint low;   // x: 19 bits, y: 13
+    uint high;  // y: 6, z: 19, axis: 3, level: 4
+};
+
+// Cell of level 0 that holds the point; inverse_cell = 1 / edge of a cell of level 0.
+SHARED_FN ivec3 patch_cell(vec3 x, float inverse_cell)
+{
+    const vec3 c = floor(x * inverse_cell + vec3(kPatchGridShift));
+    return ivec3(int(c.x), int(c.y), int(c.z)) + ivec3(kPatchCellBias);
+}
+
+// Of a cell counted in its own level: cell of level 0 >> level. No two cells share a key.
+SHARED_FN PatchKey patch_key(ivec3 cell, int axis, int level)
+{
+    const uint x = uint(cell.x) & 0x7ffffu;
+    const uint y = uint(cell.y) & 0x7ffffu;
+    const uint z = uint(cell.z) & 0x7ffffu;
+    PatchKey key;
+    key.low = x | (y << 19);
+    key.high = (y >> 13) | (z << 6) | (uint(axis) << 25) | (uint(level) << 28);
+    return key;
+}
+
+// Mixes all bits of a key; the table of nodes starts to look at this, modulo its size.
+SHARED_FN uint patch_key_hash(PatchKey key)
+{
+    uint h = key.low * 0x9e3779b1u ^ key.high * 0x85ebca77u;
+    h = h ^ (h >> 15);
+    h = h * 0x2c1b3c6du;
+    h = h ^ (h >> 12);
+    h = h * 0x297a2d39u;
+    return h ^ (h >> 15);
+}
+
+// The axis that a direction points along most: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z.
+SHARED_FN int patch_axis(vec3 n)
+{
+    const vec3 a = vec3(abs(n.x), abs(n.y), abs(n.z));
+    if (a.x >= a.y && a.x >= a.z) return n.x >= 0.0f ? 0 : 1;
+    if (a.y >= a.z) return n.y >= 0.0f ? 2 : 3;
+    return n.z >= 0.0f ? 4 : 5;
+}
+
+// Sky bin of a direction, unit.
+SHARED_FN int sky_bin(vec3 d)
+{
+    const vec2 p = octahedral_encode(d);
+    const float across = float(kSkyBinsAcross);
+    const int x = clamp(int((p.x * 0.5f + 0.5f) * across), 0, kSkyBinsAcross - 1);
+    const int y = clamp(int((p.y * 0.5f + 0.5f) * across), 0, kSkyBinsAcross - 1);
+    return y * kSkyBinsAcross + x;
+}
+
+// The middle of a sky bin, unit.
+SHARED_FN vec3 sky_bin_direction(int bin)
+{
+    const float across = float(kSkyBinsAcross);
+    const float u = (float(bin % kSkyBinsAcross) + 0.5f) / across * 2.0f - 1.0f;
+    const float v = (float(bin / kSkyBinsAcross) + 0.5f) / across * 2.0f - 1.0f;
+    return octahedral_decode(vec2(u, v));
+}
+
+// Direction of a visibility bit before it is made unit: texel centres, x fastest.
+SHARED_FN vec3 visibility_raw_direction(int texel)
+{
+    const float across = float(kVisibilityAcross);
+    const float u = (float(texel % kVisibilityAcross) + 0.5f) / across * 2.0f - 1.0f;
+    const float v = (float(texel / kVisibilityAcross) + 0.5f) / across * 2.0f - 1.0f;
+    const float x = 0.5f * (u + v);
+    const float z = 0.5f * (u - v);
+    return vec3(x, 1.0f - abs(x) - abs(z), z);
+}
+
+// Solid angle that a visibility bit stands for; all of them add up to 2 pi.
+SHARED_FN float visibility_solid_angle(int texel)
+{
+    const vec3 raw = visibility_raw_direction(texel);
+    const float length2 = dot(raw, raw);
+    const float step = 2.0f / float(kVisibilityAcross);
+    return 0.5f * step * step / (length2 * sqrt(length2));
+}
+
+// Place of an upward direction among the bits, in texels: 0.5 is the centre of the first.
+SHARED_FN vec2 visibility_texel(vec3 d)
+{
+    const float scale = 1.0f / (abs(d.x) + abs(d.y) + abs(d.z));
+    const vec2 uv = vec2((d.x + d.z) * scale, (d.x - d.z) * scale);
+    const float half_across = 0.5f * float(kVisibilityAcross);
+    return vec2((uv.x + 1.0f) * half_across, (uv.y + 1.0f) * half_across);
+}
+
+SHARED_END
+
+#endif
