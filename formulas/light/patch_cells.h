@@ -16,7 +16,7 @@ SHARED_CONST int kPatchLevels = 16;
 SHARED_CONST int kPatchCellBias = 262144;
 // The grid is shifted by an irrational share of a cell: surfaces at whole metres are then not on a
 // border.
-SHARED_CONST float kPatchGridShift = 0.41421356f;
+SHARED_CONST float kPatchGridShift = 0.61803399f;
 
 struct PatchKey {
     uint low;   // x: 19 bits, y: 13

@@ -1,0 +1,468 @@
+#include "scene/patches/detail/cells.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "scene/patches/detail/sampling.h"
+
+namespace petrichor::scene {
+
+float ray_lift_m(glm::vec3 position, float regular_cell_m)
+{
+    const float far =
+        std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    return std::min(0.002f, 0.0057f * regular_cell_m) + 1e-6f * far;
+}
+
+std::uint32_t CellMap::find(shared::PatchKey key) const
+{
+    if (slots_.empty()) return kNone;
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = shared::patch_key_hash(key) & mask;; i = (i + 1) & mask) {
+        const Slot& slot = slots_[i];
+        if (slot.value == kNone) return kNone;
+        if (slot.key.low == key.low && slot.key.high == key.high) return slot.value;
+    }
+}
+
+std::uint32_t CellMap::find_or_add(shared::PatchKey key, std::uint32_t fresh)
+{
+    if (used_ * 2 >= slots_.size()) grow();
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = shared::patch_key_hash(key) & mask;; i = (i + 1) & mask) {
+        Slot& slot = slots_[i];
+        if (slot.value == kNone) {
+            slot = {key, fresh};
+            ++used_;
+            return fresh;
+        }
+        if (slot.key.low == key.low && slot.key.high == key.high) return slot.value;
+    }
+}
+
+void CellMap::grow()
+{
+    std::vector<Slot> old(slots_.empty() ? 1024 : slots_.size() * 2);
+    old.swap(slots_);
+    used_ = 0;
+    for (const Slot& slot : old) {
+        if (slot.value != kNone) find_or_add(slot.key, slot.value);
+    }
+}
+
+namespace {
+
+// Samples of a face: one every cell^2 / 48, as the reference has it.
+constexpr float kSamplesACell = 48.0f;
+// More than this are never held at once, 28 bytes each.
+constexpr std::size_t kMostRawSamples = 6'000'000;
+constexpr std::size_t kTrianglesAJob = 2048;
+// A triangle larger than so many cells is quartered, so that what lies in finished cells is skipped.
+constexpr float kCellsAPiece = 16.0f;
+constexpr int kDeepestQuartering = 24;
+
+struct RawSample {
+    shared::PatchKey key;
+    PatchSample point;
+    float area_m2;
+};
+
+// A part of a triangle, in barycentric coordinates of the whole.
+struct Piece {
+    Barycentric a, b, c;
+    std::uint64_t hash;
+    int depth;
+};
+
+Barycentric middle(Barycentric p, Barycentric q)
+{
+    return {0.5f * (p.b1 + q.b1), 0.5f * (p.b2 + q.b2)};
+}
+
+// What is known of a cell and those above it.
+enum class Known { Nothing, Split, Done };
+
+class Grower {
+public:
+    Grower(const Tracer& tracer, const CellPlan& plan, const PatchOptions& options)
+        : tracer_(tracer), triangles_(tracer.triangles()), plan_(plan), options_(options)
+    {
+    }
+
+    bool grow()
+    {
+        for (level_ = plan_.levels - 1; level_ >= 0; --level_) {
+            if (level_ == 0 && !options_.split_by_sight) break;
+            if (options_.stop && options_.stop())
+                throw Interrupted("interrupted while the scene was cut into patches");
+            if (options_.progress) {
+                options_.progress("patches", static_cast<float>(plan_.levels - 1 - level_) /
+                                                 static_cast<float>(plan_.levels));
+            }
+            if (!grow_level()) return false;
+        }
+        settle();
+        return true;
+    }
+
+    std::vector<Cell> take() { return std::move(cells_); }
+
+private:
+    bool grow_level();
+    void sample_triangle(std::uint32_t t, std::vector<RawSample>& out) const;
+    void sample_side(std::uint32_t t, const Piece& piece, float area, bool back,
+                     std::vector<RawSample>& out) const;
+    Known known(glm::ivec3 cell0, int axis, int level) const;
+    bool finished(const glm::vec3& low, const glm::vec3& high, int axis) const;
+    bool wants(glm::ivec3 cell0, int axis) const;
+    std::uint32_t add_cell(shared::PatchKey key);
+    void examine(Cell& cell, const RawSample* const* raw, std::size_t count) const;
+    bool buried(const SamplePoint& point, std::uint64_t hash, float& inverse_distances,
+                int& rays) const;
+    bool parted(const Cell& cell) const;
+    void settle();
+
+    float cell_edge_m(int level) const
+    {
+        return plan_.cell_m * static_cast<float>(std::uint32_t{1} << level);
+    }
+
+    const Tracer& tracer_;
+    const Triangles& triangles_;
+    CellPlan plan_;
+    const PatchOptions& options_;
+    int level_ = 0;
+    CellMap map_;
+    std::vector<Cell> cells_;
+};
+
+Known Grower::known(glm::ivec3 cell0, int axis, int level) const
+{
+    for (; level < plan_.levels; ++level) {
+        const std::uint32_t found = map_.find(key_of(cell0, axis, level));
+        if (found == CellMap::kNone) continue;
+        return cells_[found].state == CellState::Split ? Known::Split : Known::Done;
+    }
+    return Known::Nothing;
+}
+
+// Whether a sample of this level is wanted there: no cell above is done.
+bool Grower::wants(glm::ivec3 cell0, int axis) const
+{
+    if (level_ == 0) {  // only cuts cells that a wall parts: those exist
+        const std::uint32_t found = map_.find(key_of(cell0, axis, 1));
+        return found != CellMap::kNone && cells_[found].state == CellState::Split;
+    }
+    return known(cell0, axis, level_ + 1) != Known::Done;
+}
+
+// Whether all that a box touches is done. Asked at the finest level at which that takes few
+// questions, so that a plain of 10 km ends at its first piece.
+bool Grower::finished(const glm::vec3& low, const glm::vec3& high, int axis) const
+{
+    const glm::ivec3 first = cell_of(low, plan_.cell_m), last = cell_of(high, plan_.cell_m);
+    for (int level = level_ + 1; level < plan_.levels; ++level) {
+        const glm::ivec3 a{first.x >> level, first.y >> level, first.z >> level};
+        const glm::ivec3 b{last.x >> level, last.y >> level, last.z >> level};
+        const std::int64_t many =
+            std::int64_t{b.x - a.x + 1} * (b.y - a.y + 1) * std::int64_t{b.z - a.z + 1};
+        if (many > 64) continue;
+        // Cells that nothing was found in hold air, or slivers that no sample met.
+        bool any = false;
+        for (int z = a.z; z <= b.z; ++z) {
+            for (int y = a.y; y <= b.y; ++y) {
+                for (int x = a.x; x <= b.x; ++x) {
+                    const Known there = known({x << level, y << level, z << level}, axis, level);
+                    if (there == Known::Split) return false;
+                    any = any || there == Known::Done;
+                }
+            }
+        }
+        return any;
+    }
+    return false;
+}
+
+void Grower::sample_side(std::uint32_t t, const Piece& whole, float whole_area, bool back,
+                         std::vector<RawSample>& out) const
+{
+    const float edge = cell_edge_m(level_);
+    const float spacing = edge * edge / kSamplesACell;
+    glm::vec3 n = triangles_.normal(t);
+    if (back) n = -n;
+    const int axis = shared::patch_axis(n);
+    std::vector<Piece> stack{whole};
+    while (!stack.empty()) {
+        const Piece piece = stack.back();
+        stack.pop_back();
+        const float area = whole_area / static_cast<float>(std::uint64_t{1} << (2 * piece.depth));
+        if (area > kCellsAPiece * edge * edge && piece.depth < kDeepestQuartering) {
+            const glm::vec3 a = triangles_.point(t, piece.a), b = triangles_.point(t, piece.b),
+                            c = triangles_.point(t, piece.c);
+            if (finished(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), axis)) continue;
+            const Barycentric ab = middle(piece.a, piece.b), bc = middle(piece.b, piece.c),
+                              ca = middle(piece.c, piece.a);
+            const int depth = piece.depth + 1;
+            stack.push_back({piece.a, ab, ca, mixed(piece.hash, 1), depth});
+            stack.push_back({ab, piece.b, bc, mixed(piece.hash, 2), depth});
+            stack.push_back({ca, bc, piece.c, mixed(piece.hash, 3), depth});
+            stack.push_back({bc, ca, ab, mixed(piece.hash, 4), depth});
+            continue;
+        }
+        const float expected = area / spacing;
+        const auto count = static_cast<int>(expected + unit_float(mixed(piece.hash, 11)));
+        if (count == 0) continue;
+        // Small triangles are drawn with their chance and stand for a whole share then.
+        const float weight = expected >= 1.0f ? area / static_cast<float>(count) : spacing;
+        const float shift_u = unit_float(mixed(piece.hash, 12));
+        const float shift_v = unit_float(mixed(piece.hash, 13));
+        if (out.size() > kMostRawSamples) return;
+        for (int k = 0; k < count; ++k) {
+            // R2 sequence (Roberts 2018), folded into the triangle.
+            float u = fraction(shift_u + 0.75487767f * static_cast<float>(k + 1));
+            float v = fraction(shift_v + 0.56984029f * static_cast<float>(k + 1));
+            if (u + v > 1.0f) {
+                u = 1.0f - u;
+                v = 1.0f - v;
+            }
+            const Barycentric at{
+                piece.a.b1 + u * (piece.b.b1 - piece.a.b1) + v * (piece.c.b1 - piece.a.b1),
+                piece.a.b2 + u * (piece.b.b2 - piece.a.b2) + v * (piece.c.b2 - piece.a.b2)};
+            const glm::ivec3 cell0 = cell_of(triangles_.point(t, at), plan_.cell_m);
+            if (!wants(cell0, axis) || triangles_.is_hole(t, at)) continue;
+            out.push_back({key_of(cell0, axis, level_), {t, at, back}, weight});
+        }
+    }
+}
+
+void Grower::sample_triangle(std::uint32_t t, std::vector<RawSample>& out) const
+{
+    // From the triangle itself, so that others may come and go.
+    std::uint64_t hash = mixed(options_.seed, static_cast<std::uint64_t>(level_));
+    for (const glm::vec3& p : {triangles_.corner(t), triangles_.edge1(t), triangles_.edge2(t)}) {
+        for (int k = 0; k < 3; ++k) hash = mixed(hash, std::bit_cast<std::uint32_t>(p[k]));
+    }
+    const float area = triangles_.area_m2(t);
+    const Piece whole{{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, hash, 0};
+    sample_side(t, whole, area, false, out);
+    if (triangles_.double_sided(t)) {
+        Piece other = whole;
+        other.hash = mixed(hash, 21);
+        sample_side(t, other, area, true, out);
+    }
+}
+
+std::uint32_t Grower::add_cell(shared::PatchKey key)
+{
+    const auto fresh = static_cast<std::uint32_t>(cells_.size());
+    const std::uint32_t found = map_.find_or_add(key, fresh);
+    if (found == fresh) {
+        cells_.push_back({});
+        cells_.back().key = key;
+    }
+    return found;
+}
+
+// Three rays; where one meets the back of a single-sided face, five more. Adds up 1 / distance of
+// the rays, each at least a regular cell long.
+bool Grower::buried(const SamplePoint& point, std::uint64_t hash, float& inverse_distances,
+                    int& rays) const
+{
+    const float regular = cell_edge_m(1);
+    const glm::vec3 origin =
+        point.position_m + point.normal * ray_lift_m(point.position_m, regular);
+    int backs = 0;
+    float sum = 0.0f;
+    int traced = 0;
+    for (int r = 0; r < 8; ++r) {
+        if (r == 3 && backs == 0) break;
+        const float u = (static_cast<float>(r) + unit_float(hash)) / 8.0f;
+        // 0, 3, 6, 1, ...: the first three cover all heights.
+        const float height = fraction(u * 3.0f);
+        const float turn =
+            fraction(kGoldenRatio * static_cast<float>(r) + unit_float(mixed(hash, 5)));
+        const glm::vec3 d = cosine_direction(point.normal, height, turn);
+        const RayHit hit = tracer_.nearest({origin, d});
+        ++traced;
+        if (!hit.hit()) continue;
+        if (hit.back && !triangles_.double_sided(hit.triangle)) ++backs;
+        sum += 1.0f / std::max(hit.distance_m, regular);
+    }
+    if (backs >= 2) return true;
+    inverse_distances += sum;
+    rays += traced;
+    return false;
+}
+
+// Two groups of samples, a fifth of them or more each, that do not see one another.
+bool Grower::parted(const Cell& cell) const
+{
+    const float lift = 0.12f * cell_edge_m(1);
+    std::array<glm::vec3, kPatchSamples> points;
+    std::array<int, kPatchSamples> group;
+    for (int i = 0; i < cell.points; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const SamplePoint point = sample_point(triangles_, cell.samples[k]);
+        points[k] = point.position_m + point.normal * lift;
+        group[k] = i;
+    }
+    const auto root = [&](int i) {
+        while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
+        return i;
+    };
+    // Neighbours in the list first: where nothing is in the way, that joins all.
+    int groups = cell.points;
+    for (int step = 1; step < cell.points && groups > 1; ++step) {
+        for (int i = 0; i + step < cell.points && groups > 1; ++i) {
+            const int a = root(i), b = root(i + step);
+            if (a == b) continue;
+            if (tracer_.blocked_between(points[static_cast<std::size_t>(i)],
+                                        points[static_cast<std::size_t>(i + step)]))
+                continue;
+            group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+            --groups;
+        }
+    }
+    int large = 0;
+    for (int r = 0; r < cell.points; ++r) {
+        int members = 0;
+        for (int i = 0; i < cell.points; ++i) members += root(i) == r ? 1 : 0;
+        if (members * 5 >= cell.points) ++large;
+    }
+    return large >= 2;
+}
+
+void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count) const
+{
+    const std::uint64_t hash = mixed(options_.seed, whole_key(cell.key));
+    float inverse_distances = 0.0f;
+    int rays = 0;
+    int tested = 0;
+    // A stride through all samples first, then the ones beside them.
+    const std::size_t wanted = std::min<std::size_t>(count, kPatchSamples);
+    const std::size_t rounds = std::min<std::size_t>((count + wanted - 1) / wanted, 3);
+    for (std::size_t round = 0; round < rounds; ++round) {
+        for (std::size_t k = 0; k < wanted && cell.points < kPatchSamples; ++k) {
+            const std::size_t first = k * count / wanted, last = (k + 1) * count / wanted;
+            const std::size_t at = first + round * std::max<std::size_t>((last - first) / rounds, 1);
+            if (at >= last) continue;
+            ++tested;
+            const PatchSample& sample = raw[at]->point;
+            const SamplePoint point = sample_point(triangles_, sample);
+            if (buried(point, mixed(hash, at), inverse_distances, rays)) continue;
+            cell.samples[static_cast<std::size_t>(cell.points++)] = sample;
+            cell.position_m += point.position_m;
+            cell.normal += point.normal;
+        }
+    }
+    if (cell.points == 0) {
+        cell.state = CellState::Buried;
+        return;
+    }
+    float area = 0.0f;
+    for (std::size_t i = 0; i < count; ++i) area += raw[i]->area_m2;
+    cell.area_m2 = area * static_cast<float>(cell.points) / static_cast<float>(tested);
+    cell.position_m = cell.position_m / static_cast<float>(cell.points);
+    const float length = std::sqrt(glm::dot(cell.normal, cell.normal));
+    cell.normal = length > 1e-3f ? cell.normal / length
+                                 : sample_point(triangles_, cell.samples[0]).normal;
+    cell.state = CellState::Leaf;
+    if (level_ > 1) {
+        // Ward 1988: the harmonic mean distance of what is seen.
+        const float mean = inverse_distances / static_cast<float>(std::max(rays, 1));
+        if (cell_edge_m(level_) * mean > 0.25f) cell.state = CellState::Split;
+    } else if (level_ == 1 && options_.split_by_sight && parted(cell)) {
+        cell.state = CellState::Split;
+    }
+}
+
+bool Grower::grow_level()
+{
+    // Samples, in the order of the triangles.
+    const std::size_t jobs = (triangles_.size() + kTrianglesAJob - 1) / kTrianglesAJob;
+    std::vector<std::vector<RawSample>> found(jobs);
+    std::atomic<std::size_t> total{0};
+    parallel_for(jobs, options_.threads, [&](std::size_t job) {
+        if (total >= kMostRawSamples) return;
+        const auto first = static_cast<std::uint32_t>(job * kTrianglesAJob);
+        const auto last = std::min(first + static_cast<std::uint32_t>(kTrianglesAJob),
+                                   triangles_.size());
+        for (std::uint32_t t = first; t < last && found[job].size() < kMostRawSamples; ++t)
+            sample_triangle(t, found[job]);
+        total += found[job].size();
+    });
+    // Whatever the threads did when they stopped early: the whole is too much either way.
+    if (total >= kMostRawSamples) return false;
+
+    // Group by cell.
+    const std::size_t before = cells_.size();
+    std::vector<std::uint32_t> cell_of_sample;
+    cell_of_sample.reserve(total);
+    for (const auto& list : found) {
+        for (const RawSample& sample : list) {
+            cell_of_sample.push_back(add_cell(sample.key));
+            if (cells_.size() - before > std::size_t{plan_.most} * 2) return false;
+        }
+    }
+    const std::size_t fresh = cells_.size() - before;
+    std::vector<std::size_t> start(fresh + 1, 0);
+    for (const std::uint32_t c : cell_of_sample) ++start[c - before + 1];
+    for (std::size_t i = 0; i < fresh; ++i) start[i + 1] += start[i];
+    std::vector<const RawSample*> grouped(cell_of_sample.size());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    std::size_t number = 0;
+    for (const auto& list : found) {
+        for (const RawSample& sample : list) grouped[next[cell_of_sample[number++] - before]++] = &sample;
+    }
+
+    parallel_for(fresh, options_.threads, [&](std::size_t i) {
+        examine(cells_[before + i], grouped.data() + start[i], start[i + 1] - start[i]);
+    });
+
+    // Parents that got no sample of their own.
+    for (std::size_t i = before; i < before + fresh; ++i) {
+        for (shared::PatchKey key = cells_[i].key; level_of(key) + 1 < plan_.levels;) {
+            key = parent_of(key);
+            const std::size_t known = cells_.size();
+            add_cell(key);
+            if (cells_.size() == known) break;
+        }
+    }
+    std::size_t leaves = 0;
+    for (const Cell& cell : cells_) leaves += cell.state == CellState::Leaf ? 1 : 0;
+    return leaves <= plan_.most;
+}
+
+// Split cells without a living child are leaves, or nothing.
+void Grower::settle()
+{
+    std::vector<std::size_t> order(cells_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return level_of(cells_[a].key) < level_of(cells_[b].key);
+    });
+    std::vector<bool> has_child(cells_.size(), false);
+    for (const std::size_t i : order) {
+        Cell& cell = cells_[i];
+        if (cell.state == CellState::Split && !has_child[i])
+            cell.state = cell.points > 0 ? CellState::Leaf : CellState::Buried;
+        if (cell.state == CellState::Buried || level_of(cell.key) + 1 >= plan_.levels) continue;
+        const std::uint32_t parent = map_.find(parent_of(cell.key));
+        if (parent != CellMap::kNone) has_child[parent] = true;
+    }
+}
+
+}  // namespace
+
+std::optional<std::vector<Cell>> grow_cells(const Tracer& tracer, const CellPlan& plan,
+                                            const PatchOptions& options)
+{
+    Grower grower(tracer, plan, options);
+    if (!grower.grow()) return std::nullopt;
+    return grower.take();
+}
+
+}  // namespace petrichor::scene

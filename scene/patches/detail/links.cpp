@@ -1,0 +1,212 @@
+#include "scene/patches/detail/links.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <string_view>
+
+#include "base/parallel.h"
+#include "scene/patches/detail/cells.h"
+#include "scene/patches/detail/sampling.h"
+
+namespace petrichor::scene {
+namespace {
+
+constexpr std::size_t kPatchesAJob = 64;
+constexpr float kOpen_m = 0.5f;  // the radius of the screen's ambient occlusion
+constexpr int kRedraws = 3;      // of a ray that starts inside something
+
+// body(patch) for all patches, in jobs; says now and then how far it is.
+template <class Body>
+void over_patches(const Patches& patches, const PatchOptions& options, std::string_view what,
+                  const Body& body)
+{
+    const std::size_t jobs = (patches.count + kPatchesAJob - 1) / kPatchesAJob;
+    std::atomic<std::size_t> done{0};
+    std::mutex telling;
+    parallel_for(jobs, options.threads, [&](std::size_t job) {
+        if (options.stop && options.stop())
+            throw Interrupted("interrupted while the scene's light was traced");
+        const auto first = static_cast<std::uint32_t>(job * kPatchesAJob);
+        const std::uint32_t last =
+            std::min(first + static_cast<std::uint32_t>(kPatchesAJob), patches.count);
+        for (std::uint32_t patch = first; patch < last; ++patch) body(patch);
+        const std::size_t now = ++done;
+        if (options.progress && now % 32 == 0) {
+            const std::lock_guard lock(telling);
+            options.progress(what, static_cast<float>(now) / static_cast<float>(jobs));
+        }
+    });
+}
+
+SamplePoint point_of(const Patches& patches, const Triangles& triangles, std::uint32_t patch,
+                     std::uint64_t k)
+{
+    return sample_point(triangles, patches.samples[std::size_t{patch} * kPatchSamples +
+                                                   k % static_cast<std::uint64_t>(kPatchSamples)]);
+}
+
+// Where the light of a hit comes from; black when the ray started inside a body.
+std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray,
+                           const RayHit& hit)
+{
+    glm::vec3 n = triangles.normal(hit.triangle);
+    if (hit.back) n = -n;
+    const auto found = patch_at(patches, ray.origin + ray.direction * hit.distance_m, n);
+    return found ? *found : patches.black();
+}
+
+}  // namespace
+
+void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options)
+{
+    const Triangles& triangles = tracer.triangles();
+    const float regular = patches.level_cell_m(1);
+    patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
+    patches.sky_view.resize(patches.count);
+    over_patches(patches, options, "links", [&](std::uint32_t patch) {
+        const std::uint64_t hash = mixed(options.seed, whole_key(patches.key[patch]));
+        std::uint16_t* row =
+            patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
+        int sky = 0;
+        int far = 0;
+        for (int r = 0; r < patches.rays; ++r) {
+            std::uint32_t id = patches.black();
+            for (int draw = 0; draw <= kRedraws; ++draw) {
+                const std::uint64_t which =
+                    mixed(hash, static_cast<std::uint64_t>(r * (kRedraws + 1) + draw));
+                const SamplePoint from = point_of(patches, triangles, patch, which >> 7);
+                const Ray ray{
+                    from.position_m + from.normal * ray_lift_m(from.position_m, regular),
+                    row_direction(from.normal, r, patches.rays, hash)};
+                const RayHit hit = tracer.nearest(ray);
+                if (!hit.hit()) {
+                    id = patches.count + static_cast<std::uint32_t>(shared::sky_bin(ray.direction));
+                    sky += ray.direction.y > 0.0f ? 1 : 0;
+                    ++far;
+                    break;
+                }
+                if (hit.back && !triangles.double_sided(hit.triangle)) continue;
+                id = patch_of_hit(patches, triangles, ray, hit);
+                far += hit.distance_m > kOpen_m ? 1 : 0;
+                break;
+            }
+            row[r] = static_cast<std::uint16_t>(id);
+        }
+        patches.sky_view[patch] = static_cast<float>(sky) / static_cast<float>(patches.rays);
+        patches.open[patch] = static_cast<float>(far) / static_cast<float>(patches.rays);
+    });
+    std::vector<glm::vec4> open(patches.count);
+    for (std::uint32_t i = 0; i < patches.count; ++i) open[i] = glm::vec4(patches.open[i]);
+    open = with_interior(patches, open);
+    for (std::uint32_t i = 0; i < patches.nodes(); ++i) patches.open[i] = open[i].x;
+}
+
+namespace {
+
+constexpr int kSegments = 4;
+
+// Up to four leaves below a node, by their order.
+void leaves_below(const Patches& patches, std::uint32_t node, std::vector<std::uint32_t>& leaves)
+{
+    if (leaves.size() >= kSegments) return;
+    if (node < patches.count) {
+        leaves.push_back(node);
+        return;
+    }
+    const std::uint32_t i = node - patches.count;
+    for (std::uint32_t c = patches.children_first[i]; c < patches.children_first[i + 1]; ++c)
+        leaves_below(patches, patches.children[c], leaves);
+}
+
+// Points of the surface of `node` near a cell, above the surface.
+void points_near(const Patches& patches, const Triangles& triangles, std::uint32_t node, int level,
+                 glm::vec3 middle, float lift, std::array<glm::vec3, kSegments>& points)
+{
+    if (node < patches.count && level_of(patches.key[node]) > level) {
+        // A coarse leaf: the foot of the cell's middle on its plane.
+        const glm::vec3 n = patches.normal[node];
+        const float above = glm::dot(n, middle - patches.position_m[node]);
+        points.fill(middle - n * above + n * lift);
+        return;
+    }
+    std::vector<std::uint32_t> leaves;
+    leaves_below(patches, node, leaves);
+    for (std::size_t k = 0; k < kSegments; ++k) {
+        const std::uint32_t leaf = leaves[k % leaves.size()];
+        const SamplePoint p = point_of(patches, triangles, leaf, 5 * k + 1);
+        points[k] = p.position_m + p.normal * lift;
+    }
+}
+
+}  // namespace
+
+void connect(Patches& patches, const Tracer& tracer, const PatchOptions& options)
+{
+    const Triangles& triangles = tracer.triangles();
+    over_patches(patches, options, "connections", [&](std::uint32_t patch) {
+        const shared::PatchKey key = patches.key[patch];
+        const int level = level_of(key), axis = axis_of(key);
+        const glm::ivec3 own = cell_in(key);
+        const float edge = patches.level_cell_m(level);
+        const float lift = 0.12f * edge;
+        std::uint32_t bits = 1u << 13;
+        for (int n = 0; n < 27; ++n) {
+            if (n == 13) continue;
+            const glm::ivec3 there = own + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+            std::uint32_t node = Patches::kNoNode;
+            for (int l = level; l < patches.levels && node == Patches::kNoNode; ++l)
+                node = find_node(patches, shared::patch_key({there.x >> (l - level),
+                                                             there.y >> (l - level),
+                                                             there.z >> (l - level)},
+                                                            axis, l));
+            if (node == Patches::kNoNode) continue;
+            const glm::vec3 middle =
+                (glm::vec3(there - glm::ivec3(shared::kPatchCellBias >> level)) + 0.5f) * edge -
+                shared::kPatchGridShift * patches.cell_m;
+            std::array<glm::vec3, kSegments> to;
+            points_near(patches, triangles, node, level, middle, lift, to);
+            int seen = 0;
+            for (std::size_t k = 0; k < kSegments; ++k) {
+                const SamplePoint p = point_of(patches, triangles, patch, 4 * k + 2);
+                seen += tracer.blocked_between(p.position_m + p.normal * lift, to[k]) ? 0 : 1;
+                if (seen == 2) break;
+            }
+            if (seen >= 2) bits |= 1u << n;
+        }
+        patches.connected[patch] = bits;
+    });
+}
+
+void trace_visibility(Patches& patches, const Tracer& tracer, const PatchOptions& options)
+{
+    const Triangles& triangles = tracer.triangles();
+    const float regular = patches.level_cell_m(1);
+    constexpr int kBits = shared::kVisibilityAcross * shared::kVisibilityAcross;
+    std::array<glm::vec3, kBits> directions;
+    std::array<std::uint64_t, kBits> which;
+    for (int bit = 0; bit < kBits; ++bit) {
+        const auto at = static_cast<std::size_t>(bit);
+        const glm::vec3 raw = shared::visibility_raw_direction(bit);
+        directions[at] = raw / std::sqrt(glm::dot(raw, raw));
+        which[at] = mixed(options.seed, 1000 + at) >> 9;
+    }
+    patches.visible.assign(patches.count, {});
+    over_patches(patches, options, "visibility", [&](std::uint32_t patch) {
+        std::array<SamplePoint, kPatchSamples> points;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            points[k] = point_of(patches, triangles, patch, k);
+            points[k].position_m +=
+                points[k].normal * ray_lift_m(points[k].position_m, regular);
+        }
+        for (std::size_t bit = 0; bit < kBits; ++bit) {
+            const SamplePoint& from = points[which[bit] % kPatchSamples];
+            if (!(glm::dot(from.normal, directions[bit]) > 0.0f)) continue;
+            if (tracer.blocked({from.position_m, directions[bit]})) continue;
+            patches.visible[patch][bit >> 5] |= 1u << (bit & 31);
+        }
+    });
+}
+
+}  // namespace petrichor::scene
