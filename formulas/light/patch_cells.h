@@ -110,6 +110,43 @@ SHARED_FN vec2 visibility_texel(vec3 d)
     return vec2((uv.x + 1.0f) * half_across, (uv.y + 1.0f) * half_across);
 }
 
+// Nodes are numbered from 0; no node:
+SHARED_CONST uint kNoPatch = 0xffffffffu;
+
+// What a lookup needs to know about the grid.
+struct PatchGrid {
+    float cell_m;      // edge of a cell of level 0
+    uint levels;       // the coarsest level is levels - 1
+    uint patches;      // nodes from this number on are interior
+    uint table_mask;   // entries of the table - 1
+};
+
+// Light at a point, from the patches around it.
+struct PatchLight {
+    vec3 irradiance;  // W/m2 or lux by channel, without direct sun and lamps
+    float open;       // share of directions in which nothing is nearer than half a metre
+    vec3 gradient;    // how irradiance changes when the normal turns: irradiance_towards
+    float weight;     // 0: no patch is near
+    vec3 normal;      // mean of the patches, about unit
+};
+
+// Irradiance for a bent normal over that for the mean normal: radiance as a constant and a gradient
+// (spherical harmonics of order 1), the constant's share by what a tilted plane sees of the
+// hemisphere.
+SHARED_FN float irradiance_towards(vec3 gradient, vec3 normal, vec3 bent)
+{
+    const float even = 1.0f - dot(gradient, normal);
+    const float ratio =
+        even * 0.5f * (1.0f + dot(normal, bent)) + dot(gradient, bent);
+    return clamp(ratio, 0.2f, 2.0f);
+}
+
+// Relief that is smaller than a patch: the pixel's own occlusion over what the patch has of it.
+SHARED_FN float occlusion_ratio(float occlusion, float open)
+{
+    return min(occlusion / max(open, 0.05f), 2.0f);
+}
+
 SHARED_END
 
 #endif

@@ -1,13 +1,13 @@
 #include "scene/patches/patches.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/links.h"
+#include "scene/patches/detail/nodes.h"
 #include "scene/patches/detail/sampling.h"
 
 namespace petrichor::scene {
@@ -97,49 +97,6 @@ bool before(const shared::PatchKey& a, const shared::PatchKey& b)
     return whole_key(a) < whole_key(b);
 }
 
-void add_to_table(Patches& patches, std::uint32_t node)
-{
-    const std::size_t mask = patches.table.size() - 1;
-    const shared::PatchKey key = patches.key[node];
-    std::size_t i = shared::patch_key_hash(key) & mask;
-    while (patches.table[i].z != Patches::kNoNode) i = (i + 1) & mask;
-    patches.table[i] = {key.low, key.high, node, patches.connected[node]};
-}
-
-// Means of interior nodes from their children, finest level first.
-void fill_interior(Patches& patches)
-{
-    std::vector<std::vector<std::uint32_t>> below(patches.interior);
-    for (std::uint32_t node = 0; node < patches.nodes(); ++node) {
-        if (level_of(patches.key[node]) + 1 >= patches.levels) continue;
-        const std::uint32_t parent = find_node(patches, parent_of(patches.key[node]));
-        if (parent != Patches::kNoNode && parent >= patches.count)
-            below[parent - patches.count].push_back(node);
-    }
-    patches.children_first.assign(1, 0);
-    for (const auto& list : below) {
-        patches.children.insert(patches.children.end(), list.begin(), list.end());
-        patches.children_first.push_back(static_cast<std::uint32_t>(patches.children.size()));
-    }
-    // Keys are sorted by level first: interior nodes of a finer level come earlier.
-    for (std::uint32_t i = 0; i < patches.interior; ++i) {
-        const std::uint32_t node = patches.count + i;
-        glm::vec3 position(0.0f), normal(0.0f);
-        float area = 0.0f;
-        for (const std::uint32_t child : below[i]) {
-            const float a = patches.area_m2[child];
-            position += patches.position_m[child] * a;
-            normal += patches.normal[child] * a;
-            area += a;
-        }
-        patches.area_m2[node] = area;
-        patches.position_m[node] = area > 0.0f ? position / area : position;
-        const float length = std::sqrt(glm::dot(normal, normal));
-        patches.normal[node] =
-            length > 0.0f ? normal / length : patches.normal[below[i].front()];
-    }
-}
-
 void report(const PatchOptions& options, std::string_view what, float share)
 {
     if (options.stop && options.stop())
@@ -163,6 +120,7 @@ Patches assemble(std::vector<Cell>& cells, const Triangles& triangles, const Cel
     patches.cell_m = plan.cell_m;
     patches.levels = plan.levels;
     patches.rays = options.rays;
+    patches.seed = options.seed;
     patches.count = static_cast<std::uint32_t>(leaves.size());
     patches.interior = static_cast<std::uint32_t>(interior.size());
     const std::size_t nodes = patches.nodes();
@@ -184,10 +142,8 @@ Patches assemble(std::vector<Cell>& cells, const Triangles& triangles, const Cel
         for (int k = 0; k < kPatchSamples; ++k)
             patches.samples.push_back(cell.samples[static_cast<std::size_t>(k % cell.points)]);
     }
-    patches.table.assign(std::bit_ceil(std::max<std::size_t>(2 * nodes, 2)),
-                         glm::uvec4(0, 0, Patches::kNoNode, 0));
-    for (std::uint32_t node = 0; node < patches.nodes(); ++node) add_to_table(patches, node);
-    fill_interior(patches);
+    index_nodes(patches);
+    average_interior(patches);
     return patches;
 }
 
@@ -200,8 +156,8 @@ Patches build_patches(const Tracer& tracer, const PatchOptions& options)
     Patches patches;
     if (triangles.size() == 0) {
         patches.rays = options.rays;
-        patches.children_first = {0};
-        patches.table.assign(2, glm::uvec4(0, 0, Patches::kNoNode, 0));
+        patches.seed = options.seed;
+        index_nodes(patches);
         return patches;
     }
     float cell = first_cell_m(triangles, options);

@@ -56,6 +56,7 @@ struct Patches {
     float cell_m = 0.0f;      ///< edge of a cell of level 0, the finest
     int levels = 0;           ///< levels in use; the coarsest is levels - 1
     int rays = 0;             ///< links of each patch
+    std::uint32_t seed = 0;   ///< of all draws
     std::uint32_t count = 0;  ///< patches
     std::uint32_t interior = 0;
 

@@ -337,7 +337,7 @@ bool Grower::parted(const Cell& cell) const
 
 void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count) const
 {
-    const std::uint64_t hash = mixed(options_.seed, whole_key(cell.key));
+    const std::uint64_t hash = cell_hash(options_.seed, cell.key);
     float inverse_distances = 0.0f;
     int rays = 0;
     int tested = 0;

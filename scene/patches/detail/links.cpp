@@ -66,7 +66,7 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
     patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
     patches.sky_view.resize(patches.count);
     over_patches(patches, options, "links", [&](std::uint32_t patch) {
-        const std::uint64_t hash = mixed(options.seed, whole_key(patches.key[patch]));
+        const std::uint64_t hash = cell_hash(options.seed, patches.key[patch]);
         std::uint16_t* row =
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
         int sky = 0;

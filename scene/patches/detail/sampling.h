@@ -29,6 +29,11 @@ inline std::uint64_t whole_key(shared::PatchKey key)
 {
     return (std::uint64_t{key.high} << 32) | key.low;
 }
+/// What all draws of a cell are made from.
+inline std::uint64_t cell_hash(std::uint32_t seed, shared::PatchKey key)
+{
+    return mixed(seed, whole_key(key));
+}
 /// 0 <= x < 1, from the upper bits.
 inline float unit_float(std::uint64_t bits)
 {
@@ -64,11 +69,17 @@ inline glm::vec3 cosine_direction(glm::vec3 n, float u, float v)
     return d / std::sqrt(glm::dot(d, d));
 }
 
+/// By how much of a turn the directions of a row are turned about the normal.
+inline float row_turn(std::uint64_t hash)
+{
+    return unit_float(mixed(hash, 7));
+}
+
 /// The r-th of n directions that cover the hemisphere evenly, turned and shifted by a hash.
 inline glm::vec3 row_direction(glm::vec3 n, int r, int count, std::uint64_t hash)
 {
     const float u = (static_cast<float>(r) + unit_float(hash)) / static_cast<float>(count);
-    const float v = fraction(kGoldenRatio * static_cast<float>(r) + unit_float(mixed(hash, 7)));
+    const float v = fraction(kGoldenRatio * static_cast<float>(r) + row_turn(hash));
     return cosine_direction(n, u, v);
 }
 

@@ -1,0 +1,36 @@
+#ifndef PETRICHOR_SCENE_PATCHES_LOOKUP_H
+#define PETRICHOR_SCENE_PATCHES_LOOKUP_H
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "formulas/light/patch_cells.h"
+#include "scene/patches/patches.h"
+
+namespace petrichor::scene {
+
+/// What a lookup reads besides the light, one entry a node.
+std::vector<glm::vec4> lookup_planes(const Patches& patches);
+/// min(1, area / 0.3 cell^2), one entry a node: slivers count less.
+std::vector<float> lookup_sizes(const Patches& patches);
+shared::PatchGrid lookup_grid(const Patches& patches);
+
+/// Light of patches as pixels look it up: see formulas/light/patch_lookup.inc. Views: what they are
+/// made from must outlive them.
+struct LitPatches {
+    std::span<const glm::uvec4> table;
+    std::span<const glm::vec4> planes;
+    std::span<const glm::vec4> irradiance;  ///< of nodes; w: open
+    std::span<const glm::vec4> gradient;    ///< of nodes; w: lookup_sizes
+    shared::PatchGrid grid;
+};
+
+/// Light at a point of a surface, metres, with the normal of its geometry, unit. Weight 0 where no
+/// patch is near. The same text as the renderer's.
+shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal);
+
+}  // namespace petrichor::scene
+
+#endif

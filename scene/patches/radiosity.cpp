@@ -1,0 +1,282 @@
+#include "scene/patches/radiosity.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "scene/patches/detail/cells.h"
+#include "scene/patches/detail/sampling.h"
+#include "scene/patches/lookup.h"
+
+namespace petrichor::scene {
+namespace {
+
+constexpr float kMostAlbedo = 0.98f;
+constexpr std::size_t kRowsAJob = 512;
+constexpr float kLeastFactor = 1e-4f;
+constexpr float kLanternRadius_m = 0.35f;
+constexpr int kPairs = 4;
+
+// Four floats that one instruction adds: the compiler's own vectors, on any machine.
+using Four = float __attribute__((vector_size(16)));
+
+Four four(glm::vec3 v)
+{
+    return Four{v.x, v.y, v.z, 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z};
+}
+
+template <class Body>
+void over_rows(std::uint32_t count, int threads, const Body& body)
+{
+    const std::size_t jobs = (count + kRowsAJob - 1) / kRowsAJob;
+    parallel_for(jobs, threads, [&](std::size_t job) {
+        const auto first = static_cast<std::uint32_t>(job * kRowsAJob);
+        const std::uint32_t last =
+            std::min(first + static_cast<std::uint32_t>(kRowsAJob), count);
+        for (std::uint32_t i = first; i < last; ++i) body(i);
+    });
+}
+
+SamplePoint sample_of(const Patches& patches, const Triangles& triangles, std::uint32_t patch,
+                      std::size_t k)
+{
+    return sample_point(triangles,
+                        patches.samples[std::size_t{patch} * kPatchSamples + k % kPatchSamples]);
+}
+
+// The local directions of a row's rays before they are turned about the normal by a patch's own
+// angle, and the middle of their strata: enough for a gradient.
+std::vector<Four> row_pattern(int rays)
+{
+    std::vector<Four> pattern;
+    for (int r = 0; r < rays; ++r) {
+        const float u = (static_cast<float>(r) + 0.5f) / static_cast<float>(rays);
+        const auto turn =
+            portable_sin_cos(6.283185307179586 * static_cast<double>(kGoldenRatio) * r);
+        const float side = std::sqrt(u);
+        pattern.push_back(Four{side * static_cast<float>(turn.cosine),
+                               side * static_cast<float>(turn.sine), std::sqrt(1.0f - u), 0.0f});
+    }
+    return pattern;
+}
+
+// Radiance a + b . w over the hemisphere whose cosine-weighted moments are `mean` (share of the
+// light times direction, in the frame of the normal): E = pi a + 2 pi / 3 b_n, m_n = 2 pi / 3 a +
+// pi / 2 b_n, m_t = pi / 4 b_t, for E = 1. What is returned is 2 pi / 3 b, in the frame.
+glm::vec3 gradient_of(glm::vec3 mean)
+{
+    const float b_normal = (mean.z - 2.0f / 3.0f) * (18.0f / std::numbers::pi_v<float>);
+    const glm::vec3 b{4.0f / std::numbers::pi_v<float> * mean.x,
+                      4.0f / std::numbers::pi_v<float> * mean.y, b_normal};
+    glm::vec3 gradient = b * (2.0f * std::numbers::pi_v<float> / 3.0f);
+    // A radiance below zero nowhere: no more than all of it.
+    const float length = std::sqrt(glm::dot(gradient, gradient));
+    if (length > 1.0f) gradient = gradient / length;
+    return gradient;
+}
+
+}  // namespace
+
+GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
+                     std::span<const std::uint32_t> senders, int threads)
+{
+    assert(senders.size() <= 4096);
+    GlowLinks glow;
+    glow.senders.assign(senders.begin(), senders.end());
+    if (senders.empty()) return glow;
+    const Triangles& triangles = tracer.triangles();
+    const float regular = patches.level_cell_m(1);
+    struct Entry {
+        std::uint32_t sender;
+        float factor;
+    };
+    std::vector<std::vector<Entry>> rows(patches.count);
+    over_rows(patches.count, threads, [&](std::uint32_t i) {
+        const glm::vec3 x = patches.position_m[i], n = patches.normal[i];
+        for (std::uint32_t s = 0; s < senders.size(); ++s) {
+            const std::uint32_t j = senders[s];
+            if (j == i) continue;
+            const float area = patches.area_m2[j];
+            const glm::vec3 way = patches.position_m[j] - x;
+            const float far2 = glm::dot(way, way);
+            // The most that it can be, for patches that are small against their distance.
+            if (area < kLeastFactor * std::numbers::pi_v<float> * far2) continue;
+            const float size = std::sqrt(patches.area_m2[i]) + std::sqrt(area);
+            if (far2 > size * size &&
+                (glm::dot(way, n) < -0.7f * std::sqrt(far2) ||
+                 glm::dot(way, patches.normal[j]) > 0.7f * std::sqrt(far2)))
+                continue;
+            float sum = 0.0f;
+            for (std::size_t k = 0; k < kPairs; ++k) {
+                const SamplePoint from = sample_of(patches, triangles, i, 4 * k + 1);
+                const SamplePoint to = sample_of(patches, triangles, j, 4 * k + 3);
+                const glm::vec3 d = to.position_m - from.position_m;
+                const float r2 = glm::dot(d, d);
+                const float cosines = std::max(glm::dot(d, from.normal), 0.0f) *
+                                      std::max(-glm::dot(d, to.normal), 0.0f);
+                if (!(cosines > 0.0f)) continue;
+                const float kernel =
+                    cosines / r2 * area / (std::numbers::pi_v<float> * r2 + area);
+                if (kernel < kLeastFactor) continue;
+                if (tracer.blocked_between(
+                        from.position_m + from.normal * ray_lift_m(from.position_m, regular),
+                        to.position_m + to.normal * ray_lift_m(to.position_m, regular)))
+                    continue;
+                sum += kernel;
+            }
+            const float factor = sum / static_cast<float>(kPairs);
+            if (factor >= kLeastFactor) rows[i].push_back({s, factor});
+        }
+    });
+    glow.first.push_back(0);
+    for (const auto& row : rows) {
+        for (const Entry& entry : row) {
+            glow.sender.push_back(entry.sender);
+            glow.factor.push_back(entry.factor);
+        }
+        glow.first.push_back(static_cast<std::uint32_t>(glow.sender.size()));
+    }
+    return glow;
+}
+
+void add_sun(const Patches& patches, glm::vec3 towards_sun, glm::vec3 illuminance,
+             std::vector<glm::vec3>& direct)
+{
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const float cosine = glm::dot(patches.normal[i], towards_sun);
+        if (!(cosine > 0.0f)) continue;
+        direct[i] += illuminance * (cosine * visible_share(patches, i, towards_sun));
+    }
+}
+
+std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& tracer,
+                                     glm::vec3 position_m, float range_m, int threads)
+{
+    const Triangles& triangles = tracer.triangles();
+    const float regular = patches.level_cell_m(1);
+    std::vector<std::uint8_t> reached(patches.count, 0);
+    over_rows(patches.count, threads, [&](std::uint32_t i) {
+        const glm::vec3 way = position_m - patches.position_m[i];
+        const float size = patches.level_cell_m(level_of(patches.key[i]));
+        if (!(std::sqrt(glm::dot(way, way)) < range_m + size)) return;
+        int seen = 0;
+        for (std::size_t k = 0; k < kPairs; ++k) {
+            const SamplePoint from = sample_of(patches, triangles, i, 4 * k);
+            const glm::vec3 origin =
+                from.position_m + from.normal * ray_lift_m(from.position_m, regular);
+            const glm::vec3 d = position_m - origin;
+            const float length = std::sqrt(glm::dot(d, d));
+            if (!(glm::dot(d, from.normal) > 0.0f)) continue;
+            const bool blocked = length > kLanternRadius_m &&
+                                 tracer.blocked({origin, d / length, length - kLanternRadius_m});
+            seen += blocked ? 0 : 1;
+        }
+        reached[i] = static_cast<std::uint8_t>(seen * 255 / kPairs);
+    });
+    return reached;
+}
+
+PatchIrradiance relight(const Patches& patches, const Relight& input)
+{
+    assert(input.albedo.size() == patches.count && input.direct.size() == patches.count);
+    assert(input.emission.empty() || input.emission.size() == patches.count);
+    assert(input.sky.size() == static_cast<std::size_t>(shared::kSkyBins));
+    const std::uint32_t count = patches.count;
+    const bool glows = input.glow != nullptr && !input.glow->empty();
+
+    // What a patch sends by itself, seen by rows (`own`) and by pairs (`glow_light`).
+    std::vector<Four> own(count), albedo(count), glow_light(count, Four{});
+    std::vector<bool> linked(count, false);
+    if (glows) {
+        for (const std::uint32_t s : input.glow->senders) linked[s] = true;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 rho = glm::clamp(input.albedo[i], 0.0f, kMostAlbedo);
+        albedo[i] = Four{rho.x, rho.y, rho.z, 0.0f};
+        own[i] = four(rho * input.direct[i]);
+        if (!input.emission.empty() && !linked[i]) own[i] += four(input.emission[i]);
+    }
+    if (glows) {
+        over_rows(count, input.threads, [&](std::uint32_t i) {
+            Four sum{};
+            for (std::uint32_t e = input.glow->first[i]; e < input.glow->first[i + 1]; ++e) {
+                const float f = input.glow->factor[e];
+                const std::uint32_t j = input.glow->senders[input.glow->sender[e]];
+                sum += four(input.emission[j]) * Four{f, f, f, f};
+            }
+            glow_light[i] = sum;
+        });
+        for (std::uint32_t i = 0; i < count; ++i) own[i] += albedo[i] * glow_light[i];
+    }
+
+    std::vector<Four> sent(count + shared::kSkyBins + 1, Four{}), next(sent.size());
+    for (std::uint32_t i = 0; i < count; ++i) sent[i] = own[i];
+    for (std::size_t s = 0; s < static_cast<std::size_t>(shared::kSkyBins); ++s)
+        sent[count + s] = four(input.sky[s]);
+    next = sent;
+    const auto rays = static_cast<std::size_t>(patches.rays);
+    const float share = 1.0f / static_cast<float>(patches.rays);
+    const Four shares{share, share, share, share};
+    for (int bounce = 0; bounce < input.bounces; ++bounce) {
+        over_rows(count, input.threads, [&](std::uint32_t i) {
+            const std::uint16_t* row = patches.row(i);
+            // Two sums: an addition need not wait for the one before.
+            Four even{}, odd{};
+            std::size_t r = 0;
+            for (; r + 1 < rays; r += 2) {
+                even += sent[row[r]];
+                odd += sent[row[r + 1]];
+            }
+            if (r < rays) even += sent[row[r]];
+            next[i] = own[i] + albedo[i] * ((even + odd) * shares);
+        });
+        sent.swap(next);
+    }
+
+    // The light that falls, and where it comes from.
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 rgb{sent[i][0], sent[i][1], sent[i][2]};
+        sent[i] = four(rgb);
+    }
+    PatchIrradiance result;
+    std::vector<glm::vec4> irradiance(count), gradient(count);
+    result.radiosity.resize(count);
+    const std::vector<Four> pattern = row_pattern(patches.rays);
+    const std::vector<float> sizes = lookup_sizes(patches);
+    over_rows(count, input.threads, [&](std::uint32_t i) {
+        const std::uint16_t* row = patches.row(i);
+        Four sum{}, moment{};
+        for (std::size_t r = 0; r < rays; ++r) {
+            const Four light = sent[row[r]];
+            const float luminance = light[3];
+            sum += light;
+            moment += pattern[r] * Four{luminance, luminance, luminance, luminance};
+        }
+        const float all = sum[3];
+        glm::vec3 g(0.0f);
+        if (all > 0.0f) {
+            const glm::vec3 n = patches.normal[i];
+            const Tangents f = tangents_of(n);
+            const glm::vec3 mean =
+                gradient_of(glm::vec3(moment[0], moment[1], moment[2]) / all);
+            // Turned about the normal as the rays of this patch were.
+            const auto turn = portable_sin_cos(
+                6.283185307179586 *
+                static_cast<double>(row_turn(cell_hash(patches.seed, patches.key[i]))));
+            const auto c = static_cast<float>(turn.cosine), s = static_cast<float>(turn.sine);
+            g = f.t * (mean.x * c - mean.y * s) + f.b * (mean.x * s + mean.y * c) + n * mean.z;
+        }
+        sum = sum * shares + glow_light[i];
+        irradiance[i] = {sum[0], sum[1], sum[2], patches.open[i]};
+        gradient[i] = glm::vec4(g, sizes[i]);
+        result.radiosity[i] = {sent[i][0], sent[i][1], sent[i][2]};
+    });
+    result.irradiance = with_interior(patches, irradiance);
+    result.gradient = with_interior(patches, gradient);
+    for (std::uint32_t i = 0; i < patches.nodes(); ++i) result.gradient[i].w = sizes[i];
+    return result;
+}
+
+}  // namespace petrichor::scene

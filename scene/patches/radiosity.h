@@ -1,0 +1,70 @@
+#ifndef PETRICHOR_SCENE_PATCHES_RADIOSITY_H
+#define PETRICHOR_SCENE_PATCHES_RADIOSITY_H
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/patches/patches.h"
+
+namespace petrichor::scene {
+
+/// Light in units of the caller, by channel: irradiance and radiosity in one (W/m2, lux), radiance
+/// in the same over pi steradians.
+
+/// Light of small bright patches, linked pair by pair: rays of a row meet them too seldom.
+struct GlowLinks {
+    std::vector<std::uint32_t> senders;  ///< patches, ascending; their emission is left out of rows
+    /// Receiver i gets from entries first[i] .. first[i + 1]: form factor to senders[sender].
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint32_t> sender;
+    std::vector<float> factor;
+    bool empty() const { return senders.empty(); }
+};
+
+/// Links between all patches and those of `senders` (ascending, distinct): four pairs of points a
+/// pair of patches, cos cos' A / (pi r^2 + A), nothing below 1e-4. At most 4096 senders, the
+/// brightest by the caller's choice; more are refused with an assertion.
+GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
+                     std::span<const std::uint32_t> senders, int threads = 0);
+
+/// Light that falls on patches from a far away point: visibility by the traced bits, cosine by the
+/// mean normal. illuminance: on a plane that faces it. Adds to `direct`, one entry a leaf.
+void add_sun(const Patches& patches, glm::vec3 towards_sun, glm::vec3 illuminance,
+             std::vector<glm::vec3>& direct);
+
+/// Share of a patch that a point light reaches, 0..255 of 255, one entry a leaf; 0 beyond range_m.
+/// Rays to four samples end 0.35 m before the light, since lamps sit inside their lanterns.
+std::vector<std::uint8_t> trace_lamp(const Patches& patches, const Tracer& tracer,
+                                     glm::vec3 position_m, float range_m, int threads = 0);
+
+struct Relight {
+    std::span<const glm::vec3> albedo;    ///< a leaf, 0..1; held to 0.98
+    std::span<const glm::vec3> direct;    ///< irradiance of a leaf from sun and lamps
+    std::span<const glm::vec3> emission;  ///< radiosity of a leaf by itself; empty: none
+    std::span<const glm::vec3> sky;       ///< pi x mean radiance of a sky bin, kSkyBins entries
+    const GlowLinks* glow = nullptr;
+    int bounces = 3;  ///< between patches, 0..64; the light that then falls on them is gathered
+    int threads = 0;
+};
+
+/// Light that patches get from each other and from the sky, without what falls on them directly.
+struct PatchIrradiance {
+    /// A node each: irradiance, w: Patches::open.
+    std::vector<glm::vec4> irradiance;
+    /// A node each: shared::irradiance_towards, w: lookup_sizes.
+    std::vector<glm::vec4> gradient;
+    /// A leaf each: what it sends out after `bounces`.
+    std::vector<glm::vec3> radiosity;
+};
+
+/// B = emission + albedo (direct + F B), by Jacobi; a bounce loses at most the largest albedo's
+/// share of what was left. Sums in the order of the links: the same bits for any number of threads.
+///
+///   source   Goral et al. 1984, Cohen et al. 1988.
+PatchIrradiance relight(const Patches& patches, const Relight& input);
+
+}  // namespace petrichor::scene
+
+#endif
