@@ -17,6 +17,7 @@ void add_doctor(CLI::App& app);
 void add_init(CLI::App& app);
 /// words: the command line as typed, for the message that says how to go on after Ctrl-C.
 void add_render(CLI::App& app, std::vector<std::string> words);
+void add_scene(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_texture(CLI::App& app);
 

@@ -42,6 +42,7 @@ int main(int argc, char** argv)
     cli::add_bench(app);
     cli::add_doctor(app);
     cli::add_init(app);
+    cli::add_scene(app);
     cli::add_simulate(app);
     cli::add_texture(app);
     try {

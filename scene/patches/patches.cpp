@@ -274,6 +274,15 @@ float visible_share(const Patches& patches, std::uint32_t patch, glm::vec3 direc
     return sum;
 }
 
+float rain_exposure(const Patches& patches, std::uint32_t patch, glm::vec3 drop_velocity_m_s)
+{
+    if (!(drop_velocity_m_s.y < 0.0f)) return 0.0f;
+    const glm::vec3 from =
+        -drop_velocity_m_s / std::sqrt(glm::dot(drop_velocity_m_s, drop_velocity_m_s));
+    const float facing = std::max(glm::dot(patches.normal[patch], from), 0.0f);
+    return visible_share(patches, patch, from) * facing / from.y;
+}
+
 std::vector<glm::vec4> with_interior(const Patches& patches, const std::vector<glm::vec4>& leaves)
 {
     std::vector<glm::vec4> values = leaves;

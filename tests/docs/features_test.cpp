@@ -147,7 +147,8 @@ std::string unknown_option(const std::string& span)
     return "";
 }
 
-const std::set<std::string> kCommands{"render", "simulate", "texture", "bench", "init", "doctor"};
+const std::set<std::string> kCommands{"render", "simulate", "texture", "bench", "init", "doctor",
+                                         "scene"};
 
 TEST(Features, NamesOnlyWhatExists)
 {

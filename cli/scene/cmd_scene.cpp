@@ -1,0 +1,128 @@
+// petrichor scene: what the program sees in a scene, in lines, as JSON and as pictures.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/words.h"
+#include "cli/commands.h"
+#include "cli/rooms.h"
+#include "cli/scene/scene_map.h"
+#include "cli/scene/scene_view.h"
+#include "film/jobs/camera.h"
+#include "film/jobs/sequence.h"
+#include "texproc/codecs/files/io.h"
+
+namespace petrichor::cli {
+namespace {
+
+struct SceneOptions {
+    SceneViewOptions view;
+    bool json = false;
+    std::string map;
+    std::string output;
+    std::string camera;
+    std::string size = "960x540";
+    MapConditions conditions;
+};
+
+std::vector<std::string> map_names()
+{
+    std::vector<std::string> names;
+    for (const SceneMap& map : scene_maps()) names.push_back(map.name);
+    return names;
+}
+
+const SceneMap& find_map(const std::string& name)
+{
+    for (const SceneMap& map : scene_maps()) {
+        if (map.name == name) return map;
+    }
+    throw Error("scene: no map \"" + name + "\"." + did_you_mean(name, map_names()),
+                "Use: " + join_words(map_names()) + ".");
+}
+
+void check(const SceneOptions& options)
+{
+    if (!options.map.empty()) {
+        find_map(options.map);
+        const std::filesystem::path file = options.output;
+        if (file.extension() != ".png") {
+            throw Error("scene: a map is written as .png, got \"" + options.output + "\"",
+                        "Add -o map.png.");
+        }
+    } else if (!options.output.empty()) {
+        throw Error("scene: -o " + options.output + " without --map: nothing would be written",
+                    "Add --map sky, or leave out -o.");
+    }
+    parse_size(options.size);
+}
+
+void run(SceneOptions options)
+{
+    check(options);
+    options.view.quiet = options.json;
+    const SceneView view = open_scene(options.view);
+    if (!options.map.empty()) {
+        const ImageSize size = parse_size(options.size);
+        MapPicture picture;
+        picture.width = size.width;
+        picture.height = size.height;
+        picture.threads = options.view.threads;
+        ScenarioCamera camera;
+        camera.name = options.camera;
+        const Pixels pixels = draw_scene_map(
+            view, find_map(options.map), options.conditions,
+            camera_at(camera, *view.scene, content_bounds(*view.scene),
+                      static_cast<double>(size.width) / size.height, 0.0),
+            picture);
+        texproc::write_png8(options.output, pixels.width, pixels.height, 3, pixels.rgb,
+                            {{"scene", view.scene->name}, {"map", options.map}});
+    }
+    if (options.json)
+        std::cout << scene_json(view) << "\n";
+    else
+        std::cout << scene_report(view);
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app)
+{
+    auto o = std::make_shared<SceneOptions>();
+    CLI::App* command = app.add_subcommand(
+        "scene", "Show what the program sees in a scene: triangles, patches, ground, sky and rain.");
+    command->add_option("SCENE", o->view.file, ".glb or .gltf file, or demo:street")->required();
+    command->add_flag("--json", o->json, "report for programs");
+    std::string kinds;
+    for (const SceneMap& map : scene_maps()) kinds += (kinds.empty() ? "" : "; ") + map.name + ": " + map.help;
+    command->add_option("--map", o->map, "a picture that explains: " + kinds);
+    command->add_option("-o,--output", o->output, "where the picture goes, .png");
+    command->add_option("--camera", o->camera, "of the scene (its first, else one that frames it)");
+    command->add_option("--size", o->size, "of the picture (960x540)");
+    command->add_option("--wind-from", o->conditions.wind_from_degrees,
+                        "rain: where the wind comes from, degrees from north (270)")
+        ->check(CLI::Range(-360.0, 360.0));
+    command->add_option("--wind", o->conditions.wind_m_s, "rain: wind, m/s (0)")
+        ->check(CLI::Range(0.0, 60.0));
+    command->add_option("--latitude", o->conditions.latitude_degrees, "sun: degrees north (50)")
+        ->check(CLI::Range(-90.0, 90.0));
+    command->add_option("--day", o->conditions.day_of_year, "sun: day of the year (172)")
+        ->check(CLI::Range(1.0, 366.0));
+    command->add_option("--north", o->conditions.north_degrees,
+                        "where north is: degrees clockwise from -z (0)")
+        ->check(CLI::Range(-360.0, 360.0));
+    command->add_option("--cell", o->view.cell_m, "edge of the finest regular patch, metres (auto)")
+        ->check(CLI::Range(0.0001, 100000.0));
+    command->add_option("--rays", o->view.rays, "links of each patch (128)")
+        ->check(CLI::Range(16, 1024));
+    command->add_option("--threads", o->view.threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
+    command->add_flag("--fresh", o->view.fresh, "make patches anew: neither read nor fill the cache");
+    command->footer(
+        "Example: petrichor scene street.glb --map rain --wind 8 --wind-from 250 -o rain.png\n"
+        "Patches are kept in the cache under a fingerprint of the scene's shape.");
+    command->callback([o] { run(*o); });
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,54 @@
+#ifndef PETRICHOR_CLI_SCENE_SCENE_VIEW_H
+#define PETRICHOR_CLI_SCENE_SCENE_VIEW_H
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "film/scenes/transport.h"
+#include "scene/patches/lookup.h"
+#include "scene/patches/tracer.h"
+#include "scene/patches/triangles.h"
+#include "scene/scene.h"
+
+namespace petrichor::cli {
+
+/// A scene as the program sees it: what light meets, cut into patches.
+struct SceneView {
+    std::unique_ptr<scene::Scene> scene;  ///< does not move: triangles point into it
+    film::SceneTransport transport;
+    std::unique_ptr<scene::Triangles> triangles;
+    double cpu_seconds = 0.0;  ///< of patches, all threads
+
+    const scene::Patches& patches() const { return transport.patches; }
+};
+
+struct SceneViewOptions {
+    std::string file;  ///< .glb, .gltf, or demo:street
+    double cell_m = 0.0;
+    int rays = 128;
+    int threads = 0;
+    bool fresh = false;   ///< neither looks into the cache nor writes to it
+    bool quiet = false;   ///< no progress
+};
+
+/// Reads the scene and its patches. Throws Error for a missing or damaged scene.
+SceneView open_scene(const SceneViewOptions& options);
+
+/// Level ground that the scene stands on: the height at which most upward surface lies.
+struct Ground {
+    bool found = false;
+    double height_m = 0.0;
+    double area_m2 = 0.0;  ///< upward, within half a metre of that height
+    double share = 0.0;    ///< of all upward surface
+};
+Ground find_ground(const scene::Patches& patches);
+
+/// What is worth knowing, in lines or as JSON.
+std::string scene_report(const SceneView& view);
+std::string scene_json(const SceneView& view);
+
+}  // namespace petrichor::cli
+
+#endif

@@ -1,0 +1,111 @@
+#include "scene/patches/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace petrichor::scene {
+namespace {
+
+float wrapped(float x, Wrap wrap)
+{
+    if (!std::isfinite(x)) return 0.0f;
+    if (wrap == Wrap::Clamp) return std::clamp(x, 0.0f, 1.0f);
+    const float whole = std::floor(x);
+    const float part = x - whole;
+    if (wrap == Wrap::Repeat || static_cast<std::int64_t>(whole) % 2 == 0) return part;
+    return 1.0f - part;
+}
+
+glm::vec3 texel(const Triangles& triangles, const PatchSample& sample, const TextureUse& use,
+                std::span<const ColorImage> images)
+{
+    if (!use.present() || static_cast<std::size_t>(use.texture) >= images.size())
+        return glm::vec3(1.0f);
+    const ColorImage& image = images[static_cast<std::size_t>(use.texture)];
+    if (image.rgb.empty()) return glm::vec3(1.0f);
+    const EncodedImage& source =
+        triangles.scene().textures[static_cast<std::size_t>(use.texture)];
+    const glm::vec2 uv = triangles.uv(sample.triangle, sample.at, use);
+    const auto place = [](float x, Wrap wrap, int size) {
+        return std::clamp(static_cast<int>(wrapped(x, wrap) * static_cast<float>(size)), 0,
+                          size - 1);
+    };
+    const int x = place(uv.x, source.wrap_u, image.width);
+    const int y = place(uv.y, source.wrap_v, image.height);
+    const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                static_cast<std::size_t>(x));
+    return {image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]};
+}
+
+float luminance(glm::vec3 v)
+{
+    return 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z;
+}
+
+}  // namespace
+
+std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
+                                         std::span<const ColorImage> images)
+{
+    std::vector<PatchSurface> surfaces;
+    surfaces.reserve(patches.count);
+    constexpr float kShare = 1.0f / static_cast<float>(kPatchSamples);
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        PatchSurface mean;
+        mean.base_color = glm::vec3(0.0f);
+        mean.roughness = 0.0f;
+        for (std::size_t k = 0; k < kPatchSamples; ++k) {
+            const PatchSample& sample = patches.samples[std::size_t{i} * kPatchSamples + k];
+            const Material& m =
+                triangles.scene().materials[triangles.material(sample.triangle)];
+            const glm::vec3 color = texel(triangles, sample, m.base_color_texture, images) *
+                                    glm::vec3(m.base_color) *
+                                    glm::vec3(triangles.color(sample.triangle, sample.at));
+            // Glossy, metallic: glTF's green and blue.
+            const glm::vec3 gloss =
+                texel(triangles, sample, m.metallic_roughness_texture, images);
+            mean.base_color += glm::clamp(color, 0.0f, 1.0f) * kShare;
+            mean.metallic += m.metallic * gloss.z * kShare;
+            mean.roughness += m.roughness * gloss.y * kShare;
+            if (luminance(m.emissive) > 0.0f) {
+                mean.emission += m.emissive * m.emissive_strength *
+                                 texel(triangles, sample, m.emissive_texture, images) * kShare;
+            }
+        }
+        surfaces.push_back(mean);
+    }
+    return surfaces;
+}
+
+std::vector<std::uint32_t> glowing_patches(const Patches& patches,
+                                           std::span<const PatchSurface> surfaces,
+                                           std::size_t most)
+{
+    double light = 0.0, area = 0.0;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const auto a = static_cast<double>(patches.area_m2[i]);
+        light += a * static_cast<double>(luminance(surfaces[i].emission));
+        area += a;
+    }
+    const double mean = area > 0.0 ? light / area : 0.0;
+    struct Glow {
+        std::uint32_t patch;
+        float power;
+    };
+    std::vector<Glow> glows;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const float radiance = luminance(surfaces[i].emission);
+        if (radiance > 0.0f && static_cast<double>(radiance) > mean)
+            glows.push_back({i, radiance * patches.area_m2[i]});
+    }
+    std::sort(glows.begin(), glows.end(), [](const Glow& a, const Glow& b) {
+        return a.power != b.power ? a.power > b.power : a.patch < b.patch;
+    });
+    if (glows.size() > most) glows.resize(most);
+    std::vector<std::uint32_t> found;
+    for (const Glow& glow : glows) found.push_back(glow.patch);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+}  // namespace petrichor::scene

@@ -1,0 +1,90 @@
+// petrichor scene: its report, its pictures, what it refuses.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/program.h"
+#include "texproc/codecs/files/io.h"
+
+namespace petrichor {
+namespace {
+
+using testing_program::Outcome;
+using testing_program::run_petrichor;
+using testing_program::Workplace;
+
+struct SceneCommand : testing::Test {
+    SceneCommand() : place("scene_command")
+    {
+        testing_program::write_file(place / "tiny.glb", testing_program::tiny_scene_glb());
+    }
+    Outcome run(std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), "scene");
+        const std::string cache = "PETRICHOR_CACHE=" + (place / "cache").string();
+        return run_petrichor({.arguments = arguments, .environment = {cache}}, place.path());
+    }
+    Workplace place;
+};
+
+TEST_F(SceneCommand, SaysWhatItSees)
+{
+    const Outcome cold = run({"tiny.glb", "--json"});
+    ASSERT_EQ(cold.exit_code, 0) << cold.err;
+    const auto first = nlohmann::json::parse(cold.out);
+    EXPECT_GT(first["triangles"].get<int>(), 0);
+    EXPECT_GT(first["patches"]["count"].get<int>(), 0);
+    EXPECT_TRUE(first["ground"].is_object());
+    EXPECT_FALSE(first["kept"].get<bool>());
+    auto warm = nlohmann::json::parse(run({"tiny.glb", "--json", "--threads", "1"}).out);
+    EXPECT_TRUE(warm["kept"].get<bool>());
+    EXPECT_EQ(warm["patches"], first["patches"]);
+    const Outcome words = run({"tiny.glb"});
+    EXPECT_NE(words.out.find("ground"), std::string::npos);
+    EXPECT_NE(words.out.find("found in the cache"), std::string::npos);
+}
+
+TEST_F(SceneCommand, DrawsEveryMap)
+{
+    std::vector<std::string> seen;
+    for (const std::string map : {"sky", "rain", "sun", "patches"}) {
+        const Outcome done = run({"tiny.glb", "--map", map, "-o", map + ".png", "--size", "160x90"});
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        const Image image = texproc::read_image(place / (map + ".png"));
+        EXPECT_EQ(image.width, 160);
+        EXPECT_GT(image.height, 90) << "a legend below";
+        seen.push_back(testing_program::read_file(place / (map + ".png")));
+        for (std::size_t i = 0; i + 1 < seen.size(); ++i) EXPECT_NE(seen[i], seen.back());
+        run({"tiny.glb", "--map", map, "-o", "again.png", "--size", "160x90", "--threads", "1",
+             "--fresh"});
+        EXPECT_EQ(testing_program::read_file(place / "again.png"), seen.back()) << map;
+    }
+}
+
+TEST_F(SceneCommand, RefusesWhatItCannotDo)
+{
+    const struct {
+        std::vector<std::string> arguments;
+        const char* says;
+    } cases[] = {
+        {{"none.glb"}, "none.glb"},
+        {{"demo:stret"}, "demo:street"},
+        {{"tiny.glb", "--map", "skye", "-o", "x.png"}, "sky"},
+        {{"tiny.glb", "--map", "sky"}, "-o"},
+        {{"tiny.glb", "--map", "sky", "-o", "x.exr"}, ".png"},
+        {{"tiny.glb", "-o", "x.png"}, "--map"},
+        {{"tiny.glb", "--rays", "3"}, "--rays"},
+        {{"tiny.glb", "--size", "0x4", "--map", "sky", "-o", "x.png"}, "0x4"},
+        {{"tiny.glb", "--camera", "nobody", "--map", "sky", "-o", "x.png"}, "nobody"},
+    };
+    for (const auto& c : cases) {
+        const Outcome done = run(c.arguments);
+        EXPECT_EQ(done.exit_code, 2) << c.arguments.back();
+        EXPECT_NE(done.err.find(c.says), std::string::npos) << done.err;
+        EXPECT_FALSE(std::filesystem::exists(place / "x.png"));
+    }
+}
+
+}  // namespace
+}  // namespace petrichor
