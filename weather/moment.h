@@ -53,6 +53,10 @@ double visibility_in_m(double rain, double snowfall);
 /// A finite value in every row.
 bool has_every_row(const ForcingTable& table, Field field);
 
+/// Where the wind comes from at a time, degrees, between two rows by the shorter way round. The
+/// table has a direction in every row.
+double wind_from_deg_at(const ForcingTable& table, std::int64_t utc_us);
+
 /// Humidity, pressure and radiation as the file has them at a time (its row's values, linear
 /// between); sunlight is split by Erbs 1982 where the file does not. `table` is complete.
 void set_measured(shared::WeatherMoment& moment, const ForcingTable& table, std::int64_t utc_us);

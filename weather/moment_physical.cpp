@@ -29,8 +29,9 @@ double rate_at(const ForcingTable& table, Field field, std::int64_t us)
     return table[field][row];
 }
 
-// Between two directions by the shorter way round.
-double direction_at_deg(const ForcingTable& table, std::int64_t us)
+}  // namespace
+
+double wind_from_deg_at(const ForcingTable& table, std::int64_t us)
 {
     const auto& t = table.time_us;
     const auto& v = table[Field::WindFrom];
@@ -42,8 +43,6 @@ double direction_at_deg(const ForcingTable& table, std::int64_t us)
     return v[i - 1] +
            turn * static_cast<double>(us - t[i - 1]) / static_cast<double>(t[i] - t[i - 1]);
 }
-
-}  // namespace
 
 struct PhysicalMoments::Impl {
     std::shared_ptr<const ForcingTable> table;
@@ -96,7 +95,7 @@ struct PhysicalMoments::Impl {
     {
         m.air_temperature_k = narrow(at(Field::AirTemp, us));
         m.cloud_fraction = narrow(std::clamp(at(Field::Cloud, us), 0.0, 1.0));
-        const double from_deg = wind_from ? direction_at_deg(*table, us) : kWindFrom_deg;
+        const double from_deg = wind_from ? wind_from_deg_at(*table, us) : kWindFrom_deg;
         m.wind_m_s = wind_vector_m_s(at(Field::Wind, us), from_deg);
         // Stations state the meteorological optical range; the renderer takes Koschmieder's.
         m.visibility_m = narrow(

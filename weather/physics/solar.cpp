@@ -120,15 +120,20 @@ double cloud_fraction_of(double shortwave_w_m2, double sine_elevation)
     return lost > 0.0 ? detail::power(lost, 1.0 / 3.4) : 0.0;
 }
 
+double erbs_diffuse_fraction(double kt)
+{
+    if (kt <= 0.22) return 1.0 - 0.09 * kt;
+    if (kt > 0.80) return 0.165;
+    return 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
+}
+
 double diffuse_fraction(double shortwave_w_m2, double sine_elevation, double extraterrestrial_w_m2)
 {
     // Near the horizon the index is meaningless: everything is diffuse.
     if (!(sine_elevation > 0.05) || !(shortwave_w_m2 > 0.0)) return 1.0;
     const double kt =
         detail::smaller(shortwave_w_m2 / (extraterrestrial_w_m2 * sine_elevation), 1.0);
-    double diffuse = 0.9511 + kt * (-0.1604 + kt * (4.388 + kt * (-16.638 + kt * 12.336)));
-    if (kt <= 0.22) diffuse = 1.0 - 0.09 * kt;
-    if (kt > 0.80) diffuse = 0.165;
+    const double diffuse = erbs_diffuse_fraction(kt);
     // A hill that faces a low sun must not see more of it than very clear air lets through.
     const double beam = clearest_beam_w_m2(sine_elevation, extraterrestrial_w_m2);
     return detail::larger(diffuse, 1.0 - beam * sine_elevation / shortwave_w_m2);

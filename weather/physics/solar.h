@@ -30,6 +30,9 @@ double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
 
+/// Share of shortwave that is diffuse, 0..1, by the clearness index, >= 0 (Erbs, Klein & Duffie
+/// 1982).
+double erbs_diffuse_fraction(double clearness);
 /// Share of shortwave that is diffuse, 0..1, from the clearness index (Erbs et al. 1982), and so
 /// much that the direct beam stays below that of very clear air: sensors catch light from a low sun
 /// that the index takes for a fierce beam.

@@ -114,8 +114,9 @@ PETRICHOR_INLINE void advance_step(CellVars<Real>& c, const StepForcing& step,
     if (step.precip > 0.0) {
         const Real share = snow_share_at(step, place, k.phase);
         const Real precip = place.precip_factor * step.precip;
-        snow = precip * share;
-        rain = precip - snow;
+        const Real frozen = precip * share;
+        snow = frozen * place.snow_factor;
+        rain = (precip - frozen) * place.rain_factor;
     }
     const Real snow_above = snow;
     if (k.canopy_capacity > 0.0) {

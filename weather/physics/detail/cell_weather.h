@@ -19,6 +19,7 @@ struct CellPlace {
     Real normal_east, normal_north, normal_up;
     Real air_offset_k;  // perturbations: added to air temperature
     Real precip_factor, wind_factor, shortwave_factor, longwave_offset;
+    Real rain_factor, snow_factor;  // of the precipitation here, by phase: 1 on flat open ground
 };
 
 // What the weather of a step means for a cell, before it is asked for an instant.

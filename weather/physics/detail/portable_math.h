@@ -220,6 +220,20 @@ inline SinCos sine_cosine(double angle_rad)
     }
 }
 
+/// Angle 0..pi of a cosine in -1..1, to 1e-12: Abramowitz & Stegun 4.4.45 and two steps of
+/// Newton's.
+inline double arc_cosine(double x)
+{
+    const double a = x < 0.0 ? -x : x;
+    double angle =
+        std::sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - a * 0.0187293)));
+    for (int i = 0; i < 2; ++i) {
+        const SinCos at = sine_cosine(angle);
+        if (at.sin > 1e-8) angle += (at.cos - a) / at.sin;
+    }
+    return x < 0.0 ? 3.14159265358979323846 - angle : angle;
+}
+
 }  // namespace petrichor::weather::detail
 
 #endif

@@ -67,6 +67,8 @@ CellPlace<double> station_place(double sky_view, double precip_factor)
     place.precip_factor = precip_factor;
     place.wind_factor = 1.0;
     place.shortwave_factor = 1.0;
+    place.rain_factor = 1.0;
+    place.snow_factor = 1.0;
     return place;
 }
 
@@ -110,15 +112,20 @@ YearlyWave yearly_wave(const ForcingTable& table)
 
 CellState initial_cell(const ForcingTable& table, const CellConstants& k)
 {
+    return initial_cell(table, k, table.time_us[0]);
+}
+
+CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::int64_t at_us)
+{
     const YearlyWave wave = yearly_wave(table);
     CellState c{};
     c.snow_albedo = k.snow.albedo_max;
-    c.surface_temp_c = table[Field::AirTemp][0] - kZeroCelsiusK;
+    c.surface_temp_c = value_at(table, Field::AirTemp, at_us) - kZeroCelsiusK;
     // The wave of the year goes down into the ground, fading and late by one radian in `damping`;
     // near the surface the last days of air count.
     const double diffusivity = k.surface.conductivity_w_m_k / k.surface.heat_capacity_j_m3_k;
     const double damping = std::sqrt(diffusivity * 365.2425 * 86400.0 / kPi);
-    const double now = year_angle(table.time_us[0], wave.south);
+    const double now = year_angle(at_us, wave.south);
     double depth = 0.0;
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
         const double z = (depth + 0.5 * kGroundThickness_m[i]) / damping;

@@ -45,7 +45,8 @@ struct YearlyWave {
     bool south = false;
 };
 YearlyWave yearly_wave(const ForcingTable& table);
-/// Ground as the yearly wave leaves it, dry, no snow.
+/// Ground as the yearly wave leaves it at a time of the table (at its beginning), dry, no snow.
+CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);
 CellState initial_cell(const ForcingTable& table, const CellConstants& k);
 
 }  // namespace petrichor::weather::detail
