@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "made_up.h"
+#include "tests/weather/made_up.h"
 #include "weather/patches/driving_rain.h"
 #include "weather/patches/patch_weather.h"
 
