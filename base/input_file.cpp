@@ -37,6 +37,22 @@ InputFile::~InputFile()
     if (fd_ >= 0) ::close(fd_);
 }
 
+std::size_t InputFile::read(std::span<std::byte> to) const
+{
+    std::size_t done = 0;
+    while (done < to.size()) {
+        const ssize_t got = ::read(fd_, to.data() + done, to.size() - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) {
+            throw Error(name_ + ": it cannot be read: " + std::strerror(errno),
+                        "Check the disk or the network that it lies on.");
+        }
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
 InputFile open_regular_file(const std::filesystem::path& path, std::string_view what)
 {
     // Looked at first, since opening some devices does something; and again when it is open, since
@@ -53,11 +69,11 @@ InputFile open_regular_file(const std::filesystem::path& path, std::string_view 
     };
     if (::stat(path.c_str(), &status) != 0) fail();
     if (!S_ISREG(status.st_mode)) refuse_kind(what, path, status.st_mode);
-    InputFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY), 0);
+    InputFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY), 0, {});
     if (file.fd() < 0) fail();
     if (::fstat(file.fd(), &status) != 0) fail();
     if (!S_ISREG(status.st_mode)) refuse_kind(what, path, status.st_mode);
-    return {file.release(), static_cast<std::uint64_t>(status.st_size)};
+    return {file.release(), static_cast<std::uint64_t>(status.st_size), named(what, path)};
 }
 
 std::string read_file(const std::filesystem::path& path, std::string_view what,
@@ -79,14 +95,10 @@ std::string read_file(const std::filesystem::path& path, std::string_view what,
             content.resize(done + 4096);
         }
         const std::size_t piece = std::min<std::size_t>(content.size() - done, 1 << 20);
-        const ssize_t got = ::read(file.fd(), content.data() + done, piece);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            throw Error(named(what, path) + ": it cannot be read: " + std::strerror(errno),
-                        "Check the disk or the network that it lies on.");
-        }
+        const std::size_t got =
+            file.read(std::as_writable_bytes(std::span(content.data() + done, piece)));
         if (got == 0) break;
-        done += static_cast<std::size_t>(got);
+        done += got;
     }
     content.resize(done);
     if (done > max_bytes) throw too_large(done);

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "cli/bench/sample_weather.h"
 #include "weather/models/artist/exact.h"
 #include "weather/models/physical/physical.h"
@@ -29,21 +28,11 @@ using weather::ForcingTable;
 constexpr int kSeeks = 100;  // in one timing of a seek
 constexpr int kArtistSeeks = 10000;
 constexpr int kSegments = 1000;
-constexpr int kSteps = 60 * 60;  // a minute at 60 Hz
+constexpr std::uint64_t kMostBytes = 256u << 20;  // of a weather file
+constexpr int kSteps = 60 * 60;                   // a minute at 60 Hz
 
 // Results go here, so that no work is left out.
 volatile double sink = 0.0;
-
-std::string text_of(const std::string& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    if (!in || !(out << in.rdbuf())) {
-        throw Error("bench: cannot read '" + file + "'",
-                    "Give an existing weather file, or leave --file out.");
-    }
-    return out.str();
-}
 
 // The plain model: snow by temperature, melt by degree days, one number of snow.
 double degree_day_run(const ForcingTable& table)
@@ -72,7 +61,9 @@ struct WeatherCase {
 std::vector<WeatherCase> cases_of(const WeatherBenchOptions& options)
 {
     if (!options.file.empty())
-        return {{"file", weather::read_weather(text_of(options.file)).table}};
+        return {
+            {"file",
+             weather::read_weather(read_file(options.file, "bench: weather", kMostBytes)).table}};
     return {{"bare", sample_year(options.days, false)}, {"snow", sample_year(options.days, true)}};
 }
 
@@ -170,7 +161,8 @@ void add_reader_rows(const WeatherBenchOptions& options, std::vector<BenchRow>& 
     };
     add("read_epw", epw_of(table), 15.0);
     add("read_metar_year", metar_of(table), 60.0);
-    if (!options.file.empty()) add("read_file", text_of(options.file), 0.0);
+    if (!options.file.empty())
+        add("read_file", read_file(options.file, "bench: weather", kMostBytes), 0.0);
 }
 
 void add_artist_rows(int repeat, std::vector<BenchRow>& rows)
@@ -256,7 +248,7 @@ std::string json_report(const WeatherBenchOptions& options, const std::vector<Be
         if (row.memory_mib > 0.0) entry["memory_mib"] = row.memory_mib;
         report["rows"].push_back(std::move(entry));
     }
-    return report.dump(2);
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void run_weather_bench(const WeatherBenchOptions& options)

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <span>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "cli/texture/maps/files.h"
 #include "texproc/codecs/files/io.h"
@@ -37,8 +38,8 @@ bool is_png(const fs::path& file)
     static constexpr std::array<char, 8> kSignature{'\x89', 'P',  'N',    'G',
                                                     '\r',   '\n', '\x1a', '\n'};
     std::array<char, 8> start{};
-    std::ifstream in(file, std::ios::binary);
-    return in.read(start.data(), start.size()) && start == kSignature;
+    const InputFile in = open_regular_file(file, "image");
+    return in.read(std::as_writable_bytes(std::span(start))) == 8 && start == kSignature;
 }
 
 void write_level0(const ChainOutput& output, const texproc::RawImage& level0,

@@ -1,18 +1,18 @@
 #include "film/data/content_cache.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "film/data/folders.h"
 
@@ -82,26 +82,24 @@ std::optional<std::vector<std::byte>> ContentCache::find(const std::string& kind
 {
     if (!on()) return std::nullopt;
     const fs::path path = entry_path(folder_, kind, key);
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    if (!in) return std::nullopt;
-    const auto size = static_cast<std::uint64_t>(in.tellg());
-    Header header{};
-    std::vector<std::byte> content;
-    bool good = size >= sizeof header;
-    if (good) {
-        in.seekg(0);
-        in.read(reinterpret_cast<char*>(&header), sizeof header);
-        good =
-            in && std::memcmp(header.magic, kMagic, 8) == 0 && header.bytes == size - sizeof header;
-    }
-    if (good) {
-        content.resize(header.bytes);
-        in.read(reinterpret_cast<char*>(content.data()),
-                static_cast<std::streamsize>(content.size()));
-        const Header fresh = header_of(content);
-        good = in && std::memcmp(header.fingerprint, fresh.fingerprint, 32) == 0;
-    }
     std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+    std::vector<std::byte> content;
+    bool good = false;
+    try {
+        const InputFile in = open_regular_file(path, "cache");
+        Header header{};
+        const bool whole = in.read(std::as_writable_bytes(std::span(&header, 1))) == sizeof header;
+        good = whole && std::memcmp(header.magic, kMagic, 8) == 0 &&
+               header.bytes == in.size() - sizeof header;
+        if (good) {
+            content.resize(header.bytes);
+            good = in.read(content) == content.size() &&
+                   std::memcmp(header.fingerprint, header_of(content).fingerprint, 32) == 0;
+        }
+    } catch (const Error&) {  // gone meanwhile, or a bad disk: it is made again
+        return std::nullopt;
+    }
     if (!good) {
         fs::remove(path, ignored);
         return std::nullopt;
@@ -123,13 +121,11 @@ void ContentCache::keep(const std::string& kind, const std::string& key,
     const fs::path path = entry_path(folder_, kind, key);
     const std::string_view head(reinterpret_cast<const char*>(&header), sizeof header);
     OutputFile file(path);
-    std::ofstream out(file.temporary(), std::ios::binary);
-    out.write(head.data(), static_cast<std::streamsize>(head.size()));
-    out.write(reinterpret_cast<const char*>(content.data()),
-              static_cast<std::streamsize>(content.size()));
-    out.close();
-    if (!out) {
-        throw Error("cache: cannot write " + path.string() + ": " + std::strerror(errno),
+    try {
+        file.write(head);
+        file.write({reinterpret_cast<const char*>(content.data()), content.size()});
+    } catch (const Error& error) {
+        throw Error(std::string("cache: ") + error.what(),
                     "Free some space, let PETRICHOR_CACHE name another folder, or set "
                     "PETRICHOR_CACHE_MIB=0 to keep nothing.");
     }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/words.h"
 
 namespace petrichor::film {
 namespace {
@@ -76,16 +75,11 @@ void require_writable_folder(const fs::path& folder)
     fs::create_directories(folder, failed);
     if (!failed && !fs::is_directory(folder))
         failed = std::make_error_code(std::errc::not_a_directory);
-    std::string reason = failed ? failed.message() : "";
-    if (reason.empty()) {
-        const fs::path trial = folder / (".trial" + std::to_string(::getpid()));
-        std::ofstream out(trial);
-        if (!out) reason = std::strerror(errno);
-        out.close();
-        fs::remove(trial, failed);
-    }
-    if (!reason.empty()) {
-        throw Error("output: cannot write into the folder " + folder.string() + ": " + reason,
+    if (!failed && ::access(folder.c_str(), W_OK | X_OK) != 0)
+        failed = std::error_code(errno, std::generic_category());
+    if (failed) {
+        throw Error("output: cannot write into the folder " + printable(folder.string()) + ": " +
+                        failed.message(),
                     "Choose another folder with -o, or make this one writable.");
     }
 }

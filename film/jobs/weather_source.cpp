@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "film/scenario/weather_script.h"
+#include "film/toml/toml_value.h"
 #include "film/weather/inputs.h"
 #include "film/weather/times.h"
 #include "film/weather/weather_input.h"
@@ -26,18 +25,6 @@ namespace fs = std::filesystem;
 constexpr double kHour_us = 3600e6;
 // Ground and stores forget their start in about this long where no snow lies (scene-weather 1).
 constexpr double kEnoughSpinUp_days = 14.0;
-
-std::string text_of(const fs::path& file)
-{
-    const auto refuse = [&] {
-        throw Error("weather: cannot read " + file.string(), "Check the name of the file.");
-    };
-    if (fs::is_directory(file)) refuse();
-    std::ifstream in(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in) refuse();
-    return text;
-}
 
 WeatherSource from_script(WeatherScript script, std::string name, double end_s)
 {
@@ -199,7 +186,7 @@ WeatherSource from_weather_file(const fs::path& file, const ScenarioWeather& opt
     weather::ReadResult read = read_forcing(read_inputs({file.string()}), options.site);
     const FileClock clock = clock_of(options, read.table);
     WeatherSource source;
-    source.name = file.stem().string();
+    source.name = printable(file.stem().string());
     source.duration_s = clock.duration_s();
     add_clock_notes(clock, options, read.table.site, source.notes);
     if (options.model == WeatherModel::Artist) {
@@ -246,13 +233,14 @@ WeatherSource from_preset(const std::string& name, const fs::path& folder, doubl
 {
     if (is_preset(name)) {
         const fs::path file = data_folder() / "weather" / (name + ".toml");
-        return from_script(read_weather_script(text_of(file), file.filename().string()), name,
-                           end_s);
+        return from_script(
+            read_weather_script(read_toml_text(file, "weather"), file.filename().string()), name,
+            end_s);
     }
     const auto file = existing(name, folder);
     if (!file) refuse_weather(name);
-    return from_script(read_weather_script(text_of(*file), name), fs::path(name).stem().string(),
-                       end_s);
+    return from_script(read_weather_script(read_toml_text(*file, "weather"), printable(name)),
+                       printable(fs::path(name).stem().string()), end_s);
 }
 
 void refuse_physical(const ScenarioWeather& weather)

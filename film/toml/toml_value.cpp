@@ -1,9 +1,12 @@
 #include "film/toml/toml_value.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/words.h"
 
 namespace petrichor::film {
@@ -179,8 +182,85 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::entries(
     return found;
 }
 
+namespace {
+
+constexpr std::size_t kMostBytes = 8 << 20;
+constexpr int kDeepest = 64;  // brackets around a value; parts of a key
+
+// The parser recurses into brackets and makes a table of every part of a key, which are then let go
+// by recursion too: a hostile file would run out of stack. One pass over the text, strings and
+// comments left out, before it gets there.
+class NestingCheck {
+public:
+    NestingCheck(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    void run()
+    {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '#') {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+            } else if (c == '"' || c == '\'') {
+                skip_string(c);
+            } else {
+                if (c == '\n') ++line_;
+                if (c == '[' || c == '{') ++depth_;
+                if ((c == ']' || c == '}') && depth_ > 0) --depth_;
+                if (c == '.') ++parts_;
+                if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) parts_ = 0;
+                if (depth_ > kDeepest) refuse("brackets nested deeper than ");
+                if (parts_ >= kDeepest) refuse("a key of more parts than ");
+                ++at_;
+            }
+        }
+    }
+
+private:
+    void skip_string(char quote)
+    {
+        const std::string three(3, quote);
+        const bool many_lines = text_.substr(at_, 3) == three;
+        at_ += many_lines ? 3 : 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '\n') {
+                if (!many_lines) return;  // not closed: the parser says so
+                ++line_;
+            }
+            if (c == '\\' && quote == '"') {
+                at_ += 2;
+            } else if (many_lines ? text_.substr(at_, 3) == three : c == quote) {
+                at_ += many_lines ? 3 : 1;
+                while (many_lines && at_ < text_.size() && text_[at_] == quote) ++at_;
+                return;
+            } else {
+                ++at_;
+            }
+        }
+    }
+    [[noreturn]] void refuse(const std::string& what) const
+    {
+        throw Error(file_ + ":" + std::to_string(line_) + ": " + what + std::to_string(kDeepest),
+                    "Correct this line; no file of petrichor needs more than a few.");
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t at_ = 0;
+    int line_ = 1, depth_ = 0, parts_ = 0;
+};
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, const std::string& file)
 {
+    if (text.size() > kMostBytes) {
+        throw Error(
+            file + ": it has " + std::to_string(text.size()) + " bytes, at most " +
+                std::to_string(kMostBytes) + " are read as TOML",
+            "Check that it is the file you mean; weather of many hours belongs into a CSV.");
+    }
+    NestingCheck(text, file).run();
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
@@ -188,6 +268,33 @@ toml::table parse_toml(std::string_view text, const std::string& file)
                         ": not valid TOML: " + std::string(error.description()),
                     "Correct this line; strings need quotes, tables are written [name].");
     }
+}
+
+std::string read_toml_text(const std::filesystem::path& path, std::string_view what)
+{
+    return read_file(path, what, kMostBytes);
+}
+
+std::string toml_quoted(std::string_view text)
+{
+    if (!is_utf8(text)) {
+        throw Error("\"" + printable(text) + "\" is not UTF-8, which is all that TOML can hold",
+                    "Rename the file, or name a link to it.");
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            quoted += {'\\', c};
+        } else if (code < 0x20 || code == 0x7f) {
+            char escape[8];
+            std::snprintf(escape, sizeof escape, "\\u%04X", code);
+            quoted += escape;
+        } else {
+            quoted += c;
+        }
+    }
+    return quoted + "\"";
 }
 
 void refuse_name(const std::string& place, const std::string& what, const std::string& name,

@@ -3,8 +3,10 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,8 +54,15 @@ private:
     std::string key_;
 };
 
-/// Parses TOML; a syntax error becomes an Error with file and line.
+/// Parses TOML; a syntax error becomes an Error with file and line. At most 8 MiB, 64 brackets
+/// around a value and 64 parts of a key, which is checked before the parser sees the text.
 toml::table parse_toml(std::string_view text, const std::string& file);
+
+/// The text of a TOML file for parse_toml(). Throws Error: missing, not a regular file, too large.
+std::string read_toml_text(const std::filesystem::path& path, std::string_view what);
+
+/// A TOML string that means `text`: in quotes, with escapes. Throws Error when it is not UTF-8.
+std::string toml_quoted(std::string_view text);
 
 /// Throws Error for a name that does not exist at a place, with the nearest that does.
 [[noreturn]] void refuse_name(const std::string& place, const std::string& what,

@@ -1,12 +1,12 @@
 #include "film/weather/inputs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
-#include <sstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "weather/readers/text.h"
@@ -17,14 +17,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 256u << 20;
+constexpr std::uintmax_t kMostCheckpoint = 4ull << 30;
 
 std::vector<Input> read_one(const std::string& word, const GridPlace& place,
                             std::vector<std::string>* notes)
 {
     Input input;
-    input.file = word;
+    input.file = printable(word);
     if (word == "-") {
-        input.text.assign(std::istreambuf_iterator<char>(std::cin), {});
+        std::string piece(1 << 16, '\0');
+        while (std::cin.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
+               std::cin.gcount() > 0) {
+            input.text.append(piece.data(), static_cast<std::size_t>(std::cin.gcount()));
+            if (input.text.size() > kMostBytes) {
+                throw Error("simulate: standard input has more than " + std::to_string(kMostBytes) +
+                                " bytes",
+                            "Give a smaller file.");
+            }
+        }
         input.name = "keys";
         input.kind = kind_of_text(input.text);
         return {input};
@@ -44,17 +54,18 @@ std::vector<Input> read_one(const std::string& word, const GridPlace& place,
         path = data_folder() / "weather" / (word + ".toml");
     }
     input.text = read_input_file(path);
-    input.name = path.stem().string();
+    input.name = printable(path.stem().string());
     if (is_packed_weather(input.text)) {
         std::vector<std::string> left_out;
         std::vector<Input> inputs;
         for (UnpackedText& text : unpack_weather(path, place, left_out)) {
             const std::string inside = text.name.empty() ? "" : ": " + text.name;
             inputs.push_back(
-                {input.name, word + inside, kind_of_text(text.text), std::move(text.text)});
+                {input.name, input.file + inside, kind_of_text(text.text), std::move(text.text)});
         }
         if (notes && !left_out.empty())
-            notes->push_back(word + ": left out, as they are no weather: " + join_words(left_out));
+            notes->push_back(input.file +
+                             ": left out, as they are no weather: " + join_words(left_out));
         return inputs;
     }
     input.kind = path.extension() == ".toml" ? InputKind::Script : kind_of_text(input.text);
@@ -65,36 +76,18 @@ std::vector<Input> read_one(const std::string& word, const GridPlace& place,
 
 std::string read_input_file(const fs::path& path)
 {
-    std::error_code failed;
-    const std::uintmax_t size = fs::file_size(path, failed);
-    std::ifstream in(path, std::ios::binary);
-    if (!in || fs::is_directory(path)) {
-        throw Error("simulate: cannot read " + path.string(),
-                    "Give a file that exists, or the name of a preset (simulate --list).");
-    }
+    // What is packed is read by another program: its head is enough here.
+    const InputFile file = open_regular_file(path, "simulate: input");
     std::string head(4096, ' ');
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(in.gcount()));
+    const ssize_t got = ::pread(file.fd(), head.data(), head.size(), 0);
+    head.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     if (is_packed_weather(head) || head.find('\0') != head.npos) return head;
-    if (!failed && size > kMostBytes) {
-        throw Error("simulate: " + path.string() + " has " + std::to_string(size) +
-                        " bytes, at most 268435456 are read",
-                    "Give a smaller file.");
-    }
-    std::ostringstream rest;
-    if (in) rest << in.rdbuf();
-    return head + rest.str();
+    return read_file(path, "simulate: input", kMostBytes);
 }
 
 std::string read_checkpoint_file(const fs::path& path)
 {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream whole;
-    if (!in || fs::is_directory(path) || !(whole << in.rdbuf())) {
-        throw Error("simulate: --resume: cannot read " + path.string(),
-                    "Give a file that --checkpoint wrote.");
-    }
-    return std::move(whole).str();
+    return read_file(path, "simulate: --resume:", kMostCheckpoint);
 }
 
 InputKind kind_of_text(std::string_view text)

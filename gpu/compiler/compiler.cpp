@@ -1,14 +1,12 @@
 #include "gpu/compiler/compiler.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/input_file.h"
 #include "base/limited_child.h"
+#include "base/output_file.h"
 
 namespace petrichor::gpu {
 
@@ -47,34 +45,29 @@ std::vector<std::uint32_t> words_of(std::span<const std::byte> bytes)
 std::vector<std::uint32_t> cached(const fs::path& file)
 {
     std::error_code none;
-    const auto size = fs::file_size(file, none);
-    if (none || size <= 32 || size > kLargest) return {};
-    std::ifstream stream(file, std::ios::binary);
-    std::vector<char> bytes((std::istreambuf_iterator<char>(stream)), {});
-    if (bytes.size() != size) return {};
-    const auto content = std::as_bytes(std::span(bytes)).first(bytes.size() - 32);
-    if (fingerprint(content) != std::string(bytes.end() - 32, bytes.end())) return {};
-    return words_of(content);
+    if (!fs::is_regular_file(file, none)) return {};
+    try {
+        const std::string bytes = read_file(file, "cache", kLargest);
+        if (bytes.size() <= 32) return {};
+        const auto content = std::as_bytes(std::span(bytes)).first(bytes.size() - 32);
+        return fingerprint(content) == bytes.substr(bytes.size() - 32)
+                   ? words_of(content)
+                   : std::vector<std::uint32_t>{};
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 // A cache that cannot be written is no reason to stop: it costs the next start a second.
 void keep(const fs::path& file, std::span<const std::byte> content)
 {
-    std::error_code none;
-    fs::create_directories(file.parent_path(), none);
-    const fs::path temporary = file.string() + "." + std::to_string(getpid());
-    {
-        std::ofstream stream(temporary, std::ios::binary);
-        stream.write(reinterpret_cast<const char*>(content.data()),
-                     static_cast<std::streamsize>(content.size()));
-        stream << fingerprint(content);
-        if (!stream.flush()) {
-            fs::remove(temporary, none);
-            return;
-        }
+    try {
+        OutputFile output(file);
+        output.write({reinterpret_cast<const char*>(content.data()), content.size()});
+        output.write(fingerprint(content));
+        output.commit();
+    } catch (const Error&) {
     }
-    fs::rename(temporary, file, none);
-    if (none) fs::remove(temporary, none);
 }
 
 }  // namespace

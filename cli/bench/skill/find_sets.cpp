@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "cli/simulate/physical_table.h"
 #include "film/weather/weather_input.h"
 #include "weather/physics/constants.h"
@@ -25,11 +24,7 @@ constexpr std::uintmax_t kMostBytes = 64u << 20;
 
 std::string text_of(const fs::path& file)
 {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    if (!in || !(out << in.rdbuf()))
-        throw Error("bench: cannot read '" + file.string() + "'", "Check that it can be read.");
-    return out.str();
+    return read_file(file, "bench:", kMostBytes);
 }
 
 weather::Site site_of(const fs::path& file)

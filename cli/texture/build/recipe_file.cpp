@@ -1,8 +1,6 @@
 #include "cli/texture/build/recipe_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "base/error.h"
@@ -24,16 +22,6 @@ const std::vector<std::string> kFormats{"png", "tga", "tif", "exr", "dds", "ktx2
 const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7"};
 const std::vector<std::string> kFilters{"box", "kaiser", "lanczos3", "mitchell"};
 const std::vector<std::string> kEdges{"wrap", "clamp", "mirror"};
-
-std::string text_of(const fs::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw Error("texture build: cannot read the recipe " + file.string(),
-                    "Check the path; see `petrichor texture build --help` for an example.");
-    }
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
 {
@@ -163,7 +151,7 @@ void read_bake(const TomlValue& table, texproc::Recipe& recipe)
 
 texproc::Recipe recipe_from(const fs::path& file)
 {
-    const toml::table table = parse_toml(text_of(file), file.string());
+    const toml::table table = parse_toml(read_toml_text(file, "recipe"), file.string());
     const fs::path folder = file.parent_path();
     texproc::Recipe recipe;
     recipe.file = file;
@@ -225,7 +213,7 @@ std::vector<texproc::OutputRule> engine_outputs(const std::string& name)
                     "Use one of: " + join_words(names) + ".");
     }
     const fs::path file = data_folder() / "recipes" / (name + ".toml");
-    const toml::table table = parse_toml(text_of(file), file.string());
+    const toml::table table = parse_toml(read_toml_text(file, "recipe"), file.string());
     for (const auto& [key, value] :
          TomlValue(table, file.string(), "engine").entries({"note", "output"})) {
         if (key == "output") return read_outputs(value, file.parent_path());
@@ -250,7 +238,7 @@ std::vector<EngineInfo> engines()
     std::vector<EngineInfo> all;
     for (const std::string& name : preset_names("recipes")) {
         const fs::path file = data_folder() / "recipes" / (name + ".toml");
-        const toml::table table = parse_toml(text_of(file), file.string());
+        const toml::table table = parse_toml(read_toml_text(file, "recipe"), file.string());
         EngineInfo info{name, table["note"].value_or(std::string()), engine_outputs(name)};
         all.push_back(std::move(info));
     }

@@ -1,5 +1,7 @@
 #include "cli/texture/build/sha256.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,10 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_file.h"
 
 namespace petrichor::cli {
 
@@ -111,17 +113,11 @@ std::string sha256(std::string_view bytes)
 
 std::string sha256_of_file(const std::filesystem::path& path)
 {
-    std::ifstream in(path, std::ios::binary);
+    const InputFile in = open_regular_file(path, "texture build: source");
     Sha256 hash;
-    std::vector<char> chunk(1 << 18);
-    while (in) {
-        in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-        hash.add({chunk.data(), static_cast<std::size_t>(in.gcount())});
-    }
-    if (!in.eof()) {
-        throw Error("texture build: cannot read " + path.string() + ": " + std::strerror(errno),
-                    "Check the path and its permissions.");
-    }
+    std::vector<std::byte> chunk(1 << 18);
+    while (const std::size_t got = in.read(chunk))
+        hash.add({reinterpret_cast<const char*>(chunk.data()), got});
     return hash.digest();
 }
 

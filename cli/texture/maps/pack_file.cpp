@@ -1,8 +1,6 @@
 #include "cli/texture/maps/pack_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "base/error.h"
 #include "base/words.h"
@@ -15,21 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw Error("pack: cannot read the preset " + file.string(),
-                    "Check the path, or choose a preset of `petrichor texture pack --list`.");
-    }
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 texproc::PackPreset read_pack_file(const fs::path& file)
 {
-    const toml::table table = parse_toml(text_of(file), file.string());
+    const toml::table table = parse_toml(read_toml_text(file, "pack preset"), file.string());
     texproc::PackPreset preset;
     preset.name = file.stem().string();
     for (const auto& [key, value] :
