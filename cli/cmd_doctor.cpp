@@ -141,7 +141,7 @@ void print_json(const std::vector<Finding>& findings, const std::vector<gpu::Dev
     report["scenarios"] = preset_names("scenarios");
     report["weather_files"] = weather_kinds();
     report["packed_weather_files"] = packed_kinds();
-    std::cout << report.dump(2) << "\n";
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 void print_text(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,

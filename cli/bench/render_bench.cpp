@@ -120,7 +120,7 @@ void print_json(const RenderBenchOptions& options, int samples, const std::strin
     for (const gpu::PassTime& pass : median_passes(costs)) {
         report["passes"].push_back({{"name", pass.name}, {"wall_ms", pass.milliseconds}});
     }
-    std::cout << report.dump(2) << "\n";
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 void print_text(const RenderBenchOptions& options, int samples, const std::string& device,

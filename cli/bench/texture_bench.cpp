@@ -284,7 +284,9 @@ std::string to_json(const std::vector<TextureBenchRow>& rows)
         if (!row.note.empty()) one["note"] = row.note;
         all.push_back(one);
     }
-    return nlohmann::ordered_json{{"rows", all}}.dump(1) + "\n";
+    return nlohmann::ordered_json{{"rows", all}}.dump(1, ' ', false,
+                                                      nlohmann::json::error_handler_t::replace) +
+           "\n";
 }
 
 }  // namespace petrichor::cli

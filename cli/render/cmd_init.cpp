@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/rooms.h"
 #include "film/scenario/starter.h"
@@ -34,8 +35,8 @@ void init(const InitOptions& options)
                     "Choose another name, or replace it with --force.");
     }
     write_text_file(file, starter_scenario(name, options.scene));
-    std::cout << "wrote " << file.string() << "\nrender it: petrichor render " << file.string()
-              << " -o " << name << "\n";
+    std::cout << "wrote " << printable(file.string()) << "\nrender it: petrichor render "
+              << printable(file.string()) << " -o " << printable(name) << "\n";
 }
 
 }  // namespace

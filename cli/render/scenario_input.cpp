@@ -24,7 +24,7 @@ Scenario scenario_of(const std::string& input, const std::string& what)
     const fs::path file = input;
     if (is_scene(file) || input.rfind("demo:", 0) == 0) {
         Scenario scenario;
-        scenario.name = input;
+        scenario.name = printable(input);
         scenario.scene.file = input;
         return scenario;
     }

@@ -72,7 +72,7 @@ std::string data_json(const SimulationTable& table)
         all["start_ms"] = static_cast<double>(table.utc_start_us) * 1e-3 + table.utc_offset_s * 1e3;
         all["clock"] = clock_name(table);
     }
-    std::string text = all.dump();
+    std::string text = all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");  // a title must not end the script
     }

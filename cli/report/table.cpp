@@ -132,7 +132,7 @@ std::string json_text(const SimulationTable& table)
     ordered_json json = head_of(table);
     json["columns"] = table.columns;
     json["rows"] = table.rows;
-    return json.dump() + "\n";
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string json_summary(const SimulationTable& table)
@@ -149,7 +149,7 @@ std::string json_summary(const SimulationTable& table)
         columns[table.columns[c]] = {{"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
     }
     json["columns"] = columns;
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace petrichor::cli

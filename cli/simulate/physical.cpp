@@ -92,7 +92,8 @@ void add_sensitivity(SimulationTable& table, const weather::ReadResult& read,
                         {"mean_puddle_kg_m2", s.mean_puddle_kg_m2},
                         {"mean_surface_temp_c", s.mean_surface_c}});
     }
-    table.json_parts.emplace_back("sensitivity", rows.dump());
+    table.json_parts.emplace_back(
+        "sensitivity", rows.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // Median with the band between the 10 % and 90 % percentiles.

@@ -137,7 +137,6 @@ void run(Arguments& a)
         throw Error("texture build: no output folder", "Give -o FOLDER.");
     }
     a.options.out = a.out;
-    watch_for_interrupt();
     if (a.watch) {
         watch(a);
         return;

@@ -133,8 +133,11 @@ void run(const Arguments& a)
     const auto psnr_json =
         std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back());
     if (a.psnr_only) {
-        a.json ? std::printf("%s\n", nlohmann::ordered_json{{"psnr_db", psnr_json}}.dump(1).c_str())
-               : std::printf("psnr     %s dB\n", number(db.back()).c_str());
+        a.json
+            ? std::printf("%s\n", nlohmann::ordered_json{{"psnr_db", psnr_json}}
+                                      .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
+                                      .c_str())
+            : std::printf("psnr     %s dB\n", number(db.back()).c_str());
         if (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr) refuse_difference(a);
         return;
     }
@@ -177,7 +180,9 @@ void run(const Arguments& a)
             std::printf("flip     mean %.5f, p95 %.4f, max %.4f\n", flip.mean, flip.p95, flip.max);
         picture = std::move(flip.error);
     }
-    if (a.json) std::printf("%s\n", json.dump(1).c_str());
+    if (a.json)
+        std::printf("%s\n",
+                    json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     if (!a.out.empty()) texproc::write_image(a.out, texproc::error_colors(picture));
     const bool worse = (a.fail_flip >= 0.0 && mean_flip > a.fail_flip) ||
                        (a.fail_psnr >= 0.0 && db.back() < a.fail_psnr);

@@ -90,7 +90,9 @@ std::vector<std::string> wanted_kinds(const Arguments& a)
 
 void write_material(const Arguments& a, const std::string& name, const texproc::MaterialMaps& maps)
 {
-    const fs::path folder = a.out;
+    ScratchFolder scratch(a.out);  // half a material on a full disk helps nobody
+    const fs::path folder = scratch.path();
+    std::vector<std::string> files;
     const std::pair<const char*, const Image*> images[] = {
         {"albedo", &maps.albedo},       {"normal", &maps.normal},
         {"height", &maps.height},       {"roughness", &maps.roughness},
@@ -99,8 +101,8 @@ void write_material(const Arguments& a, const std::string& name, const texproc::
     for (const auto& [role, image] : images) {
         // Heights of 8 bits are stairs.
         const int bits = std::string(role) == "height" ? 16 : a.bits;
-        texproc::write_image(folder / (name + "_" + role + ".png"), *image,
-                             {.bits = bits, .threads = a.threads});
+        files.push_back(name + "_" + role + ".png");
+        texproc::write_image(folder / files.back(), *image, {.bits = bits, .threads = a.threads});
     }
     const nlohmann::ordered_json facts{{"kind", name},
                                        {"seed", a.seed},
@@ -110,7 +112,10 @@ void write_material(const Arguments& a, const std::string& name, const texproc::
                                        {"depth", maps.height_scale_m / maps.tile_m},
                                        {"normal_green", "up"},
                                        {"program", "petrichor " PETRICHOR_VERSION}};
-    write_text_file(folder / (name + ".json"), facts.dump(1) + "\n");
+    files.push_back(name + ".json");
+    write_text_file(folder / files.back(),
+                    facts.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    scratch.publish(files);
 }
 
 // A lit ball of a material, beside its colour tiled twice.

@@ -241,7 +241,9 @@ void run(Arguments& a)
             ++bad;
         }
     }
-    if (a.json) std::printf("%s\n", all.dump(1).c_str());
+    if (a.json)
+        std::printf("%s\n",
+                    all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     if (!a.sheet.empty()) draw_sheet(a);
     if (bad > 0) throw ExitCode{kExitUser};
 }

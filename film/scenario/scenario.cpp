@@ -190,6 +190,9 @@ const std::vector<Rule>& rules()
         {{"weather", "spin_up_days", "30.0",
           "the physical model begins this long before `start`; else with the file's first row"},
          [](Scenario& s, const TomlValue& v) { s.weather.spin_up_days = v.number(0.0, 36500.0); }},
+        {{"weather", "max_gap_days", "60.0",
+          "longest time between two rows of the file; longer ones are refused"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.max_gap_days = v.number(0.0, 1e6); }},
         {{"weather", "latitude_degrees", "45.3", "north; where the file does not say"},
          [](Scenario& s, const TomlValue& v) {
              s.weather.site.latitude_deg = v.number(-90.0, 90.0);
@@ -493,12 +496,11 @@ Scenario read_scenario(const std::filesystem::path& file)
         throw Error("scenario: " + file.string() + " is a folder",
                     "Name a scenario (.toml) or a scene (.glb, .gltf) in it.");
     }
-    std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in) {
+    if (!std::filesystem::exists(file)) {
         throw Error("scenario: cannot read " + file.string(),
                     "Check the name; `petrichor init NAME` writes a scenario to start from.");
     }
+    const std::string text = read_toml_text(file, "scenario");
     Scenario scenario = parse_scenario(text, file.string());
     scenario.folder = file.parent_path();
     return scenario;

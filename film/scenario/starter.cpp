@@ -2,6 +2,7 @@
 
 #include "base/words.h"
 #include "film/scenario/scenario.h"
+#include "film/toml/toml_value.h"
 #include "weather/models/artist/model.h"
 
 namespace petrichor::film {
@@ -50,8 +51,8 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
                              bool all_active)
 {
     std::string text =
-        "# " + name + ": a scenario of petrichor. Render it: petrichor render " + name +
-        ".toml -o " + name +
+        "# " + printable(name) + ": a scenario of petrichor. Render it: petrichor render " +
+        printable(name) + ".toml -o " + printable(name) +
         "\n# Lines that start with # are off; the value shown is the default or an example.\n"
         "# Numbers marked \"keyed\" also take [[time_s, value], ...] and change over time.\n"
         "# Axes: x east, y up, z south, metres.\n";
@@ -66,7 +67,7 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
                     header_of(table) + "\n";
         }
         const std::string value =
-            key.table == "scene" && key.name == "file" ? "\"" + scene_file + "\"" : key.example;
+            key.table == "scene" && key.name == "file" ? toml_quoted(scene_file) : key.example;
         const bool active = all_active || key.starter;
         std::string line = key.name + " = " + value;
         if (!active) {

@@ -96,7 +96,9 @@ std::string describe(const json& value)
     if (value.is_string()) return "the text " + in_quotes(value.get_ref<const std::string&>());
     if (value.is_number()) return number_text(value.get<double>());
     if (value.is_array()) return "an array of " + std::to_string(value.size());
-    return value.is_object() ? "an object" : value.is_null() ? "null" : value.dump();
+    return value.is_object() ? "an object"
+           : value.is_null() ? "null"
+                             : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::optional<std::uint64_t> to_whole(const json& value)

@@ -1,7 +1,5 @@
 #include "cli/texture/build/build.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <iostream>
@@ -69,7 +67,7 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
     for (const texproc::MadeSource& source : made.sources) {
         const texproc::InputMap& map = material.files.inputs.at(source.role);
         entry["sources"].push_back({{"role", source.role},
-                                    {"file", map.path.filename().string()},
+                                    {"file", printable(map.path.filename().string())},
                                     {"part", map.channels.empty() ? "all" : map.channels},
                                     {"sha256", state.hash_of(map.path)},
                                     {"width", source.width},
@@ -103,50 +101,17 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
                                {"levels_1_to_5", error_json(made.lobe_error->fine())},
                                {"levels_6_up", error_json(made.lobe_error->coarse())}};
     }
-    return entry.dump();
+    return entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
-
-// A folder inside OUT that is removed at the end, whatever happens.
-class Staging {
-public:
-    Staging(const fs::path& out, std::size_t number)
-        : path_(out / (".petrichor-" + std::to_string(::getpid()) + "-" + std::to_string(number)))
-    {
-    }
-    Staging(const Staging&) = delete;
-    Staging& operator=(const Staging&) = delete;
-    ~Staging()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 std::string replaced(std::string text, const std::string& from, const std::string& to)
 {
+    if (from.empty()) return text;
     for (std::size_t at = text.find(from); at != std::string::npos;
          at = text.find(from, at + to.size())) {
         text.replace(at, from.size(), to);
     }
     return text;
-}
-
-// All files are whole by now: renaming them is all that is left.
-void publish(const fs::path& staging, const fs::path& out, const std::vector<std::string>& files)
-{
-    for (const std::string& file : files) {
-        std::error_code failed;
-        fs::create_directories((out / file).parent_path(), failed);
-        if (!failed) fs::rename(staging / file, out / file, failed);
-        if (failed) {
-            throw Error("output: cannot write " + (out / file).string() + ": " + failed.message(),
-                        "Check that the folder is writable and that no folder has this name.");
-        }
-    }
 }
 
 class Builder {
@@ -219,15 +184,17 @@ private:
     void make(std::size_t number, int threads)
     {
         const texproc::PlannedMaterial& material = *waiting_[number].material;
-        const Staging staging(options_.out, number);
+        std::string scratch;
         try {
+            ScratchFolder staging(options_.out);
+            scratch = staging.path().string();
             const texproc::MadeMaterial made =
                 texproc::make_material(material, staging.path(), threads);
             BuiltSet set{waiting_[number].key, {}, ""};
             for (const texproc::MadeOutput& output : made.outputs) {
                 set.outputs.insert(set.outputs.end(), output.files.begin(), output.files.end());
             }
-            publish(staging.path(), options_.out, set.outputs);
+            staging.publish(set.outputs);
             const std::lock_guard lock(mutex_);
             set.manifest = manifest_entry(material, made, state_, options_.out);
             result_.files += static_cast<int>(set.outputs.size());
@@ -237,8 +204,7 @@ private:
             // People know the folder they named, not the one that files pass through.
             const std::lock_guard lock(mutex_);
             fail(material,
-                 Error(replaced(error.what(), staging.path().string(), options_.out.string()),
-                       error.fix()));
+                 Error(replaced(error.what(), scratch, options_.out.string()), error.fix()));
         }
     }
 
@@ -259,7 +225,10 @@ private:
             manifest["sets"].push_back(ordered_json::parse(set.manifest));
         }
         const fs::path file = options_.out / "manifest.json";
-        if (changed || !fs::exists(file)) write_text_file(file, manifest.dump(1) + "\n");
+        if (changed || !fs::exists(file))
+            write_text_file(
+                file,
+                manifest.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
 
     const std::vector<texproc::PlannedMaterial>& plan_;

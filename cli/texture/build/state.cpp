@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "cli/texture/build/sha256.h"
 
 namespace petrichor::cli {
@@ -24,6 +26,7 @@ using nlohmann::json;
 
 constexpr const char* kFile = ".petrichor-build.json";
 constexpr int kFormat = 2;
+constexpr std::uint64_t kMostBytes = 1ull << 30;
 
 std::optional<FileMark> mark_of(const fs::path& file)
 {
@@ -45,22 +48,56 @@ std::string key_of(const fs::path& file)
     return fs::absolute(file).lexically_normal().string();
 }
 
+// JSON holds UTF-8 only; other names are written as their bytes in hexadecimal.
+constexpr std::string_view kBytes = "bytes:";
+
+std::string to_json_name(const std::string& name)
+{
+    if (is_utf8(name) && name.rfind(kBytes, 0) != 0) return name;
+    std::string text(kBytes);
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        text += {"0123456789abcdef"[byte >> 4], "0123456789abcdef"[byte & 15]};
+    }
+    return text;
+}
+
+std::string from_json_name(const std::string& text)
+{
+    if (text.rfind(kBytes, 0) != 0) return text;
+    std::string name;
+    for (std::size_t i = kBytes.size(); i + 1 < text.size(); i += 2)
+        name += static_cast<char>(std::strtol(text.substr(i, 2).c_str(), nullptr, 16));
+    return name;
+}
+
+std::vector<std::string> with_each(std::vector<std::string> names,
+                                   std::string (*change)(const std::string&))
+{
+    for (std::string& name : names) name = change(name);
+    return names;
+}
+
 }  // namespace
 
 BuildState::BuildState(const fs::path& folder) : folder_(folder)
 {
-    std::ifstream in(folder / kFile, std::ios::binary);
-    const json all = json::parse(in, nullptr, false);
+    if (!fs::exists(folder / kFile)) return;
+    const json all =
+        json::parse(read_file(folder / kFile, "texture build:", kMostBytes), nullptr, false);
     if (all.is_discarded() || !all.is_object()) return;
     try {
         if (all.at("format") != kFormat) return;
         for (const auto& [path, f] : all.at("files").items()) {
-            files_[path] = {f.at(0).get<std::uint64_t>(), f.at(1).get<std::int64_t>(),
-                            f.at(2).get<std::uint64_t>(), f.at(3).get<std::string>()};
+            files_[from_json_name(path)] = {
+                f.at(0).get<std::uint64_t>(), f.at(1).get<std::int64_t>(),
+                f.at(2).get<std::uint64_t>(), f.at(3).get<std::string>()};
         }
         for (const json& s : all.at("sets")) {
-            sets_[{s.at("material").get<std::string>(), s.at("engines").get<std::string>()}] = {
-                s.at("key").get<std::string>(), s.at("outputs").get<std::vector<std::string>>(),
+            sets_[{from_json_name(s.at("material").get<std::string>()),
+                   s.at("engines").get<std::string>()}] = {
+                s.at("key").get<std::string>(),
+                with_each(s.at("outputs").get<std::vector<std::string>>(), from_json_name),
                 s.at("manifest").get<std::string>()};
         }
     } catch (const json::exception&) {
@@ -123,16 +160,19 @@ bool BuildState::save(const std::vector<SetName>& names)
     changed_ = changed_ || forgotten > 0;
     if (!changed_) return false;
     json files = json::object(), sets = json::array();
-    for (const auto& [path, f] : files_) files[path] = {f.bytes, f.modified_ns, f.inode, f.sha256};
+    for (const auto& [path, f] : files_)
+        files[to_json_name(path)] = {f.bytes, f.modified_ns, f.inode, f.sha256};
     for (const auto& [name, s] : sets_) {
-        sets.push_back({{"material", name.material},
+        sets.push_back({{"material", to_json_name(name.material)},
                         {"engines", name.engines},
                         {"key", s.key},
-                        {"outputs", s.outputs},
+                        {"outputs", with_each(s.outputs, to_json_name)},
                         {"manifest", s.manifest}});
     }
     write_text_file(folder_ / kFile,
-                    json{{"format", kFormat}, {"files", files}, {"sets", sets}}.dump() + "\n");
+                    json{{"format", kFormat}, {"files", files}, {"sets", sets}}.dump(
+                        -1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                        "\n");
     changed_ = false;
     return true;
 }

@@ -17,7 +17,7 @@ std::vector<std::byte> GlbDocument::container() const
     json complete = tree;
     complete["buffers"] = json::array({{{"byteLength", bytes.size()}}});
     if (!extensions.empty()) complete["extensionsUsed"] = extensions;
-    std::string text = complete.dump();
+    std::string text = complete.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t padding = (4 - bytes.size() % 4) % 4;
     std::vector<std::byte> out;
