@@ -29,6 +29,7 @@ constexpr std::size_t kDigits = 16;
 // What this process is writing, for remove_own_temporaries(), and the folders it has tidied. A
 // process has one set of files, so there is one of these a process.
 struct Own {
+    std::timed_mutex together;  // taken before `guard`
     std::timed_mutex guard;
     std::set<fs::path> temporaries;
     std::set<fs::path> tidied;
@@ -99,12 +100,6 @@ bool still_named(int fd, const fs::path& path)
            open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-void remember(const fs::path& path)
-{
-    const std::lock_guard lock(own().guard);
-    own().temporaries.insert(fs::absolute(path));
-}
-
 void forget(const fs::path& path)
 {
     const std::lock_guard lock(own().guard);
@@ -141,6 +136,7 @@ int make_locked(const fs::path& folder, const std::string& extension, fs::path& 
                 const fs::path& wanted, const Make& make)
 {
     for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::lock_guard lock(own().guard);  // it is made and known, or neither
         path = folder / (random_name() + extension);
         const int fd = make(path);
         if (fd < 0) {
@@ -150,7 +146,7 @@ int make_locked(const fs::path& folder, const std::string& extension, fs::path& 
         // Where locks do not work (some network folders) nothing is ever taken for left behind.
         (void)!::flock(fd, LOCK_EX | LOCK_NB);
         if (still_named(fd, path)) {
-            remember(path);
+            own().temporaries.insert(fs::absolute(path));
             return fd;
         }
         ::close(fd);
@@ -262,16 +258,29 @@ void remove_dead_temporaries(const fs::path& folder)
     }
 }
 
+KeptTogether::KeptTogether()
+{
+    own().together.lock();
+}
+
+KeptTogether::~KeptTogether()
+{
+    own().together.unlock();
+}
+
 void remove_own_temporaries() noexcept
 {
     try {
         Own& mine = own();
-        const std::unique_lock lock(mine.guard, std::chrono::milliseconds(50));
+        std::unique_lock together(mine.together, std::chrono::milliseconds(100));
+        std::unique_lock lock(mine.guard, std::chrono::milliseconds(50));
         if (!lock) return;
         for (const fs::path& path : mine.temporaries) {
             std::error_code ignored;
             fs::remove_all(path, ignored);
         }
+        lock.release();  // stays locked: nothing new is begun
+        if (together) together.release();
     } catch (...) {  // what stays is removed by the next program
     }
 }

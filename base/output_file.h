@@ -69,7 +69,19 @@ private:
 /// a folder for the first time does it by itself.
 void remove_dead_temporaries(const std::filesystem::path& folder);
 
-/// Removes every temporary of this process: the last act before it ends without unwinding.
+/// Files that only mean something together (pictures and the list that names them): while one of
+/// these lives, remove_own_temporaries() waits, so that a program that is ended has published all
+/// of them or none.
+class KeptTogether {
+public:
+    KeptTogether();
+    KeptTogether(const KeptTogether&) = delete;
+    KeptTogether& operator=(const KeptTogether&) = delete;
+    ~KeptTogether();
+};
+
+/// Removes every temporary of this process: the last act before it ends without unwinding. Waits at
+/// most 0.1 s for what is being published; nothing can be published or begun after it.
 void remove_own_temporaries() noexcept;
 
 }  // namespace petrichor

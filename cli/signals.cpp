@@ -1,23 +1,82 @@
 #include "cli/signals.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <initializer_list>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "base/output_file.h"
+#include "cli/exit.h"
 
 namespace petrichor::cli {
 namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
+int wake_end = -1;  // the handler writes here, the watching thread reads at the other end
+
+constexpr auto kPatience = std::chrono::milliseconds(300);
+
+struct Words {
+    std::timed_mutex guard;
+    std::function<std::string()> text;
+};
+Words& last_words()
+{
+    static Words* words = new Words;  // used while the process ends
+    return *words;
+}
 
 void request_stop(int signal)
 {
+    const int kept = errno;
     stop_requested = 1;
     std::signal(signal, SIG_DFL);  // the next one is not asked to wait
+    const char byte = 1;
+    [[maybe_unused]] const ssize_t told = ::write(wake_end, &byte, 1);
+    errno = kept;
+}
+
+// Work that asks interrupted() ends by itself and the process is gone; the rest is ended here.
+void end_what_does_not(int wake)
+{
+    char byte = 0;
+    while (::read(wake, &byte, 1) < 0 && errno == EINTR) {
+    }
+    std::this_thread::sleep_for(kPatience);
+    remove_own_temporaries();
+    std::string text = "interrupted: what was finished is kept";
+    Words& words = last_words();
+    if (const std::unique_lock lock(words.guard, std::chrono::milliseconds(20)); lock && words.text)
+        text = words.text();
+    if (text.empty()) ::_exit(kExitInterrupted);
+    text = (::isatty(STDERR_FILENO) == 1 ? "\n" : "") + text + "\n";
+    ::fcntl(STDERR_FILENO, F_SETFL, ::fcntl(STDERR_FILENO, F_GETFL) | O_NONBLOCK);
+    [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(kExitInterrupted);
 }
 
 }  // namespace
 
 void watch_for_interrupt()
 {
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) == 0) {
+        wake_end = ends[1];
+        ::fcntl(wake_end, F_SETFL, O_NONBLOCK);
+        sigset_t all, before;  // signals are for the other threads
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, &before);
+        std::thread(end_what_does_not, ends[0]).detach();
+        pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    }
     struct sigaction action = {};
     action.sa_handler = request_stop;
     action.sa_flags = SA_RESTART;
@@ -27,13 +86,17 @@ void watch_for_interrupt()
         // it.
         sigaction(signal, &action, nullptr);
     }
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted()
 {
     return stop_requested != 0;
+}
+
+void set_last_words(std::function<std::string()> words)
+{
+    const std::lock_guard lock(last_words().guard);
+    last_words().text = std::move(words);
 }
 
 }  // namespace petrichor::cli

@@ -1,12 +1,14 @@
 // petrichor render: a scenario, or a scene under a weather preset, becomes pictures and a film.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -39,6 +41,7 @@ struct RenderOptions {
     std::string to;
     std::optional<double> hours_per_second;
     std::optional<double> spin_up_days;
+    std::optional<double> max_gap_days;
     std::string surface;
     std::optional<double> latitude_deg;
     std::optional<double> longitude_deg;
@@ -56,6 +59,9 @@ struct RenderOptions {
     std::vector<std::string> aovs;
     int threads = 0;
     bool resume = false;
+    bool verify = false;
+    std::uint64_t memory_mib = 0;
+    bool allow_outside = false;
     bool no_exr = false;
     bool no_png = false;
     bool no_film = false;
@@ -79,6 +85,7 @@ void apply_weather(ScenarioWeather& weather, const RenderOptions& options)
     if (!options.surface.empty()) weather.site.surface = options.surface;
     if (options.latitude_deg) weather.site.latitude_deg = options.latitude_deg;
     if (options.longitude_deg) weather.site.longitude_deg = options.longitude_deg;
+    if (options.max_gap_days) weather.site.max_gap_days = *options.max_gap_days;
 }
 
 // Keeps of the scenario's variants those that are asked for.
@@ -145,6 +152,7 @@ void apply_options(Scenario& scenario, const RenderOptions& options)
     output.exr = output.exr && !options.no_exr;
     output.png = output.png && !options.no_png;
     output.film = output.film && !options.no_film;
+    scenario.scene.allow_outside = options.allow_outside;
     if (!output.exr && !output.png) {
         throw Error("render: neither EXR nor PNG is asked for, so nothing would be written",
                     "Leave out --no-exr or --no-png.");
@@ -172,12 +180,24 @@ fs::path output_folder(const RenderOptions& options)
     return "petrichor-" + (stem.empty() ? "demo" : stem);
 }
 
+// A word as a shell reads it back.
+std::string in_shell_quotes(const std::string& word)
+{
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_-./:=,@%+").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 std::string resume_command(const RenderOptions& options)
 {
     std::string command;
     for (const std::string& word : options.words) {
-        const bool plain = word.find_first_of(" \t'\"\\$&;*?()<>|") == std::string::npos;
-        command += (command.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+        command += (command.empty() ? "" : " ") + in_shell_quotes(word);
     }
     return options.resume ? command : command + " --resume";
 }
@@ -251,7 +271,17 @@ void render(const RenderOptions& options)
         list_aovs();
         return;
     }
-    watch_for_interrupt();
+    struct Progressing {
+        RenderTally tally;
+        RenderRequest request;
+    };
+    // Outlives this function: it may be asked while the program ends.
+    const auto work = std::make_shared<Progressing>();
+    RenderRequest& request = work->request;
+    request.folder = output_folder(options);
+    request.command = resume_command(options);
+    request.tally = &work->tally;
+    set_last_words([work] { return stop_message(work->tally, work->request); });
     if (options.threads > 0) {
         // The CPU driver reads its number of threads from here.
         ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
@@ -262,20 +292,19 @@ void render(const RenderOptions& options)
     const Scenario& scenario = sequence.scenario;
     report_weather(sequence);
 
-    RenderRequest request;
-    request.folder = output_folder(options);
     request.range = {0, scenario.output.frames - 1};
     if (!options.frames.empty())
         request.range = parse_frame_range(options.frames, scenario.output.frames);
     if (!options.shard.empty()) request.shard = parse_shard(options.shard);
-    request.resume = options.resume;
+    request.resume = options.resume || options.verify;
+    request.verify = options.verify;
+    request.memory_budget = options.memory_mib << 20;
     request.device = options.device;
     request.threads = options.threads;
     request.validation = options.validate;
     request.stop = interrupted;
     ProgressWatcher watcher;
     request.watcher = &watcher;
-    request.command = resume_command(options);
 
     require_writable_folder(request.folder);
     load_sequence_scene(sequence, options.threads);
@@ -340,6 +369,11 @@ void add_render(CLI::App& app, std::vector<std::string> words)
         ->check(CLI::Range(-180.0, 360.0))
         ->group(weather);
     command
+        ->add_option("--max-gap", o->max_gap_days,
+                     "days, longest time between two rows of a weather file (60)")
+        ->check(CLI::Range(0.0, 1e6))
+        ->group(weather);
+    command
         ->add_option("--variants", o->variants,
                      "only these [[variant]] of the scenario, names joined by commas")
         ->delimiter(',');
@@ -364,8 +398,18 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     command->add_option("--device", o->device,
                         "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
-    command->add_flag("--resume", o->resume,
-                      "keep frames that are there and would come out the same");
+    command->add_flag(
+        "--resume", o->resume,
+        "keep frames whose files have the hashes they were written with and that would "
+        "come out the same");
+    command->add_flag("--verify", o->verify,
+                      "--resume that also decodes the pictures and compares their pixels");
+    command
+        ->add_option("--memory", o->memory_mib,
+                     "MiB that the scene may take (three quarters of the machine's)")
+        ->check(CLI::Range(64, 1 << 30));
+    command->add_flag("--allow-outside", o->allow_outside,
+                      "links in the scene's folder may lead out of it");
     command->add_flag("--no-exr", o->no_exr, "write no EXR");
     command->add_flag("--no-png", o->no_png, "write no PNG, and so no film");
     command->add_flag("--no-film", o->no_film, "write no film");

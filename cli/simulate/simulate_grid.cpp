@@ -74,7 +74,6 @@ SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOp
         };
     }
     run.stop = interrupted;
-    watch_for_interrupt();
     try {
         return run_grid(input.read, title_of(inputs), terrain, run);
     } catch (const Interrupted& stop) {

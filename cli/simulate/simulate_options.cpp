@@ -99,6 +99,8 @@ void add_site(CLI::App& command, SimulateOptions& o)
     add(command, group, "--surface", "NAME", site.surface,
         "asphalt (default), concrete, paving_stones, cobblestone, brick, soil, sand,\ngravel, "
         "grass, roof_metal, roof_tile, wood, rock, road (in use), bridge");
+    add(command, group, "--max-gap", "DAYS", site.max_gap_days,
+        "longest time between two rows of a weather file (default 60)");
     add(command, group, "--sky-view", "SHARE", site.sky_view,
         "of the sky that is seen, 0..1 (default 1); houses and trees hide it");
     add(command, group, "--canopy-vai", "M2", site.canopy_vai,

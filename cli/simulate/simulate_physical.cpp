@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/words.h"
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
 #include "film/weather/times.h"
@@ -32,6 +33,23 @@ std::string title_of(const std::vector<Input>& inputs)
 }
 
 namespace {
+
+// A century of hours. A row of the table and its state take some 2 KB.
+constexpr double kMostRows = 1e6;
+constexpr double kMostSteps = 2e7;
+
+void check_rows(const PhysicalRun& run, double last_s)
+{
+    const double end_s = std::min(run.to_s.value_or(last_s), last_s);
+    const double rows = (end_s - std::max(run.from_s.value_or(0.0), 0.0)) / run.every_s;
+    const double steps = end_s / run.step_s;
+    if (rows <= kMostRows && steps <= kMostSteps) return;
+    throw Error("simulate: " + number_text(std::round(end_s / 864.0 / 365.25) / 100.0) +
+                    " years are " + number_text(std::round(rows)) + " rows and " +
+                    number_text(std::round(steps)) + " steps, at most " + number_text(kMostRows) +
+                    " and " + number_text(kMostSteps) + " are computed",
+                "Name a part with --from and --to, or longer steps with --every and --dt.");
+}
 
 // The file, then words for constants as settings, then --set.
 void read_constants(const SimulateOptions& options, PhysicalRun& run)
@@ -177,6 +195,7 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     if (!options.step.empty()) run.step_s = parse_duration(options.step, "--dt").value();
     run.every_s =
         options.every.empty() ? run.step_s : parse_duration(options.every, "--every").value();
+    check_rows(run, static_cast<double>(input.read.table.time_us.back() - start_us) * 1e-6);
     if (run.threads == 0)
         run.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!options.resume.empty()) run.resume = read_checkpoint_file(options.resume);

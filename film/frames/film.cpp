@@ -1,8 +1,7 @@
 #include "film/frames/film.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +11,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_file.h"
+#include "base/limited_child.h"
 #include "base/output_file.h"
 #include "base/words.h"
 
@@ -20,52 +21,95 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ProcessResult {
-    int status = 0;
-    std::string last_words;  ///< the end of what it printed
+constexpr std::uint64_t kMostBytes = 1ull << 30;  // of one picture
+
+struct Socket {
+    int ours = -1, theirs = -1;
+    Socket()
+    {
+        int ends[2];
+        if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+            throw Error(std::string("film: cannot start ffmpeg: ") + std::strerror(errno),
+                        "Close some programs and try again.");
+        }
+        ours = ends[0];
+        theirs = ends[1];
+    }
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+    ~Socket()
+    {
+        shut(ours);
+        shut(theirs);
+    }
+    static void shut(int& end)
+    {
+        if (end >= 0) ::close(end);
+        end = -1;
+    }
 };
 
-// Runs a program without a shell, stdin closed, and collects what it prints.
-ProcessResult run_program(const std::vector<std::string>& arguments)
-{
-    int pipe_ends[2];
-    if (::pipe2(pipe_ends, O_CLOEXEC) != 0) {
-        throw Error("film: cannot start " + arguments[0] + ": " + std::strerror(errno),
-                    "Close some programs and try again.");
+// Pictures into one end, words out of the other. Sockets: a program that ends early shows as a
+// failed write, not as a signal.
+class Encoder {
+public:
+    Encoder(const std::vector<std::string>& words, const StopRequest& stop)
+        : stop_(stop),
+          child_(words.front(), {words.begin() + 1, words.end()}, {},
+                 {{pictures_.theirs, 0}, {said_.theirs, 1}, {said_.theirs, 2}}, Trust::Full)
+    {
+        Socket::shut(pictures_.theirs);
+        Socket::shut(said_.theirs);
     }
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 1);
-    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 2);
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    const int failed = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(pipe_ends[1]);
-    ProcessResult result;
-    if (failed == 0) {
-        char buffer[4096];
-        for (;;) {
-            const ssize_t got = ::read(pipe_ends[0], buffer, sizeof buffer);
-            if (got < 0 && errno == EINTR) continue;
-            if (got <= 0) break;
-            result.last_words.append(buffer, static_cast<std::size_t>(got));
-            if (result.last_words.size() > 8192) result.last_words.erase(0, 4096);
+
+    // False: it takes no more.
+    bool send(std::string_view bytes)
+    {
+        while (!bytes.empty()) {
+            const auto ready = wait(true);
+            if (ready & kWrite) {
+                const ssize_t n =
+                    ::send(pictures_.ours, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+                if (n < 0 && errno != EINTR && errno != EAGAIN) return false;
+                if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
+            }
         }
-        while (::waitpid(child, &result.status, 0) < 0 && errno == EINTR) {
+        return true;
+    }
+
+    ChildEnd finish()
+    {
+        Socket::shut(pictures_.ours);
+        while (said_.ours >= 0) wait(false);
+        return child_.end(false);
+    }
+    const std::string& last_words() const { return last_words_; }
+
+private:
+    static constexpr int kWrite = 1;
+    int wait(bool to_write)
+    {
+        if (stop_ && stop_()) throw Interrupted("interrupted while making the film");
+        pollfd ends[2] = {{said_.ours, POLLIN, 0}, {to_write ? pictures_.ours : -1, POLLOUT, 0}};
+        if (::poll(ends, 2, 50) <= 0) return 0;
+        if (ends[0].revents != 0) {
+            char buffer[4096];
+            const ssize_t got = ::recv(said_.ours, buffer, sizeof buffer, MSG_DONTWAIT);
+            if (got > 0) {
+                last_words_.append(buffer, static_cast<std::size_t>(got));
+                if (last_words_.size() > 8192) last_words_.erase(0, 4096);
+            } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
+                Socket::shut(said_.ours);
+            }
         }
+        return ends[1].revents != 0 ? kWrite : 0;
     }
-    ::close(pipe_ends[0]);
-    if (failed != 0) {
-        throw Error("film: cannot start " + arguments[0] + ": " + std::strerror(failed),
-                    "Check that it runs by itself.");
-    }
-    return result;
-}
+
+    const StopRequest& stop_;
+    Socket pictures_, said_;
+    std::string last_words_;
+    LimitedChild child_;
+};
 
 }  // namespace
 
@@ -84,15 +128,17 @@ std::string find_ffmpeg()
     return "";
 }
 
-void make_film(const fs::path& folder, const std::string& suffix, int first, int count, double fps,
-               const fs::path& film)
+void make_film(const fs::path& folder, Job first, int count, double fps, const fs::path& film,
+               const StopRequest& stop)
 {
     OutputFile output(film);
-    // One thread, no dates: the same frames give the same film.
-    const ProcessResult result = run_program(
-        {find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-threads", "1", "-framerate",
-         number_text(fps), "-start_number", std::to_string(first), "-i",
-         (folder / ("frame_%04d" + suffix + ".png")).string(), "-frames:v", std::to_string(count),
+    // Pictures go in through a pipe and the film's name behind "file:", so that no folder is taken
+    // for an option, a pattern or a protocol. One thread, no dates: the same frames give the same
+    // film.
+    Encoder encoder(
+        {find_ffmpeg(), "-nostdin", "-y", "-loglevel", "error", "-threads", "1", "-f", "image2pipe",
+         "-c:v", "png", "-framerate", number_text(fps), "-i", "pipe:0", "-frames:v",
+         std::to_string(count),
          // sRGB pictures become video with the matrix and range written into the file.
          "-vf",
          "crop=trunc(iw/2)*2:trunc(ih/"
@@ -100,9 +146,16 @@ void make_film(const fs::path& folder, const std::string& suffix, int first, int
          "-c:v", "libx264", "-crf", "16", "-preset", "medium", "-pix_fmt", "yuv420p", "-colorspace",
          "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv",
          "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags",
-         "+faststart", output.temporary().string()});
-    if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) != 0) {
-        throw Error("film: ffmpeg failed: " + result.last_words,
+         "+faststart", "file:" + fs::absolute(output.temporary()).string()},
+        stop);
+    for (int i = 0; i < count; ++i, ++first.frame) {
+        if (!encoder.send(read_file(folder / file_name(first, "png"), "film", kMostBytes, stop)))
+            break;
+    }
+    const ChildEnd end = encoder.finish();
+    if (!end.exited || end.code != 0) {
+        const std::string words = encoder.last_words();
+        throw Error("film: ffmpeg " + (words.empty() ? end.text() : "failed: " + words),
                     "The frames are kept; render with --no-film, or make the film by hand.");
     }
     output.commit();

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "base/interrupted.h"
+#include "film/frames/job.h"
+
 namespace petrichor::film {
 
 /// The ffmpeg that PATH finds, or "".
@@ -13,9 +16,9 @@ std::string find_ffmpeg();
 /// folder, whole or not at all. Odd sizes are cut by one pixel, which the format needs.
 ///
 ///   first, count   frames first .. first + count - 1 must be there
-///   throws         Error with ffmpeg's last words
-void make_film(const std::filesystem::path& folder, const std::string& suffix, int first, int count,
-               double fps, const std::filesystem::path& film);
+///   throws         Error with ffmpeg's last words; Interrupted (ffmpeg is ended then)
+void make_film(const std::filesystem::path& folder, Job first, int count, double fps,
+               const std::filesystem::path& film, const StopRequest& stop = {});
 
 }  // namespace petrichor::film
 

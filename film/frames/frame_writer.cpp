@@ -1,5 +1,6 @@
 #include "film/frames/frame_writer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "base/output_file.h"
 #include "texproc/codecs/files/io.h"
 
 namespace petrichor::film {
@@ -54,10 +56,13 @@ std::vector<texproc::ExrChannel> exr_channels(const gpu::RenderResult& result)
     return channels;
 }
 
-}  // namespace
+struct WrittenFrame {
+    std::string line;  // for frames.jsonl
+    std::vector<std::string> files;
+};
 
-std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, FrameFacts facts,
-                        const gpu::RenderResult& result)
+WrittenFrame write_frame(const fs::path& folder, const WrittenKinds& kinds, FrameFacts facts,
+                         const gpu::RenderResult& result)
 {
     Hasher hasher;
     hasher.add_numbers(std::span<const std::uint16_t>(result.beauty));
@@ -67,12 +72,12 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
         {"software", "petrichor " PETRICHOR_VERSION},
         {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},
         {"petrichor:seed", std::to_string(facts.input.settings.seed)},
-        {"petrichor:settings", facts.settings}};
+        {"petrichor:settings", fingerprint_of(facts.made_from)}};
     if (kinds.exr) {
         const std::string name = file_name(facts.job, "exr");
         texproc::write_exr(folder / name, result.width, result.height, exr_channels(result),
                            metadata);
-        facts.files[name] = fs::file_size(folder / name);
+        facts.files[name] = file_mark(folder / name);
     }
     if (kinds.png) {
         const std::string name = file_name(facts.job, "png");
@@ -84,37 +89,84 @@ std::string write_frame(const fs::path& folder, const WrittenKinds& kinds, Frame
                        {result.display[i], result.display[i + 1], result.display[i + 2]});
         }
         texproc::write_png8(folder / name, result.width, result.height, 3, rgb, metadata);
-        facts.files[name] = fs::file_size(folder / name);
+        facts.files[name] = file_mark(folder / name);
     }
-    return frame_line(facts);
+    WrittenFrame written{frame_line(facts), {}};
+    for (const auto& [name, mark] : facts.files) written.files.push_back(name);
+    return written;
 }
 
+}  // namespace
+
+// Pictures are made in a folder of their own inside `folder` and appear with their lines in
+// frames.jsonl. That file is written anew for it, so with many lines several frames wait for each
+// other, for a second at most.
 struct FrameWriter::Impl {
+    using Clock = std::chrono::steady_clock;
+
     fs::path folder;
     WrittenKinds kinds;
-    std::size_t waiting = 2;
+    FrameWriterOptions options;
+    ScratchFolder scratch;
     std::mutex guard;
     std::condition_variable changed;
     std::deque<std::pair<FrameFacts, gpu::RenderResult>> queue;
     std::exception_ptr problem;
     bool closing = false;
     std::atomic<int> written{0};
-    std::map<Job, std::string> lines;  // not yet in frames.jsonl; the thread's own
+    // The thread's own: what is made and not yet published.
+    std::map<Job, std::string> lines;
+    std::vector<std::string> files;
+    Clock::time_point last = Clock::now();
+    Clock::duration wait{0};
     std::thread thread;
 
-    void flush()
+    Impl(fs::path into, WrittenKinds what, FrameWriterOptions how)
+        : folder(std::move(into)), kinds(what), options(std::move(how)), scratch(folder)
+    {
+    }
+
+    bool stopped() const { return options.stop && options.stop(); }
+
+    void publish()
     {
         if (lines.empty()) return;
-        merge_frame_lines(folder, lines);
-        lines.clear();
+        const auto begin = Clock::now();
+        const int count = static_cast<int>(lines.size());
+        {
+            const KeptTogether together;
+            scratch.publish(files);
+            files.clear();
+            merge_frame_lines(folder, lines);
+            lines.clear();
+        }
+        written += count;
+        if (options.published) *options.published += count;
+        last = Clock::now();
+        wait = std::min<Clock::duration>(std::chrono::seconds(1), 10 * (last - begin));
+    }
+
+    void publish_or_note()
+    {
+        try {
+            publish();
+        } catch (...) {
+            const std::lock_guard lock(guard);
+            if (!problem) problem = std::current_exception();
+        }
     }
 
     void run()
     {
-        auto last_flush = std::chrono::steady_clock::now();
         for (;;) {
             std::unique_lock lock(guard);
-            changed.wait(lock, [&] { return closing || !queue.empty(); });
+            const auto ready = [&] { return closing || !queue.empty(); };
+            if (!changed.wait_for(lock, std::chrono::milliseconds(50), ready)) {
+                // Who asked for a stop may not wait until the frame at hand is rendered.
+                lock.unlock();
+                if (stopped() || Clock::now() - last > wait) publish_or_note();
+                continue;
+            }
             if (queue.empty()) break;
             auto [facts, result] = std::move(queue.front());
             queue.pop_front();
@@ -124,23 +176,16 @@ struct FrameWriter::Impl {
             if (give_up) continue;
             try {
                 const Job job = facts.job;
-                lines[job] = write_frame(folder, kinds, std::move(facts), result);
-                ++written;
-                if (std::chrono::steady_clock::now() - last_flush > std::chrono::seconds(1)) {
-                    flush();
-                    last_flush = std::chrono::steady_clock::now();
-                }
+                WrittenFrame frame = write_frame(scratch.path(), kinds, std::move(facts), result);
+                lines[job] = std::move(frame.line);
+                files.insert(files.end(), frame.files.begin(), frame.files.end());
+                if (stopped() || Clock::now() - last > wait) publish();
             } catch (...) {
                 lock.lock();
                 problem = std::current_exception();
             }
         }
-        try {
-            flush();  // frames that are on the disk stay known even when a later one failed
-        } catch (...) {
-            const std::lock_guard lock(guard);
-            if (!problem) problem = std::current_exception();
-        }
+        publish_or_note();  // frames that are made stay known even when a later one failed
     }
 
     void close()
@@ -154,12 +199,9 @@ struct FrameWriter::Impl {
     }
 };
 
-FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, int waiting)
-    : impl_(std::make_unique<Impl>())
+FrameWriter::FrameWriter(fs::path folder, WrittenKinds kinds, FrameWriterOptions options)
+    : impl_(std::make_unique<Impl>(std::move(folder), kinds, std::move(options)))
 {
-    impl_->folder = std::move(folder);
-    impl_->kinds = kinds;
-    impl_->waiting = static_cast<std::size_t>(waiting);
     impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
 }
 
@@ -171,8 +213,8 @@ FrameWriter::~FrameWriter()
 void FrameWriter::write(FrameFacts facts, gpu::RenderResult result)
 {
     std::unique_lock lock(impl_->guard);
-    impl_->changed.wait(lock,
-                        [&] { return impl_->problem || impl_->queue.size() < impl_->waiting; });
+    impl_->changed.wait(
+        lock, [&] { return impl_->problem || impl_->queue.size() < impl_->options.waiting; });
     if (impl_->problem) std::rethrow_exception(impl_->problem);
     impl_->queue.emplace_back(std::move(facts), std::move(result));
     lock.unlock();

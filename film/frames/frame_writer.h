@@ -1,10 +1,13 @@
 #ifndef PETRICHOR_FILM_FRAMES_FRAME_WRITER_H
 #define PETRICHOR_FILM_FRAMES_FRAME_WRITER_H
 
+#include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "base/interrupted.h"
 #include "film/frames/frames_jsonl.h"
 #include "gpu/renderer.h"
 
@@ -15,11 +18,17 @@ struct WrittenKinds {
     bool png = true;
 };
 
-/// Writes frames in a thread of its own while the next ones are rendered: at most `waiting` frames
-/// are held in memory besides the one being written. frames.jsonl follows about once a second.
+struct FrameWriterOptions {
+    std::size_t waiting = 2;                ///< frames held in memory besides the one being written
+    StopRequest stop = {};                  ///< once it says so, what is made appears at once
+    std::atomic<int>* published = nullptr;  ///< counts frames on the disk, while they are written
+};
+
+/// Writes frames in a thread of its own while the next ones are rendered. The pictures of a frame
+/// and its line of frames.jsonl appear together, at most a second after they are made.
 class FrameWriter {
 public:
-    FrameWriter(std::filesystem::path folder, WrittenKinds kinds, int waiting = 2);
+    FrameWriter(std::filesystem::path folder, WrittenKinds kinds, FrameWriterOptions options = {});
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
     ~FrameWriter();  ///< writes what waits, and drops the error if there is one
@@ -38,10 +47,6 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// Writes one frame now: the files, and the line that belongs into frames.jsonl.
-std::string write_frame(const std::filesystem::path& folder, const WrittenKinds& kinds,
-                        FrameFacts facts, const gpu::RenderResult& result);
 
 }  // namespace petrichor::film
 

@@ -4,10 +4,17 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "gpu/frame/sun.h"
 #include "weather/readers/text.h"
@@ -19,6 +26,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "frames.jsonl";
+constexpr std::uint64_t kMostBytes = 1ull << 30;  // half a million frames
 
 // A float as the shortest decimal that reads back as the same float, not as its widened double.
 double shortest(float value)
@@ -123,6 +131,16 @@ private:
 
 }  // namespace
 
+std::string fingerprint_of(const FrameParts& parts)
+{
+    Hasher hasher;
+    for (const auto& [name, hash] : parts) {
+        hasher.add(name);
+        hasher.add(hash);
+    }
+    return hasher.text();
+}
+
 std::string frame_line(const FrameFacts& facts)
 {
     const gpu::FrameSettings& settings = facts.input.settings;
@@ -149,15 +167,23 @@ std::string frame_line(const FrameFacts& facts)
     json["lamps"] = shortest(facts.input.scene_light_scale);
     json["aovs"] = settings.aovs;
     json["beauty_hash"] = facts.beauty_hash;
-    json["settings"] = facts.settings;
-    json["files"] = facts.files;
-    return json.dump();
+    json["settings"] = fingerprint_of(facts.made_from);
+    json["made_from"] = facts.made_from;
+    Json hashes = Json::object();
+    for (const auto& [name, mark] : facts.files) {
+        json["files"][name] = mark.bytes;
+        hashes[name] = mark.hash;
+    }
+    json["file_hashes"] = hashes;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::map<Job, FrameRecord> read_frame_records(const fs::path& folder)
 {
     std::map<Job, FrameRecord> records;
-    std::ifstream in(folder / kName);
+    std::error_code failed;
+    if (!fs::exists(fs::symlink_status(folder / kName, failed))) return records;
+    std::istringstream in(read_file(folder / kName, "frames", kMostBytes));
     std::string line;
     while (std::getline(in, line)) {
         const Json json = Json::parse(line, nullptr, false);
@@ -165,28 +191,58 @@ std::map<Job, FrameRecord> read_frame_records(const fs::path& folder)
             continue;
         FrameRecord record;
         record.line = line;
-        if (json.contains("settings") && json["settings"].is_string())
-            record.settings = json["settings"];
+        if (json.contains("made_from") && json["made_from"].is_object()) {
+            for (const auto& [name, hash] : json["made_from"].items())
+                if (hash.is_string()) record.made_from[name] = hash;
+        }
         if (json.contains("files") && json["files"].is_object()) {
             for (const auto& [name, bytes] : json["files"].items()) {
-                if (bytes.is_number_unsigned()) record.files[name] = bytes.get<std::uintmax_t>();
+                // Only names that lie in this folder: the file may have been edited.
+                if (bytes.is_number_unsigned() && name.find('/') == std::string::npos)
+                    record.files[name].bytes = bytes.get<std::uintmax_t>();
+            }
+        }
+        if (json.contains("file_hashes") && json["file_hashes"].is_object()) {
+            for (const auto& [name, hash] : json["file_hashes"].items()) {
+                const auto file = record.files.find(name);
+                if (file != record.files.end() && hash.is_string()) file->second.hash = hash;
             }
         }
         const auto part = [&](const char* key) {
             return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
         };
+        record.beauty_hash = part("beauty_hash");
         records[{json["frame"].get<int>(), part("variant"), part("view")}] = std::move(record);
     }
     return records;
 }
 
-bool files_are_whole(const FrameRecord& record, const fs::path& folder)
+FileMark file_mark(const fs::path& file)
 {
-    for (const auto& [name, bytes] : record.files) {
-        std::error_code failed;
-        if (fs::file_size(folder / name, failed) != bytes || failed) return false;
+    const InputFile in = open_regular_file(file, "frame");
+    Hasher hasher;
+    std::vector<std::byte> piece(1 << 20);
+    FileMark mark;
+    while (const std::size_t got = in.read(piece)) {
+        hasher.add_bytes({piece.data(), got});
+        mark.bytes += got;
     }
-    return !record.files.empty();
+    mark.hash = hasher.text();
+    return mark;
+}
+
+std::string wrong_with_files(const FrameRecord& record, const fs::path& folder)
+{
+    if (record.files.empty()) return "no files of it are known";
+    for (const auto& [name, mark] : record.files) {
+        std::error_code failed;
+        const auto bytes = fs::file_size(folder / name, failed);
+        if (failed) return name + " is missing";
+        if (mark.hash.empty()) return name + " was written by an older version, without a hash";
+        if (bytes != mark.bytes || file_mark(folder / name).hash != mark.hash)
+            return name + " is not the file that was written";
+    }
+    return "";
 }
 
 void merge_frame_lines(const fs::path& folder, const std::map<Job, std::string>& lines)

@@ -12,6 +12,18 @@
 
 namespace petrichor::film {
 
+/// What tells a file that was written from any other.
+struct FileMark {
+    std::uintmax_t bytes = 0;
+    std::string hash;  ///< of all its bytes; "" in lines of version 0.1.0, which had sizes only
+};
+
+/// What decides a picture: a fingerprint for each part of it ("camera", "weather", "scene files").
+using FrameParts = std::map<std::string, std::string>;
+
+/// One fingerprint of all of them, to tell pictures apart.
+std::string fingerprint_of(const FrameParts& parts);
+
 /// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the
 /// same frame gives the same line on every run.
 struct FrameFacts {
@@ -19,12 +31,15 @@ struct FrameFacts {
     double time_s = 0.0;      ///< on the clock of weather, sun and camera
     weather::Moment moment;   ///< its clock and place
     std::string weather;      ///< name of the preset or file, for the reader
-    std::string settings;     ///< fingerprint of everything that decides the picture
+    FrameParts made_from;     ///< everything that decides the picture
     std::string beauty_hash;  ///< of the half-float pixels
     float exposure = 1.0f;    ///< scale from scene light to the PNG
     gpu::Frame input;
-    std::map<std::string, std::uintmax_t> files;  ///< name -> bytes
+    std::map<std::string, FileMark> files;  ///< by name
 };
+
+/// The mark of a file as it lies there now. Throws Error when it cannot be read.
+FileMark file_mark(const std::filesystem::path& file);
 
 /// One line, without the line break: JSON with a fixed order of keys and shortest exact numbers.
 /// "variant" and "view" are there where the sequence has some; "utc" and "place" where the weather
@@ -35,8 +50,9 @@ std::string frame_line(const FrameFacts& facts);
 
 /// What is needed of a line to tell whether its frame can be kept.
 struct FrameRecord {
-    std::string settings;
-    std::map<std::string, std::uintmax_t> files;
+    FrameParts made_from;
+    std::string beauty_hash;
+    std::map<std::string, FileMark> files;
     std::string line;
 };
 
@@ -44,8 +60,9 @@ struct FrameRecord {
 /// empty.
 std::map<Job, FrameRecord> read_frame_records(const std::filesystem::path& folder);
 
-/// True when every file of the record lies in the folder with its size.
-bool files_are_whole(const FrameRecord& record, const std::filesystem::path& folder);
+/// "" when every file of the record lies in the folder with its size and its hash, else what is
+/// wrong: "frame_0003.png is not the file that was written".
+std::string wrong_with_files(const FrameRecord& record, const std::filesystem::path& folder);
 
 /// Adds or replaces lines in folder/frames.jsonl, in order of jobs, whole or not at all. Several
 /// programs may do this to one folder at once: each sees what the others wrote.

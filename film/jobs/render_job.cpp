@@ -9,10 +9,14 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "film/frames/frame_writer.h"
 #include "film/frames/frames_jsonl.h"
+#include "film/frames/kept.h"
+#include "film/jobs/scene_source.h"
+#include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
 
@@ -30,45 +34,84 @@ bool stopped(const RenderRequest& request)
 struct Pending {
     Job job;
     SequenceFrame frame;
-    std::string fingerprint;
+    FrameParts made_from;
 };
 
-bool is_kept(const std::map<Job, FrameRecord>& records, const Job& job,
-             const std::string& fingerprint, const ScenarioOutput& output, const fs::path& folder)
-{
-    const auto found = records.find(job);
-    if (found == records.end() || found->second.settings != fingerprint) return false;
-    const auto has = [&](const char* extension) {
-        return found->second.files.count(file_name(job, extension)) != 0;
+// Why pictures are made again, said once for all that have the same reason.
+class Reasons {
+public:
+    void add(const Job& job, const std::string& why)
+    {
+        const auto found = std::find_if(reasons_.begin(), reasons_.end(),
+                                        [&](const Reason& reason) { return reason.why == why; });
+        if (found != reasons_.end()) {
+            ++found->count;
+        } else {
+            reasons_.push_back({why, std::to_string(job.frame) + name_suffix(job), 1});
+        }
+    }
+    std::vector<std::string> notes() const
+    {
+        constexpr std::size_t kMost = 8;
+        std::vector<std::string> lines;
+        for (const Reason& reason : reasons_) {
+            if (lines.size() == kMost) {
+                lines.push_back("... and " + std::to_string(reasons_.size() - kMost) + " more");
+                break;
+            }
+            const std::string others =
+                reason.count == 1 ? " is"
+                                  : " and " + std::to_string(reason.count - 1) + " more are";
+            lines.push_back("frame " + reason.first + others + " rendered again: " + reason.why);
+        }
+        return lines;
+    }
+
+private:
+    struct Reason {
+        std::string why, first;
+        int count = 0;
     };
-    return (!output.exr || has("exr")) && (!output.png || has("png")) &&
-           files_are_whole(found->second, folder);
-}
+    std::vector<Reason> reasons_;
+};
 
 std::vector<Pending> pending_jobs(const Sequence& sequence, const RenderRequest& request,
-                                  const std::vector<Job>& jobs)
+                                  const std::vector<Job>& jobs, std::vector<std::string>& notes)
 {
     std::map<Job, FrameRecord> records;
     if (request.resume) records = read_frame_records(request.folder);
     std::vector<Pending> pending;
+    const ScenarioOutput& output = sequence.scenario.output;
+    Reasons again;
     for (const Job& job : jobs) {
-        Pending one{job, frame_at(sequence, job), ""};
-        one.fingerprint = frame_fingerprint(sequence, one.frame);
-        if (is_kept(records, job, one.fingerprint, sequence.scenario.output, request.folder))
-            continue;
+        if (stopped(request)) throw Interrupted(stop_message({}, request));
+        Pending one{job, frame_at(sequence, job), {}};
+        one.made_from = frame_parts(sequence, one.frame);
+        if (request.resume) {
+            const std::string why = why_again(records, job, one.made_from, {output.exr, output.png},
+                                              request.folder, request.verify);
+            if (why.empty()) continue;
+            if (records.count(job) != 0) again.add(job, why);
+        }
         pending.push_back(std::move(one));
     }
+    const auto lines = again.notes();
+    notes.insert(notes.end(), lines.begin(), lines.end());
     return pending;
 }
 
 // Frames of a variant and view that are not there as they should be, for its film.
 int frames_missing_for_film(const Sequence& sequence, const std::map<Job, FrameRecord>& records,
-                            Job job, const fs::path& folder)
+                            Job job, const RenderRequest& request)
 {
+    const ScenarioOutput& output = sequence.scenario.output;
     int missing = 0;
-    for (job.frame = 0; job.frame < sequence.scenario.output.frames; ++job.frame) {
-        const auto fingerprint = frame_fingerprint(sequence, frame_at(sequence, job));
-        if (!is_kept(records, job, fingerprint, sequence.scenario.output, folder)) ++missing;
+    for (job.frame = 0; job.frame < output.frames; ++job.frame) {
+        if (stopped(request)) throw Interrupted("interrupted while comparing frames");
+        const FrameParts parts = frame_parts(sequence, frame_at(sequence, job));
+        if (!why_again(records, job, parts, {output.exr, output.png}, request.folder, false)
+                 .empty())
+            ++missing;
     }
     return missing;
 }
@@ -79,7 +122,7 @@ void finish_film(const Sequence& sequence, const RenderRequest& request, const J
     const ScenarioOutput& output = sequence.scenario.output;
     const fs::path film = request.folder / ("film" + name_suffix(part) + ".mp4");
     if (report.rendered == 0 && fs::exists(film)) return;
-    if (const int missing = frames_missing_for_film(sequence, records, part, request.folder)) {
+    if (const int missing = frames_missing_for_film(sequence, records, part, request)) {
         // An older film would show other frames than those beside it.
         std::error_code ignored;
         fs::remove(film, ignored);
@@ -88,7 +131,7 @@ void finish_film(const Sequence& sequence, const RenderRequest& request, const J
                                std::to_string(output.frames) + " frames are not rendered");
         return;
     }
-    make_film(request.folder, name_suffix(part), 0, output.frames, output.fps, film);
+    make_film(request.folder, part, output.frames, output.fps, film, request.stop);
     ++report.films;
 }
 
@@ -106,7 +149,7 @@ void finish_films(const Sequence& sequence, const RenderRequest& request, Render
 }
 
 void render_frames(Sequence& sequence, const RenderRequest& request,
-                   const std::vector<Pending>& pending, RenderReport& report)
+                   const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
     const ScenarioOutput& output = sequence.scenario.output;
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
@@ -114,7 +157,8 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
     std::string environment;  // fingerprint of what the renderer holds
     {
-        FrameWriter writer(request.folder, {output.exr, output.png});
+        FrameWriter writer(request.folder, {output.exr, output.png},
+                           {.stop = request.stop, .published = &tally.there});
         for (const Pending& one : pending) {
             if (stopped(request)) break;
             if (one.frame.environment != environment) {
@@ -127,7 +171,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
             facts.time_s = one.frame.time_s;
             facts.moment = one.frame.moment;
             facts.weather = one.frame.weather_name;
-            facts.settings = one.fingerprint;
+            facts.made_from = one.made_from;
             facts.input = one.frame.frame;
             writer.write(std::move(facts), std::move(result));
             if (request.watcher) request.watcher->written(writer.written());
@@ -162,13 +206,18 @@ void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const
 gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request,
                                 RenderReport& report)
 {
+    const Scenario& scenario = sequence.scenario;
+    check_memory(
+        sequence.scene,
+        {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
+        scenario.output.width, scenario.output.height, request.memory_budget);
     gpu::Renderer renderer({.device = request.device,
                             .validation = request.validation,
-                            .ripple_texture_size = sequence.scenario.render.ripple_texture_size});
+                            .ripple_texture_size = scenario.render.ripple_texture_size});
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     TextureOptions options;
-    options.max_size = sequence.scenario.scene.max_texture;
+    options.max_size = scenario.scene.max_texture;
     options.threads = request.threads;
     options.stop = request.stop;
     options.blocks = block_support(renderer.device());
@@ -179,26 +228,35 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     return renderer;
 }
 
+std::string stop_message(const RenderTally& tally, const RenderRequest& request)
+{
+    const std::string far = tally.asked == 0 ? " before the first frame was begun"
+                                             : ": " + std::to_string(tally.there) + " of " +
+                                                   std::to_string(tally.asked) + " frames are in " +
+                                                   printable(request.folder.string());
+    return "interrupted" + far + "\n  Go on with: " + request.command;
+}
+
 RenderReport render_sequence(Sequence& sequence, const RenderRequest& request)
 {
     const auto start = std::chrono::steady_clock::now();
     RenderReport report;
     const std::vector<Job> jobs = jobs_of(sequence, request.range, request.shard);
     const int asked = static_cast<int>(jobs.size());
-    const auto stop = [&](int done) {
-        return Interrupted("interrupted: " + std::to_string(done) + " of " + std::to_string(asked) +
-                           " frames are in " + request.folder.string() +
-                           "\n  Go on with: " + request.command);
-    };
-    const auto pending = pending_jobs(sequence, request, jobs);
+    RenderTally own_tally;
+    RenderTally& tally = request.tally ? *request.tally : own_tally;
+    sequence.lighting_models = own_models_fingerprint(sequence.scene);
+    const auto pending = pending_jobs(sequence, request, jobs, report.notes);
     report.kept = asked - static_cast<int>(pending.size());
+    tally.there = report.kept;
+    tally.asked = asked;
     try {
-        if (!pending.empty()) render_frames(sequence, request, pending, report);
-        if (stopped(request)) throw stop(report.kept + report.rendered);
+        if (!pending.empty()) render_frames(sequence, request, pending, report, tally);
+        if (stopped(request)) throw Interrupted(stop_message(tally, request));
         finish_films(sequence, request, report);
     } catch (const std::exception&) {
         // Ctrl-C reaches the image readers and ffmpeg too; what they say then is not the news.
-        if (stopped(request)) throw stop(report.kept + report.rendered);
+        if (stopped(request)) throw Interrupted(stop_message(tally, request));
         throw;
     }
     report.seconds =

@@ -1,6 +1,8 @@
 #ifndef PETRICHOR_FILM_JOBS_RENDER_JOB_H
 #define PETRICHOR_FILM_JOBS_RENDER_JOB_H
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,17 +22,27 @@ public:
     virtual void written(int count) = 0;
 };
 
+/// How far the work is; may be read from any thread meanwhile.
+struct RenderTally {
+    std::atomic<int> asked{0};  ///< pictures; 0 until that is known
+    std::atomic<int> there{0};  ///< of them in the folder, kept ones too
+};
+
 /// What a user asks of `petrichor render`, apart from the scenario.
 struct RenderRequest {
     std::filesystem::path folder;  ///< where the frames go
     FrameRange range;
-    Shard shard;              ///< of the jobs of that range
-    bool resume = false;      ///< keep frames that are whole and would come out the same
-    std::string device;       ///< as in gpu::RendererOptions
-    int threads = 0;          ///< of the image readers; 0: all cores
-    bool validation = false;  ///< run the validation layer; its messages are an error
-    std::string command;      ///< how to go on after a stop: the command line with --resume
-    StopRequest stop = {};    ///< asked between frames
+    Shard shard;          ///< of the jobs of that range
+    bool resume = false;  ///< keep frames whose files have the hashes they were written with and
+                          ///< that would come out the same
+    bool verify = false;  ///< with resume: also decode the pictures and compare their pixels
+    std::string device;   ///< as in gpu::RendererOptions
+    std::uint64_t memory_budget = 0;  ///< bytes that the scene may take; 0: default_memory_budget()
+    int threads = 0;                  ///< of the image readers; 0: all cores
+    bool validation = false;          ///< run the validation layer; its messages are an error
+    std::string command;              ///< how to go on after a stop: the command line with --resume
+    StopRequest stop = {};            ///< asked between frames
+    RenderTally* tally = nullptr;
     RenderWatcher* watcher = nullptr;
 };
 
@@ -52,6 +64,9 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
                                 RenderReport& report);
 /// Gives it the sky's picture of the job's variant, or none; a renderer holds one at a time.
 void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const Job& job);
+
+/// What to say when the work was stopped: how far it got, and how to go on.
+std::string stop_message(const RenderTally& tally, const RenderRequest& request);
 
 /// Renders the jobs of a range into a folder, writing while rendering: frame_0000.exr and .png
 /// (with the names of variant and view), frames.jsonl, and for each variant and view film.mp4 once

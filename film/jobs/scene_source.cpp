@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,8 @@
 
 namespace petrichor::film {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kDemoStreet = "demo:street";
 
@@ -34,7 +37,7 @@ LoadedScene load(const Scenario& scenario, int threads)
                         did_you_mean(file, {kDemoStreet}),
                     std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
     }
-    return read_scene(scenario.folder / file);
+    return read_scene(scenario.folder / file, scenario.scene.allow_outside);
 }
 
 }  // namespace
@@ -62,6 +65,19 @@ void load_sequence_scene(Sequence& sequence, int threads)
         const std::string& file = variant.conditions.sky.environment;
         if (!file.empty()) variant.environment = file_fingerprint(scenario.folder / file);
     }
+}
+
+std::string own_models_fingerprint(const scene::Scene& scene)
+{
+    std::set<std::string> files;
+    for (const scene::Material& material : scene.materials) {
+        if (fs::path(material.lighting_model).extension() == ".glsl")
+            files.insert(material.lighting_model);
+    }
+    if (files.empty()) return "";
+    Hasher hasher;
+    for (const std::string& file : files) hasher.add(file_fingerprint(file));
+    return hasher.text();
 }
 
 }  // namespace petrichor::film

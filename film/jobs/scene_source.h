@@ -10,6 +10,10 @@ namespace petrichor::film {
 /// Throws Error for a missing or damaged scene, and for one without triangles.
 void load_sequence_scene(Sequence& sequence, int threads);
 
+/// Fingerprint of the GLSL files that the scene's materials name as their lighting models; "" when
+/// all are built in. Throws Error for one that cannot be read.
+std::string own_models_fingerprint(const scene::Scene& scene);
+
 }  // namespace petrichor::film
 
 #endif

@@ -292,35 +292,52 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     return result;
 }
 
-std::string frame_fingerprint(const Sequence& sequence, const SequenceFrame& what)
+FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
 {
     const gpu::Frame& frame = what.frame;
-    Hasher hasher;
-    hasher.add("petrichor " PETRICHOR_VERSION);
-    hasher.add(sequence.content);
-    hasher.add(what.environment);
-    hasher.add(sequence.scenario.scene.max_texture);
-    hasher.add(sequence.scenario.render.ripple_texture_size);
-    for (const MaterialOverride& one : sequence.scenario.materials) {
-        hasher.add(one.glob);
-        hasher.add(one.lighting_model);
-        for (const auto& [name, values] : one.values) {
-            hasher.add(name);
-            hasher.add_numbers(std::span<const double>(values));
-        }
+    const Scenario& scenario = sequence.scenario;
+    const auto part = [](const auto& add) {
+        Hasher hasher;
+        add(hasher);
+        return hasher.text();
+    };
+    FrameParts parts;
+    parts["program"] = "petrichor " PETRICHOR_VERSION;
+    parts["scene files"] = sequence.content;
+    if (!sequence.lighting_models.empty()) parts["lighting models"] = sequence.lighting_models;
+    if (!what.environment.empty()) parts["sky picture"] = what.environment;
+    if (!scenario.materials.empty()) {
+        parts["materials"] = part([&](Hasher& hasher) {
+            for (const MaterialOverride& one : scenario.materials) {
+                hasher.add(one.glob);
+                hasher.add(one.lighting_model);
+                for (const auto& [name, values] : one.values) {
+                    hasher.add(name);
+                    hasher.add_numbers(std::span<const double>(values));
+                }
+            }
+        });
     }
-    add_camera(hasher, frame.camera);
-    add_sky(hasher, frame.sky);
-    hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
+    parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
+    parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
+    parts["weather"] = part(
+        [&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1))); });
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
                       sizeof(shared::WeatherLook) % sizeof(float) == 0,
                   "all floats: hashed as one run");
-    hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
-    for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
-    hasher.add(frame.scene_light_scale);
-    hasher.add(frame.emissive_scale);
-    add_settings(hasher, frame.settings);
-    return hasher.text();
+    parts["look"] =
+        part([&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1))); });
+    parts["lights"] = part([&](Hasher& hasher) {
+        for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
+        hasher.add(frame.scene_light_scale);
+        hasher.add(frame.emissive_scale);
+    });
+    parts["output settings"] = part([&](Hasher& hasher) {
+        add_settings(hasher, frame.settings);
+        hasher.add(scenario.scene.max_texture);
+        hasher.add(scenario.render.ripple_texture_size);
+    });
+    return parts;
 }
 
 }  // namespace petrichor::film

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "film/frames/job.h"
+#include "film/frames/frames_jsonl.h"
 #include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
 #include "gpu/renderer.h"
@@ -47,8 +47,9 @@ struct Sequence {
     std::vector<ScenarioView> views;        ///< at least one
     scene::Scene scene;                     ///< as loaded; the pixels may be gone
     scene::Bounds bounds;                   ///< of the scene's content, for framing
-    double duration_s = 0.0;  ///< frame 0 to one after the last, on the scenario's clock
-    std::string content;      ///< fingerprint of the scene's files
+    double duration_s = 0.0;      ///< frame 0 to one after the last, on the scenario's clock
+    std::string content;          ///< fingerprint of the scene's files
+    std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
 };
 
 /// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of
@@ -74,8 +75,8 @@ struct SequenceFrame {
 /// job, so any picture can be rendered alone. Throws Error for a variant or view that is not there.
 SequenceFrame frame_at(const Sequence& sequence, const Job& job);
 
-/// Fingerprint of everything that decides a picture: one made under the same is the same picture.
-std::string frame_fingerprint(const Sequence& sequence, const SequenceFrame& frame);
+/// Everything that decides a picture: one made from the same is the same picture.
+FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& frame);
 
 }  // namespace petrichor::film
 

@@ -19,6 +19,7 @@ namespace petrichor::film {
 struct ScenarioScene {
     std::string file;             ///< .glb or .gltf, relative to the scenario; or "demo:street"
     std::uint32_t demo_seed = 1;  ///< for the generated demo scene
+    bool allow_outside = false;   ///< links in the scene's folder may lead out of it (command line)
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
     double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
 };

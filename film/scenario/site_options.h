@@ -17,6 +17,7 @@ struct SiteOptions {
     std::string missing_precip = "dry";  ///< dry or estimate
     std::optional<double> file_zone_h;   ///< of times that name no zone, hours ahead of UTC
     std::string ignore;                  ///< columns that may stay unread, by comma, or all
+    double max_gap_days = 60.0;          ///< between two rows; longer ones are asked about
     std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups
 };
 

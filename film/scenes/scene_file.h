@@ -15,9 +15,10 @@ struct LoadedScene {
     std::string fingerprint;
 };
 
-/// Reads a .glb or .gltf file; files that it names are looked for beside it and nowhere else.
-/// Throws Error when the file or one that it names is missing or damaged.
-LoadedScene read_scene(const std::filesystem::path& file);
+/// Reads a .glb or .gltf file; files that it names are looked for in its folder and nowhere else: a
+/// link there may not lead out of it, unless `allow_outside`. Only regular files are opened, of at
+/// most 4 GiB. Throws Error when the file or one that it names is missing or damaged.
+LoadedScene read_scene(const std::filesystem::path& file, bool allow_outside = false);
 
 /// Fingerprint of the bytes of a file. Throws Error when it cannot be read.
 std::string file_fingerprint(const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "film/toml/toml_value.h"
 #include "weather/models/artist/from_forcing.h"
 #include "weather/readers/join.h"
@@ -62,6 +63,22 @@ weather::Channel unwound(weather::Channel degrees)
     return degrees;
 }
 
+void check_gaps(const weather::ForcingTable& table, const std::string& file, double max_days)
+{
+    constexpr double kDayUs = 86400e6;
+    for (std::size_t i = 1; i < table.time_us.size(); ++i) {
+        const double days = static_cast<double>(table.time_us[i] - table.time_us[i - 1]) / kDayUs;
+        if (days <= max_days) continue;
+        throw Error("weather " + file + ": nothing is known between " +
+                        weather::iso_from_us(table.time_us[i - 1]) + " and " +
+                        weather::iso_from_us(table.time_us[i]) + ", " +
+                        number_text(std::round(days * 10.0) / 10.0) + " days; at most " +
+                        number_text(max_days) + " are bridged",
+                    "Correct the date, add a file for the time between, or say --max-gap " +
+                        number_text(std::ceil(days)) + " (days).");
+    }
+}
+
 }  // namespace
 
 SiteOptions with_site_table(SiteOptions options, const std::string& toml_text)
@@ -105,6 +122,7 @@ weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOpti
     std::vector<weather::NamedText> texts;
     for (const Input& file : files) texts.push_back({file.file, file.text});
     weather::ReadResult read = weather::read_weather_files(texts, read_options(options));
+    check_gaps(read.table, files.front().file, options.max_gap_days);
     weather::Site& site = read.table.site;
     site.temp_height_m = options.temp_height_m.value_or(site.temp_height_m);
     site.wind_height_m = options.wind_height_m.value_or(site.wind_height_m);

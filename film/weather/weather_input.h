@@ -16,7 +16,8 @@ namespace petrichor::film {
 SiteOptions with_site_table(SiteOptions options, const std::string& toml_text);
 
 /// Reads weather files as one series, filled, with the sensor heights of the options.
-///   throws  Error as weather::read_weather_files, and for heights or months out of range
+///   throws  Error as weather::read_weather_files, for heights or months out of range, and for a
+///           gap of more than max_gap_days: years without weather are a slip more often than a wish
 weather::ReadResult read_forcing(const std::vector<Input>& files, const SiteOptions& options);
 
 /// The artist model's script of a weather file: the map of artist_keys(). time_s counts seconds of

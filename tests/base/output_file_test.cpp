@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -147,6 +148,27 @@ TEST_F(OutputFiles, AScratchFolderPublishesAllOrNothing)
         EXPECT_THROW(scratch.publish({"a", "b"}), Error);
     }
     EXPECT_EQ(names(), (std::set<std::string>{"b"}));
+}
+
+// A program that is ended while two files that belong together appear.
+TEST_F(OutputFiles, WhatIsKeptTogetherAppearsTogether)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const OutputFile pending(folder / "pending");
+        std::thread publisher([this] {
+            const KeptTogether together;
+            write_text_file(folder / "picture", "1");
+            std::this_thread::sleep_for(std::chrono::milliseconds(40));
+            write_text_file(folder / "list", "2");
+        });
+        while (!fs::exists(folder / "picture")) std::this_thread::yield();
+        remove_own_temporaries();
+        ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(names(), (std::set<std::string>{"list", "picture"}));
 }
 
 TEST_F(OutputFiles, ManyWritersTidyingAtOnceLoseNothing)

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <map>
+#include <set>
+#include <thread>
 
 #include "cli/rooms.h"
 #include "film/frames/frames_jsonl.h"
@@ -114,9 +118,75 @@ TEST_F(Render, ResumeRedoesWhatIsDamagedOrOtherwiseMade)
     EXPECT_THAT(other.err, HasSubstr("1 frames rendered"));
     const auto records = read_frame_records(place_ / "out");
     ASSERT_EQ(records.size(), 3u);
-    EXPECT_NE(records.at({1}).settings, records.at({0}).settings);
+    EXPECT_NE(records.at({1}).made_from, records.at({0}).made_from);
     for (const auto& [frame, record] : records)
-        EXPECT_TRUE(files_are_whole(record, place_ / "out"));
+        EXPECT_EQ(wrong_with_files(record, place_ / "out"), "");
+}
+
+// A change that keeps the size: sizes alone would keep the damaged frame.
+TEST_F(Render, ResumeComparesHashesAndVerifyReadsPixels)
+{
+    ASSERT_EQ(render({"-o", "out", "--frames", "0:1"}).exit_code, 0);
+    const auto before = contents(place_ / "out");
+    std::string damaged = before.at("frame_0000.png");
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+    write_file(place_ / "out/frame_0000.png", damaged);
+    const Outcome mended = render({"-o", "out", "--frames", "0:1", "--resume"});
+    EXPECT_THAT(mended.err, HasSubstr("1 frames rendered, 1 kept"));
+    EXPECT_THAT(mended.err, HasSubstr("frame 0 is rendered again: frame_0000.png is not the file"));
+    EXPECT_TRUE(contents(place_ / "out") == before);
+    const Outcome verified = render({"-o", "out", "--frames", "0:1", "--verify"});
+    EXPECT_THAT(verified.err, HasSubstr("0 frames rendered, 2 kept"));
+}
+
+TEST_F(Render, AFilmIsMadeInFoldersOfAnyName)
+{
+    for (const char* folder : {"100%d", "a:b", "-x", "it's \"so\""}) {
+        const Outcome outcome =
+            render({"--output=" + std::string(folder), "--count", "2", "--no-exr"});
+        ASSERT_EQ(outcome.exit_code, 0) << folder << ": " << outcome.err;
+        if (outcome.err.find("ffmpeg is not installed") != std::string::npos)
+            GTEST_SKIP() << "ffmpeg is not installed";
+        EXPECT_GT(fs::file_size(place_ / folder / "film.mp4"), 500u) << folder;
+    }
+}
+
+TEST_F(Render, WhatAKilledRunLeftIsRemovedAndNothingElse)
+{
+    fs::create_directories(place_ / "out");
+    write_file(place_ / "out/.petrichor-0123456789abcdef.png", "half a frame");
+    write_file(place_ / "out/.petrichor-mine", "somebody's");
+    ASSERT_EQ(render({"-o", "out", "--frames", "0:0"}).exit_code, 0);
+    EXPECT_FALSE(fs::exists(place_ / "out/.petrichor-0123456789abcdef.png"));
+    EXPECT_TRUE(fs::exists(place_ / "out/.petrichor-mine"));
+}
+
+TEST_F(Render, ASceneOverItsMemoryBudgetSaysWhatToLower)
+{
+    const Outcome outcome = render({"-o", "out", "--size", "2048x2048", "--memory", "64"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("the budget is 64 MiB"));
+    EXPECT_FALSE(fs::exists(place_ / "out/frame_0000.png"));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+// The files of a folder are whole, and are those that frames.jsonl names.
+void expect_what_is_named(const fs::path& folder)
+{
+    std::set<std::string> named = {"frames.jsonl"};
+    for (const auto& [job, record] : read_frame_records(folder)) {
+        EXPECT_EQ(wrong_with_files(record, folder), "") << job.frame;
+        for (const auto& [name, mark] : record.files) named.insert(name);
+    }
+    std::set<std::string> there;
+    for (const auto& [name, bytes] : contents(folder)) there.insert(name);
+    EXPECT_EQ(there, named);
 }
 
 TEST_F(Render, CtrlCKeepsWholeFramesAndSaysHowToGoOn)
@@ -126,17 +196,122 @@ TEST_F(Render, CtrlCKeepsWholeFramesAndSaysHowToGoOn)
                        .interrupt_when = place_ / "out/frame_0001.png"},
                       place_.path());
     EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
-    EXPECT_THAT(stopped.err, HasSubstr("of 500 frames are in out"));
-    EXPECT_THAT(stopped.err, HasSubstr("petrichor render s.toml -o out --count 500 --resume"));
     const auto records = read_frame_records(place_ / "out");
     EXPECT_GE(records.size(), 2u);
     EXPECT_LT(records.size(), 500u);
-    std::size_t files = 1;  // frames.jsonl
-    for (const auto& [job, record] : records) {
-        EXPECT_TRUE(files_are_whole(record, place_ / "out")) << job.frame;
-        files += record.files.size();
+    EXPECT_THAT(stopped.err,
+                HasSubstr(std::to_string(records.size()) + " of 500 frames are in out"));
+    EXPECT_THAT(stopped.err, HasSubstr("petrichor render s.toml -o out --count 500 --resume"));
+    EXPECT_LT(stopped.stopping_s, 0.5 + stopped.machine_late_s);
+    expect_what_is_named(place_ / "out");
+}
+
+// Frames that take long, so that the stop comes while one is rendered, encoded or written.
+TEST_F(Render, AStopAtAnyMomentTakesHalfASecondAndLeavesOnlyWholeFrames)
+{
+    for (const double after_s : {0.05, 0.2, 0.5, 0.9, 1.4, 2.0, 2.7}) {
+        fs::remove_all(place_ / "out");
+        const Outcome stopped = run_petrichor(
+            {.arguments = {"render", "s.toml", "-o", "out", "--count", "500", "--size", "640x360",
+                           "--samples", "16", "--aov", "depth,normal"},
+             .interrupt_after_s = after_s,
+             .signal = after_s < 1.0 ? SIGINT : SIGTERM},
+            place_.path());
+        const auto was = testing::Message() << "after " << after_s << " s: " << stopped.err;
+        SCOPED_TRACE(was);
+        // Before it watches for it, at the very start, the signal ends it.
+        EXPECT_THAT(stopped.exit_code, testing::AnyOf(130, 128 + SIGINT));
+        EXPECT_LT(stopped.stopping_s, 0.5 + stopped.machine_late_s);
+        if (!fs::exists(place_ / "out")) continue;
+        if (contents(place_ / "out").empty()) continue;
+        expect_what_is_named(place_ / "out");
     }
-    EXPECT_EQ(contents(place_ / "out").size(), files) << "nothing but what frames.jsonl names";
+}
+
+// Dead ones may stay listed as zombies where nobody collects them.
+bool lives(const fs::path& pid_file)
+{
+    const std::string pid = replaced(read_file(pid_file), "\n", "");
+    for (int i = 0; i < 100; ++i) {
+        const std::string stat = read_file("/proc/" + pid + "/stat");
+        const std::size_t state = stat.rfind(") ");
+        if (state == stat.npos || stat.at(state + 2) == 'Z') return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+}
+
+// An ffmpeg that never ends, in front of the real one.
+TEST_F(Render, FfmpegEndsWithTheProgram)
+{
+    fs::create_directories(place_ / "bin");
+    const std::string pid = (place_ / "pid").string();
+    write_file(place_ / "bin/ffmpeg", "#!/bin/sh\necho $$ > " + pid + ".new\nmv " + pid + ".new " +
+                                          pid + "\nexec sleep 600\n");
+    fs::permissions(place_ / "bin/ffmpeg", fs::perms::owner_all);
+    const char* path = std::getenv("PATH");
+    for (const int signal : {SIGINT, SIGKILL}) {
+        fs::remove(place_ / "pid");
+        const Outcome stopped = run_petrichor(
+            {.arguments = {"render", "s.toml", "-o", "out", "--count", "2"},
+             .environment = {"PATH=" + (place_ / "bin").string() + ":" + (path ? path : "")},
+             .interrupt_when = place_ / "pid",
+             .signal = signal},
+            place_.path());
+        EXPECT_EQ(stopped.exit_code, signal == SIGINT ? 130 : 128 + SIGKILL) << stopped.err;
+        EXPECT_LT(stopped.stopping_s, 0.5 + stopped.machine_late_s);
+        EXPECT_FALSE(lives(place_ / "pid"));
+        if (signal == SIGINT) expect_what_is_named(place_ / "out");
+        fs::remove_all(place_ / "out");
+    }
+}
+
+// What decides a picture, changed behind the scenario's back; --resume has a word for each.
+TEST_F(Render, ResumeSaysWhatChanged)
+{
+    const std::string shader =
+        replaced(read_file(fs::path(PETRICHOR_SOURCE_DIR) / "data/shaders/minnaert.glsl"),
+                 "minnaert", "own");
+    const std::string weather =
+        "time,air_temp_c,precip_mm,wind_m_s\n2020-01-01T00:00,3,1,2\n2020-01-01T01:00,3,1,2\n";
+    const std::string scenario = R"([scene]
+file = "scene.glb"
+[weather]
+file = "w.csv"
+latitude_degrees = 50
+longitude_degrees = 8
+[output]
+width = 48
+height = 27
+samples = 1
+frames = 1
+film = false
+[materials."stone"]
+lighting_model = "own.glsl"
+)";
+    const std::string scene = tiny_scene_glb();
+    write_file(place_ / "own.glsl", shader);
+    write_file(place_ / "w.csv", weather);
+    write_file(place_ / "s.toml", scenario);
+    const Outcome first = render({"-o", "out"});
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(render({"-o", "out", "--resume"}).err, HasSubstr("0 frames rendered, 1 kept"));
+    const struct {
+        const char *file, *word;
+        std::string text;
+    } changes[] = {
+        {"own.glsl", "lighting models changed", replaced(shader, "1.5", "1.6")},
+        {"w.csv", "weather changed", replaced(weather, ",3,", ",-3,")},
+        {"scene.glb", "scene files changed", replaced(scene, "court", "yards")},
+        {"s.toml", "output settings changed", replaced(scenario, "samples = 1", "samples = 2")},
+    };
+    for (const auto& change : changes) {
+        write_file(place_ / change.file, change.text);
+        const Outcome again = render({"-o", "out", "--resume"});
+        EXPECT_THAT(again.err, HasSubstr(std::string("frame 0 is rendered again: ") + change.word))
+            << change.file;
+        EXPECT_THAT(render({"-o", "out", "--resume"}).err, HasSubstr("0 frames rendered, 1 kept"));
+    }
 }
 
 TEST_F(Render, AFullDiskIsAnErrorAndLeavesNothingHalfWritten)

@@ -320,6 +320,29 @@ TEST(SimulatePhysical, AlbedoIsDrawnWhereThereIsSnow)
     EXPECT_EQ(html_report(t).find("nan"), std::string::npos);
 }
 
+// A slip of a year is asked about, a gap of a month is bridged.
+TEST(SimulatePhysical, LongGapsAreAskedAbout)
+{
+    SiteOptions site = city().site;
+    const auto read = [&](const std::string& second) {
+        return read_forcing({{"x", "x.csv", InputKind::Weather,
+                              "time,air_temp_c\n2020-01-01T00:00,1\n" + second + ",2\n"}},
+                            site)
+            .table.rows();
+    };
+    EXPECT_GT(read("2020-02-28T00:00"), 1u);
+    try {
+        read("2021-01-01T00:00");
+        ADD_FAILURE() << "not asked about";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("366 days; at most 60"), std::string::npos)
+            << error.what();
+        EXPECT_NE(error.fix().find("--max-gap 366"), std::string::npos) << error.fix();
+    }
+    site.max_gap_days = 366.0;
+    EXPECT_GT(read("2021-01-01T00:00"), 1u);
+}
+
 TEST(SimulateArtist, TakesAWeatherFileThroughTheMap)
 {
     const auto read =

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <thread>
 #include <vector>
 
@@ -12,15 +13,16 @@ namespace petrichor::film {
 namespace {
 
 using testing_program::read_file;
+namespace fs = std::filesystem;
 using testing_program::Workplace;
 using testing_program::write_file;
 
-FrameFacts facts_of(int frame, const std::string& settings)
+FrameFacts facts_of(int frame, const std::string& camera)
 {
     FrameFacts facts;
     facts.job.frame = frame;
-    facts.settings = settings;
-    facts.files = {{"frame.png", 3}};
+    facts.made_from = {{"camera", camera}};
+    facts.files = {{"frame.png", {3, "0a"}}};
     facts.input.weather.rain = 0.1f;
     return facts;
 }
@@ -34,9 +36,9 @@ TEST(FramesJsonl, LinesComeBackAndStayInOrder)
                       {{{5}, frame_line(facts_of(5, "b"))}, {{7}, frame_line(facts_of(7, "c"))}});
     const auto records = read_frame_records(place.path());
     ASSERT_EQ(records.size(), 3u);
-    EXPECT_EQ(records.at({2}).settings, "a");
-    EXPECT_EQ(records.at({7}).settings, "c");
-    EXPECT_EQ(records.at({7}).files.at("frame.png"), 3u);
+    EXPECT_EQ(records.at({2}).made_from, (FrameParts{{"camera", "a"}}));
+    EXPECT_EQ(records.at({7}).made_from, (FrameParts{{"camera", "c"}}));
+    EXPECT_EQ(records.at({7}).files.at("frame.png").bytes, 3u);
     EXPECT_EQ(read_file(place / "frames.jsonl"), frame_line(facts_of(2, "a")) + "\n" +
                                                      frame_line(facts_of(5, "b")) + "\n" +
                                                      frame_line(facts_of(7, "c")) + "\n");
@@ -58,16 +60,25 @@ TEST(FramesJsonl, BrokenLinesAreLeftOut)
     EXPECT_TRUE(read_frame_records(place / "nowhere").empty());
 }
 
-TEST(FramesJsonl, FilesAreWholeOnlyWithTheirSize)
+TEST(FramesJsonl, FilesAreWholeOnlyWithTheirSizeAndHash)
 {
     const Workplace place("whole");
-    merge_frame_lines(place.path(), {{{1}, frame_line(facts_of(1, "a"))}});
-    const auto record = read_frame_records(place.path()).at({1});
-    EXPECT_FALSE(files_are_whole(record, place.path()));
-    write_file(place / "frame.png", "1234");
-    EXPECT_FALSE(files_are_whole(record, place.path()));
     write_file(place / "frame.png", "123");
-    EXPECT_TRUE(files_are_whole(record, place.path()));
+    FrameFacts facts = facts_of(1, "a");
+    facts.files["frame.png"] = file_mark(place / "frame.png");
+    merge_frame_lines(place.path(), {{{1}, frame_line(facts)}});
+    const auto record = read_frame_records(place.path()).at({1});
+    EXPECT_EQ(wrong_with_files(record, place.path()), "");
+    for (const char* other : {"1234", "124", ""}) {
+        write_file(place / "frame.png", other);
+        EXPECT_THAT(wrong_with_files(record, place.path()),
+                    testing::HasSubstr("not the file that was written"));
+    }
+    fs::remove(place / "frame.png");
+    EXPECT_THAT(wrong_with_files(record, place.path()), testing::HasSubstr("is missing"));
+    // A line of an edited file must not lead out of the folder.
+    write_file(place / "frames.jsonl", "{\"frame\":1,\"files\":{\"../x\":3}}\n");
+    EXPECT_TRUE(read_frame_records(place.path()).at({1}).files.empty());
 }
 
 // Several programs render parts of one sequence into one folder.

@@ -85,7 +85,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
 {
     const auto print = [](const std::string& text, int frame) {
         const Sequence sequence = sequence_of(text);
-        return frame_fingerprint(sequence, frame_at(sequence, {frame}));
+        return fingerprint_of(frame_parts(sequence, frame_at(sequence, {frame})));
     };
     const std::string base = print("", 5);
     EXPECT_EQ(print("", 5), base);
@@ -102,7 +102,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
     EXPECT_NE(print("", 6), base);
     Sequence sequence = sequence_of("");
     sequence.content = "another scene";
-    EXPECT_NE(frame_fingerprint(sequence, frame_at(sequence, {5})), base);
+    EXPECT_NE(fingerprint_of(frame_parts(sequence, frame_at(sequence, {5}))), base);
 }
 
 // Every corner of the bounds lies inside the frame, and one touches its edge (within the margin).

@@ -5,9 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <thread>
 
 namespace petrichor::testing_program {
@@ -23,6 +26,71 @@ scene::Primitive quad(const glm::vec3& corner, const glm::vec3& u, const glm::ve
     primitive.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     primitive.indices = {0, 1, 2, 0, 2, 3};
     return primitive;
+}
+
+using Clock = std::chrono::steady_clock;
+
+double thread_cpu_s()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Measures from its making on, in a thread of its own.
+class MachineLateness {
+public:
+    MachineLateness()
+        : thread_([this] {
+              while (!done_) measure();
+          })
+    {
+    }
+    ~MachineLateness() { end(); }
+    double seconds() const
+    {
+        end();
+        const double stretch = cpu_s_ > 0.0 ? wall_s_ / cpu_s_ : 1.0;
+        return overslept_s_ + 0.2 * std::max(0.0, stretch - 1.0);
+    }
+
+private:
+    void measure()
+    {
+        using Seconds = std::chrono::duration<double>;
+        const auto slept = Clock::now();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        overslept_s_ = std::max(overslept_s_, Seconds(Clock::now() - slept).count() - 0.005);
+        const auto begin = Clock::now();
+        const double before_s = thread_cpu_s();
+        while (thread_cpu_s() - before_s < 0.005) {
+        }
+        cpu_s_ += thread_cpu_s() - before_s;
+        wall_s_ += Seconds(Clock::now() - begin).count();
+    }
+    void end() const
+    {
+        done_ = true;
+        if (thread_.joinable()) thread_.join();
+    }
+
+    double overslept_s_ = 0.0, cpu_s_ = 0.0, wall_s_ = 0.0;  // the thread's, until it has ended
+    mutable std::atomic<bool> done_{false};
+    mutable std::thread thread_;
+};
+
+void wait_for_moment(const Run& run, pid_t child)
+{
+    if (run.interrupt_after_s >= 0.0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(run.interrupt_after_s));
+        return;
+    }
+    for (int i = 0; i < 6000 && !fs::exists(run.interrupt_when); ++i) {
+        siginfo_t ended{};
+        ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+        if (ended.si_pid == child) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
 }
 
 // A chequered picture in two colours.
@@ -87,15 +155,18 @@ Outcome run_petrichor(const Run& run, const fs::path& folder)
         ::_exit(126);
     }
     int status = 0;
-    if (!run.interrupt_when.empty()) {
-        for (int i = 0; i < 6000 && !fs::exists(run.interrupt_when); ++i) {
-            if (::waitpid(child, &status, WNOHANG) == child) break;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        ::kill(child, SIGINT);
-    }
-    ::waitpid(child, &status, 0);
     Outcome outcome;
+    if (!run.interrupt_when.empty() || run.interrupt_after_s >= 0.0) {
+        wait_for_moment(run, child);
+        const auto asked = Clock::now();
+        const MachineLateness lateness;
+        ::kill(child, run.signal);
+        ::waitpid(child, &status, 0);
+        outcome.stopping_s = std::chrono::duration<double>(Clock::now() - asked).count();
+        outcome.machine_late_s = lateness.seconds();
+    } else {
+        ::waitpid(child, &status, 0);
+    }
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = read_file(out);
     outcome.err = read_file(err);

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_TESTS_SUPPORT_PROGRAM_H
 #define PETRICHOR_TESTS_SUPPORT_PROGRAM_H
 
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +32,9 @@ private:
 struct Run {
     std::vector<std::string> arguments;
     std::vector<std::string> environment = {};  ///< "NAME=value", added to the test's own
-    std::filesystem::path interrupt_when = {};  ///< SIGINT once this file exists
+    std::filesystem::path interrupt_when = {};  ///< the signal once this file exists
+    double interrupt_after_s = -1.0;            ///< or so long after the start, where >= 0
+    int signal = SIGINT;
     long file_limit_bytes = 0;  ///< > 0: no file may grow beyond it, like a full disk
 };
 
@@ -39,6 +42,10 @@ struct Outcome {
     int exit_code = -1;  ///< 128 + signal when a signal ended it
     std::string out;
     std::string err;
+    double stopping_s = 0.0;  ///< from the signal to the end
+    /// How much longer that took because other programs had the machine: the latest that a sleep of
+    /// 5 ms ended meanwhile, and what 0.2 s of work took above 0.2 s.
+    double machine_late_s = 0.0;
 };
 
 /// Runs the petrichor that was built with the tests, in a folder.
