@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/interrupted.h"
 
 namespace petrichor::cli {
 namespace {
@@ -95,7 +96,8 @@ pid_t start(const Rival& rival, int error_output, const sigset_t& signals)
 
 struct Ending {
     int status = 0;
-    rusage usage{};  // of the command and of what it waited for
+    rusage usage{};        // of the command and of what it waited for
+    bool stopped = false;  // this program was asked to end
 };
 
 Ending wait_for(pid_t child, const HeldSignals& signals)
@@ -108,8 +110,9 @@ Ending wait_for(pid_t child, const HeldSignals& signals)
         while (::poll(events, 2, -1) < 0 && errno == EINTR) {
         }
     }
-    if (events[1].revents != 0) ::kill(-child, SIGTERM);
     Ending ending;
+    ending.stopped = events[1].revents != 0;
+    if (ending.stopped) ::kill(-child, SIGTERM);
     while (::wait4(child, &ending.status, 0, &ending.usage) < 0 && errno == EINTR) {
     }
     return ending;
@@ -162,6 +165,7 @@ Cost time_once(const Rival& rival)
         const HeldSignals signals;
         ending = wait_for(start(rival, ::fileno(error_output.get()), signals.before()), signals);
     });
+    if (ending.stopped) throw Interrupted("interrupted while rival '" + rival.name + "' ran");
     check_ending(rival, ending.status, error_output.get());
     cost.cpu_ms = milliseconds(ending.usage.ru_utime) + milliseconds(ending.usage.ru_stime);
     cost.peak_mib = static_cast<double>(ending.usage.ru_maxrss) / 1024.0;
