@@ -19,6 +19,7 @@
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "scene/merge.h"
 
 namespace petrichor::film {
 namespace {
@@ -207,6 +208,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
                                 RenderReport& report)
 {
     const Scenario& scenario = sequence.scenario;
+    scene::merge_primitives(sequence.scene);
     check_memory(
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
