@@ -40,8 +40,8 @@ double thread_cpu_s()
 // Measures from its making on, in a thread of its own.
 class MachineLateness {
 public:
-    MachineLateness()
-        : thread_([this] {
+    explicit MachineLateness(const fs::path& folder)
+        : file_(folder / ".lateness"), thread_([this] {
               while (!done_) measure();
           })
     {
@@ -51,7 +51,7 @@ public:
     {
         end();
         const double stretch = cpu_s_ > 0.0 ? wall_s_ / cpu_s_ : 1.0;
-        return overslept_s_ + 0.2 * std::max(0.0, stretch - 1.0);
+        return overslept_s_ + disk_s_ + 0.2 * std::max(0.0, stretch - 1.0);
     }
 
 private:
@@ -61,6 +61,10 @@ private:
         const auto slept = Clock::now();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         overslept_s_ = std::max(overslept_s_, Seconds(Clock::now() - slept).count() - 0.005);
+        const auto wrote = Clock::now();
+        write_file(file_, "x");
+        fs::remove(file_);
+        disk_s_ = std::max(disk_s_, Seconds(Clock::now() - wrote).count());
         const auto begin = Clock::now();
         const double before_s = thread_cpu_s();
         while (thread_cpu_s() - before_s < 0.005) {
@@ -74,7 +78,9 @@ private:
         if (thread_.joinable()) thread_.join();
     }
 
-    double overslept_s_ = 0.0, cpu_s_ = 0.0, wall_s_ = 0.0;  // the thread's, until it has ended
+    const fs::path file_;
+    double overslept_s_ = 0.0, disk_s_ = 0.0, cpu_s_ = 0.0,
+           wall_s_ = 0.0;  // the thread's, until it has ended
     mutable std::atomic<bool> done_{false};
     mutable std::thread thread_;
 };
@@ -159,7 +165,7 @@ Outcome run_petrichor(const Run& run, const fs::path& folder)
     if (!run.interrupt_when.empty() || run.interrupt_after_s >= 0.0) {
         wait_for_moment(run, child);
         const auto asked = Clock::now();
-        const MachineLateness lateness;
+        const MachineLateness lateness(folder);
         ::kill(child, run.signal);
         ::waitpid(child, &status, 0);
         outcome.stopping_s = std::chrono::duration<double>(Clock::now() - asked).count();
