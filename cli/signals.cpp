@@ -1,13 +1,17 @@
 #include "cli/signals.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <initializer_list>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -20,7 +24,7 @@ namespace {
 volatile std::sig_atomic_t stop_requested = 0;
 int wake_end = -1;  // the handler writes here, the watching thread reads at the other end
 
-constexpr auto kPatience = std::chrono::milliseconds(300);
+constexpr auto kPatience = std::chrono::milliseconds(250);
 
 struct Words {
     std::timed_mutex guard;
@@ -42,6 +46,18 @@ void request_stop(int signal)
     errno = kept;
 }
 
+// The process is gone when its last thread is, and one of the driver's has the lowest priority: on
+// a busy machine it may wait long for its turn to end. Only some users may raise it.
+void let_all_threads_end()
+{
+    std::error_code failed;
+    for (std::filesystem::directory_iterator task("/proc/self/task", failed), end;
+         !failed && task != end; task.increment(failed)) {
+        const long id = std::strtol(task->path().filename().c_str(), nullptr, 10);
+        ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), ::getpriority(PRIO_PROCESS, 0));
+    }
+}
+
 // Work that asks interrupted() ends by itself and the process is gone; the rest is ended here.
 void end_what_does_not(int wake)
 {
@@ -49,6 +65,7 @@ void end_what_does_not(int wake)
     while (::read(wake, &byte, 1) < 0 && errno == EINTR) {
     }
     std::this_thread::sleep_for(kPatience);
+    let_all_threads_end();
     remove_own_temporaries();
     std::string text = "interrupted: what was finished is kept";
     Words& words = last_words();

@@ -44,8 +44,8 @@ struct Outcome {
     std::string err;
     double stopping_s = 0.0;  ///< from the signal to the end
     /// How much longer that took because other programs had the machine: the latest that a sleep of
-    /// 5 ms ended meanwhile, the longest that a small file took to be made and removed, and what
-    /// 0.2 s of work took above 0.2 s.
+    /// 5 ms ended meanwhile (and one in a thread of lowest priority), the longest that a small file
+    /// took to be made and removed, and what 0.2 s of work took above 0.2 s.
     double machine_late_s = 0.0;
 };
 
