@@ -207,7 +207,7 @@ std::vector<Score> score_all(const RawImage& normal, const RawImage& roughness,
             })) {
             continue;
         }
-        const auto [width, height] = sizes[k];
+        const int width = sizes[k].width, height = sizes[k].height;
         const std::vector<Footprint> columns = footprints(surface.width, width);
         const std::vector<Footprint> rows = footprints(surface.height, height);
         const std::vector<std::int64_t> chosen =
