@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "base/output_file.h"
 #include "texproc/codecs/files/io.h"
@@ -146,6 +147,14 @@ struct FrameWriter::Impl {
         wait = std::min<Clock::duration>(std::chrono::seconds(1), 10 * (last - begin));
     }
 
+    // People know the folder they named, not the one that files pass through.
+    std::string in_folder(std::string text) const
+    {
+        const std::string scratch_name = scratch.path().filename().string() + "/";
+        const std::size_t at = text.find(scratch_name);
+        return at == text.npos ? text : text.erase(at, scratch_name.size());
+    }
+
     void publish_or_note()
     {
         try {
@@ -180,6 +189,9 @@ struct FrameWriter::Impl {
                 lines[job] = std::move(frame.line);
                 files.insert(files.end(), frame.files.begin(), frame.files.end());
                 if (stopped() || Clock::now() - last > wait) publish();
+            } catch (const Error& error) {
+                lock.lock();
+                problem = std::make_exception_ptr(Error(in_folder(error.what()), error.fix()));
             } catch (...) {
                 lock.lock();
                 problem = std::current_exception();

@@ -332,7 +332,7 @@ TEST_F(Render, AFullDiskIsAnErrorAndLeavesNothingHalfWritten)
                        .file_limit_bytes = 20000},
                       place_.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("frame_0000"));
+    EXPECT_THAT(outcome.err, HasSubstr("out/frame_0000"));
     for (const auto& [name, bytes] : contents(place_ / "out"))
         ADD_FAILURE() << name << " was left behind";
 }

@@ -348,7 +348,7 @@ class Hostile:
                  ["simulate", "storm", "-o", "int/a.csv", "--every", "0.0001"]]
         if self.device:
             works.insert(0, ["render", scene, "-o", "int", "--size", "320x180", "--count", "500", "--samples", "4"])
-        for i in range(24 if self.all else 8):
+        for i in range(24 if self.all else 6):
             work, after = works[i % len(works)], self.random.uniform(0.02, 2.0)
             run = self.run(work, interrupt_s=after, sig=self.random.choice((signal.SIGINT, signal.SIGTERM)))
             left = self.leftovers("int")
@@ -363,7 +363,7 @@ class Hostile:
         good = self.put_scene("kill.gltf", [])
         words = ["render", good, "-o", "kill", "--size", "160x90", "--count", "6", "--samples", "1",
                  "--resume", "--no-film"]
-        for i in range(12 if self.all else 4):
+        for i in range(12 if self.all else 3):
             self.run(words, kill_s=self.random.uniform(0.2, 1.5))
         run = self.run(words)
         names = sorted(p.name for p in (self.folder / "kill").iterdir())
@@ -373,13 +373,19 @@ class Hostile:
         same = alone.code == 0 and all(
             (self.folder / "kill" / n).read_bytes() == (self.folder / "alone" / n).read_bytes() for n in names)
         self.table.note("kills, then the rest", same, alone.mib, alone.seconds, "other bytes than in one run")
-        # Two writers of one folder at once.
-        writers = [subprocess.Popen([self.program, *[w if w != "kill" else "two" for w in words], "--frames", f],
-                                    cwd=self.folder, stderr=subprocess.DEVNULL) for f in ("0:2", "3:5")]
-        codes = [w.wait(timeout=120) for w in writers]
-        both = codes == [0, 0] and all(
-            (self.folder / "two" / n).read_bytes() == (self.folder / "alone" / n).read_bytes() for n in names)
-        self.table.note("two writers", both, 0, 0.0, f"exit codes {codes}")
+        # Two writers of one folder at once: each a half, both everything, and one that is killed.
+        for frames, killed in ((("0:2", "3:5"), None), (("0:5", "0:5"), None), (("0:5", "0:5"), 0.9)):
+            shutil.rmtree(self.folder / "two", ignore_errors=True)
+            writers = [subprocess.Popen([self.program, *[w if w != "kill" else "two" for w in words], "--frames", f],
+                                        cwd=self.folder, stderr=subprocess.DEVNULL) for f in frames]
+            if killed:
+                time.sleep(killed)
+                writers[0].kill()
+            codes = [w.wait(timeout=120) for w in writers]
+            there = sorted(p.name for p in (self.folder / "two").iterdir() if not p.name.startswith(".petrichor-"))
+            both = codes[1] == 0 and (killed or codes[0] == 0) and there == names and all(
+                (self.folder / "two" / n).read_bytes() == (self.folder / "alone" / n).read_bytes() for n in names)
+            self.table.note("two writers", both, 0, 0.0, f"exit codes {codes}, {there}")
 
     def full_disk(self):
         for words, folder in ((["texture", "generate", "cobble", "--size", "64", "-o", "half"], "half"),
