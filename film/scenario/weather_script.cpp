@@ -66,6 +66,45 @@ Channel& channel_of(WeatherScript& script, const std::string& name)
     return script.timeline.parameters[name];
 }
 
+struct SlopedNumber {
+    double value = 0.0;
+    weather::KeySlopes slopes;
+};
+
+// v, [v, slope] or [v, slope_in, slope_out]; a slope is a change a second.
+SlopedNumber sloped_number(const TomlValue& value, const Quantity& quantity,
+                           weather::Interpolation interpolation)
+{
+    if (!value.is_array()) return {value.number(quantity.low, quantity.high), {}};
+    const auto elements = value.elements();
+    if (elements.size() != 2 && elements.size() != 3)
+        value.refuse("a number, [value, slope] or [value, slope_in, slope_out]");
+    if (interpolation != weather::Interpolation::Smooth)
+        value.refuse("a number alone: only keys with interpolation = \"smooth\" have slopes");
+    if (quantity.to_unit || quantity.name == "script_controlled")
+        value.refuse("a number alone: " + quantity.name + " takes no slopes");
+    return {elements[0].number(quantity.low, quantity.high),
+            {elements[1].number(-1e9, 1e9), elements.back().number(-1e9, 1e9)}};
+}
+
+// Slopes of one's own may carry a quantity out of its range between its keys.
+void check_ranges(const TomlValue& keys, const std::vector<Quantity>& known,
+                  const std::vector<std::string>& started, WeatherScript& script)
+{
+    for (const std::string& name : started) {
+        const auto quantity = std::find_if(known.begin(), known.end(),
+                                           [&](const Quantity& q) { return q.name == name; });
+        const auto range = weather::range_of(channel_of(script, name));
+        constexpr double kRounding = 1e-9;
+        if (range.low >= quantity->low - kRounding && range.high <= quantity->high + kRounding)
+            continue;
+        keys.refuse("gentler in its slopes: between its keys " + name + " reaches " +
+                    number_text(range.low) + " to " + number_text(range.high) +
+                    ", and may be " + number_text(quantity->low) + " to " +
+                    number_text(quantity->high));
+    }
+}
+
 void read_keys(const TomlValue& keys, weather::Interpolation interpolation, WeatherScript& script)
 {
     const std::vector<Quantity> known = quantities();
@@ -99,10 +138,13 @@ void read_keys(const TomlValue& keys, weather::Interpolation interpolation, Weat
             if (!channel.times.empty() && channel.times.back() == *time)
                 key.refuse("one of " + target + " and the same in SI, not both");
             channel.times.push_back(*time);
-            const double number = value.number(quantity->low, quantity->high);
-            channel.values.push_back(quantity->to_unit ? quantity->to_unit(number) : number);
+            const SlopedNumber number = sloped_number(value, *quantity, interpolation);
+            channel.values.push_back(quantity->to_unit ? quantity->to_unit(number.value)
+                                                       : number.value);
+            channel.slopes.push_back(number.slopes);
         }
     }
+    check_ranges(keys, known, started, script);
     for (const char* needed : {"temperature_c", "rainfall"}) {
         if (std::find(started.begin(), started.end(), needed) == started.end()) {
             keys.refuse(std::string("an array in which at least one key has ") + needed);

@@ -41,7 +41,9 @@ namespace petrichor::film {
 /// part C's maps on asphalt: rain_mm_h for rainfall (0..50), film_mm for wetness (0..9.5),
 /// snow_depth_m for snow (0..1.9), puddle_depth_m for puddles (0..0.015). Each quantity is
 /// interpolated between the keys that name it; one that no key names keeps the default below, or
-/// the parameter's own value.
+/// the parameter's own value. With interpolation "smooth" a quantity that is not in SI may bring its
+/// tangents: [value, slope] or [value, slope_in, slope_out], a change a second, instead of those
+/// that never overshoot; what then leaves the quantity's range is an error.
 struct WeatherScript {
     std::string name;
     std::string description;

@@ -23,6 +23,7 @@ public:
     {
     }
 
+    bool is_array() const { return node_->is_array(); }
     double number(double low, double high) const;
     int integer(int low, int high) const;
     bool boolean() const;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/weather/reading.h"
 #include "weather/forcing/forcing.h"
 #include "weather/models/physical/physical.h"
 #include "weather/physics/humidity.h"
@@ -157,12 +158,7 @@ TEST(FillRadiation, MeasuredShortwaveIsBetterThanNet)
 // The record winter of the Central Sierra: 1.9 m of water fell, nearly all as snow.
 TEST(FillRadiation, CentralSierra)
 {
-    const char* folder = std::getenv("PETRICHOR_ASSETS");
-    const std::string name =
-        std::string(folder ? folder : "") + "/weather/central_sierra_2022_23_snobal_inputs.csv";
-    std::ifstream file(name);
-    if (!folder || !file) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/";
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    READ_ASSET(text, "central_sierra_2022_23_snobal_inputs.csv");
     const auto read = read_weather(
         text, {.site = {.latitude_deg = 39.33, .longitude_deg = -120.37, .elevation_m = 2103}});
     PhysicalParams p;

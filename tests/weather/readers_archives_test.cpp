@@ -5,13 +5,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "tests/support/assets.h"
 #include "weather/readers/join.h"
 #include "weather/readers/read_weather.h"
 #include "weather/readers/tables.h"
@@ -118,9 +118,8 @@ TEST(GlobalHourly, RemarksFillWhatTheCodesLack)
 
 TEST(GlobalHourly, ARealYear)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS is not set";
-    const std::string text = text_of(std::filesystem::path(assets) /
+    NEED_ASSETS(assets);
+    const std::string text = text_of(assets /
                                      "weather/real_files/noaa_global_hourly_00702699999.csv");
     ReadOptions options;
     options.site = {.latitude_deg = 34.0, .longitude_deg = 69.0, .elevation_m = 1500.0};
@@ -447,10 +446,9 @@ TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
 
 TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS is not set";
+    NEED_ASSETS(assets);
     std::istringstream in(
-        text_of(std::filesystem::path(assets) / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
+        text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
     std::string text, line;
     for (int n = 0; std::getline(in, line); ++n) {
         const auto columns = split(line, ',');

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "tests/weather/reading.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
@@ -17,22 +18,7 @@
 namespace petrichor::weather {
 namespace {
 
-double sum_mm(const ForcingTable& t, Field f)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
-        sum += t[f][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
-    return sum;
-}
-
-void expect_complete(const ForcingTable& t)
-{
-    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure,
-                          Field::Shortwave, Field::Longwave, Field::Cloud, Field::Precip}) {
-        ASSERT_EQ(t[f].size(), t.rows()) << field_info(f).name;
-        for (const double v : t[f]) ASSERT_TRUE(std::isfinite(v)) << field_info(f).name;
-    }
-}
+using namespace testing_reading;
 
 // The value at a time of a row; NaN without such a row.
 double value(const ForcingTable& t, Field f, const char* iso)

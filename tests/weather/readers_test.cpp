@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "tests/weather/reading.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/metar.h"
 #include "weather/readers/text.h"
@@ -18,19 +19,7 @@
 namespace petrichor::weather {
 namespace {
 
-std::string asset(const std::string& name)
-{
-    const char* folder = std::getenv("PETRICHOR_ASSETS");
-    if (!folder) return "";
-    std::ifstream in(std::string(folder) + "/weather/" + name, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-}
-#define READ_ASSET(variable, name)            \
-    const std::string variable = asset(name); \
-    if (variable.empty())                     \
-    GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder with weather/" << name
+using namespace testing_reading;
 
 std::string why(std::string_view text, const ReadOptions& options = {})
 {
@@ -40,23 +29,6 @@ std::string why(std::string_view text, const ReadOptions& options = {})
         return std::string(e.what()) + " | " + e.fix();
     }
     return "";
-}
-
-double sum_mm(const ForcingTable& t, Field f)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
-        sum += t[f][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
-    return sum;
-}
-
-void expect_complete(const ForcingTable& t)
-{
-    for (const Field f : {Field::AirTemp, Field::RelHumidity, Field::Wind, Field::Pressure,
-                          Field::Shortwave, Field::Longwave, Field::Cloud, Field::Precip}) {
-        ASSERT_EQ(t[f].size(), t.rows()) << field_info(f).name;
-        for (const double v : t[f]) ASSERT_TRUE(std::isfinite(v)) << field_info(f).name;
-    }
 }
 
 const FieldReport* report_of(const ReadReport& r, const std::string& name)

@@ -49,6 +49,28 @@ TEST(Timeline, SmoothPassesItsKeysWithoutOvershoot)
     EXPECT_NEAR(value_at(channel, 5e5), 1.0, 1e-12);  // flat at both ends: a smoothstep
 }
 
+// The Hermite cubic through both keys, with their slopes: an ease that overshoots on purpose.
+TEST(Timeline, SmoothTakesSlopesOfItsOwn)
+{
+    Channel channel{.times = {0, 2000000, 4000000},
+                    .values = {1.0, 1.0, 3.0},
+                    .interpolation = Interpolation::Smooth,
+                    .slopes = {{0.0, 3.0}, {-3.0, 1.0}}};
+    EXPECT_EQ(value_at(channel, 2e6), 1.0);
+    EXPECT_NEAR(value_at(channel, 1e6), 1.0 + 2.0 * 3.0 / 4.0, 1e-12);
+    EXPECT_NEAR((value_at(channel, 1e3) - 1.0) / 1e-3, 3.0, 1e-2);
+    EXPECT_NEAR((1.0 - value_at(channel, 2e6 - 1e3)) / 1e-3, -3.0, 1e-2);
+    EXPECT_NEAR((value_at(channel, 2e6 + 1e3) - 1.0) / 1e-3, 1.0, 1e-2);
+    // The last key gives none: flat, as without slopes.
+    EXPECT_NEAR((3.0 - value_at(channel, 4e6 - 1e3)) / 1e-3, 0.0, 1e-2);
+    EXPECT_NEAR(range_of(channel).high, 3.0, 1e-12);
+    channel.values[2] = 1.0;
+    EXPECT_NEAR(range_of(channel).high, 2.5, 1e-12);
+    EXPECT_NEAR(range_of(channel).low, 1.0, 1e-12);
+    channel.interpolation = Interpolation::Linear;
+    EXPECT_EQ(value_at(channel, 1e6), 1.0);
+}
+
 TEST(Timeline, CubicsAgreeWithValues)
 {
     for (auto kind : {Interpolation::Hold, Interpolation::Linear, Interpolation::Smooth}) {

@@ -3,27 +3,17 @@
 #define PETRICHOR_TESTS_WEATHER_WINTERS_H
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/weather/reading.h"
 #include "weather/models/physical/physical.h"
 #include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather::testing_winters {
 
-inline std::string asset(const std::string& name)
-{
-    const char* folder = std::getenv("PETRICHOR_ASSETS");
-    if (!folder) return "";
-    std::ifstream in(std::string(folder) + "/weather/" + name, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-}
+using testing_reading::asset;
 
 // NaN where nothing was observed.
 struct Observation {

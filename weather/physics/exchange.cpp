@@ -7,16 +7,15 @@ namespace petrichor::weather {
 
 double neutral_exchange(double wind_height_m, double temp_height_m, double roughness_m)
 {
-    return kVonKarman * kVonKarman /
-           (detail::logarithm(wind_height_m / roughness_m) *
-            detail::logarithm(temp_height_m / (0.1 * roughness_m)));
+    return detail::neutral_exchange_of(detail::logarithm(wind_height_m / roughness_m),
+                                       detail::logarithm(temp_height_m / (0.1 * roughness_m)));
 }
 
 double bulk_richardson(double wind_height_m, double air_temp_k, double surface_temp_k,
                        double wind_m_s)
 {
-    return kGravity_m_s2 * wind_height_m * (air_temp_k - surface_temp_k) /
-           (air_temp_k * wind_m_s * wind_m_s);
+    return detail::richardson_per_k_of(1.0 / (air_temp_k * wind_m_s * wind_m_s), wind_height_m) *
+           (air_temp_k - surface_temp_k);
 }
 
 double stability_factor(double richardson, double neutral, double wind_height_m, double roughness_m)

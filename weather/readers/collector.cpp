@@ -62,6 +62,17 @@ void RowCollector::bad_row(std::size_t line, const std::string& field, const std
     }
 }
 
+void RowCollector::wrong_columns(std::size_t line, std::size_t has, std::size_t wants)
+{
+    bad_row(line, "",
+            "has " + std::to_string(has) + " columns, the header has " + std::to_string(wants));
+}
+
+void RowCollector::leap_day_left_out(std::size_t line)
+{
+    note(ReadNote::Kind::Time, line, "time", "29 February of a typical year left out");
+}
+
 bool RowCollector::begin_row(std::int64_t time_us, std::size_t line)
 {
     line_ = line;

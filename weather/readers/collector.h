@@ -25,6 +25,10 @@ public:
     bool begin_row(std::int64_t time_us, std::size_t line);
     /// A row that could not be read at all.
     void bad_row(std::size_t line, const std::string& field, const std::string& why);
+    /// One with another number of columns than the header.
+    void wrong_columns(std::size_t line, std::size_t has, std::size_t wants);
+    /// A day that a year put together from several has not.
+    void leap_day_left_out(std::size_t line);
     /// Value of the current row, SI. Out of range: noted and left missing.
     void set(Field field, double value);
     /// The file says that the value is missing.

@@ -102,8 +102,7 @@ static void read_epw(std::string_view text, RowCollector& rows, const ReadOption
             continue;
         }
         if (typical.typical && *month == 2 && *day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time",
-                      "29 February of a typical year left out");
+            rows.leap_day_left_out(lines.number());
             continue;
         }
         // Minutes are 0 or 60 for whole hours; other values end sub-hourly intervals.

@@ -305,9 +305,7 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         if (t.empty() || t.front() == '#') continue;
         split(*line, h.separator, cells, 256);
         if (cells.size() != h.names.size()) {
-            rows.bad_row(lines.number(), "",
-                         "has " + std::to_string(cells.size()) + " columns, the header has " +
-                             std::to_string(h.names.size()));
+            rows.wrong_columns(lines.number(), cells.size(), h.names.size());
             continue;
         }
         const auto us = h.times.time_of(cells);

@@ -112,8 +112,7 @@ static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOpti
         if (typical.typical) {
             CivilTime when = civil_from_us(*us);
             if (when.month == 2 && when.day == 29) {
-                rows.note(ReadNote::Kind::Time, lines.number(), "time",
-                          "29 February of a typical year left out");
+                rows.leap_day_left_out(lines.number());
                 continue;
             }
             when.year = typical.of(when.year);

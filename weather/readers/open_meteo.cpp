@@ -239,9 +239,7 @@ static void read_open_meteo_csv(std::string_view text, RowCollector& rows, const
             continue;
         }
         if (f.size() != width) {
-            rows.bad_row(lines.number(), "",
-                         "has " + std::to_string(f.size()) + " columns, the header has " +
-                             std::to_string(width));
+            rows.wrong_columns(lines.number(), f.size(), width);
             continue;
         }
         const auto us = us_from_iso(f[0], offset);

@@ -110,14 +110,11 @@ static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOpti
             continue;
         }
         if (f.size() != names.size()) {
-            rows.bad_row(lines.number(), "",
-                         "has " + std::to_string(f.size()) + " columns, the header has " +
-                             std::to_string(names.size()));
+            rows.wrong_columns(lines.number(), f.size(), names.size());
             continue;
         }
         if (typical.typical && when.month == 2 && when.day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time",
-                      "29 February of a typical year left out");
+            rows.leap_day_left_out(lines.number());
             continue;
         }
         when.year = typical.of(when.year);

@@ -100,14 +100,11 @@ static void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptio
             continue;
         }
         if (f.size() < names.size() / 2) {
-            rows.bad_row(lines.number(), "",
-                         "has " + std::to_string(f.size()) + " columns, the header has " +
-                             std::to_string(names.size()));
+            rows.wrong_columns(lines.number(), f.size(), names.size());
             continue;
         }
         if (typical.typical && when.month == 2 && when.day == 29) {
-            rows.note(ReadNote::Kind::Time, lines.number(), "time",
-                      "29 February of a typical year left out");
+            rows.leap_day_left_out(lines.number());
             continue;
         }
         const auto us = us_from_civil(

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
 namespace petrichor::weather {
 namespace {
+
+constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 
 // Index of the key in force at `time_us`; 0 before the first. `strictly` excludes a key at the
 // time.
@@ -28,9 +31,15 @@ double key_time(const Channel& channel, std::size_t i)
     return static_cast<double>(channel.times[i]);
 }
 
-// Value change per second at key i of a Smooth channel, from it and its neighbours.
-double smooth_slope(const Channel& channel, std::size_t i)
+KeySlopes given_slopes(const Channel& channel, std::size_t i)
 {
+    return i < channel.slopes.size() ? channel.slopes[i] : KeySlopes{};
+}
+
+// Value change per second at key i of a Smooth channel: as given, else from it and its neighbours.
+double smooth_slope(const Channel& channel, std::size_t i, double given)
+{
+    if (!std::isnan(given)) return given;
     const std::size_t first = i == 0 ? 0 : i - 1;
     const std::size_t last = std::min(i + 1, channel.times.size() - 1);
     std::vector<CurveKey> keys;
@@ -66,6 +75,15 @@ void check_channel(const Channel& channel, const std::string& name, bool needed)
     }
     if (needed && channel.empty()) {
         throw Error("timeline: " + name + " has no keys", "Give it at least one key.");
+    }
+    if (channel.slopes.size() > channel.times.size()) {
+        throw Error("timeline: " + name + " has more slopes than keys", "Give each key one pair.");
+    }
+    for (const KeySlopes& slopes : channel.slopes) {
+        if (std::isinf(slopes.in) || std::isinf(slopes.out)) {
+            throw Error("timeline: a slope of " + name + " is not finite",
+                        "Give a slope a second, or leave it out.");
+        }
     }
     for (std::size_t i = 0; i < channel.times.size(); ++i) {
         if (!std::isfinite(channel.values[i])) {
@@ -130,6 +148,31 @@ std::string_view name_of(Interpolation interpolation)
     return "hold";
 }
 
+ChannelRange range_of(const Channel& channel)
+{
+    if (channel.empty()) {
+        throw Error("timeline: a channel has no keys", "Give it at least one key.");
+    }
+    const auto [low, high] = std::minmax_element(channel.values.begin(), channel.values.end());
+    ChannelRange range{*low, *high};
+    for (std::size_t i = 0; i + 1 < channel.times.size(); ++i) {
+        const ChannelCubic cubic = cubic_at(channel, key_time(channel, i));
+        const double span = (key_time(channel, i + 1) - key_time(channel, i)) * 1e-6;
+        // Where the derivative c1 + 2 c2 x + 3 c3 x^2 is zero.
+        const double a = 3.0 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
+        const double root = b * b - a * c;
+        if (root < 0.0) continue;
+        const double q = -(b + std::copysign(std::sqrt(root), b));
+        for (const double x : {a != 0.0 ? q / a : -1.0, q != 0.0 ? c / q : -1.0}) {
+            if (!(x > 0.0 && x < span)) continue;
+            const double value = ((cubic.c[3] * x + cubic.c[2]) * x + cubic.c[1]) * x + cubic.c[0];
+            range.low = std::min(range.low, value);
+            range.high = std::max(range.high, value);
+        }
+    }
+    return range;
+}
+
 Channel constant_channel(double value)
 {
     return {.times = {0}, .values = {value}, .interpolation = Interpolation::Hold};
@@ -154,16 +197,21 @@ ChannelCubic cubic_at(const Channel& channel, double time_us)
     ChannelCubic cubic{{channel.values[i], 0.0, 0.0, 0.0}};
     const double since_us = time_us - key_time(channel, i);
     if (channel.interpolation == Interpolation::Hold || since_us < 0.0 ||
-        i + 1 == channel.times.size() || channel.values[i] == channel.values[i + 1]) {
+        i + 1 == channel.times.size()) {
         return cubic;
     }
+    const bool smooth = channel.interpolation == Interpolation::Smooth;
+    const double out = smooth ? given_slopes(channel, i).out : kAutomatic;
+    const double in = smooth ? given_slopes(channel, i + 1).in : kAutomatic;
+    const bool automatic = std::isnan(out) && std::isnan(in);
+    if (automatic && channel.values[i] == channel.values[i + 1]) return cubic;
     const double span = (key_time(channel, i + 1) - key_time(channel, i)) * 1e-6;
     const double secant = (channel.values[i + 1] - channel.values[i]) / span;
     if (channel.interpolation == Interpolation::Linear) {
         cubic.c[1] = secant;
     } else {
-        const double left = smooth_slope(channel, i);
-        const double right = smooth_slope(channel, i + 1);
+        const double left = smooth_slope(channel, i, out);
+        const double right = smooth_slope(channel, i + 1, in);
         cubic.c[1] = left;
         cubic.c[2] = (3.0 * secant - 2.0 * left - right) / span;
         cubic.c[3] = (left + right - 2.0 * secant) / (span * span);

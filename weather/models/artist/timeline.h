@@ -2,6 +2,7 @@
 #define PETRICHOR_WEATHER_MODELS_ARTIST_TIMELINE_H
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -33,14 +34,28 @@ enum class Interpolation {
 std::optional<Interpolation> interpolation_named(std::string_view name);
 std::string_view name_of(Interpolation interpolation);
 
+/// Change a second just before and just after a key of a Smooth channel; NaN: chosen as for Smooth.
+struct KeySlopes {
+    double in = std::numeric_limits<double>::quiet_NaN();
+    double out = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// One number over time. Before the first key it has the first value, after the last the last.
 struct Channel {
     std::vector<TimeUs> times;   ///< strictly increasing
     std::vector<double> values;  ///< one a time
     Interpolation interpolation = Interpolation::Hold;
+    std::vector<KeySlopes> slopes = {};  ///< of the first keys, as far as they are given
 
     bool empty() const { return times.empty(); }
 };
+/// The least and the largest value that a channel ever has. Throws Error for an empty channel.
+struct ChannelRange {
+    double low = 0.0;
+    double high = 0.0;
+};
+ChannelRange range_of(const Channel& channel);
+
 /// A channel that never changes.
 Channel constant_channel(double value);
 

@@ -63,6 +63,20 @@ PETRICHOR_INLINE Real snow_fraction_wet_bulb_of(const Real& wet_bulb_c)
     return 1.0 / (exponential((wet_bulb_c + 3.97) * 2.0) * 6.99e-5 + 1.0);
 }
 
+// Coefficient of heat in neutral air, from the logarithms of zU / z0 and zT / z0h.
+template <class Real>
+PETRICHOR_INLINE Real neutral_exchange_of(const Real& log_wind, const Real& log_temp)
+{
+    return kVonKarman * kVonKarman / (log_wind * log_temp);
+}
+
+// Bulk Richardson number a kelvin between air and surface, from 1 / (T U^2).
+template <class Real>
+PETRICHOR_INLINE Real richardson_per_k_of(const Real& per_air_wind2, double wind_height_m)
+{
+    return per_air_wind2 * (kGravity_m_s2 * wind_height_m);
+}
+
 // Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one
 // division:
 //   stable    1 / (1 + 15 Ri sqrt(1 + 5 Ri))

@@ -79,11 +79,11 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.neutral = Real(k.neutral_bare);
     if (any_snow) {
         const Real log_z0 = cover * (k.log_snow_roughness - k.log_roughness) + k.log_roughness;
-        p.neutral = kVonKarman * kVonKarman /
-                    ((k.log_wind_height - log_z0) * (k.log_temp_height_10 - log_z0));
+        p.neutral = neutral_exchange_of<Real>(k.log_wind_height - log_z0,
+                                              k.log_temp_height_10 - log_z0);
     }
     p.exchange = w.density * p.neutral * w.wind;
-    p.richardson_k = w.per_air_wind2 * (kGravity_m_s2 * k.wind_height_m);
+    p.richardson_k = richardson_per_k_of(w.per_air_wind2, k.wind_height_m);
     p.root_z = cover * (k.root_z_snow - k.root_z_bare) + k.root_z_bare;
     p.icy = icy;
     p.latent_heat = select(icy, Real(kLatentSublimation), Real(kLatentVaporisation));

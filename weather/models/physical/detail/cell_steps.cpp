@@ -157,8 +157,8 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.log_wind_height = logarithm(site.wind_height_m);
     k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
     k.neutral_bare =
-        kVonKarman * kVonKarman /
-        ((k.log_wind_height - k.log_roughness) * (k.log_temp_height_10 - k.log_roughness));
+        neutral_exchange_of(k.log_wind_height - k.log_roughness,
+                            k.log_temp_height_10 - k.log_roughness);
     k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
     k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;

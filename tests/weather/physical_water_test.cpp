@@ -1,0 +1,230 @@
+// Water, ice and snow on the ground of the physical cell, one thing at a time.
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/weather/made_up.h"
+#include "tests/weather/winters.h"
+#include "weather/models/physical/mapping.h"
+#include "weather/models/physical/physical.h"
+#include "weather/physics/evaporation.h"
+
+namespace petrichor::weather {
+namespace {
+
+using testing_weather::kHourUs;
+using namespace testing_winters;
+
+ForcingTable steady(double air_k, double rh, double wind, double sw, double precip,
+                    std::size_t hours)
+{
+    ForcingTable t;
+    for (std::size_t i = 0; i <= hours; ++i) {
+        t.time_us.push_back(static_cast<std::int64_t>(i) * kHourUs);
+        t[Field::AirTemp].push_back(air_k);
+        t[Field::RelHumidity].push_back(rh);
+        t[Field::Wind].push_back(wind);
+        t[Field::Shortwave].push_back(sw);
+        t[Field::Precip].push_back(i < 3 ? precip : 0);
+        t[Field::Cloud].push_back(0.5);
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    return t;
+}
+
+TEST(Water, RainFillsFilmThenCracksThenPuddlesThenRunsOff)
+{
+    PhysicalParams p;
+    const PhysicalTimeline run(steady(288, 95, 2, 0, 10.0 / 3600, 3), p);
+    const auto early = run.state_at(kHourUs / 8);
+    EXPECT_GT(early.film, 0.5);
+    EXPECT_LT(early.puddle, 0.3);
+    const auto late = run.state_at(3 * kHourUs);
+    EXPECT_GT(late.film, 1.0);
+    EXPECT_LT(late.film, 2.2);  // steady film above the pores: p / c = 0.93
+    EXPECT_NEAR(late.crack, p.surface.cracks.capacity_kg_m2(), 0.01);
+    EXPECT_NEAR(late.puddle, p.surface.puddles.capacity_kg_m2(), 0.1);
+    EXPECT_GT(late.total_drainage, 10);
+    const auto masks = weather_masks({}, p.surface, late, 3600);
+    EXPECT_NEAR(masks.rainfall, 0.60987, 1e-4);
+    EXPECT_NEAR(masks.puddles, 1.0, 0.01);
+    EXPECT_GT(masks.wetness, 0.95);
+}
+
+TEST(Water, SunDriesTheFilmFirst)
+{
+    PhysicalParams p;
+    const PhysicalTimeline run(steady(295, 40, 3, 500, 4.0 / 3600, 24), p);
+    const auto wet = run.state_at(3 * kHourUs), dry = run.state_at(24 * kHourUs);
+    EXPECT_GT(wet.film, 0.7);
+    EXPECT_LT(dry.film, 0.05);
+    EXPECT_LT(dry.crack, wet.crack);
+    EXPECT_GT(dry.total_evaporation, 2);
+}
+
+// After a shower of 5 mm under a June sun: the film is gone first, then the puddles, the cracks
+// last. A road in use is dry within two hours (half an hour to two hours is what drivers report;
+// Harwood et al. 1988 fit such times to test sections), pavement with hollows shows dark seams
+// long after its film is gone.
+TEST(Water, FilmDriesFirstAndCracksLast)
+{
+    ForcingTable t;
+    t.site = {.latitude_deg = 48, .longitude_deg = 0, .elevation_m = 100};
+    for (int i = 0; i <= 14 * 6; ++i) {
+        t.time_us.push_back(1687168800LL * 1000000 + i * 600000000LL);
+        t[Field::AirTemp].push_back(296);
+        t[Field::RelHumidity].push_back(45);
+        t[Field::Wind].push_back(2.5);
+        t[Field::Shortwave].push_back(800);
+        t[Field::Cloud].push_back(0.2);
+        t[Field::Precip].push_back(i < 1 ? 5.0 / 600 : 0);
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    const auto gone_h = [&](const char* name, auto&& store) {
+        PhysicalParams p;
+        p.surface = surface_preset(name);
+        const PhysicalTimeline run(t, p);
+        for (std::int64_t us = run.begin_us() + kHourUs / 6; us <= run.end_us();
+             us += kHourUs / 6) {
+            if (store(run.state_at(us)) < 0.05)
+                return static_cast<double>(us - run.begin_us()) / static_cast<double>(kHourUs);
+        }
+        return 99.0;
+    };
+    const double film = gone_h("asphalt", [](const CellState& c) { return c.film; });
+    const double puddle = gone_h("asphalt", [](const CellState& c) { return c.puddle; });
+    const double crack = gone_h("asphalt", [](const CellState& c) { return c.crack; });
+    std::printf("  asphalt: film %.1f h, puddles %.1f h, cracks %.1f h\n", film, puddle, crack);
+    EXPECT_LE(film, 4.0);
+    EXPECT_GT(puddle, film);
+    EXPECT_GT(crack, puddle);
+    EXPECT_LE(gone_h("road", [](const CellState& c) { return c.film; }), 2.0);
+}
+
+// A full film evaporates as open water does (Penman), given the same net radiation.
+TEST(Water, AFullFilmEvaporatesAsPenmanSays)
+{
+    PhysicalParams p;
+    p.surface.film_capacity_kg_m2 = 50;
+    p.exchange.stability = Stability::Neutral;
+    ForcingTable t = steady(293.15, 50, 3, 500, 20.0 / 3600, 8);
+    const CellState c = PhysicalTimeline(t, p).state_at(8 * kHourUs);
+    ASSERT_GT(c.film, 49);
+    const PenmanForcing f{.net_radiation_w_m2 = c.flux_shortwave + c.flux_longwave,
+                          .ground_flux_w_m2 = c.flux_ground,
+                          .air_temp_k = 293.15,
+                          .rel_humidity_pct = 50,
+                          .pressure_pa = t[Field::Pressure].back(),
+                          .wind_m_s = 3,
+                          .exchange_coefficient = neutral_exchange(10, 2, p.surface.roughness_m)};
+    EXPECT_NEAR(c.flux_latent / penman_monteith(f).latent_w_m2, 1.0, 0.06);
+}
+
+TEST(Water, GroundThatDrinksKeepsNoPuddle)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("paving stones");
+    const PhysicalTimeline run(steady(288, 95, 2, 0, 8.0 / 3600, 3), p);
+    const auto c = run.state_at(3 * kHourUs);
+    EXPECT_LT(c.puddle, 0.5);
+    EXPECT_GT(c.total_infiltration, 15);
+}
+
+TEST(Ice, FrostDewAndFreezing)
+{
+    PhysicalParams p;
+    // Cold, still, moist and clear: frost.
+    ForcingTable cold = steady(268, 98, 0.5, 0, 0, 12);
+    for (double& lw : cold[Field::Longwave]) lw = 180;
+    const auto frost = PhysicalTimeline(cold, p).state_at(12 * kHourUs);
+    EXPECT_GT(frost.film_ice, 0.005);
+    EXPECT_LT(frost.total_sublimation, -0.005);
+    // Rain at +1 C onto ground at -8 C: glaze.
+    p.deep_temp_k = 262;
+    p.phase.law = PhaseLaw::Threshold;
+    p.phase.threshold_k = 260;
+    const auto glaze =
+        PhysicalTimeline(steady(270.5, 95, 4, 0, 1.0 / 3600, 6), p).state_at(3 * kHourUs);
+    EXPECT_GT(glaze.film_ice + glaze.crack_ice, 0.3);
+    EXPECT_LE(glaze.surface_temp_c, 1e-9);
+    EXPECT_GT(glaze.frozen_fraction, 0.1);
+}
+
+TEST(Snow, FallsAndMeltsIntoTheStores)
+{
+    PhysicalParams p;
+    const auto fallen =
+        PhysicalTimeline(steady(268, 95, 2, 0, 5.0 / 3600, 6), p).state_at(6 * kHourUs);
+    EXPECT_NEAR(diagnostics(fallen).swe_kg_m2, 15, 3.0);
+    EXPECT_GT(diagnostics(fallen).snow_depth_m, 0.08);
+    const auto masks = weather_masks({}, p.surface, fallen, 3600);
+    EXPECT_GT(masks.snow, 0.7);
+    EXPECT_GT(masks.water_to_snow, 0.9);
+    // Warm sun on it.
+    ForcingTable warm = steady(281, 70, 3, 400, 0, 48);
+    const PhysicalTimeline melt(warm, p, fallen, 0);
+    const auto gone = melt.state_at(48 * kHourUs);
+    EXPECT_EQ(diagnostics(gone).swe_kg_m2, 0.0);
+    EXPECT_GT(gone.total_melt - fallen.total_melt, 10);
+    EXPECT_GT(gone.puddle + gone.crack + gone.total_drainage + gone.total_evaporation, 5);
+}
+
+// Branches catch snow, never more than they hold, and let it go within hours of a thaw; nothing is
+// lost between sky and ground.
+TEST(Snow, BranchesCatchItAndLetItGo)
+{
+    PhysicalParams open, forest;
+    forest.canopy_vai = 3.0;
+    const ForcingTable storm = steady(263, 95, 2, 0, 12.0 / 3600, 3);
+    const auto under = PhysicalTimeline(storm, forest).state_at(3 * kHourUs);
+    const auto beside = PhysicalTimeline(storm, open).state_at(3 * kHourUs);
+    EXPECT_GT(under.canopy_snow, 0.8 * 4.4 * 3.0);
+    EXPECT_LE(under.canopy_snow, 4.4 * 3.0);
+    EXPECT_NEAR(under.total_precip, 36.0, 1e-9);
+    EXPECT_NEAR(diagnostics(under).swe_kg_m2 + under.canopy_snow, diagnostics(beside).swe_kg_m2,
+                0.5);
+    EXPECT_LE(under.mass_residual_most, 1e-9);
+    EXPECT_EQ(beside.canopy_snow, 0.0);
+    // The next dry day in the frost they lose 1 - exp(-1/10), in a thaw nearly all.
+    const auto next = [&](double air_k) {
+        const PhysicalTimeline day(steady(air_k, 95, 2, 0, 0, 24), forest, under, 0);
+        const auto c = day.state_at(24 * kHourUs);
+        EXPECT_LE(c.mass_residual_most, 1e-9);
+        EXPECT_NEAR(mass_balance_kg_m2(c, under), 0.0, 1e-9);
+        return c.canopy_snow / under.canopy_snow;
+    };
+    EXPECT_NEAR(next(263), std::exp(-0.1), 1e-12);
+    EXPECT_NEAR(next(275), std::exp(-10.0), 1e-12);
+}
+
+// Under a thick pack the ground comes to rest: what it gives melts the base of the pack, which
+// stays at 0 C, and nothing melts above it in the frost.
+TEST(Snow, WarmGroundMeltsItFromBelow)
+{
+    PhysicalParams p = meadow();
+    p.deep_temp_k = 293.15;
+    ForcingTable frost = steady(272, 95, 3, 0, 100.0 / 3600, 30 * 24);
+    const PhysicalTimeline run(frost, p);
+    const auto before = run.state_at(20 * 24 * kHourUs);
+    const auto after = run.state_at(30 * 24 * kHourUs);
+    ASSERT_GT(diagnostics(after).swe_kg_m2, 100);
+    EXPECT_LT(after.surface_temp_c, -5.0);
+    EXPECT_NEAR(after.ground_temp_c[0], 0.0, 0.1);
+    EXPECT_LE(after.mass_residual_most, 1e-9);
+    // What flows between the two top nodes, 0.015 m apart, melts the base or goes through the pack.
+    const auto flux_w_m2 = [&](const CellState& c) {
+        return p.surface.conductivity_w_m_k * (c.ground_temp_c[1] - c.ground_temp_c[0]) / 0.015;
+    };
+    const double melted_w_m2 =
+        (after.total_melt - before.total_melt) * kLatentFusion / (10 * 86400.0);
+    EXPECT_GT(melted_w_m2, 0.6 * flux_w_m2(after));
+    EXPECT_LT(melted_w_m2, flux_w_m2(before));
+    // Frozen ground melts nothing.
+    p.deep_temp_k = 268.15;
+    for (auto& air_k : frost[Field::AirTemp]) air_k = 266;
+    EXPECT_EQ(PhysicalTimeline(frost, p).state_at(30 * 24 * kHourUs).total_melt, 0.0);
+}
+
+}  // namespace
+}  // namespace petrichor::weather
