@@ -11,10 +11,11 @@
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
+#include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 17;
+SHARED_CONST int kProbeKinds = 18;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -120,6 +121,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 d = probe_direction(a.x, a.y);
         const int i = int(8.999f * a.z);
         return vec4(harmonic(i, d), cosine_band(i), srgb_from_linear(b.x), linear_from_srgb(b.y));
+    }
+    if (kind == 17) {
+        const uint seed = uint(100.0f * b.x);
+        const vec2 uv = vec2(a.x, a.y);
+        return vec4(rain_drops(uv, seed).x, snow_relief(uv, seed), snow_preference(uv, seed),
+                    snow_gloss(uv, seed));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

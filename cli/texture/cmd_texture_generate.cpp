@@ -44,6 +44,8 @@ constexpr WeatherTexture kWeather[] = {
     {"snow_mask", "where snow lies first: B mask, AG detail normal", texproc::snow_mask},
     {"snow_water_bump", "surface of snow and water: B snow smoothness, AG normal",
      texproc::snow_water_bump},
+    {"skin_ring", "lookup of skin: diffuse light by 0.5 + 0.5 n.l and, downwards, curvature",
+     [](int size, std::uint32_t) { return texproc::skin_ring(size); }},
 };
 
 std::vector<std::string> all_names()
@@ -64,7 +66,7 @@ void list_kinds()
     std::cout << "Materials (albedo, normal, height, roughness, occlusion, metallic, puddle):\n";
     for (const texproc::MaterialKindInfo& kind : texproc::material_kinds())
         line(kind.name, kind.meaning);
-    std::cout << "Weather textures:\n";
+    std::cout << "Textures of weather and skin:\n";
     for (const WeatherTexture& weather : kWeather) line(weather.name, weather.meaning);
 }
 
@@ -147,19 +149,21 @@ void draw(ContactSheet& sheet, const Image& texture, const std::string& name, in
           int cell)
 {
     const Image small = texture.width > cell ? texproc::area_reduced(texture, cell, cell) : texture;
-    for (int half = 0; half < 2; ++half) {  // RGB, and alpha as grey
+    const int parts = small.channels > 3 ? 2 : 1;
+    const std::size_t step = static_cast<std::size_t>(small.channels);
+    for (int half = 0; half < parts; ++half) {  // RGB, and alpha as grey
         Image shown(small.width, small.height, half ? 1 : 3, ColorSpace::Data);
-        for (std::size_t i = 0; i < small.pixels.size() / 4; ++i) {
+        for (std::size_t i = 0; i < small.pixels.size() / step; ++i) {
             if (half) {
-                shown.pixels[i] = small.pixels[4 * i + 3];
+                shown.pixels[i] = small.pixels[step * i + 3];
             } else {
                 for (std::size_t c = 0; c < 3; ++c)
-                    shown.pixels[3 * i + c] = small.pixels[4 * i + c];
+                    shown.pixels[3 * i + c] = small.pixels[step * i + c];
             }
         }
         sheet.place(shown, x + half * (cell + 6), y);
     }
-    sheet.text(x, y - 8, name + ": RGB and alpha", 15.0, true);
+    sheet.text(x, y - 8, parts > 1 ? name + ": RGB and alpha" : name, 15.0, true);
 }
 
 void run(const Arguments& a)

@@ -37,8 +37,29 @@ bool is_dds(std::span<const std::byte> bytes)
     return bytes.size() >= 128 && std::memcmp(bytes.data(), "DDS ", 4) == 0;
 }
 
-// How the device names a format; `color`: 8-bit codes and blocks are sRGB. Signed BC4 and BC5 hold
-// -1..1, the shaders read 0..1.
+// Blocks that the device reads as they are; all others are decoded. Signed BC4 and BC5 hold -1..1,
+// the shaders read 0..1.
+struct DeviceBlock {
+    Block block;
+    int channels;
+    bool is_signed;
+    TexelFormat plain;
+    std::optional<TexelFormat> srgb;
+    bool slow = false;  ///< on a CPU device
+};
+constexpr DeviceBlock kDeviceBlocks[] = {
+    {Block::Bc1, 3, false, TexelFormat::Bc1OpaqueUnorm, TexelFormat::Bc1OpaqueSrgb},
+    {Block::Bc1, 4, false, TexelFormat::Bc1Unorm, TexelFormat::Bc1Srgb},
+    {Block::Bc2, 4, false, TexelFormat::Bc2Unorm, TexelFormat::Bc2Srgb},
+    {Block::Bc3, 4, false, TexelFormat::Bc3Unorm, TexelFormat::Bc3Srgb},
+    {Block::Bc4, 1, false, TexelFormat::Bc4Unorm, {}},
+    {Block::Bc5, 2, false, TexelFormat::Bc5Unorm, {}},
+    {Block::Bc6h, 3, false, TexelFormat::Bc6hUfloat, TexelFormat::Bc6hUfloat, true},
+    {Block::Bc6h, 3, true, TexelFormat::Bc6hSfloat, TexelFormat::Bc6hSfloat, true},
+    {Block::Bc7, 4, false, TexelFormat::Bc7Unorm, TexelFormat::Bc7Srgb, true},
+};
+
+// How the device names a format; `color`: 8-bit codes and blocks are sRGB.
 std::optional<TexelFormat> format_of(const texproc::TextureFormat& format, bool color,
                                      BlockSupport blocks)
 {
@@ -58,31 +79,19 @@ std::optional<TexelFormat> format_of(const texproc::TextureFormat& format, bool 
         return std::nullopt;
     }
     if (blocks == BlockSupport::None) return std::nullopt;
-    const bool fast = blocks == BlockSupport::Fast;
-    switch (*format.block) {
-        case Block::Bc1:
-            if (format.channels == 3) {
-                return color ? TexelFormat::Bc1OpaqueSrgb : TexelFormat::Bc1OpaqueUnorm;
-            }
-            return color ? TexelFormat::Bc1Srgb : TexelFormat::Bc1Unorm;
-        case Block::Bc2:
-            return color ? TexelFormat::Bc2Srgb : TexelFormat::Bc2Unorm;
-        case Block::Bc3:
-            return color ? TexelFormat::Bc3Srgb : TexelFormat::Bc3Unorm;
-        case Block::Bc4:
-            if (!color && !format.is_signed) return TexelFormat::Bc4Unorm;
-            break;
-        case Block::Bc5:
-            if (!color && !format.is_signed) return TexelFormat::Bc5Unorm;
-            break;
-        case Block::Bc6h:
-            if (!fast) return format.is_signed ? TexelFormat::Bc6hSfloat : TexelFormat::Bc6hUfloat;
-            break;
-        case Block::Bc7:
-            if (!fast) return color ? TexelFormat::Bc7Srgb : TexelFormat::Bc7Unorm;
-            break;
+    for (const DeviceBlock& row : kDeviceBlocks) {
+        if (row.block != *format.block || row.channels != format.channels ||
+            row.is_signed != format.is_signed || (row.slow && blocks == BlockSupport::Fast))
+            continue;
+        if (color && !row.srgb) break;
+        return color ? *row.srgb : row.plain;
     }
     return std::nullopt;
+}
+
+bool decodes_to_halves(const texproc::TextureFormat& format)
+{
+    return format.block && texproc::decoded_type(*format.block) == PixelType::F16;
 }
 
 // Numbers in plain texels: what the device reads instead of a format that it does not.
@@ -93,7 +102,7 @@ struct Plain {
 Plain plain_for(const texproc::TextureFormat& format, bool color)
 {
     const bool wide = !format.block && format.type != PixelType::U8;
-    const bool halves = wide || format.block == Block::Bc6h;
+    const bool halves = wide || decodes_to_halves(format);
     if (color) {
         return halves && format.type != PixelType::U16 ? Plain{"rgba16f", TexelFormat::Rgba16Float}
                                                        : Plain{"rgba8", TexelFormat::Rgba8Srgb};
@@ -153,7 +162,7 @@ LoadedTexture load_prepared(const MipTexture& file, TextureMeaning meaning, Bloc
         throw Error("its format " + name + " has one channel, a normal map needs two",
                     "Write it as bc5, rg8 or rgba8.");
     }
-    const bool codes = format.block ? *format.block != Block::Bc6h : format.type == PixelType::U8;
+    const bool codes = format.block ? !decodes_to_halves(format) : format.type == PixelType::U8;
     if (labelled && codes && color && !file.srgb) {
         loaded.notes.push_back("is labelled linear; glTF defines it as sRGB, and so it is read");
     }
@@ -174,12 +183,14 @@ LoadedTexture load_prepared(const MipTexture& file, TextureMeaning meaning, Bloc
     std::vector<RawImage> levels;
     for (std::size_t k = 0; k < file.levels.size(); ++k) {
         RawImage level = texproc::decode_level(file, static_cast<int>(k), threads);
-        const bool signed_codes = format.is_signed && format.block != Block::Bc6h;
+        const bool signed_codes = format.is_signed && !decodes_to_halves(format);
         levels.push_back(signed_codes ? unsigned_numbers(level) : std::move(level));
     }
     out.mips = texproc::make_texture(levels, {.format = plain.name, .threads = threads}).levels;
-    const bool slow = format.block == Block::Bc7 || format.block == Block::Bc6h;
-    if (!(slow && blocks == BlockSupport::Fast)) {
+    const bool by_choice = std::any_of(
+        std::begin(kDeviceBlocks), std::end(kDeviceBlocks),
+        [&](const DeviceBlock& row) { return row.slow && row.block == format.block; });
+    if (!(by_choice && blocks == BlockSupport::Fast)) {
         loaded.notes.push_back("is stored as " + name + ", which this device does not sample for " +
                                (color ? "colour" : "data") + ": read as " + plain.name);
     }

@@ -244,5 +244,38 @@ TEST(WeatherTextures, DropsPointAwayFromTheirCentresAndTile)
     EXPECT_EQ(snow_water_bump(64, 1).channels, 4);
 }
 
+// Codes of Lux's table at (n.l, curvature), linear, 0..255 (docs/lux.md names the reference).
+TEST(SkinRing, HasTheValuesOfTheReference)
+{
+    const Image ring = skin_ring(128);
+    const auto code = [&](double facing, double curvature, int channel) {
+        const int x = std::min(static_cast<int>((0.5 + 0.5 * facing) * 128.0), 127);
+        const int y = std::min(static_cast<int>(curvature * 128.0), 127);
+        // Between the two texels around it.
+        return 255.0f * 0.5f * (ring.at(x, y, channel) + ring.at(std::max(x - 1, 0), y, channel));
+    };
+    struct Row {
+        double facing, curvature;
+        float rgb[3];
+    };
+    for (const Row& row : {Row{0.0, 0.5, {26, 7, 5}}, Row{0.0, 1.0, {40, 13, 8}},
+                           Row{0.25, 1.0, {78, 65, 64}}, Row{-0.25, 1.0, {23, 2, 0}}}) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(code(row.facing, row.curvature, c), row.rgb[c], 1.5f) << row.facing;
+    }
+    for (int x = 0; x < 128; ++x) {
+        const float plane = std::max(0.0f, 2.0f * (static_cast<float>(x) + 0.5f) / 128.0f - 1.0f);
+        EXPECT_NEAR(ring.at(x, 0, 1), plane, 0.01f);
+        // More light on the lit side, red first past the edge.
+        if (x > 0) {
+            EXPECT_GE(ring.at(x, 100, 0), ring.at(x - 1, 100, 0));
+        }
+        if (x < 60) {
+            EXPECT_GE(ring.at(x, 100, 0), ring.at(x, 100, 2));
+        }
+    }
+    EXPECT_THROW(skin_ring(4), Error);
+}
+
 }  // namespace
 }  // namespace petrichor::texproc

@@ -1,9 +1,11 @@
+#include "tests/support/assets.h"
 #include "texproc/codecs/blocks/blocks.h"
+#include "texproc/codecs/blocks/detail/block_table.h"
+#include "texproc/codecs/files/texture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "base/error.h"
 #include "texproc/codecs/blocks/detail/bc7_tables.h"
@@ -307,10 +309,9 @@ TEST(Blocks, RefusesWithTheReason)
 // Real materials: floors a little below what was measured, so that a step back shows.
 TEST(Blocks, QualityOnARealMaterial)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    NEED_ASSETS(assets);
     RawImage whole =
-        read_raw(std::filesystem::path(assets) / "materials/Rock020/Rock020_1K_Color.jpg");
+        read_raw(assets / "materials/Rock020/Rock020_1K_Color.jpg");
     RawImage image{256, 256, 3, PixelType::U8, {}, {}};
     for (std::size_t y = 0; y < 256; ++y) {
         const auto row = whole.bytes.begin() +
@@ -323,6 +324,19 @@ TEST(Blocks, QualityOnARealMaterial)
     EXPECT_GT(psnr(Block::Bc1), 36.8);
     EXPECT_GT(psnr(Block::Bc7), 44.6);
     EXPECT_GT(psnr(Block::Bc5), 46.0);
+}
+
+TEST(BlockTable, RowsStandInTheOrderOfTheFormats)
+{
+    int at = 0;
+    for (const detail::BlockRow& row : detail::block_table()) {
+        EXPECT_EQ(static_cast<int>(row.block), at++) << row.title;
+        EXPECT_FALSE(row.labels.empty()) << row.title;
+        for (const detail::BlockLabel& label : row.labels) {
+            EXPECT_NE(label.dxgi + label.vulkan, 0u) << label.name;
+            EXPECT_EQ(texture_format(label.name).block, row.block) << label.name;
+        }
+    }
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "base/error.h"
+#include "tests/support/assets.h"
 #include "tests/texproc/textures.h"
 
 namespace petrichor::texproc {
@@ -123,9 +123,8 @@ TEST_F(Dds, ReadsTexelsWithMasks)
 // Decoded texels beside those of the picture that the files were made from.
 TEST_F(Dds, ReadsTheSharedFiles)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
-    const std::filesystem::path shared = std::filesystem::path(assets) / "formats/dds";
+    NEED_ASSETS(assets);
+    const std::filesystem::path shared = assets / "formats/dds";
     const MipTexture srgb = read_texture(shared / "dds_dxgi_bc7_srgb.dds");
     EXPECT_TRUE(srgb.srgb);
     EXPECT_EQ(read_raw(shared / "dds_dxgi_bc7_srgb.dds").channels, 4);

@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <thread>
 
 #include "base/error.h"
+#include "tests/support/assets.h"
 #include "texproc/filter/mips.h"
 
 namespace petrichor::texproc {
@@ -299,28 +299,26 @@ TEST_F(Io, ACutPngIsAnError)
 
 TEST_F(Io, EveryPngAndPsdOfTheSharedSetIsRead)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    NEED_ASSETS(assets);
     for (const char* kind : {"png", "psd"}) {
         int read = 0;
-        for (const auto& entry : fs::directory_iterator(fs::path(assets) / "formats" / kind)) {
+        for (const auto& entry : fs::directory_iterator(assets / "formats" / kind)) {
             EXPECT_GT(read_raw(entry.path()).bytes.size(), 0u) << entry.path();
             ++read;
         }
         EXPECT_GT(read, 5);
     }
-    EXPECT_EQ(read_raw(fs::path(assets) / "formats/psd/rgba.psd").channels, 4);
+    EXPECT_EQ(read_raw(assets / "formats/psd/rgba.psd").channels, 4);
 }
 
 // A file on which the image library itself aborts is an error, and the next file is read.
 TEST_F(Io, ACrashOfTheImageLibraryIsAnError)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    NEED_ASSETS(assets);
     write_raw(folder / "a.png", ramp(8, 8, 3, PixelType::U8));
     for (const char* name : {"tga/crash1.tga", "exr/memory_DOS_2.1", "psd/crash-bomb-30000.psd"}) {
         try {
-            (void)read_image(fs::path(assets) / "bad" / name);
+            (void)read_image(assets / "bad" / name);
         } catch (const Error&) {
         }
         EXPECT_EQ(read_raw(folder / "a.png").width, 8) << "after " << name;

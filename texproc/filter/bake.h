@@ -59,6 +59,9 @@ Image ripple_drops(int size, std::uint32_t seed);
 Image snow_mask(int size, std::uint32_t seed);
 /// 4 channels: 0, normal y, snow smoothness, normal x.
 Image snow_water_bump(int size, std::uint32_t seed);
+/// 3 channels, linear: diffuse light of skin by 0.5 + 0.5 n.l (to the right) and curvature 0..1
+/// (downwards). Curvature 1 is a radius of 1.6 mm; at 0 it is max(0, n.l).
+Image skin_ring(int size);
 
 }  // namespace petrichor::texproc
 

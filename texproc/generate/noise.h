@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "formulas/noise/noise.h"
+
 namespace petrichor::texproc {
 
 // Noise that tiles. Every value is a function of (lattice cell, seed): no stream, no state, so the
@@ -14,12 +16,7 @@ namespace petrichor::texproc {
 /// Mixes 32 bits so that neighbouring inputs have unrelated outputs.
 inline std::uint32_t hash_u32(std::uint32_t x)
 {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
+    return shared::hash_u(x);
 }
 
 /// Hash of a lattice cell.

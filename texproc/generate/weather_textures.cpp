@@ -5,12 +5,18 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "formulas/weather/weather_maps.h"
 #include "texproc/filter/bake.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::texproc {
 
 namespace {
+
+glm::vec2 place(int x, int y, int size)
+{
+    return (glm::vec2(x, y) + 0.5f) / static_cast<float>(size);
+}
 
 void check_size(int size)
 {
@@ -19,25 +25,13 @@ void check_size(int size)
     }
 }
 
-// Octaves of tiling gradient noise, about [-1, 1].
-std::vector<float> octaves(int size, int cells, int count, float gain, std::uint32_t seed)
+// A formula of the place on the tile, texel by texel.
+std::vector<float> drawn(int size, std::uint32_t seed, float (*formula)(glm::vec2, std::uint32_t))
 {
-    std::vector<float> values(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    std::vector<float> values;
+    values.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
     for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            float sum = 0.0f, weight = 1.0f;
-            int period = cells;
-            for (int o = 0; o < count; ++o) {
-                const float scale = static_cast<float>(period) / static_cast<float>(size);
-                sum += weight * gradient_noise((static_cast<float>(x) + 0.5f) * scale,
-                                               (static_cast<float>(y) + 0.5f) * scale, period,
-                                               period, seed + static_cast<std::uint32_t>(o));
-                weight *= gain;
-                period *= 2;
-            }
-            values[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
-                   static_cast<std::size_t>(x)] = sum;
-        }
+        for (int x = 0; x < size; ++x) values.push_back(formula(place(x, y, size), seed));
     }
     return values;
 }
@@ -62,6 +56,12 @@ void store_normals(const std::vector<float>& height, int size, float strength, I
     }
 }
 
+// Of store_normals, for the slopes that the renderer draws.
+float steepness(int size)
+{
+    return 0.5f * shared::kSnowSteepness * static_cast<float>(size);
+}
+
 // Gives values the distribution whose quantiles are these (rank, value) knots: ranks decide, so
 // that mean and quantiles are met whatever the noise was.
 void match_quantiles(std::vector<float>& values, const std::array<std::array<float, 2>, 5>& knots)
@@ -84,32 +84,11 @@ void match_quantiles(std::vector<float>& values, const std::array<std::array<flo
 Image ripple_drops(int size, std::uint32_t seed)
 {
     check_size(size);
-    constexpr int kCells = 12;
     Image out(size, size, 4, ColorSpace::Data);
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            const float u = (static_cast<float>(x) + 0.5f) * kCells / static_cast<float>(size);
-            const float v = (static_cast<float>(y) + 0.5f) * kCells / static_cast<float>(size);
-            float* to = &out.at(x, y, 0);
-            to[1] = to[2] = 0.5f;
-            for (int dy = -1; dy <= 1; ++dy) {
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const int i = static_cast<int>(u) + dx, j = static_cast<int>(v) + dy;
-                    const std::uint32_t h =
-                        hash_cell(wrap_index(i, kCells), wrap_index(j, kCells), seed);
-                    const float radius = 0.45f + 0.5f * hash_unit(h, 3);
-                    const float du = u - (static_cast<float>(i) + hash_unit(h, 1));
-                    const float dv = v - (static_cast<float>(j) + hash_unit(h, 2));
-                    const float distance = std::sqrt(du * du + dv * dv);
-                    const float envelope = 1.0f - distance / radius;
-                    if (envelope <= to[0]) continue;  // the drop that is nearest its centre wins
-                    to[0] = envelope;
-                    const float scale = distance > 1e-6f ? 0.5f / distance : 0.0f;
-                    to[1] = 0.5f + du * scale;
-                    to[2] = 0.5f + dv * scale;
-                    to[3] = hash_unit(h, 4);
-                }
-            }
+            const glm::vec4 drop = shared::rain_drops(place(x, y, size), seed);
+            for (int c = 0; c < 4; ++c) out.at(x, y, c) = drop[c];
         }
     }
     return out;
@@ -119,7 +98,7 @@ Image snow_mask(int size, std::uint32_t seed)
 {
     check_size(size);
     Image out(size, size, 4, ColorSpace::Data);
-    std::vector<float> mask = octaves(size, 4, 6, 0.6f, seed);
+    std::vector<float> mask = drawn(size, seed, shared::snow_preference);
     // The middle knot makes the mean 0.715.
     match_quantiles(
         mask, {{{0.0f, 0.35f}, {0.05f, 0.51f}, {0.5f, 0.7611f}, {0.95f, 0.85f}, {1.0f, 0.95f}}});
@@ -129,8 +108,7 @@ Image snow_mask(int size, std::uint32_t seed)
                                    static_cast<std::size_t>(x)];
         }
     }
-    store_normals(octaves(size, 16, 3, 0.7f, seed + 100), size, 0.004f * static_cast<float>(size),
-                  out, 3, 1);
+    store_normals(drawn(size, seed, shared::snow_relief), size, steepness(size), out, 3, 1);
     return out;
 }
 
@@ -138,9 +116,9 @@ Image snow_water_bump(int size, std::uint32_t seed)
 {
     check_size(size);
     Image out(size, size, 4, ColorSpace::Data);
-    store_normals(octaves(size, 6, 4, 0.5f, seed), size, 0.004f * static_cast<float>(size), out, 3,
-                  1);
-    std::vector<float> gloss = octaves(size, 8, 5, 0.7f, seed + 200);
+    // Another piece of the same relief: the two lie over each other.
+    store_normals(drawn(size, seed + 100, shared::snow_relief), size, steepness(size), out, 3, 1);
+    std::vector<float> gloss = drawn(size, seed, shared::snow_gloss);
     match_quantiles(gloss,
                     {{{0.0f, 0.1f}, {0.25f, 0.25f}, {0.5f, 0.35f}, {0.9f, 0.5f}, {1.0f, 0.9f}}});
     for (int y = 0; y < size; ++y) {

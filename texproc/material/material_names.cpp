@@ -207,7 +207,8 @@ NamedMaps named_as_in_unreal(const std::string& stem)
 // What `generate` makes for weather belongs to no material.
 bool is_weather_texture(const std::string& stem)
 {
-    return stem == "ripple" || stem == "snow_mask" || stem == "snow_water_bump";
+    return stem == "ripple" || stem == "snow_mask" || stem == "snow_water_bump" ||
+           stem == "skin_ring";
 }
 
 // Every image below a folder, but for hidden ones and those made for weather.

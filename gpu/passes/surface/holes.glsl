@@ -2,7 +2,7 @@
 #ifndef PETRICHOR_SURFACE_HOLES_GLSL
 #define PETRICHOR_SURFACE_HOLES_GLSL
 
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/passes/surface/textures.glsl"
 
 // Not where water shifts the lookup to: a hole stays where it is.

@@ -2,7 +2,7 @@
 // Small waves on flowing and wind-blown water: a tileable sum of travelling sines, as a normal map.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/passes/surface_maps/surface_maps_io.h"
 
 layout(local_size_x = SURFACE_MAPS_TILE, local_size_y = SURFACE_MAPS_TILE) in;

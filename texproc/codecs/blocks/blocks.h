@@ -12,6 +12,7 @@
 namespace petrichor::texproc {
 
 /// The block formats of graphics hardware: 4 x 4 texels in 8 bytes (BC1, BC4) or 16 (the others).
+/// In the order of the rows of block_table.cpp, which tell the rest.
 enum class Block {
     Bc1,   ///< RGB 5:6:5, 4 colours a block; alpha 0 or 1
     Bc2,   ///< BC1 and 4 bits of alpha a texel; read only
@@ -23,14 +24,13 @@ enum class Block {
 };
 
 /// Bytes of one block.
-constexpr std::size_t block_bytes(Block block)
-{
-    return block == Block::Bc1 || block == Block::Bc4 ? 8 : 16;
-}
+std::size_t block_bytes(Block block);
 /// Bytes of a level of width x height texels; a block at an edge is stored whole.
 std::size_t blocks_size(Block block, int width, int height);
 /// Channels that a decoder returns: 4, or 1 (BC4), 2 (BC5), 3 (BC6H).
 int channels_of(Block block);
+/// Numbers of a decoded level; signed: BlockSign::Signed.
+PixelType decoded_type(Block block, bool is_signed = false);
 
 enum class BlockQuality {
     Fast,    ///< what a tool does while you wait
@@ -51,7 +51,7 @@ struct BlockOptions {
 ///
 ///   image   U8; channels that the format does not have are ignored; missing ones: a single channel
 ///           stands for red, green and blue, missing blue is 0, missing alpha is 255
-///   throws  Error for other numbers than U8, an empty image, Bc2 and Bc6h
+///   throws  Error for other numbers than U8, an empty image, and formats that are read only
 std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options = {});
 

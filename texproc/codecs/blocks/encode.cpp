@@ -7,20 +7,20 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "texproc/codecs/blocks/detail/block_table.h"
 #include "texproc/codecs/blocks/detail/decode_block.h"
-#include "texproc/codecs/blocks/detail/encode_kernel.h"
 
 namespace petrichor::texproc {
 
-namespace {
-
-const detail::EncodeKernel& kernel()
+const detail::EncodeKernel& detail::encode_kernel()
 {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return detail::kEncodeKernelAvx2;
+    if (__builtin_cpu_supports("avx2")) return kEncodeKernelAvx2;
 #endif
-    return detail::kEncodeKernelBase;
+    return kEncodeKernelBase;
 }
+
+namespace {
 
 // The 16 texels of a block in four planes; what lies past an edge repeats the edge.
 detail::BlockTexels gather(const RawImage& image, int bx, int by)
@@ -45,42 +45,14 @@ detail::BlockTexels gather(const RawImage& image, int bx, int by)
     return texels;
 }
 
-void encode_one(const detail::BlockTexels& texels, Block block, const BlockOptions& options,
-                std::byte* to)
-{
-    const detail::EncodeKernel& k = kernel();
-    switch (block) {
-        case Block::Bc1:
-            k.bc1(texels, options,
-                  options.punch_through ? detail::Bc1Use::Holes : detail::Bc1Use::Opaque, to);
-            break;
-        case Block::Bc3:
-            k.bc4(texels.plane[3], options.quality, to);
-            k.bc1(texels, options, detail::Bc1Use::Four, to + 8);
-            break;
-        case Block::Bc4:
-            k.bc4(texels.plane[0], options.quality, to);
-            break;
-        case Block::Bc5:
-            k.bc4(texels.plane[0], options.quality, to);
-            k.bc4(texels.plane[1], options.quality, to + 8);
-            break;
-        case Block::Bc7:
-            k.bc7(texels, options, to);
-            break;
-        case Block::Bc2:
-        case Block::Bc6h:
-            break;
-    }
-}
-
 }  // namespace
 
 std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options)
 {
-    if (block == Block::Bc2 || block == Block::Bc6h) {
-        throw Error("block texture: BC2 and BC6H can be read, not written",
+    const detail::BlockRow& format = detail::row_of(block);
+    if (!format.encode) {
+        throw Error(std::string("block texture: ") + format.title + " can be read, not written",
                     "Use bc3 or bc7, or rgba16f for what is beyond 0..1.");
     }
     if (image.width < 1 || image.height < 1 || image.channels < 1 || image.type != PixelType::U8 ||
@@ -93,9 +65,9 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
     parallel_for(static_cast<std::size_t>((image.height + 3) / 4), options.threads,
                  [&](std::size_t by) {
                      std::byte* to =
-                         bytes.data() + by * static_cast<std::size_t>(across) * block_bytes(block);
-                     for (int bx = 0; bx < across; ++bx, to += block_bytes(block)) {
-                         encode_one(gather(image, bx, static_cast<int>(by)), block, options, to);
+                         bytes.data() + by * static_cast<std::size_t>(across) * format.bytes;
+                     for (int bx = 0; bx < across; ++bx, to += format.bytes) {
+                         format.encode(gather(image, bx, static_cast<int>(by)), options, to);
                      }
                  });
     return bytes;
@@ -105,7 +77,7 @@ std::array<std::uint8_t, 8> encode_bc4_block(const std::array<std::uint8_t, 16>&
                                              BlockQuality quality)
 {
     std::array<std::byte, 8> bytes;
-    kernel().bc4(values.data(), quality, bytes.data());
+    detail::encode_kernel().bc4(values.data(), quality, bytes.data());
     std::array<std::uint8_t, 8> block;
     std::memcpy(block.data(), bytes.data(), 8);
     return block;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "texproc/codecs/files/detail/texture_codes.h"
 #include "texproc/codecs/files/detail/texture_shape.h"
 
 namespace petrichor::texproc {
@@ -16,19 +17,24 @@ struct Named {
     bool writable = true;
 };
 
-const Named kBlockNames[] = {
-    {"bc1", {Block::Bc1, PixelType::U8, 3, false}},
-    {"bc1a", {Block::Bc1, PixelType::U8, 4, false}},
-    {"bc3", {Block::Bc3, PixelType::U8, 4, false}},
-    {"bc4", {Block::Bc4, PixelType::U8, 1, false}},
-    {"bc5", {Block::Bc5, PixelType::U8, 2, false}},
-    {"bc7", {Block::Bc7, PixelType::U8, 4, false}},
-    {"bc2", {Block::Bc2, PixelType::U8, 4, false}, false},
-    {"bc4-signed", {Block::Bc4, PixelType::F32, 1, true}, false},
-    {"bc5-signed", {Block::Bc5, PixelType::F32, 2, true}, false},
-    {"bc6h", {Block::Bc6h, PixelType::F16, 3, false}, false},
-    {"bc6h-signed", {Block::Bc6h, PixelType::F16, 3, true}, false},
-};
+// Those that can be written first.
+const std::vector<Named>& block_names()
+{
+    static const std::vector<Named> names = [] {
+        std::vector<Named> all;
+        for (const bool writable : {true, false}) {
+            for (const detail::BlockRow& row : detail::block_table()) {
+                for (const detail::BlockLabel& label : row.labels) {
+                    if ((row.encode && !label.is_signed) == writable)
+                        all.push_back({label.name, detail::format_of(row, label), writable});
+                }
+            }
+        }
+        return all;
+    }();
+    return names;
+}
+
 constexpr const char* kChannels[] = {"r", "rg", "rgb", "rgba"};
 constexpr PixelType kTypes[] = {PixelType::U8, PixelType::U16, PixelType::F16, PixelType::F32};
 constexpr const char* kDepths[] = {"8", "16", "16f", "32f"};
@@ -107,7 +113,7 @@ TextureFormat own_format(const RawImage& first)
 
 void check_writable(const TextureFormat& format)
 {
-    for (const Named& named : kBlockNames) {
+    for (const Named& named : block_names()) {
         if (format == named.format && !named.writable) {
             throw Error(std::string("texture: ") + named.name + " can be read, not written",
                         "Use bc7, or rgba16f for what is beyond 0..1.");
@@ -119,7 +125,7 @@ void check_writable(const TextureFormat& format)
 
 TextureFormat texture_format(const std::string& name)
 {
-    for (const Named& named : kBlockNames) {
+    for (const Named& named : block_names()) {
         if (name == named.name) return named.format;
     }
     for (int c = 0; c < 4; ++c) {
@@ -136,7 +142,7 @@ TextureFormat texture_format(const std::string& name)
 
 std::string name_of(const TextureFormat& format)
 {
-    for (const Named& named : kBlockNames) {
+    for (const Named& named : block_names()) {
         if (format == named.format) return named.name;
     }
     return std::string(kChannels[format.channels - 1]) + kDepths[static_cast<int>(format.type)];
@@ -148,7 +154,7 @@ std::vector<std::string> texture_format_names()
     for (const char* depth : kDepths) {
         for (const char* channels : kChannels) names.push_back(std::string(channels) + depth);
     }
-    for (const Named& named : kBlockNames) {
+    for (const Named& named : block_names()) {
         if (named.writable) names.push_back(named.name);
     }
     return names;

@@ -30,6 +30,8 @@ struct EncodeKernel {
 
 extern const EncodeKernel kEncodeKernelBase;
 extern const EncodeKernel kEncodeKernelAvx2;
+/// The fastest that this machine has.
+const EncodeKernel& encode_kernel();
 
 }  // namespace petrichor::texproc::detail
 

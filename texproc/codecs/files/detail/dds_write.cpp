@@ -7,7 +7,7 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-constexpr std::uint32_t code_of(const char (&text)[5])
+constexpr std::uint32_t code_of(const char* text)
 {
     std::uint32_t code = 0;
     for (int i = 0; i < 4; ++i) {
@@ -25,18 +25,9 @@ OldFormat old_format(const TextureFormat& format)
 {
     constexpr std::uint32_t kAlpha = 1, kCode = 4, kRgb = 0x40, kGrey = 0x20000;
     if (format.block) {
-        switch (*format.block) {
-            case Block::Bc1:
-                return {kCode, code_of("DXT1")};
-            case Block::Bc3:
-                return {kCode, code_of("DXT5")};
-            case Block::Bc4:
-                return {kCode, code_of("ATI1")};
-            case Block::Bc5:
-                return {kCode, code_of("ATI2")};
-            default:
-                return {};
-        }
+        const BlockLabel* label = label_of(format);
+        if (!label || label->four_letters[0] == 0) return {};
+        return {kCode, code_of(label->four_letters)};
     }
     if (format.type != PixelType::U8) return {};
     if (format.channels == 1) return {kGrey, 0, 8, {0xff}};

@@ -48,42 +48,21 @@ std::vector<Sample> plain_samples(const TextureFormat& format, bool srgb)
 
 std::vector<Sample> block_samples(const TextureFormat& format, bool srgb)
 {
-    constexpr std::uint32_t kAll = 0xffffffffu;
-    const int alpha = kAlphaChannel | (srgb ? kLinear : 0);
-    switch (*format.block) {
-        case Block::Bc1:
-            return {{0, 64, format.channels == 4 ? 1 : 0, 0, kAll}};
-        case Block::Bc3:
-            return {{0, 64, alpha, 0, kAll}, {64, 64, 0, 0, kAll}};
-        case Block::Bc4:
-            return {{0, 64, 0, 0, kAll}};
-        case Block::Bc5:
-            return {{0, 64, 0, 0, kAll}, {64, 64, 1, 0, kAll}};
-        default:
-            return {{0, 128, 0, 0, kAll}};
+    const BlockLabel* label = label_of(format);
+    if (!label) return {};
+    const int bits = static_cast<int>(8 * block_bytes(*format.block) / label->parts.size());
+    std::vector<Sample> samples;
+    for (const int channel : label->parts) {
+        const bool linear = channel == kAlphaChannel && srgb;
+        samples.push_back({static_cast<int>(samples.size()) * bits, bits,
+                           channel | (linear ? kLinear : 0), 0, 0xffffffffu});
     }
+    return samples;
 }
 
 int color_model(const TextureFormat& format)
 {
-    if (!format.block) return 1;
-    switch (*format.block) {
-        case Block::Bc1:
-            return 128;
-        case Block::Bc2:
-            return 129;
-        case Block::Bc3:
-            return 130;
-        case Block::Bc4:
-            return 131;
-        case Block::Bc5:
-            return 132;
-        case Block::Bc6h:
-            return 133;
-        case Block::Bc7:
-            return 134;
-    }
-    return 0;
+    return format.block ? row_of(*format.block).color_model : 1;
 }
 
 std::size_t texel_bytes(const TextureFormat& format)

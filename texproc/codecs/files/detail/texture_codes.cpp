@@ -1,5 +1,6 @@
 #include "texproc/codecs/files/detail/texture_codes.h"
 
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,15 +18,7 @@ constexpr TextureFormat plain(PixelType type, int channels)
 {
     return {{}, type, channels, false};
 }
-constexpr TextureFormat blocks(Block block, int channels, bool is_signed = false)
-{
-    const PixelType type = block == Block::Bc6h ? PixelType::F16
-                           : is_signed          ? PixelType::F32
-                                                : PixelType::U8;
-    return {block, type, channels, is_signed};
-}
-
-constexpr Row kRows[] = {
+constexpr Row kPlainRows[] = {
     {plain(PixelType::U8, 1), 61, 0, 9, 15},   {plain(PixelType::U8, 2), 49, 0, 16, 22},
     {plain(PixelType::U8, 3), 0, 0, 23, 29},   {plain(PixelType::U8, 4), 28, 29, 37, 43},
     {plain(PixelType::U16, 1), 56, 0, 70, 0},  {plain(PixelType::U16, 2), 35, 0, 77, 0},
@@ -34,13 +27,23 @@ constexpr Row kRows[] = {
     {plain(PixelType::F16, 3), 0, 0, 90, 0},   {plain(PixelType::F16, 4), 10, 0, 97, 0},
     {plain(PixelType::F32, 1), 41, 0, 100, 0}, {plain(PixelType::F32, 2), 16, 0, 103, 0},
     {plain(PixelType::F32, 3), 6, 0, 106, 0},  {plain(PixelType::F32, 4), 2, 0, 109, 0},
-    {blocks(Block::Bc1, 4), 71, 72, 133, 134}, {blocks(Block::Bc1, 3), 71, 72, 131, 132},
-    {blocks(Block::Bc2, 4), 74, 75, 135, 136}, {blocks(Block::Bc3, 4), 77, 78, 137, 138},
-    {blocks(Block::Bc4, 1), 80, 0, 139, 0},    {blocks(Block::Bc4, 1, true), 81, 0, 140, 0},
-    {blocks(Block::Bc5, 2), 83, 0, 141, 0},    {blocks(Block::Bc5, 2, true), 84, 0, 142, 0},
-    {blocks(Block::Bc6h, 3), 95, 0, 143, 0},   {blocks(Block::Bc6h, 3, true), 96, 0, 144, 0},
-    {blocks(Block::Bc7, 4), 98, 99, 145, 146},
 };
+
+const std::vector<Row>& rows()
+{
+    static const std::vector<Row> all = [] {
+        std::vector<Row> found(std::begin(kPlainRows), std::end(kPlainRows));
+        for (const BlockRow& block : block_table()) {
+            // The wider form first: DXGI does not tell BC1 with alpha from BC1 without.
+            for (auto label = block.labels.rbegin(); label != block.labels.rend(); ++label) {
+                found.push_back({format_of(block, *label), label->dxgi, label->dxgi_srgb,
+                                 label->vulkan, label->vulkan_srgb});
+            }
+        }
+        return found;
+    }();
+    return all;
+}
 
 // The untyped form of a DXGI format precedes its typed ones.
 std::uint32_t typed(std::uint32_t dxgi)
@@ -81,9 +84,25 @@ std::uint32_t typed(std::uint32_t dxgi)
 
 }  // namespace
 
+TextureFormat format_of(const BlockRow& block, const BlockLabel& label)
+{
+    return {block.block, decoded_type(block.block, label.is_signed), label.channels,
+            label.is_signed};
+}
+
+const BlockLabel* label_of(const TextureFormat& format)
+{
+    if (!format.block) return nullptr;
+    const BlockRow& row = row_of(*format.block);
+    for (const BlockLabel& label : row.labels) {
+        if (format_of(row, label) == format) return &label;
+    }
+    return nullptr;
+}
+
 std::uint32_t dxgi_code(const TextureFormat& format, bool srgb)
 {
-    for (const Row& row : kRows) {
+    for (const Row& row : rows()) {
         if (row.format == format) return srgb ? row.dxgi_srgb : row.dxgi;
     }
     return 0;
@@ -91,7 +110,7 @@ std::uint32_t dxgi_code(const TextureFormat& format, bool srgb)
 
 std::uint32_t vulkan_code(const TextureFormat& format, bool srgb)
 {
-    for (const Row& row : kRows) {
+    for (const Row& row : rows()) {
         if (row.format == format) return srgb ? row.vulkan_srgb : row.vulkan;
     }
     return 0;
@@ -102,7 +121,7 @@ std::optional<LabelledFormat> from_dxgi(std::uint32_t code)
     const std::uint32_t wanted = typed(code);
     if (wanted == 87 || wanted == 91)
         return LabelledFormat{plain(PixelType::U8, 4), wanted == 91, true};
-    for (const Row& row : kRows) {
+    for (const Row& row : rows()) {
         if (row.dxgi && row.dxgi == wanted) return LabelledFormat{row.format, false, false};
         if (row.dxgi_srgb && row.dxgi_srgb == wanted)
             return LabelledFormat{row.format, true, false};
@@ -114,7 +133,7 @@ std::optional<LabelledFormat> from_vulkan(std::uint32_t code)
 {
     if (code == 44 || code == 50) return LabelledFormat{plain(PixelType::U8, 4), code == 50, true};
     if (code == 30 || code == 36) return LabelledFormat{plain(PixelType::U8, 3), code == 36, true};
-    for (const Row& row : kRows) {
+    for (const Row& row : rows()) {
         if (row.vulkan == code && code) return LabelledFormat{row.format, false, false};
         if (row.vulkan_srgb == code && code) return LabelledFormat{row.format, true, false};
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "texproc/codecs/blocks/detail/block_table.h"
 #include "texproc/codecs/files/texture.h"
 
 namespace petrichor::texproc::detail {
@@ -14,6 +15,10 @@ struct LabelledFormat {
     bool srgb = false;
     bool swap_red_blue = false;  ///< stored blue first
 };
+
+/// The format of a label, and the label of a format; null for plain numbers.
+TextureFormat format_of(const BlockRow& block, const BlockLabel& label);
+const BlockLabel* label_of(const TextureFormat& format);
 
 /// 0 when the container has no such format.
 std::uint32_t dxgi_code(const TextureFormat& format, bool srgb);

@@ -1,0 +1,82 @@
+// Hashes, dither patterns and noise that tiles: every value follows from integers, so that any frame
+// can be made alone. One text for C++ and GLSL.
+#ifndef PETRICHOR_FORMULAS_NOISE_NOISE_H
+#define PETRICHOR_FORMULAS_NOISE_NOISE_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+// Mixes 32 bits so that neighbouring inputs have unrelated outputs.
+SHARED_FN uint hash_u(uint x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x;
+}
+
+SHARED_FN uint hash_u3(uint x, uint y, uint z)
+{
+    return hash_u(x + hash_u(y + hash_u(z)));
+}
+
+// 0..1, without 1.
+SHARED_FN float hash_f(uint x)
+{
+    return float(hash_u(x) >> 8) * (1.0f / 16777216.0f);
+}
+
+// Well spread over a pixel's neighbours (interleaved gradient) and over samples (golden ratio).
+SHARED_FN float dither(ivec2 pixel, uint sample_index)
+{
+    const float spatial =
+        fract(52.9829189f * fract(0.06711056f * float(pixel.x) + 0.00583715f * float(pixel.y)));
+    return fract(spatial + 0.61803399f * float(sample_index));
+}
+
+SHARED_FN int wrapped(int i, int period)
+{
+    return ((i % period) + period) % period;
+}
+
+// Value noise on a lattice that repeats every `period` cells.
+SHARED_FN float lattice_value(ivec2 cell, int period, uint seed)
+{
+    return hash_f(hash_u3(uint(wrapped(cell.x, period)), uint(wrapped(cell.y, period)), seed));
+}
+
+SHARED_FN float tileable_noise(vec2 p, int period, uint seed)
+{
+    const vec2 base = floor(p);
+    const vec2 f = p - base;
+    const vec2 u = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
+    const ivec2 cell = ivec2(base);
+    const float a = lattice_value(cell, period, seed);
+    const float b = lattice_value(cell + ivec2(1, 0), period, seed);
+    const float c = lattice_value(cell + ivec2(0, 1), period, seed);
+    const float d = lattice_value(cell + ivec2(1, 1), period, seed);
+    return mix(mix(a, b, u.x), mix(c, d, u.x), u.y);
+}
+
+// uv 0..1 over the tile; `period` cells in the first octave.
+SHARED_FN float tileable_fbm(vec2 uv, int period, int octaves, uint seed)
+{
+    float sum = 0.0f;
+    float weight = 0.5f;
+    float total = 0.0f;
+    int cells = period;
+    for (int i = 0; i < octaves; ++i) {
+        sum += weight * tileable_noise(uv * float(cells), cells, seed + uint(i));
+        total += weight;
+        weight *= 0.5f;
+        cells *= 2;
+    }
+    return sum / total;
+}
+
+SHARED_END
+
+#endif

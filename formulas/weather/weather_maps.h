@@ -1,0 +1,66 @@
+// The tileable maps that weather is drawn with: drops, and the relief, mask and gloss of snow. The
+// renderer draws them at once; `texture generate` writes them for others.
+//
+// One text for C++ and GLSL. uv: 0..1 over the tile. Layout of the drops: Lux 2.02 (docs/lux.md, 6).
+#ifndef PETRICHOR_FORMULAS_WEATHER_WEATHER_MAPS_H
+#define PETRICHOR_FORMULAS_WEATHER_WEATHER_MAPS_H
+
+#include "base/interop.h"
+#include "formulas/noise/noise.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kDropCells = 9;
+
+// One drop a jittered cell, so that neighbours never cut each other: envelope (1 at the centre, 0
+// outside), 0.5 + 0.5 the direction away from it, and when it falls, 0..1.
+SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
+{
+    const vec2 at = uv * float(kDropCells);
+    const ivec2 cell = ivec2(floor(at));
+    float envelope = 0.0f;
+    vec2 direction = vec2(0.0f);
+    float offset = 0.0f;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const ivec2 neighbour = cell + ivec2(dx, dy);
+            const uint id = hash_u3(uint(wrapped(neighbour.x, kDropCells)),
+                                    uint(wrapped(neighbour.y, kDropCells)), 77u + seed);
+            const float radius = 0.34f + 0.14f * hash_f(id);
+            const float room = 1.0f - 2.0f * radius;
+            const vec2 jitter = vec2(hash_f(id + 1u), hash_f(id + 2u)) - 0.5f;
+            const vec2 centre = vec2(neighbour) + 0.5f + jitter * max(room, 0.0f);
+            const vec2 away = at - centre;
+            const float e = 1.0f - length(away) / radius;
+            if (e > envelope) {
+                envelope = e;
+                direction = away / max(length(away), 1.0e-4f);
+                offset = hash_f(id + 3u);
+            }
+        }
+    }
+    return vec4(envelope, 0.5f + 0.5f * direction.x, 0.5f + 0.5f * direction.y, offset);
+}
+
+// Height of a snow cover, about 0..1.35, and the slope that a height of 1 has on the tile.
+SHARED_CONST float kSnowSteepness = 0.06f;
+SHARED_FN float snow_relief(vec2 uv, uint seed)
+{
+    return tileable_fbm(uv, 6, 6, 11u + seed) + 0.35f * tileable_fbm(uv, 23, 4, 31u + seed);
+}
+
+// Where snow lies first and longest, 0..1 around 0.5.
+SHARED_FN float snow_preference(vec2 uv, uint seed)
+{
+    return tileable_fbm(uv, 9, 6, 57u + seed);
+}
+
+// How smooth it is, 0..1 around 0.5.
+SHARED_FN float snow_gloss(vec2 uv, uint seed)
+{
+    return tileable_fbm(uv, 41, 3, 91u + seed);
+}
+
+SHARED_END
+
+#endif
