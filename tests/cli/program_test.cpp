@@ -16,11 +16,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using namespace testing_program;
 
-Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
-{
-    return run_petrichor({.arguments = arguments}, place.path());
-}
-
 TEST(Program, HelpAndVersionSucceedOnStdout)
 {
     const Workplace place("help");

@@ -14,7 +14,7 @@
 
 #include "cli/rooms.h"
 #include "film/frames/frames_jsonl.h"
-#include "gpu/renderer.h"
+#include "tests/support/device.h"
 
 namespace petrichor::cli {
 namespace {
@@ -60,12 +60,7 @@ protected:
     }
     void SetUp() override
     {
-        for (const gpu::DeviceInfo& device : gpu::list_devices()) {
-            if (device.usable) return;
-        }
-        const char* required = std::getenv("PETRICHOR_REQUIRE_GPU");
-        if (required && std::string(required) == "1") FAIL() << "no usable Vulkan device";
-        GTEST_SKIP() << "no usable Vulkan device";
+        (void)testing_device::device_is_there();
     }
     Outcome render(std::vector<std::string> more, const std::vector<std::string>& environment = {})
     {

@@ -18,11 +18,7 @@
 namespace petrichor::cli {
 namespace {
 
-using testing_program::Outcome;
-using testing_program::read_file;
-using testing_program::run_petrichor;
-using testing_program::Workplace;
-using testing_program::write_file;
+using namespace testing_program;
 
 struct Row {
     int day, hour;

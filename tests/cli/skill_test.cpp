@@ -9,20 +9,15 @@
 #include "cli/bench/skill/board.h"
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
+#include "tests/support/assets.h"
 
 namespace petrichor::cli {
 namespace {
 
-std::string shared_weather()
-{
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    return assets ? std::string(assets) + "/weather" : "";
-}
-
 TEST(Skill, SharedDataKeepTheirStatedScores)
 {
-    if (shared_weather().empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder";
-    const Board board = skill_board({.data = shared_weather()});
+    NEED_ASSETS(assets);
+    const Board board = skill_board({.data = (assets / "weather").string()});
     int stated = 0;
     for (const BoardRow& row : board.rows) {
         if (!row.stated) continue;
@@ -38,8 +33,8 @@ TEST(Skill, SharedDataKeepTheirStatedScores)
 // What the release promises over all shared winters and roads.
 TEST(Skill, MeansOverTheSharedData)
 {
-    if (shared_weather().empty()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name a folder";
-    const Board board = skill_board({.data = shared_weather()});
+    NEED_ASSETS(assets);
+    const Board board = skill_board({.data = (assets / "weather").string()});
     const auto mean = [&](const std::string& quantity, const char* but_not) {
         ErrorSum sum;
         for (const BoardRow& row : board.rows) {

@@ -22,11 +22,6 @@ using namespace testing_program;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
-{
-    return run_petrichor({.arguments = arguments}, place.path());
-}
-
 // brick and soil, 64 x 64, with the names of two different tools.
 void write_materials(const fs::path& folder)
 {

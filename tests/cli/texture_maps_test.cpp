@@ -6,10 +6,10 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/assets.h"
 #include "tests/support/program.h"
 #include "texproc/generate/generate.h"
 
@@ -20,11 +20,6 @@ using testing::HasSubstr;
 using namespace testing_program;
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
-{
-    return run_petrichor({.arguments = arguments}, place.path());
-}
 
 // Good and bad maps of one small material, and an old output.
 void write_maps(const Workplace& place)
@@ -302,12 +297,11 @@ TEST(TextureTools, TwoChannelsKeepTheDirectionOfShortNormals)
 //   petrichor texture inspect $(find bad formats -type f)
 TEST(TextureTools, InspectSurvivesEveryBadFile)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the shared data";
+    NEED_ASSETS(assets);
     const Workplace place("texture_bad_files");
     std::vector<std::string> command{"texture", "inspect"};
     for (const char* folder : {"bad", "formats"}) {
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(assets) / folder)) {
+        for (const auto& entry : fs::recursive_directory_iterator(assets / folder)) {
             const bool scene = entry.path().string().find("/gltf") != std::string::npos;
             if (entry.is_regular_file() && !scene) command.push_back(entry.path().string());
         }

@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +16,7 @@
 #include "base/error.h"
 #include "film/weather/inputs.h"
 #include "film/weather/weather_input.h"
+#include "tests/support/assets.h"
 #include "weather/readers/text.h"
 #ifdef PETRICHOR_NETCDF
 #include <netcdf.h>
@@ -406,10 +406,9 @@ TEST(NetCdfWeather, AYearOfEra5AtAPointIsQuick)
 
 TEST(NetCdfWeather, ARealFile)
 {
-    const char* assets = std::getenv("PETRICHOR_ASSETS");
-    if (!assets) GTEST_SKIP() << "PETRICHOR_ASSETS is not set";
+    NEED_ASSETS(assets);
     const auto [table, report] =
-        read(std::string(assets) + "/weather/real_files/summa_forcing_2005_06.nc");
+        read(assets.string() + "/weather/real_files/summa_forcing_2005_06.nc");
     EXPECT_EQ(report.rows, 8784u);
     EXPECT_NEAR(table.site.latitude_deg, 43.2, 0.1);
     EXPECT_NEAR(table[Field::AirTemp].front(), 280.86, 0.01);

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 #include <string>
 
 #include "base/error.h"
 #include "gpu/renderer.h"
+#include "tests/support/device.h"
 
 namespace petrichor::gpu {
 
@@ -18,13 +18,7 @@ class GpuTest : public testing::Test {
 protected:
     void SetUp() override
     {
-        bool usable = false;
-        for (const DeviceInfo& device : list_devices()) usable = usable || device.usable;
-        if (!usable) {
-            const char* required = std::getenv("PETRICHOR_REQUIRE_GPU");
-            if (required && std::string(required) == "1") FAIL() << "no usable Vulkan 1.3 device";
-            GTEST_SKIP() << "no usable Vulkan 1.3 device on this machine";
-        }
+        if (!testing_device::device_is_there()) return;
         renderer = std::make_unique<Renderer>(RendererOptions{.device = "", .validation = true});
     }
     void TearDown() override

@@ -9,17 +9,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "scene/gltf/gltf.h"
+#include "tests/support/assets.h"
 
 namespace petrichor::scene::scene_files {
 
@@ -35,13 +34,6 @@ inline std::vector<std::byte> read_file(const std::filesystem::path& path)
     std::ifstream in(path, std::ios::binary);
     if (!in) throw Error("no file " + path.string(), "Put it there.");
     return to_bytes(std::string(std::istreambuf_iterator<char>(in), {}));
-}
-
-inline std::optional<std::filesystem::path> assets()
-{
-    const char* folder = std::getenv("PETRICHOR_ASSETS");
-    if (!folder || !std::filesystem::is_directory(folder)) return std::nullopt;
-    return folder;
 }
 
 inline Scene load_file(const std::filesystem::path& path)

@@ -13,13 +13,9 @@ namespace petrichor::scene {
 namespace {
 
 namespace fs = std::filesystem;
-using scene_files::assets;
 using scene_files::expect_sound;
 using scene_files::load_file;
 using scene_files::read_file;
-
-#define NEED_ASSETS() \
-    if (!assets()) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the folder of test data"
 
 struct Counts {
     std::size_t triangles = 0, vertices = 0;
@@ -38,9 +34,9 @@ Counts count(const Scene& scene)
 
 TEST(GltfModels, EveryModelLoads)
 {
-    NEED_ASSETS();
+    NEED_ASSETS(assets);
     std::size_t models = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(*assets() / "models")) {
+    for (const auto& entry : fs::recursive_directory_iterator(assets / "models")) {
         const std::string extension = entry.path().extension();
         if (extension != ".gltf" && extension != ".glb") continue;
         SCOPED_TRACE(entry.path().filename().string());
@@ -63,12 +59,12 @@ TEST(GltfModels, EveryModelLoads)
 // Error or load (what we do not use we do not refuse), but never anything else.
 TEST(GltfConformance, ValidCasesLoadAndInvalidOnesAreAnswered)
 {
-    NEED_ASSETS();
+    NEED_ASSETS(assets);
     std::size_t valid = 0, refused = 0, tolerated = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(*assets() / "bad/gltf-validator")) {
+    for (const auto& entry : fs::recursive_directory_iterator(assets / "bad/gltf-validator")) {
         const std::string extension = entry.path().extension();
         if (extension != ".gltf" && extension != ".glb") continue;
-        SCOPED_TRACE(fs::relative(entry.path(), *assets()).string());
+        SCOPED_TRACE(fs::relative(entry.path(), assets).string());
         std::ifstream report(entry.path().string() + ".report.json");
         const std::string text(std::istreambuf_iterator<char>(report), {});
         const bool must_load = std::regex_search(text, std::regex("\"numErrors\"\\s*:\\s*0\\b")) ||
@@ -92,7 +88,7 @@ TEST(GltfConformance, ValidCasesLoadAndInvalidOnesAreAnswered)
 
 TEST(GltfConformance, BrokenScenesAreRefused)
 {
-    NEED_ASSETS();
+    NEED_ASSETS(assets);
     const std::map<std::string, std::string> expected{
         {"IndexOutOfRange/IndexOutOfRange.gltf", "meshes[0].primitives[0].indices: index "},
         {"MissingBin/BoxTextured.gltf", "images[0].uri: no file "},
@@ -100,7 +96,7 @@ TEST(GltfConformance, BrokenScenesAreRefused)
     for (const auto& [file, message] : expected) {
         SCOPED_TRACE(file);
         try {
-            load_file(*assets() / "bad/gltf" / file);
+            load_file(assets / "bad/gltf" / file);
             ADD_FAILURE() << "must be refused";
         } catch (const Error& problem) {
             EXPECT_NE(std::string(problem.what()).find(message), std::string::npos)
@@ -111,10 +107,10 @@ TEST(GltfConformance, BrokenScenesAreRefused)
 
 TEST(GltfConformance, DamagedModelsAreAnswered)
 {
-    NEED_ASSETS();
+    NEED_ASSETS(assets);
     scene_files::Random random{2024};
     for (const char* file : {"models/village/well.glb", "models/village/market_stand_01.glb"}) {
-        const std::vector<std::byte> whole = read_file(*assets() / file);
+        const std::vector<std::byte> whole = read_file(assets / file);
         for (int round = 0; round < 150; ++round) {
             std::vector<std::byte> damaged = whole;
             if (round % 3 == 0) {
@@ -135,9 +131,9 @@ TEST(GltfConformance, DamagedModelsAreAnswered)
 // CPU time of the whole load, reading the files included.
 TEST(GltfModels, LoadQuickly)
 {
-    NEED_ASSETS();
-    const fs::path bench = *assets() / "../bench/lights10240.glb";
-    for (const fs::path& path : {*assets() / "models/FlightHelmet/FlightHelmet.gltf", bench}) {
+    NEED_ASSETS(assets);
+    const fs::path bench = assets / "../bench/lights10240.glb";
+    for (const fs::path& path : {assets / "models/FlightHelmet/FlightHelmet.gltf", bench}) {
         if (!fs::exists(path)) continue;
         const std::clock_t start = std::clock();
         const Scene scene = load_file(path);

@@ -386,8 +386,7 @@ Agreement compare_with_shipped(const Scene& scene)
 
 TEST(Tangents, AgreeWithThoseThatModelsShip)
 {
-    const auto folder = scene_files::assets();
-    if (!folder) GTEST_SKIP() << "PETRICHOR_ASSETS does not name the folder of test data";
+    NEED_ASSETS(assets);
     // FlightHelmet's come from a modelling tool with rules of its own. In the town a sixth of the
     // corners have no texture coordinates that would say anything.
     struct Case {
@@ -397,7 +396,7 @@ TEST(Tangents, AgreeWithThoseThatModelsShip)
     for (const Case& c : {Case{"FlightHelmet/FlightHelmet.gltf", 0.96, 0.9999},
                           Case{"truck_town/town_model.gltf", 0.83, 0.995}}) {
         const auto agreement =
-            compare_with_shipped(scene_files::load_file(*folder / "models" / c.file));
+            compare_with_shipped(scene_files::load_file(assets / "models" / c.file));
         std::cout << c.file << ": " << agreement.corners << " corners, "
                   << 100.0 * agreement.within_5_degrees << " % within 5 degrees, "
                   << 100.0 * agreement.same_sign << " % of the same sign\n";

@@ -191,6 +191,11 @@ Outcome run_petrichor(const Run& run, const fs::path& folder)
     return outcome;
 }
 
+Outcome run(const std::vector<std::string>& arguments, const Workplace& place)
+{
+    return run_petrichor({.arguments = arguments}, place.path());
+}
+
 std::string read_file(const fs::path& file)
 {
     std::ifstream in(file, std::ios::binary);

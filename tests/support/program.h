@@ -52,6 +52,9 @@ struct Outcome {
 /// Runs the petrichor that was built with the tests, in a folder.
 Outcome run_petrichor(const Run& run, const std::filesystem::path& folder);
 
+/// The same with arguments alone.
+Outcome run(const std::vector<std::string>& arguments, const Workplace& place);
+
 std::string read_file(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& content);
 
