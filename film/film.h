@@ -8,7 +8,6 @@
 //   scenario.output.frames = 24;
 //   film::Sequence sequence = film::make_sequence(scenario);  // weather of every variant
 //   film::load_sequence_scene(sequence, 0);                   // with all threads
-//   film::apply_material_overrides(scenario.materials, scenario.folder, sequence.scene.materials);
 //   const film::RenderReport report = film::render_sequence(
 //       sequence, {.folder = "street", .range = {0, 23}, .shard = {1, 2}});
 //

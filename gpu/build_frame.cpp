@@ -137,7 +137,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
-    const VisibleWeather weather = visible_weather(frame, r.scene_has_constant_weather);
+    const VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
     const auto time_s = static_cast<float>(settings.time_s);
 
     if (!r.surface_maps->generated) {
@@ -157,6 +157,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.image_based_light = settings.image_based_light;
     variant.ambient_occlusion = settings.ambient_occlusion;
     variant.emission = r.scene->emissive();
+    variant.baked = r.scene->baked();
+    variant.gamma = settings.gamma;
     variant.all_lights = settings.all_lights;
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
@@ -177,7 +179,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                         c.world_to_clip, c.camera_m, weather);
         }
         if (i == 0) {
-            const GBufferParts parts{weather.any, r.scene->emissive()};
+            const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
                 add_aovs(graph, *r.targets, constants, aov_groups[g], g, parts);
             }

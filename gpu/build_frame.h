@@ -23,7 +23,6 @@ struct FrameResources {
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;
-    bool scene_has_constant_weather = false;
     bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
 

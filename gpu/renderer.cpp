@@ -55,15 +55,6 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
     }
 }
 
-bool has_constant_weather(const Scene& scene)
-{
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        const MaterialWeather& w = m.weather;
-        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
-               w.snow_accumulation.x > 0.0f;
-    });
-}
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -161,7 +152,6 @@ struct Renderer::Impl {
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<MemoryArena> resolve_arena;
     ResolveTables resolve;
-    bool constant_weather = false;
     bool own_lighting = false;
     std::string graph_text;
 };
@@ -177,11 +167,8 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
 {
     impl_->resolve = {};
     impl_->scene = nullptr;
-    impl_->depth_maps.shadow_valid = false;
-    impl_->depth_maps.shelter_valid = false;
-    impl_->depth_maps.sky_valid = false;
+    impl_->depth_maps.forget();
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
-    impl_->constant_weather = has_constant_weather(scene);
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
@@ -221,6 +208,7 @@ RenderResult Renderer::render(const Frame& frame)
                        static_cast<std::size_t>(frame.settings.height),
                    impl.device.limits().maxStorageBufferRange);
 
+    if (impl.scene->set_materials(frame.materials)) impl.depth_maps.forget();
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {
         for (const Light& light : impl.scene->lights()) {
@@ -247,7 +235,6 @@ RenderResult Renderer::render(const Frame& frame)
     resources.environment = impl.environment.get();
     resources.constants = impl.constants.get();
     resources.constants_stride = impl.constants_stride;
-    resources.scene_has_constant_weather = impl.constant_weather;
     resources.own_lighting = impl.own_lighting;
     FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
     impl.graph_text = graph.describe();

@@ -83,6 +83,7 @@ Row number(std::string_view name, glm::vec4 low, glm::vec4 high, GltfPlace gltf,
     Row r = row<Path...>(name, PropertyKind::Number, gltf, help);
     r.low = low;
     r.high = high;
+    r.keyed = true;
     return r;
 }
 
@@ -123,6 +124,7 @@ Row or_also(Row r, float value)
 Row not_shaded(Row r)
 {
     r.shaded = false;
+    r.keyed = false;
     return r;
 }
 
@@ -197,6 +199,12 @@ void add_gltf_rows(std::vector<Row>& t)
 void add_weather_rows(std::vector<Row>& t)
 {
     const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(number<&M::light_map_scale>("light_map_scale", 0, kLargest, place("lightMapScale"),
+                                            "lux that a texel of 1 of the light map brings"));
+    t.push_back(number<&M::light_map_sky>(
+        "light_map_sky", 0, 1, place("lightMapSky"),
+        "share of the sky's diffuse light on top of the light map: 1 it holds lamps alone .. 0 it "
+        "holds the sky too"));
     t.push_back(number<&M::weather, &W::porosity>(
         "porosity", 0, 1, place("porosity"),
         "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet; -1: from the "
@@ -367,6 +375,9 @@ const std::vector<MaterialTexture>& material_textures()
                                        "red: 1 open .. 0 hidden from the sky"),
         texture<&M::emissive_texture>("emissive_texture", {"", "", "emissiveTexture"},
                                       "sRGB colour"),
+        texture<&M::light_map>("light_map_texture", {kWeather, "", "lightMapTexture"},
+                               "baked light over the second coordinates: EXR and HDR as they are, "
+                               "8 bits with alpha as RGBM (times alpha times 8), else sRGB"),
         texture<&M::weather, &W::height>("height_texture", {kWeather, "", "heightTexture"},
                                          "0 low .. 1 high; height_channel"),
         texture<&M::weather, &W::puddle_mask>("puddle_mask_texture",
@@ -378,9 +389,15 @@ const std::vector<MaterialTexture>& material_textures()
     return table;
 }
 
+GltfPlace lighting_model_place()
+{
+    return {kWeather, "", "lightingModel"};
+}
+
 std::vector<std::string_view> extension_members(std::string_view extension)
 {
     std::vector<std::string_view> members;
+    if (extension == kWeather) members.push_back(lighting_model_place().member);
     for (const MaterialTexture& t : material_textures()) {
         if (t.gltf.extension == extension) members.push_back(t.gltf.member);
     }

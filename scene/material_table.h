@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_SCENE_MATERIAL_TABLE_H
 #define PETRICHOR_SCENE_MATERIAL_TABLE_H
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -39,6 +40,7 @@ struct MaterialProperty {
     /// A value that means something though it is out of range; NaN: there is none.
     float also = std::numeric_limits<float>::quiet_NaN();
     bool shaded = true;  ///< false: read and kept, but no shader knows it yet (unshaded_properties)
+    bool keyed = false;  ///< may have another value in every frame of a film
     glm::vec4 (*get)(const Material&) = nullptr;  ///< the first `count` components count
     void (*set)(Material&, const glm::vec4&) = nullptr;
 
@@ -56,6 +58,15 @@ const MaterialProperty* find_property(std::string_view name);
 /// The value of a material that says nothing.
 glm::vec4 default_value(const MaterialProperty& property);
 
+/// A property of a material that has another value in one frame than when the scene was loaded.
+struct MaterialChange {
+    std::uint32_t material = 0;      ///< index into Scene::materials
+    std::string_view property = {};  ///< name of a row that is keyed
+    glm::vec4 value{0.0f};
+
+    bool operator==(const MaterialChange&) const = default;
+};
+
 /// One texture of a material.
 struct MaterialTexture {
     std::string_view name;  ///< as MaterialProperty::name
@@ -65,6 +76,9 @@ struct MaterialTexture {
     TextureUse& (*edit)(Material&) = nullptr;
 };
 const std::vector<MaterialTexture>& material_textures();
+
+/// Where glTF keeps Material::lighting_model: a word, or the name of a file beside the scene.
+GltfPlace lighting_model_place();
 
 /// Members of an extension that the tables know; empty: a foreign extension.
 std::vector<std::string_view> extension_members(std::string_view extension);

@@ -23,7 +23,7 @@ enum class Channel { R, G, B, A };
 /// uv' = rotate(rotation_rad) * (uv * scale) + offset, as the extension defines it.
 struct TextureUse {
     TextureIndex texture = kNoTexture;
-    int texcoord = 0;  ///< 0 or 1
+    int texcoord = 0;  ///< 0 or 1; a mesh without 1 is read at 0
     glm::vec2 offset{0.0f};
     glm::vec2 scale{1.0f};
     float rotation_rad = 0.0f;
@@ -86,6 +86,9 @@ struct Material {
     glm::vec3 emissive{0.0f};  ///< linear
     float emissive_strength = 1.0f;
     TextureUse emissive_texture;
+    TextureUse light_map{kNoTexture, 1};  ///< baked light, over the second coordinates
+    float light_map_scale = 1.0f;         ///< lux of a texel of 1
+    float light_map_sky = 1.0f;           ///< share of the sky's light that comes on top
     float ior = 1.5f;
     float specular = 1.0f;           ///< KHR_materials_specular factor
     glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
@@ -101,8 +104,7 @@ struct Material {
     bool double_sided = false;
     bool cull_front = false;
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
-    std::string
-        lighting_model;  ///< built-in name or path of a GLSL file; empty: the standard model
+    std::string lighting_model;  ///< a built-in name, or a GLSL file's path; empty: the standard one
     MaterialWeather weather;
 };
 

@@ -180,10 +180,8 @@ Workload scenario_workload(const RenderBenchOptions& options)
     }
     Sequence sequence = make_sequence(std::move(scenario));
     load_sequence_scene(sequence, options.threads);
-    for (const std::string& unmatched : apply_material_overrides(
-             sequence.scenario.materials, sequence.scenario.folder, sequence.scene.materials)) {
-        std::cerr << "warn " << unmatched << "\n";
-    }
+    for (const std::string& warning : sequence.scene.warnings)
+        std::cerr << "warn scene: " << warning << "\n";
     RenderRequest request;
     request.device = options.device;
     request.threads = options.threads;

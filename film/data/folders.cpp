@@ -84,6 +84,19 @@ void require_writable_folder(const fs::path& folder)
     }
 }
 
+std::string find_lighting_model(const std::string& name, const fs::path& folder)
+{
+    const fs::path path(name);
+    if (path.extension() != ".glsl") return name;
+    const fs::path beside = folder / path;
+    std::error_code none;
+    if (fs::exists(beside, none)) return beside.string();
+    if (const auto data = find_data_folder()) {
+        if (fs::exists(*data / "shaders" / path, none)) return (*data / "shaders" / path).string();
+    }
+    return beside.string();
+}
+
 std::vector<std::string> preset_names(const std::string& kind)
 {
     std::vector<std::string> names;

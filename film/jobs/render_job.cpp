@@ -16,6 +16,7 @@
 #include "film/frames/frames_jsonl.h"
 #include "film/frames/kept.h"
 #include "film/jobs/scene_source.h"
+#include "film/scenario/material_keys.h"
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
@@ -224,6 +225,11 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     options.stop = request.stop;
     options.blocks = block_support(renderer.device());
     options.cache = user_cache();
+    options.moving_roughness.resize(sequence.scene.materials.size());
+    for (const scene::MaterialChange& change :
+         material_changes(sequence.scenario.materials, sequence.scene.materials, 0.0)) {
+        if (change.property == "roughness_factor") options.moving_roughness[change.material] = true;
+    }
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
     renderer.load(sequence.scene, textures);

@@ -11,6 +11,7 @@
 #include "base/words.h"
 #include "film/data/content_cache.h"
 #include "film/jobs/camera.h"
+#include "film/scenario/material_keys.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/scene_file.h"
 
@@ -58,8 +59,13 @@ void load_sequence_scene(Sequence& sequence, int threads)
     }
     sequence.bounds = content_bounds(loaded.scene);
     sequence.scene = std::move(loaded.scene);
+    const AppliedOverrides applied =
+        apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
+    sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
+                                   applied.unmatched.end());
     Hasher content;
     content.add(loaded.fingerprint);
+    content.add(applied.textures);
     sequence.content = content.text();
     for (SequenceVariant& variant : sequence.variants) {
         const std::string& file = variant.conditions.sky.environment;

@@ -6,7 +6,8 @@
 namespace petrichor::film {
 
 /// Loads what the scenario shows into the sequence: its scene (a glTF file, or the generated demo
-/// "demo:street"), the bounds, and the fingerprints of scene and environment pictures.
+/// "demo:street") with the scenario's materials, the bounds, and the fingerprints of scene, textures
+/// and environment pictures. Overrides that match no material are among the scene's warnings.
 /// Throws Error for a missing or damaged scene, and for one without triangles.
 void load_sequence_scene(Sequence& sequence, int threads);
 

@@ -14,6 +14,7 @@
 #include "film/jobs/camera.h"
 #include "film/jobs/sun.h"
 #include "film/scenario/look_keys.h"
+#include "film/scenario/material_keys.h"
 
 namespace petrichor::film {
 namespace {
@@ -91,11 +92,11 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.exposure);
     hasher.add(settings.exposure_bias_stops);
     hasher.add(settings.surface_path);
-    for (const bool flag :
-         {settings.shadows, settings.ambient_occlusion, settings.image_based_light,
-          settings.draw_sky, settings.tone_map, settings.shelter}) {
-        hasher.add(flag);
-    }
+    hasher.add(settings.occlusion_direct);
+    hasher.add(settings.gamma);
+#define ROW(name, on, meaning) hasher.add(settings.name);
+    FRAME_SWITCHES(ROW)
+#undef ROW
     for (const std::string& aov : settings.aovs) hasher.add(aov);
 }
 
@@ -272,6 +273,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     const double lamps = lamp_scale(here.lights, sun.elevation_rad);
     out.scene_light_scale = narrow(lamps);
     out.emissive_scale = narrow(lamps);
+    out.materials = material_changes(scenario.materials, sequence.scene.materials, time_s);
 
     gpu::FrameSettings& settings = out.settings;
     settings.width = scenario.output.width;
@@ -281,12 +283,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.seed = scenario.output.seed;
     settings.exposure = narrow(value_at(camera.exposure, time_s, 0.0));
     settings.exposure_bias_stops = narrow(value_at(camera.exposure_bias, time_s, 0.0));
-    settings.shadows = scenario.render.shadows;
-    settings.ambient_occlusion = scenario.render.ambient_occlusion;
-    settings.image_based_light = scenario.render.image_based_light;
-    settings.draw_sky = scenario.render.draw_sky;
-    settings.tone_map = scenario.render.tone_map;
-    settings.shelter = scenario.render.shelter;
+    static_cast<gpu::FrameSwitches&>(settings) = scenario.render;
+    settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
+    settings.gamma = scenario.render.gamma;
     settings.surface_path = scenario.render.surface_path;
     settings.aovs = scenario.output.aovs;
     return result;
@@ -311,10 +310,23 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             for (const MaterialOverride& one : scenario.materials) {
                 hasher.add(one.glob);
                 hasher.add(one.lighting_model);
-                for (const auto& [name, values] : one.values) {
+                for (const auto& [name, channels] : one.values) {
                     hasher.add(name);
-                    hasher.add_numbers(std::span<const double>(values));
+                    // What is loaded: the first key, and whether others follow.
+                    for (const KeyedNumber& channel : channels) {
+                        hasher.add(channel.keys.size() > 1);
+                        hasher.add(channel.keys.front().value);
+                    }
                 }
+                for (const auto& [slot, file] : one.textures) {
+                    hasher.add(slot);
+                    hasher.add(file);
+                }
+            }
+            for (const scene::MaterialChange& change : frame.materials) {
+                hasher.add(change.material);
+                hasher.add(change.property);
+                hasher.add_numbers(std::span<const float>(&change.value[0], 4));
             }
         });
     }

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <span>
+#include <tuple>
 #include <utility>
 
+#include "base/hash.h"
+#include "base/input_file.h"
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "gpu/lighting/lighting_models.h"
@@ -18,6 +24,7 @@ using scene::MaterialProperty;
 using scene::PropertyKind;
 
 constexpr const char* kLightingModel = "lighting_model";
+constexpr std::uint64_t kLargestTexture = 1ull << 30;  // bytes of a file
 constexpr double kAny = std::numeric_limits<float>::max();
 
 std::string ranges(const MaterialProperty& property)
@@ -41,57 +48,123 @@ void check(const MaterialProperty& property, const TomlValue& value, std::size_t
     value.refuse((bounded ? "a number from " : "a number, ") + property.range_text(component));
 }
 
-std::vector<double> read_value(const MaterialProperty& property, const TomlValue& value)
+std::vector<KeyedNumber> constant(double number)
+{
+    return {KeyedNumber{{{0.0, number}}}};
+}
+
+std::vector<KeyedNumber> read_value(const MaterialProperty& property, const TomlValue& value)
 {
     switch (property.kind) {
         case PropertyKind::Flag:
-            return {value.boolean() ? 1.0 : 0.0};
+            return constant(value.boolean() ? 1.0 : 0.0);
         case PropertyKind::Choice:
-            return {
-                static_cast<double>(value.choice({property.words.begin(), property.words.end()}))};
+            return constant(value.choice({property.words.begin(), property.words.end()}));
         case PropertyKind::Number:
             break;
     }
-    if (property.count == 1) {
-        const double number = value.number(-kAny, kAny);
-        check(property, value, 0, number);
-        return {number};
-    }
-    const auto numbers = value.numbers(static_cast<std::size_t>(property.count), -kAny, kAny);
-    const auto elements = value.elements();
-    for (std::size_t i = 0; i < numbers.size(); ++i) check(property, elements[i], i, numbers[i]);
-    return numbers;
-}
-
-// A file is looked for beside the scenario, then among the shaders of the data.
-std::string found_model(const std::string& name, const std::filesystem::path& folder)
-{
-    const std::filesystem::path path(name);
-    if (path.extension() != ".glsl") return name;
-    const std::filesystem::path beside = folder / path;
-    std::error_code none;
-    if (std::filesystem::exists(beside, none)) return beside.string();
-    if (const auto data = find_data_folder()) {
-        if (std::filesystem::exists(*data / "shaders" / path, none)) {
-            return (*data / "shaders" / path).string();
+    const auto count = static_cast<std::size_t>(property.count);
+    std::vector<KeyedNumber> channels = value.keyed_numbers(count, -kAny, kAny);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool moves = channels[i].keys.size() > 1;
+        if (moves && !property.keyed) value.refuse("a value without keys over time");
+        for (const NumberKey& key : channels[i].keys) {
+            // A plain array names the element that is wrong.
+            const bool plain = count > 1 && !moves && value.elements().size() == count;
+            check(property, plain ? value.elements()[i] : value, i, key.value);
         }
     }
-    return beside.string();  // refused by name when the scene is loaded
+    return channels;
 }
+
+glm::vec4 value_of(const std::vector<KeyedNumber>& channels, double time_s)
+{
+    glm::vec4 value(0.0f);
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        value[static_cast<int>(i)] = static_cast<float>(value_at(channels[i], time_s));
+    return value;
+}
+
+bool moves(const std::vector<KeyedNumber>& channels)
+{
+    return channels[0].keys.size() > 1;
+}
+
+const scene::MaterialTexture* find_slot(const std::string& name)
+{
+    for (const scene::MaterialTexture& slot : scene::material_textures()) {
+        if (slot.name == name) return &slot;
+    }
+    return nullptr;
+}
+
+// The textures that a scenario brings into a scene: a file is read once, and stands there once for
+// each way of wrapping.
+class TexturesOfFiles {
+public:
+    TexturesOfFiles(const std::filesystem::path& folder, scene::Scene& scene)
+        : folder_(folder), scene_(scene)
+    {
+    }
+
+    scene::TextureIndex index_of(const std::string& file, const std::string& place,
+                                 const scene::TextureUse& replaced)
+    {
+        scene::EncodedImage image;
+        image.name = file;
+        if (replaced.present()) {
+            const auto& old = scene_.textures[static_cast<std::size_t>(replaced.texture)];
+            image.wrap_u = old.wrap_u;
+            image.wrap_v = old.wrap_v;
+            image.nearest = old.nearest;
+        }
+        const auto key = std::make_tuple(file, image.wrap_u, image.wrap_v, image.nearest);
+        const auto found = made_.find(key);
+        if (found != made_.end()) return found->second;
+        const std::string bytes = read_file(folder_ / file, place + ": texture", kLargestTexture);
+        hasher_.add(file);
+        hasher_.add_bytes(std::as_bytes(std::span(bytes)));
+        image.bytes.resize(bytes.size());
+        std::memcpy(image.bytes.data(), bytes.data(), bytes.size());
+        const auto index = static_cast<scene::TextureIndex>(scene_.textures.size());
+        scene_.textures.push_back(std::move(image));
+        return made_[key] = index;
+    }
+
+    std::string fingerprint() const { return made_.empty() ? "" : hasher_.text(); }
+
+private:
+    const std::filesystem::path& folder_;
+    scene::Scene& scene_;
+    std::map<std::tuple<std::string, scene::Wrap, scene::Wrap, bool>, scene::TextureIndex> made_;
+    Hasher hasher_;
+};
 
 void apply(const MaterialOverride& override, const std::filesystem::path& folder,
-           scene::Material& material)
+           TexturesOfFiles& textures, scene::Material& material)
 {
     if (!override.lighting_model.empty()) {
-        material.lighting_model = found_model(override.lighting_model, folder);
+        material.lighting_model = find_lighting_model(override.lighting_model, folder);
     }
-    for (const auto& [name, values] : override.values) {
-        glm::vec4 value(0.0f);
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            value[static_cast<int>(i)] = static_cast<float>(values[i]);
-        }
-        scene::find_property(name)->set(material, value);
+    for (const auto& [name, channels] : override.values)
+        scene::find_property(name)->set(material, value_of(channels, -kAny));
+    for (const auto& [name, file] : override.textures) {
+        scene::TextureUse& use = find_slot(name)->edit(material);
+        use.texture = file.empty() ? scene::kNoTexture
+                                   : textures.index_of(file, override.place, use);
     }
+}
+
+std::string no_match(const MaterialOverride& one, const std::vector<scene::Material>& materials)
+{
+    std::vector<std::string> names;
+    for (const scene::Material& material : materials) names.push_back(material.name);
+    if (names.size() > 12) {
+        names.resize(12);
+        names.push_back("...");
+    }
+    return one.place + ": [materials.\"" + one.glob +
+           "\"] matches no material of the scene; there are: " + join_words(names);
 }
 
 }  // namespace
@@ -100,10 +173,21 @@ std::vector<ScenarioKey> material_keys()
 {
     std::vector<ScenarioKey> keys;
     for (const MaterialProperty& property : scene::material_table()) {
+        const bool vector = property.keyed && property.count > 1;
         keys.push_back({.table = "materials",
                         .name = std::string(property.name),
                         .example = property.value_text(scene::default_value(property)),
-                        .meaning = std::string(property.help) + ranges(property)});
+                        .meaning = std::string(property.help) + ranges(property) +
+                                   (vector ? " (keyed: [[time_s, [..]], ...])" : ""),
+                        .keyed = property.keyed && !vector});
+    }
+    for (const scene::MaterialTexture& slot : scene::material_textures()) {
+        keys.push_back({.table = "materials",
+                        .name = std::string(slot.name),
+                        .example = "\"" + std::string(slot.name) + ".png\"",
+                        .meaning = "an image relative to this file instead of the scene's, \"\" "
+                                   "for none: " +
+                                   std::string(slot.help)});
     }
     keys.push_back({.table = "materials",
                     .name = kLightingModel,
@@ -121,6 +205,8 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
     for (const MaterialProperty& property : scene::material_table()) {
         known.emplace_back(property.name);
     }
+    for (const scene::MaterialTexture& slot : scene::material_textures())
+        known.emplace_back(slot.name);
     known.emplace_back(kLightingModel);
     std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
     for (const auto& [glob, node] : materials) {
@@ -129,9 +215,11 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
         for (const auto& [name, entry] : value.entries(known)) {
             if (name == kLightingModel) {
                 one.lighting_model = entry.text();
-                continue;
+            } else if (find_slot(name)) {
+                one.textures.emplace_back(name, entry.text());
+            } else {
+                one.values.emplace_back(name, read_value(*scene::find_property(name), entry));
             }
-            one.values.emplace_back(name, read_value(*scene::find_property(name), entry));
         }
         found.emplace_back(node.source().begin.line, std::move(one));
     }
@@ -143,30 +231,43 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
     return overrides;
 }
 
-std::vector<std::string> apply_material_overrides(const std::vector<MaterialOverride>& overrides,
-                                                  const std::filesystem::path& folder,
-                                                  std::vector<scene::Material>& materials)
+AppliedOverrides apply_material_overrides(const std::vector<MaterialOverride>& overrides,
+                                          const std::filesystem::path& folder, scene::Scene& scene)
 {
-    std::vector<std::string> unmatched;
+    AppliedOverrides applied;
+    TexturesOfFiles textures(folder, scene);
     for (const MaterialOverride& one : overrides) {
         bool matched = false;
-        for (scene::Material& material : materials) {
+        for (scene::Material& material : scene.materials) {
             if (!glob_matches(one.glob, material.name)) continue;
             matched = true;
-            apply(one, folder, material);
+            apply(one, folder, textures, material);
         }
-        if (matched) continue;
-        std::vector<std::string> names;
-        for (const scene::Material& material : materials) names.push_back(material.name);
-        if (names.size() > 12) {
-            names.resize(12);
-            names.push_back("...");
-        }
-        unmatched.push_back(
-            one.place + ": [materials.\"" + one.glob +
-            "\"] matches no material of the scene; there are: " + join_words(names));
+        if (!matched) applied.unmatched.push_back(no_match(one, scene.materials));
     }
-    return unmatched;
+    applied.textures = textures.fingerprint();
+    return applied;
+}
+
+std::vector<scene::MaterialChange> material_changes(const std::vector<MaterialOverride>& overrides,
+                                                    const std::vector<scene::Material>& materials,
+                                                    double time_s)
+{
+    std::map<std::pair<std::uint32_t, std::string_view>, glm::vec4> values;
+    for (const MaterialOverride& one : overrides) {
+        for (std::uint32_t i = 0; i < materials.size(); ++i) {
+            if (!glob_matches(one.glob, materials[i].name)) continue;
+            for (const auto& [name, channels] : one.values) {
+                const std::string_view property = scene::find_property(name)->name;
+                // A later table wins, with or without keys.
+                values.erase({i, property});
+                if (moves(channels)) values[{i, property}] = value_of(channels, time_s);
+            }
+        }
+    }
+    std::vector<scene::MaterialChange> changes;
+    for (const auto& [what, value] : values) changes.push_back({what.first, what.second, value});
+    return changes;
 }
 
 }  // namespace petrichor::film

@@ -91,14 +91,10 @@ struct ScenarioLights {
     double scale = 1.0;
 };
 
-struct ScenarioRender {
-    bool shadows = true;
+struct ScenarioRender : gpu::FrameSwitches {
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
-    bool ambient_occlusion = true;
-    bool image_based_light = true;
-    bool shelter = true;
-    bool draw_sky = true;
-    bool tone_map = true;
+    double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
+    bool gamma = false;             ///< color_space = "gamma"
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 
@@ -117,12 +113,16 @@ struct ScenarioOutput {
     std::vector<std::string> aovs;
 };
 
-/// Properties of the materials whose name matches: values by name of scene/material_table.h (of a
-/// choice its index).
+/// What the materials whose name matches have instead of their own.
 struct MaterialOverride {
     std::string glob;
     std::string place;  ///< "file:line", for messages
-    std::vector<std::pair<std::string, std::vector<double>>> values;
+    /// Values over time by name of a row of scene/material_table.h, one a component; of a choice
+    /// its index.
+    std::vector<std::pair<std::string, std::vector<KeyedNumber>>> values;
+    /// Files by name of a slot of scene::material_textures(), relative to the scenario; "": the
+    /// slot is emptied.
+    std::vector<std::pair<std::string, std::string>> textures = {};
     std::string lighting_model = {};  ///< as written; empty: left as it is
 };
 

@@ -16,6 +16,8 @@ using Kind = TextureRecipe::Kind;
 using texproc::PixelType;
 using texproc::RawImage;
 
+constexpr float kRgbmRange = 8.0f;  // of colour times alpha in light maps of 8 bits
+
 // The first `channels` channels; grey becomes red, green and blue alike, missing alpha is 1.
 Image with_channels(const Image& image, int channels)
 {
@@ -121,7 +123,26 @@ texproc::MipOptions mip_options(const scene::EncodedImage& encoded, const Textur
             .threads = 1};
 }
 
-// 8-bit numbers of the levels that fit into options.max_size; the levels are used up.
+// Light as linear numbers: halves and floats as they are, 8 bits with alpha as RGBM, 8 bits without
+// as sRGB. Finite and not negative.
+Image decode_light(const scene::EncodedImage& encoded, const TextureOptions& options)
+{
+    const RawImage shape = texproc::image_shape(encoded.bytes, encoded.name);
+    const bool rgbm = shape.channels == 4 && shape.type == PixelType::U8;
+    Image light = decode(encoded, rgbm ? ColorSpace::Data : ColorSpace::Linear, 4, options);
+    light.space = ColorSpace::Linear;
+    for (std::size_t i = 0; i < light.pixels.size(); i += 4) {
+        const float scale = rgbm ? kRgbmRange * light.pixels[i + 3] : 1.0f;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const float value = light.pixels[c] * scale;
+            light.pixels[c] = value > 0.0f ? std::min(value, 65504.0f) : 0.0f;
+        }
+        light.pixels[i + 3] = 1.0f;
+    }
+    return light;
+}
+
+// Numbers of the levels that fit into options.max_size; the levels are used up.
 gpu::Texture rounded(std::vector<Image> levels, gpu::TexelFormat format,
                      const TextureOptions& options)
 {
@@ -135,7 +156,9 @@ gpu::Texture rounded(std::vector<Image> levels, gpu::TexelFormat format,
     texture.width = levels[first].width;
     texture.height = levels[first].height;
     for (std::size_t level = first; level < levels.size(); ++level) {
-        texture.mips.push_back(texproc::to_raw(levels[level], PixelType::U8).bytes);
+        const bool halves = format == gpu::TexelFormat::Rgba16Float;
+        texture.mips.push_back(
+            texproc::to_raw(levels[level], halves ? PixelType::F16 : PixelType::U8).bytes);
         levels[level] = {};
     }
     return texture;
@@ -213,6 +236,9 @@ gpu::Texture finish_plain(const scene::EncodedImage& encoded, const TextureRecip
                            gpu::TexelFormat::Rgba8Srgb, options);
         case Kind::Normal:
             return rounded_normals(normal_levels(decode_normals(encoded, options), mips), options);
+        case Kind::Light:
+            return rounded(texproc::plain_levels(decode_light(encoded, options), "albedo", mips),
+                           gpu::TexelFormat::Rgba16Float, options);
         case Kind::Surface:
         case Kind::Scalar:
             break;

@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/input_file.h"
 #include "base/words.h"
+#include "film/data/folders.h"
 #include "scene/gltf/gltf.h"
 #include "texproc/codecs/files/io.h"
 
@@ -77,6 +78,8 @@ LoadedScene read_scene(const fs::path& file, bool allow_outside)
     LoadedScene loaded;
     loaded.scene = scene::load_gltf(asset, name, read_resource);
     loaded.fingerprint = hasher.text();
+    for (scene::Material& material : loaded.scene.materials)
+        material.lighting_model = find_lighting_model(material.lighting_model, file.parent_path());
     return loaded;
 }
 

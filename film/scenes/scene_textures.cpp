@@ -201,7 +201,7 @@ std::string seconds_text(std::chrono::steady_clock::duration time)
 std::vector<gpu::Texture> prepare_textures(scene::Scene& scene, const TextureOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
-    const auto recipes = plan_textures(scene);
+    const auto recipes = plan_textures(scene, options.moving_roughness);
     const auto jobs = texture_jobs(recipes, textures_used(scene));
     int threads = options.threads;
     if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());

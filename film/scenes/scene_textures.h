@@ -19,6 +19,7 @@ struct TextureOptions {
     StopRequest stop = {};                     ///< asked before each image
     BlockSupport blocks = BlockSupport::Fast;  ///< of the device: block_support()
     texproc::PrefilterChoice prefilter{};      ///< the default is that of `texture build`
+    std::vector<bool> moving_roughness{};  ///< as in plan_textures
     ContentCache cache{};  ///< finished textures are kept here; the default keeps nothing
 };
 

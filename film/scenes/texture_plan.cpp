@@ -86,10 +86,12 @@ void plan_color(scene::Material& material, Planner& planner)
     }
     planner.use(material.base_color_texture, color);
     planner.use(material.emissive_texture, {.kind = Kind::Color});
+    planner.use(material.light_map, {.kind = Kind::Light});
 }
 
 // Normals and roughness, together where they can be, and occlusion.
-void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner)
+void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner,
+                  bool roughness_moves)
 {
     scene::TextureUse& surface = material.metallic_roughness_texture;
     scene::TextureUse& normal = material.normal_texture;
@@ -102,8 +104,8 @@ void plan_surface(scene::Material& material, const scene::Scene& scene, Planner&
     if (paired) {
         surface_recipe.normal_image = normal.texture;
         surface_recipe.normal_scale = material.normal_scale;
-        surface_recipe.roughness_factor = material.roughness;
-        material.roughness = 1.0f;
+        if (!roughness_moves)
+            surface_recipe.roughness_factor = std::exchange(material.roughness, 1.0f);
         // Normals that bring their own levels keep them; those of a scale of 0 have no directions.
         if (!planner.prepared(normal) && material.normal_scale != 0.0f) {
             normal_recipe.surface_image = surface.texture;
@@ -135,12 +137,13 @@ void plan_scalar(scene::TextureUse& use, Planner& planner)
 
 }  // namespace
 
-std::vector<TextureRecipe> plan_textures(scene::Scene& scene)
+std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<bool>& moving)
 {
     Planner planner(scene);
-    for (scene::Material& material : scene.materials) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        scene::Material& material = scene.materials[i];
         plan_color(material, planner);
-        plan_surface(material, scene, planner);
+        plan_surface(material, scene, planner, i < moving.size() && moving[i]);
         plan_scalar(material.weather.height, planner);
         plan_scalar(material.weather.puddle_mask, planner);
         plan_scalar(material.weather.snow_mask, planner);

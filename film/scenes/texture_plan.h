@@ -15,6 +15,7 @@ struct TextureRecipe {
         Normal,   ///< filtered as directions
         Surface,  ///< R occlusion, G roughness, B metallic
         Scalar,   ///< one channel: occlusion, height, masks
+        Light,    ///< linear and unbounded: light maps
     };
     int image = 0;  ///< index into Scene::textures as loaded
     Kind kind = Kind::Color;
@@ -34,7 +35,10 @@ struct TextureRecipe {
 /// at the results: afterwards scene.textures has one entry a recipe (those added have no bytes). A
 /// normal and a metallic-roughness texture of one material are paired when they share the
 /// coordinates and the wrapping; the material's roughness factor then moves into the texture.
-std::vector<TextureRecipe> plan_textures(scene::Scene& scene);
+///
+///   moving  materials, by index, whose roughness factor changes over a film: theirs stays a factor,
+///           and the texture is filtered as if it were 1; beyond its end: none
+std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<bool>& moving = {});
 
 }  // namespace petrichor::film
 

@@ -23,6 +23,13 @@ SHARED_FN float srgb_encode(float x)
     return srgb_from_linear(clamp(x, 0.0f, 1.0f));
 }
 
+// Of a colour; what is brighter than 1 goes on along the curve.
+SHARED_FN vec3 srgb_codes(vec3 linear)
+{
+    return vec3(srgb_from_linear(max(linear.x, 0.0f)), srgb_from_linear(max(linear.y, 0.0f)),
+                srgb_from_linear(max(linear.z, 0.0f)));
+}
+
 SHARED_END
 
 #endif

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "formulas/weather/moment.h"
+#include "gpu/frame/switches.h"
 #include "gpu/upload/scene_names.h"
+#include "scene/material_table.h"
 
 namespace petrichor::gpu {
 
@@ -42,7 +44,7 @@ enum class SurfacePath {
 };
 
 /// How a frame is taken.
-struct FrameSettings {
+struct FrameSettings : FrameSwitches {
     int width = 640;
     int height = 360;
     int samples = 8;         ///< jittered samples a pixel, 1..256
@@ -50,12 +52,8 @@ struct FrameSettings {
     std::uint32_t seed = 1;  ///< jitter
     float exposure = 0.0f;   ///< > 0: linear scale; 0: metered from sun and sky, statelessly
     float exposure_bias_stops = 0.0f;
-    bool shadows = true;
-    bool ambient_occlusion = true;
-    bool image_based_light = true;
-    bool draw_sky = true;
-    bool tone_map = true;  ///< false: PNG bytes are plain sRGB of the exposed colour
-    bool shelter = true;   ///< roofs keep rain and snow off
+    float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
+    bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
     SurfacePath surface_path = SurfacePath::Auto;
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()
@@ -69,6 +67,7 @@ struct Frame {
     std::vector<Light> extra_lights;  ///< added to the scene's own (a lamp lit at dusk)
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials
+    std::vector<MaterialChange> materials; ///< those that are not named are as loaded
     FrameSettings settings;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/color/srgb.h"
 #include "formulas/weather/visibility.h"
 
 namespace petrichor::gpu {
@@ -37,6 +38,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
                       ? static_cast<float>(KOSCHMIEDER_2_PERCENT) / std::max(w.visibility_m, 1.0f)
                       : 0.0f;
     c.emissive_scale = frame.emissive_scale;
+    c.occlusion_direct = s.occlusion_direct;
     c.bounce = 0.22f + 0.25f * std::clamp(w.snow_amount, 0.0f, 1.0f);
     c.exposure = s.exposure;
     c.exposure_bias = std::exp2(s.exposure_bias_stops);
@@ -47,6 +49,11 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     flag(s.tone_map, FRAME_TONE_MAP);
     flag(s.shelter, FRAME_SHELTER);
     flag(sun.disc, FRAME_SUN_DISC);
+    flag(s.gamma, FRAME_GAMMA);
+    if (s.gamma) {
+        c.look.snow_color = shared::srgb_codes(c.look.snow_color);
+        c.look.snow_specular = shared::srgb_codes(c.look.snow_specular);
+    }
     return c;
 }
 

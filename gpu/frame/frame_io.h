@@ -59,6 +59,7 @@ struct FrameConstants {
     float samples;
     float sun_angular_cos;   // cosine of the sun's angular radius
     float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
+    float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
 };
@@ -70,5 +71,6 @@ SHARED_END
 #define FRAME_SHELTER 32u
 #define FRAME_ORTHOGRAPHIC 64u
 #define FRAME_SUN_DISC 128u
+#define FRAME_GAMMA 256u
 
 #endif

@@ -20,6 +20,8 @@ struct GBufferTexel {
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
     vec3 emission; // radiance
+    vec3 baked;    // of the light map: what a white Lambert surface sends out
+    float baked_sky;  // share of skylight that is in it
 };
 
 // As the targets hold it.
@@ -41,6 +43,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
     code.weather = texel.weather;
     code.identity = vec4(float(texel.material) / 65535.0, texel.snow_smoothness, 0.0, 0.0);
     code.emission = vec4(texel.emission, 1.0);
+    code.baked = vec4(texel.baked, texel.baked_sky);
     return code;
 }
 
@@ -60,6 +63,8 @@ GBufferTexel decode_gbuffer(GBufferCode code)
     texel.material = uint(code.identity.x * 65535.0 + 0.5);
     texel.snow_smoothness = code.identity.y;
     texel.emission = code.emission.rgb;
+    texel.baked = code.baked.rgb;
+    texel.baked_sky = code.baked.a;
     return texel;
 }
 

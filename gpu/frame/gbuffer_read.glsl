@@ -12,11 +12,12 @@ GBUFFER_TABLE(ROW)
 #undef ROW
 
 // What a frame does not keep reads as zero.
-GBufferCode fetch_gbuffer(ivec2 texel, bool has_weather, bool has_emission)
+GBufferCode fetch_gbuffer(ivec2 texel, bool has_weather, bool has_emission, bool has_baked)
 {
     const bool ALWAYS = true;
     const bool WEATHER = has_weather;
     const bool EMISSION = has_emission;
+    const bool BAKED = has_baked;
     GBufferCode code;
 #define ROW(name, location_, format_, when_, meaning_) \
     code.name = when_ ? texelFetch(gbuffer_##name, texel, 0) : vec4(0.0);

@@ -22,10 +22,14 @@
     ROW(weather, 4, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
     ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow")
 #define GBUFFER_EMISSION(ROW) ROW(emission, 6, R16G16B16A16_SFLOAT, EMISSION, "radiance")
+#define GBUFFER_BAKED(ROW)                       \
+    ROW(baked, 7, R16G16B16A16_SFLOAT, BAKED,     \
+        "light map: irradiance divided by pi; share of skylight that it holds already")
 
-#define GBUFFER_TABLE(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW)
+#define GBUFFER_TABLE(ROW) \
+    GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW) GBUFFER_BAKED(ROW)
 
 // Bindings of a pass that reads the G-buffer: depth at the first, the targets behind it.
-#define GBUFFER_BINDINGS 8
+#define GBUFFER_BINDINGS 9
 
 #endif

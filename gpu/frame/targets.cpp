@@ -49,11 +49,17 @@ int FrameTargets::coarse_y() const
     return divide_up(tiles_y(), LIGHT_COARSE);
 }
 
+GBufferParts gbuffer_parts(const GpuScene& scene, bool weather)
+{
+    return {weather, scene.emissive() || scene.baked(), scene.baked()};
+}
+
 std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts)
 {
     [[maybe_unused]] const bool ALWAYS = true;
     const bool WEATHER = parts.weather;
     const bool EMISSION = parts.emission;
+    const bool BAKED = parts.baked;
     std::vector<Attachment> attachments;
 #define ROW(name, location, format, when, meaning) \
     attachments.push_back(when ? Attachment(*gbuffer.name) : Attachment());

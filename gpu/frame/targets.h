@@ -5,6 +5,7 @@
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/gbuffer_table_io.h"
+#include "gpu/upload/gpu_scene.h"
 
 namespace petrichor::gpu {
 
@@ -20,7 +21,10 @@ struct GBuffer {
 struct GBufferParts {
     bool weather = true;
     bool emission = true;
+    bool baked = false;  ///< with emission only
 };
+/// What a frame of the scene needs.
+GBufferParts gbuffer_parts(const GpuScene& scene, bool weather);
 
 /// The targets as attachments, by location; those of parts left out are empty.
 std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts);

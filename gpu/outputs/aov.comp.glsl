@@ -13,6 +13,7 @@ layout(constant_id = AOV_SPEC_ROWS_LOW) const uint ROWS_LOW = 0xffffffffu;
 layout(constant_id = AOV_SPEC_ROWS_HIGH) const uint ROWS_HIGH = 0xffffffffu;
 layout(constant_id = AOV_SPEC_HAS_WEATHER) const uint HAS_WEATHER = 1u;
 layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
+layout(constant_id = AOV_SPEC_HAS_BAKED) const uint HAS_BAKED = 1u;
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = AOV_OUTPUT, scalar) writeonly buffer Output { float values[]; };
 
@@ -43,7 +44,8 @@ void main()
     p.depth = texelFetch(depth_map, texel, 0).r;
     const bool surface = p.depth > 0.0;
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
-    p.g = decode_gbuffer(fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u));
+    p.g = decode_gbuffer(
+        fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u));
 
     const uint pixels = uint(frame.size.x * frame.size.y);
     const uint pixel = uint(texel.y * frame.size.x + texel.x);

@@ -11,6 +11,7 @@
 #define AOV_SPEC_ROWS_HIGH 1  // rows 32 to 63
 #define AOV_SPEC_HAS_WEATHER 2
 #define AOV_SPEC_HAS_EMISSION 3
+#define AOV_SPEC_HAS_BAKED 4
 
 #define AOV_FRAME 0
 #define AOV_OUTPUT 1

@@ -26,6 +26,8 @@
     ROW(metallic, 1, "Y", "1", HALF, "metallic, 0..1", p.g.metallic, 0.0)                       \
     ROW(occlusion, 1, "Y", "1", HALF, "baked ambient occlusion, 1 open", p.g.occlusion, 0.0)    \
     ROW(emission, 3, "RGB", "cd/m2", HALF, "emitted radiance, linear", p.g.emission, 0.0)       \
+    ROW(baked_light, 3, "RGB", "lx", HALF, "irradiance of the light map, linear",              \
+        p.g.baked * 3.14159265, 0.0)                                                            \
     ROW(film, 1, "Y", "1", HALF, "where a film of water can form: shelter and slope, 0..1",     \
         p.g.weather.x, 0.0)                                                                     \
     ROW(water, 1, "Y", "1", HALF, "cover of standing water, 0..1", p.g.weather.y, 0.0)          \

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "gpu/upload/detail/texel_format.h"
@@ -112,7 +113,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                 v.normal = p.normals[i];
                 v.tangent = p.tangents.empty() ? glm::vec4(0.0f, 0.0f, 0.0f, 1.0f) : p.tangents[i];
                 if (!p.uv0.empty()) v.uv0 = p.uv0[i];
-                if (!p.uv1.empty()) v.uv1 = p.uv1[i];
+                v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
                 set_bytes(v.color, p.colors, i);
                 set_bytes(v.weather, p.weather, i);
                 vertices.push_back(v);
@@ -221,50 +222,107 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     std::vector<std::string> models;
     for (const Material& material : scene.materials) models.push_back(lighting_model_of(material));
     lighting_models_ = LightingModels(models);
-    std::vector<bool> loaded;
-    for (const auto& image : images_) loaded.push_back(image != nullptr);
+    for (const auto& image : images_) loaded_.push_back(image != nullptr);
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
-    const VkDeviceSize stride =
+    constants_stride_ =
         (sizeof(shared::MaterialConstants) + alignment - 1) / alignment * alignment;
     constants_ = arena_.buffer({.name = "material_constants",
-                                .size = stride * scene.materials.size(),
+                                .size = constants_stride_ * scene.materials.size(),
                                 .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                 .host = true});
-    std::vector<glm::vec4> looks;
+    looks_ = arena_.buffer({.name = "material_looks",
+                            .size = scene.materials.size() * MATERIAL_LOOK_TEXELS * sizeof(glm::vec4),
+                            .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                            .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                            .host = true});
+    sources_ = current_ = scene.materials;
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& source = scene.materials[i];
-        emissive_ = emissive_ || source.emissive * source.emissive_strength != glm::vec3(0.0f);
-        shared::MaterialConstants c = material_constants(source, loaded);
-        c.lighting_model = lighting_models_.number_of(models[i]);
-        std::memcpy(constants_->mapped + i * stride, &c, sizeof(c));
-        looks.push_back(c.water_color);
-        looks.emplace_back(c.snow_opacity, 0.0f, 0.0f, 0.0f);
         GpuMaterial material;
         material.cull = cull_mode(source);
         material.water = water_bits(source.weather.wetness);
-        material.masked = source.alpha_mode == AlphaMode::Mask;
-        material.blended = is_blended(source);
-        material.lighting_model = c.lighting_model;
-        material.bindings.push_back(uniform(*constants_, i * stride, sizeof(c)));
+        material.lighting_model = lighting_models_.number_of(models[i]);
+        material.bindings.push_back(uniform(*constants_, i * constants_stride_,
+                                            sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);
         for (std::uint32_t slot = 0; slot < TEXTURE_SLOTS; ++slot) {
-            if (c.slots[slot].present != 0) {
+            const auto t = static_cast<std::size_t>(slots[slot]->texture);
+            if (slots[slot]->present() && t < loaded_.size() && loaded_[t]) {
                 material.slots |= 1u << slot;
-                const auto t = static_cast<std::size_t>(slots[slot]->texture);
                 material.bindings.push_back(sampled(*images_[t], *image_samplers_[t]));
             } else {
                 material.bindings.push_back(sampled(*white_, plain));
             }
         }
         materials_.push_back(std::move(material));
+        set_material(i, source);
     }
-    looks_ = arena_.buffer(
-        {.name = "material_looks",
-         .size = looks.size() * sizeof(glm::vec4),
-         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
-    upload_buffer(device, *looks_, std::as_bytes(std::span(looks)));
+    sum_up_materials();
+}
+
+// What of a material is not a matter of pipelines, textures and lists.
+void GpuScene::set_material(std::size_t index, const Material& source)
+{
+    shared::MaterialConstants c = material_constants(source, loaded_);
+    c.lighting_model = materials_[index].lighting_model;
+    std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
+    const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
+                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f}};
+    std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
+    materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
+    materials_[index].blended = is_blended(source);
+}
+
+void GpuScene::sum_up_materials()
+{
+    const auto any = [this](auto&& is) {
+        return std::any_of(current_.begin(), current_.end(), is);
+    };
+    emissive_ = any([](const Material& m) {
+        return m.emissive * m.emissive_strength != glm::vec3(0.0f);
+    });
+    baked_ = any([](const Material& m) { return m.light_map.present(); });
+    constant_weather_ = any([](const Material& m) {
+        const MaterialWeather& w = m.weather;
+        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
+               w.snow_accumulation.x > 0.0f;
+    });
+}
+
+bool GpuScene::set_materials(const std::vector<MaterialChange>& changes)
+{
+    if (changes == changes_) return false;
+    std::vector<std::size_t> touched;
+    for (const MaterialChange& old : changes_) touched.push_back(old.material);
+    for (const MaterialChange& change : changes) {
+        const scene::MaterialProperty* row = scene::find_property(change.property);
+        if (!row || !row->keyed || change.material >= sources_.size()) {
+            throw Error("render: material " + std::to_string(change.material) + " of " +
+                            std::to_string(sources_.size()) + " has no property \"" +
+                            std::string(change.property) + "\" that a frame may change",
+                        "Name a keyed row of the material table and a material of the scene.");
+        }
+        touched.push_back(change.material);
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    std::vector<Material> before;
+    for (const std::size_t index : touched)
+        before.push_back(std::exchange(current_[index], sources_[index]));
+    for (const MaterialChange& change : changes)
+        scene::find_property(change.property)->set(current_[change.material], change.value);
+    bool holes = false;
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+        const Material& was = before[i];
+        const Material& is = current_[touched[i]];
+        set_material(touched[i], is);
+        holes = holes || was.base_color.a != is.base_color.a ||
+                was.alpha_cutoff != is.alpha_cutoff || was.transmission != is.transmission;
+    }
+    sum_up_materials();
+    changes_ = changes;
+    return holes;
 }
 
 }  // namespace petrichor::gpu

@@ -8,6 +8,7 @@
 #include "gpu/lighting/lighting_models.h"
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/texture.h"
+#include "scene/material_table.h"
 
 namespace petrichor::gpu {
 
@@ -53,6 +54,11 @@ public:
     /// Throws Error when a material names a lighting model that does not exist.
     GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures);
 
+    /// Gives the materials the values of a frame; those that it does not name are as loaded again.
+    /// True when holes, and with them shadows, may have changed. The device must not be drawing.
+    /// Throws Error for a material or property that is not there, or one that cannot change.
+    bool set_materials(const std::vector<MaterialChange>& changes);
+
     const GpuBuffer& vertices() const { return *vertices_; }
     const GpuBuffer& indices() const { return *indices_; }
     /// Both buffers can be bound as texels: RGBA32UI, four a vertex, and R32UI.
@@ -65,12 +71,16 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
+    bool baked() const { return baked_; }        ///< any has a light map
+    bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
     void upload_geometry(const Device& device, const Scene& scene);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
     void make_materials(const Device& device, const Scene& scene);
+    void set_material(std::size_t index, const Material& source);
+    void sum_up_materials();
     const SamplerHandle& sampler(const Device& device, Wrap u, Wrap v, bool nearest);
 
     MemoryArena arena_;
@@ -84,10 +94,17 @@ private:
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
     std::vector<GpuMaterial> materials_;
+    std::vector<Material> sources_;  // as loaded
+    std::vector<Material> current_;  // with the changes of the frame
+    std::vector<MaterialChange> changes_;
+    std::vector<bool> loaded_;  // textures that have pixels
+    VkDeviceSize constants_stride_ = 0;
     std::vector<Light> lights_;
     LightingModels lighting_models_;
     Bounds bounds_;
     bool emissive_ = false;
+    bool baked_ = false;
+    bool constant_weather_ = false;
     bool as_texels_ = false;
 };
 

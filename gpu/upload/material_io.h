@@ -37,7 +37,9 @@
     X(float, snow_normal_strength) \
     X(float, snow_detail_strength) \
     X(float, snow_opacity)         \
-    X(uint, sheltered)
+    X(uint, sheltered)             \
+    X(float, light_map_scale)      \
+    X(float, light_map_sky)
 
 // X(slot, name): the name is that of the row in material_textures() and of the sampler, whose
 // binding in the material's set is 1 + slot.
@@ -49,7 +51,8 @@
     X(4, emissive_texture)           \
     X(5, height_texture)             \
     X(6, puddle_mask_texture)        \
-    X(7, snow_mask_texture)
+    X(7, snow_mask_texture)          \
+    X(8, light_map_texture)
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_NORMAL 1
 #define TEXTURE_METALLIC_ROUGHNESS 2
@@ -58,7 +61,8 @@
 #define TEXTURE_HEIGHT 5
 #define TEXTURE_PUDDLE_MASK 6
 #define TEXTURE_SNOW_MASK 7
-#define TEXTURE_SLOTS 8
+#define TEXTURE_LIGHT_MAP 8
+#define TEXTURE_SLOTS 9
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u

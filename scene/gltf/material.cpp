@@ -141,6 +141,19 @@ void check_extensions(const JsonObject& material)
     }
 }
 
+void read_lighting_model(const JsonObject& material, Material& out)
+{
+    const GltfPlace place = lighting_model_place();
+    const auto holder = holder_of(material, place);
+    if (!holder) return;
+    out.lighting_model = holder->text(place.member);
+    // A scene names files beside it and no others.
+    if (out.lighting_model.ends_with(".glsl")) {
+        out.lighting_model = decode_relative_uri(out.lighting_model, holder->path_to(place.member),
+                                                 holder->log());
+    }
+}
+
 Material read_material(const JsonObject& json, std::size_t number, TextureCollector& textures)
 {
     Material out;
@@ -151,6 +164,7 @@ Material read_material(const JsonObject& json, std::size_t number, TextureCollec
         if (holder) texture.edit(out) = textures.use(*holder, texture.gltf.member);
     }
     for (const MaterialProperty& property : material_table()) read_property(property, json, out);
+    read_lighting_model(json, out);
     return out;
 }
 

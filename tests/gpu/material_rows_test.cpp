@@ -69,7 +69,7 @@ Material rich_material()
     m.emissive_strength = 1.0f;
     for (const char* name :
          {"base_color_texture", "normal_texture", "metallic_roughness_texture", "occlusion_texture",
-          "emissive_texture", "puddle_mask_texture", "snow_mask_texture"}) {
+          "emissive_texture", "puddle_mask_texture", "snow_mask_texture", "light_map_texture"}) {
         for (const scene::MaterialTexture& row : scene::material_textures()) {
             if (row.name == name) row.edit(m) = use_of(name);
         }
@@ -169,6 +169,45 @@ TEST_F(MaterialRows, EachChangesThePictureIfItIsShaded)
         } else {
             EXPECT_EQ(change, 0.0f) << property.name << " is shaded: say so in its row";
         }
+    }
+}
+
+// A row that is keyed may change from frame to frame: the picture is that of a scene which was
+// loaded so, and without the change that of the scene as it is.
+TEST_F(MaterialRows, KeyedOnesChangeWithTheFrame)
+{
+    const std::vector<Texture> pixels = textures();
+    int keyed = 0;
+    for (const MaterialProperty& property : scene::material_table()) {
+        if (!property.keyed) continue;
+        ++keyed;
+        Material material = rich_material();
+        make_visible(property.name, material);
+        renderer->load(stage(material), pixels);
+        const RenderResult as_loaded = renderer->render(weathered());
+        Frame frame = weathered();
+        frame.materials = {{0, property.name, another_value(property, material)}};
+        const RenderResult changed = renderer->render(frame);
+        const RenderResult again = renderer->render(weathered());
+        EXPECT_EQ(as_loaded.beauty, again.beauty) << property.name << " stays changed";
+        property.set(material, frame.materials[0].value);
+        renderer->load(stage(material), pixels);
+        EXPECT_EQ(renderer->render(weathered()).beauty, changed.beauty) << property.name;
+        EXPECT_NE(changed.beauty, as_loaded.beauty) << property.name << " has no effect";
+    }
+    EXPECT_GT(keyed, 25);
+}
+
+TEST_F(MaterialRows, WhatAFrameMayNotChangeIsRefused)
+{
+    renderer->load(stage(rich_material()), textures());
+    const MaterialChange wrong[] = {{0, "unlit", glm::vec4(1.0f)},
+                                    {0, "roughness", glm::vec4(0.5f)},
+                                    {7, "roughness_factor", glm::vec4(0.5f)}};
+    for (const MaterialChange& change : wrong) {
+        Frame frame = weathered();
+        frame.materials = {change};
+        EXPECT_THROW(renderer->render(frame), Error) << change.property;
     }
 }
 

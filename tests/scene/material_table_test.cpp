@@ -6,7 +6,10 @@
 
 #include <cmath>
 #include <set>
+#include <span>
+#include <string>
 
+#include "base/error.h"
 #include "scene/gltf/glb_writer.h"
 #include "scene/gltf/gltf.h"
 
@@ -156,6 +159,32 @@ TEST(MaterialTable, WhatIsNotShadedIsSaidOnceForAScene)
     scene.meshes[0].primitives[0].weather.assign(3, {0.5f, 1, 1, 1});
     ASSERT_EQ(unshaded_properties(scene).size(), 2u);
     EXPECT_THAT(unshaded_properties(scene)[1], HasSubstr("1 mesh (triangle)"));
+}
+
+TEST(LightingModel, IsKeptByGltf)
+{
+    Material material;
+    material.lighting_model = "lambert";
+    EXPECT_EQ(through_gltf(material).lighting_model, "lambert");
+    material.lighting_model = "/somewhere/else/velvet.glsl";  // a file lies beside the scene
+    EXPECT_EQ(through_gltf(material).lighting_model, "velvet.glsl");
+    EXPECT_EQ(through_gltf(Material{}).lighting_model, "");
+}
+
+TEST(LightingModel, OfASceneNeverLeavesItsFolder)
+{
+    for (const char* name : {"../velvet.glsl", "/etc/velvet.glsl", "a/%2e%2e/velvet.glsl"}) {
+        const std::string gltf =
+            R"({"asset":{"version":"2.0"},"materials":[{"name":"m","extensions":{)"
+            R"("PETRICHOR_materials_weather":{"lightingModel":")" +
+            std::string(name) + R"("}}}]})";
+        try {
+            load_gltf(std::as_bytes(std::span(gltf)), "scene.gltf", nullptr);
+            ADD_FAILURE() << name;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("lightingModel")) << name;
+        }
+    }
 }
 
 }  // namespace

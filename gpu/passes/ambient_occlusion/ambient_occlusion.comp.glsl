@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
 
 layout(local_size_x = AMBIENT_OCCLUSION_TILE, local_size_y = AMBIENT_OCCLUSION_TILE) in;

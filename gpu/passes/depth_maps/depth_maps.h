@@ -25,6 +25,9 @@ struct DepthMaps {
     bool shadow_valid = false;
     bool shelter_valid = false;
     bool sky_valid = false;
+
+    /// Draws all of them again with the next frame that asks.
+    void forget() { shadow_valid = shelter_valid = sky_valid = false; }
 };
 
 // Depth of the scene from the sun, all cascades.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/upload/material_io.h"
 
 layout(set = 0, binding = 0, scalar) uniform Material { MaterialConstants material; };

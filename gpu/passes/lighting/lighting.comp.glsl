@@ -4,13 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/lighting/models_io.h"
+#include "formulas/color/srgb.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/passes/lighting/lighting_io.h"
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "formulas/weather/apply_weather.h"
 
 layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
@@ -19,6 +20,8 @@ layout(constant_id = LIGHTING_SPEC_SHADOWS) const uint SHADOWS = 1u;
 layout(constant_id = LIGHTING_SPEC_IMAGE_BASED_LIGHT) const uint IMAGE_BASED_LIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_AMBIENT_OCCLUSION) const uint AMBIENT_OCCLUSION = 1u;
 layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
+layout(constant_id = LIGHTING_SPEC_GAMMA) const uint GAMMA = 0u;
+layout(constant_id = LIGHTING_SPEC_BAKED) const uint BAKED = 0u;
 layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
@@ -99,6 +102,14 @@ float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
         total += weight;
     }
     return total > 0.0 ? open / total : 1.0;
+}
+
+// Scale and offset of F0 for GGX.
+vec2 split_sum(vec3 n, vec3 v, float roughness)
+{
+    const vec2 size = vec2(textureSize(env_brdf, 0));
+    const vec2 at = (vec2(clamp(dot(n, v), 0.0, 1.0), roughness) * (size - 1.0) + 0.5) / size;
+    return textureLod(env_brdf, at, 0.0).rg;
 }
 
 vec3 background(vec3 direction)
@@ -216,7 +227,7 @@ void main()
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u));
+            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u));
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -230,6 +241,10 @@ void main()
         dry.porosity = g.porosity;
         dry.water_color = vec4(0.0);
         dry.snow_opacity = 0.0;
+        if (GAMMA != 0u) {
+            dry.base_color = srgb_codes(dry.base_color);
+            dry.f0 = srgb_codes(dry.f0);  // 0.04 becomes 0.22
+        }
         WeatheredMaterial m = dry_material(dry);
         vec3 n = g.base_normal;
         float closed = 0.0;  // share of a flat water surface over the relief
@@ -242,6 +257,7 @@ void main()
             state.snow_smoothness = g.snow_smoothness;
             const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
             dry.water_color = texelFetch(material_looks, look);
+            if (GAMMA != 0u) dry.water_color.rgb = srgb_codes(dry.water_color.rgb);
             dry.snow_opacity = texelFetch(material_looks, look + 1).x;
             m = apply_weather(dry, state, frame.weather, frame.look);
             closed = closed_water(state);
@@ -254,7 +270,7 @@ void main()
         p.position = position;
         p.normal = n;
         p.view = v;
-        p.base_color = g.base_color;
+        p.base_color = dry.base_color;
         p.albedo = m.albedo;
         p.diffuse = m.albedo * (1.0 - max(m.specular.r, max(m.specular.g, m.specular.b)));
         p.specular = m.specular;
@@ -264,16 +280,28 @@ void main()
         p.model = g.model;
         p.lobe = make_lobe(n, v, p.diffuse, m.specular, p.roughness * p.roughness);
 
-        radiance = model_own(p);
+        vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
         if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const float visible =
                 SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
             if (visible > 0.0) {
-                radiance += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
+                direct += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
             }
         }
-        add_lights(radiance, p, texel);
+        add_lights(direct, p, texel);
+        // Occlusion maps tell of the sky; on sun and lamps they are a choice.
+        radiance = model_own(p) + direct * mix(1.0, m.occlusion, frame.occlusion_direct);
+        if (BAKED != 0u) {
+            // Light of the map comes from all around; the crevices of its own it holds already.
+            Surroundings s;
+            s.irradiance = g.baked;
+            s.occlusion = m.occlusion;
+            s.specular_occlusion = 0.0;
+            s.split_sum = split_sum(n, v, p.roughness);
+            s.scale = 1.0;
+            radiance += model_surround(p, s).radiance;
+        }
         if (IMAGE_BASED_LIGHT != 0u) {
             const float screen =
                 AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
@@ -285,6 +313,7 @@ void main()
             const float nv = clamp(dot(n, v), 0.0, 1.0);
             Surroundings s;
             s.irradiance = sky_irradiance(n) * seen;
+            if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             s.occlusion = m.occlusion * screen;
             // A water surface lies above the crevices that its ground has.
             const float mirror_occlusion = mix(s.occlusion, 1.0, closed);
@@ -292,9 +321,7 @@ void main()
             s.specular_occlusion =
                 saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +
                          mirror_occlusion);
-            const vec2 size = vec2(textureSize(env_brdf, 0));
-            const vec2 at = (vec2(nv, p.roughness) * (size - 1.0) + 0.5) / size;
-            s.split_sum = textureLod(env_brdf, at, 0.0).rg;
+            s.split_sum = split_sum(n, v, p.roughness);
             s.scale = frame.ambient_scale;
             const Reflected reflected = model_surround(p, s);
             radiance += reflected.radiance;

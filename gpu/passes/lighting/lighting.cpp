@@ -17,6 +17,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_IMAGE_BASED_LIGHT, variant.image_based_light},
                       {LIGHTING_SPEC_AMBIENT_OCCLUSION, variant.ambient_occlusion},
                       {LIGHTING_SPEC_EMISSION, variant.emission},
+                      {LIGHTING_SPEC_BAKED, variant.baked},
+                      {LIGHTING_SPEC_GAMMA, variant.gamma},
                       {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},

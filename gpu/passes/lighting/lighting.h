@@ -18,6 +18,8 @@ struct LightingVariant {
     bool image_based_light = true;
     bool ambient_occlusion = true;
     bool emission = true;
+    bool baked = false;  ///< light maps
+    bool gamma = false;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     std::vector<bool> models{true};  ///< by number: something in the picture has it

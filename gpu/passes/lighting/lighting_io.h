@@ -11,6 +11,8 @@
 #define LIGHTING_SPEC_AMBIENT_OCCLUSION 3
 #define LIGHTING_SPEC_EMISSION 4
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
+#define LIGHTING_SPEC_BAKED 6       // light maps
+#define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
 #define LIGHTING_SPEC_MODEL 16      // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0

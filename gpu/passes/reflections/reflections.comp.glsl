@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/passes/reflections/reflections_io.h"
 
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;

@@ -6,7 +6,7 @@
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/resolve/resolve_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 
 layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
 layout(binding = RESOLVE_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -24,8 +24,12 @@ void main()
     beauty[index] = uvec2(packHalf2x16(mean.rg), packHalf2x16(mean.ba));
 
     const vec3 exposed = mean.rgb * sky_light.exposure;
+    // Codes are shown as they are.
+    const bool gamma = (frame.flags & FRAME_GAMMA) != 0u;
     const vec3 mapped = (frame.flags & FRAME_TONE_MAP) != 0u ? tone_map(exposed) : exposed;
-    const vec3 encoded = vec3(srgb_encode(mapped.r), srgb_encode(mapped.g), srgb_encode(mapped.b));
+    const vec3 encoded =
+        gamma ? clamp(exposed, vec3(0.0), vec3(1.0))
+              : vec3(srgb_encode(mapped.r), srgb_encode(mapped.g), srgb_encode(mapped.b));
     // Half a step of dither hides banding in soft gradients such as the sky.
     const float noise = dither(texel, 0u) - 0.5;
     const uvec3 bytes = uvec3(clamp(encoded * 255.0 + 0.5 + noise, vec3(0.0), vec3(255.0)));

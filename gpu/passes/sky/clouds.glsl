@@ -3,7 +3,7 @@
 #define PETRICHOR_CLOUDS_GLSL
 
 #include "gpu/passes/sky/sky_light_io.h"
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 
 float cloud_noise(vec2 p)
 {

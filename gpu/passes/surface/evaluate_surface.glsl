@@ -4,6 +4,7 @@
 // derivative is taken here, no built-in read, nothing discarded. The includer defines
 //   SURFACE_WEATHER   1: masks of water, snow and frost are wanted
 //   SURFACE_EMISSION  1: radiance of materials that glow is wanted
+//   SURFACE_BAKED     1: light of light maps is wanted
 #ifndef PETRICHOR_EVALUATE_SURFACE_GLSL
 #define PETRICHOR_EVALUATE_SURFACE_GLSL
 
@@ -75,6 +76,15 @@ SurfaceData evaluate_surface(SurfaceInput at)
         data.emission = material.emissive_factor * material.emissive_strength;
         if (has(TEXTURE_EMISSIVE)) {
             data.emission *= texel(emissive_texture, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
+        }
+    }
+    data.texel.baked = vec3(0.0);
+    data.texel.baked_sky = 0.0;
+    if (SURFACE_BAKED != 0) {
+        if (has(TEXTURE_LIGHT_MAP)) {
+            const vec3 lux = texel(light_map_texture, coordinates(TEXTURE_LIGHT_MAP, at, vec2(0.0))).rgb;
+            data.texel.baked = min(lux * (material.light_map_scale * 0.31830989), vec3(60000.0));
+            data.texel.baked_sky = 1.0 - material.light_map_sky;
         }
     }
     // Pores are of the material: what the geometry does to the lobe tells nothing of them.

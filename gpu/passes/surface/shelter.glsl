@@ -2,7 +2,7 @@
 #ifndef PETRICHOR_SURFACE_SHELTER_GLSL
 #define PETRICHOR_SURFACE_SHELTER_GLSL
 
-#include "formulas/noise/noise.glsl"
+#include "formulas/noise/noise.h"
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
 

@@ -9,17 +9,27 @@
 
 namespace petrichor::gpu {
 
+namespace {
+
+const char* fragment_shader(const GBufferParts& parts)
+{
+    if (parts.baked) return parts.weather ? "surface_baked.frag" : "surface_baked_dry.frag";
+    if (parts.weather) return parts.emission ? "surface.frag" : "surface_dark.frag";
+    return parts.emission ? "surface_dry.frag" : "surface_lean.frag";
+}
+
+}  // namespace
+
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather)
 {
     GBuffer& g = targets.gbuffer;
-    const bool emission = scene.emissive();
-    const bool any_weather = weather.any;
+    const GBufferParts parts = gbuffer_parts(scene, weather.any);
     graph.add(DrawPass{
         .name = "surface",
-        .colors = gbuffer_attachments(g, {weather.any, emission}),
+        .colors = gbuffer_attachments(g, parts),
         .depth = Attachment(*g.depth),
         .width = targets.width,
         .height = targets.height,
@@ -32,8 +42,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             [=, &scene](PassContext& pass) {
                 GraphicsDesc desc;
                 desc.vertex = "surface.vert";
-                desc.fragment = any_weather ? (emission ? "surface.frag" : "surface_dark.frag")
-                                            : (emission ? "surface_dry.frag" : "surface_lean.frag");
+                desc.fragment = fragment_shader(parts);
                 desc.stride = sizeof(Vertex);
                 desc.attributes = vertex_attributes();
                 desc.colors = pass.color_formats();
@@ -68,7 +77,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
                 // shaded once.
-                const bool depth_first = any_weather;
+                const bool depth_first = parts.weather;
                 GraphicsDesc depth_only = desc;
                 depth_only.vertex = "surface_depth.vert";
                 depth_only.fragment.clear();

@@ -1,8 +1,9 @@
 // The surface pass: writes the material and the weather at each pixel (evaluate_surface.glsl).
 //
-// Compiled four times, since a target that nobody reads is not written:
+// Compiled six times, since a target that nobody reads is not written:
 //   SURFACE_WEATHER   1: masks of water, snow and frost
 //   SURFACE_EMISSION  1: radiance of materials that glow
+//   SURFACE_BAKED     1: light of light maps, with SURFACE_EMISSION only
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
@@ -14,15 +15,23 @@ layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_color;
 layout(location = 5) in vec4 in_weather;
 
-#if SURFACE_WEATHER && SURFACE_EMISSION
-#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW)
-#elif SURFACE_WEATHER
-#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW)
-#elif SURFACE_EMISSION
-#define TARGETS(ROW) GBUFFER_ALWAYS(ROW) GBUFFER_EMISSION(ROW)
+#if SURFACE_WEATHER
+#define WEATHER_TARGETS(ROW) GBUFFER_WEATHER(ROW)
 #else
-#define TARGETS(ROW) GBUFFER_ALWAYS(ROW)
+#define WEATHER_TARGETS(ROW)
 #endif
+#if SURFACE_EMISSION
+#define EMISSION_TARGETS(ROW) GBUFFER_EMISSION(ROW)
+#else
+#define EMISSION_TARGETS(ROW)
+#endif
+#if SURFACE_BAKED
+#define BAKED_TARGETS(ROW) GBUFFER_BAKED(ROW)
+#else
+#define BAKED_TARGETS(ROW)
+#endif
+#define TARGETS(ROW) \
+    GBUFFER_ALWAYS(ROW) WEATHER_TARGETS(ROW) EMISSION_TARGETS(ROW) BAKED_TARGETS(ROW)
 #define ROW(name, location_, format_, when_, meaning_) \
     layout(location = location_) out vec4 out_##name;
 TARGETS(ROW)

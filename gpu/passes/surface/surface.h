@@ -15,7 +15,7 @@ namespace petrichor::gpu {
 //
 //   reads    ripple, flow and snow maps, the shelter map
 //   writes   the G-buffer
-//   variant  weather and emission: a target that nobody reads is not written
+//   variant  weather, emission, light maps: a target that nobody reads is not written
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,

@@ -7,7 +7,7 @@
 #include "gpu/upload/material_io.h"
 
 layout(constant_id = SURFACE_SPEC_HOLES) const uint HOLES = 1u;
-layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 255u;
+layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 511u;
 layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 7u;
 layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 

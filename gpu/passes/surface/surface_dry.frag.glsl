@@ -3,4 +3,5 @@
 #extension GL_EXT_scalar_block_layout : require
 #define SURFACE_WEATHER 0
 #define SURFACE_EMISSION 1
+#define SURFACE_BAKED 0
 #include "gpu/passes/surface/surface.glsl"

@@ -7,6 +7,7 @@
 
 layout(constant_id = RESOLVE_SPEC_WEATHER) const uint SURFACE_WEATHER = 1u;
 layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
+layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
 layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
@@ -161,6 +162,7 @@ void main()
     const bool ALWAYS = true;
     const bool WEATHER = SURFACE_WEATHER != 0u;
     const bool EMISSION = SURFACE_EMISSION != 0u;
+    const bool BAKED = SURFACE_BAKED != 0u;
 #define ROW(name, location_, format_, when_, meaning_) \
     if (when_) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)

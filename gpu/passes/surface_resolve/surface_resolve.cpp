@@ -127,8 +127,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
 #undef ROW
-    const bool emission = scene.emissive();
-    const bool any_weather = weather.any;
+    const GBufferParts parts = gbuffer_parts(scene, weather.any);
     graph.add(DispatchListPass{.name = "surface",
                                .bindings = std::move(bindings),
                                .arguments = tables.groups.get(),
@@ -141,8 +140,9 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                                                   {SURFACE_SPEC_WATER,
                                                    weather.water ? material.water : 0u},
                                                   {SURFACE_SPEC_SNOW, weather.snow},
-                                                  {RESOLVE_SPEC_WEATHER, any_weather},
-                                                  {RESOLVE_SPEC_EMISSION, emission}},
+                                                  {RESOLVE_SPEC_WEATHER, parts.weather},
+                                                  {RESOLVE_SPEC_EMISSION, parts.emission},
+                                                  {RESOLVE_SPEC_BAKED, parts.baked}},
                                                  types_of(material.bindings));
                                        list.bind_set1(material.bindings);
                                        list.push(shared::SurfaceResolveParams{m});

@@ -37,6 +37,7 @@
 #define RESOLVE_TARGETS (SURFACE_SHELTER + 7)  // of the G-buffer, by location
 #define RESOLVE_SPEC_WEATHER 5
 #define RESOLVE_SPEC_EMISSION 6
+#define RESOLVE_SPEC_BAKED 7
 
 SHARED_BEGIN
 

@@ -123,6 +123,11 @@ void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Mate
             holder[std::string(property.gltf.member)] = value_of(property, value);
         }
     }
+    if (!m.lighting_model.empty()) {
+        // Of a file its name: it lies beside the scene.
+        holder_of(out, lighting_model_place())[std::string(lighting_model_place().member)] =
+            m.lighting_model.substr(m.lighting_model.rfind('/') + 1);
+    }
     if (out.contains("extensions")) {
         for (const auto& item : out["extensions"].items()) glb.extensions.insert(item.key());
     }

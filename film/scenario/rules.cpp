@@ -1,0 +1,287 @@
+#include "film/scenario/rules.h"
+
+namespace petrichor::film {
+namespace {
+
+std::vector<CameraKey> camera_path(const TomlValue& value)
+{
+    std::vector<CameraKey> path;
+    for (const TomlValue& element : value.elements()) {
+        CameraKey key;
+        bool timed = false;
+        for (const auto& [name, entry] :
+             element.entries({"time_s", "position_m", "look_at_m", "fov_degrees"})) {
+            if (name == "time_s") {
+                key.time_s = entry.number(-1e9, 1e9);
+                timed = true;
+            }
+            if (name == "position_m") key.position_m = entry.point();
+            if (name == "look_at_m") key.look_at_m = entry.point();
+            if (name == "fov_degrees") key.fov_degrees = entry.number(1.0, 170.0);
+        }
+        if (!timed || !key.position_m || !key.look_at_m) {
+            element.refuse("a table with time_s, position_m and look_at_m");
+        }
+        if (!path.empty() && key.time_s <= path.back().time_s) {
+            element.refuse("later than the key before it");
+        }
+        path.push_back(key);
+    }
+    if (path.empty()) value.refuse("at least one key");
+    return path;
+}
+
+// [camera] position_m, look_at_m and fov_degrees without keys make a path of one key.
+CameraKey& still_camera(Scenario& s)
+{
+    if (s.camera.keys.empty()) s.camera.keys.emplace_back();
+    return s.camera.keys.front();
+}
+
+// Keys of [weather] that weather_script_from reads and checks.
+void read_by_the_script(Scenario&, const TomlValue&)
+{
+}
+
+}  // namespace
+
+const std::vector<Rule>& rules()
+{
+    static const std::vector<Rule> table{
+        {{"scene", "file", "\"scene.glb\"",
+          "glTF scene (.glb, .gltf), relative to this file; \"demo:street\" is the generated demo",
+          false, true},
+         [](Scenario& s, const TomlValue& v) { s.scene.file = v.text(); }},
+        {{"scene", "demo_seed", "1", "which street the demo generator builds"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.demo_seed = static_cast<std::uint32_t>(v.integer(0, 1 << 30));
+         }},
+        {{"scene", "max_texture", "4096",
+          "larger textures are reduced to this many texels a side, 16 to 16384"},
+         [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
+        {{"scene", "north_degrees", "0.0",
+          "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
+         [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
+
+        {{"camera", "name", "\"Camera\"",
+          "a camera of the scene; without one the whole scene is framed"},
+         [](Scenario& s, const TomlValue& v) { s.camera.name = v.text(); }},
+        {{"camera", "position_m", "[6.0, 2.0, 8.0]",
+          "where a camera of your own stands: x, y (up), z"},
+         [](Scenario& s, const TomlValue& v) { still_camera(s).position_m = v.point(); }},
+        {{"camera", "look_at_m", "[0.0, 1.0, 0.0]", "the point it looks at"},
+         [](Scenario& s, const TomlValue& v) { still_camera(s).look_at_m = v.point(); }},
+        {{"camera", "fov_degrees", "45.0", "vertical field of view, 1 to 170"},
+         [](Scenario& s, const TomlValue& v) {
+             still_camera(s).fov_degrees = v.number(1.0, 170.0);
+         }},
+        {{"camera", "keys",
+          "[{ time_s = 0.0, position_m = [6.0, 2.0, 8.0], look_at_m = [0.0, 1.0, 0.0], fov_degrees "
+          "= 45.0 },\n"
+          "    { time_s = 48.0, position_m = [4.0, 1.6, 7.0], look_at_m = [0.0, 1.0, 0.0], "
+          "fov_degrees = 40.0 }]",
+          "a camera that moves: one entry a point of the path"},
+         [](Scenario& s, const TomlValue& v) { s.camera.keys = camera_path(v); }},
+        {{"camera", "interpolation", "\"smooth\"", "between keys: hold, linear or smooth"},
+         [](Scenario& s, const TomlValue& v) { s.camera.interpolation = v.interpolation(); }},
+        {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
+         [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
+        {{"camera", "exposure", "1.0e-4",
+          "linear scale of the PNG; without it metered from sun and sky", true},
+         [](Scenario& s, const TomlValue& v) { s.camera.exposure = v.keyed(1e-12, 1e12); }},
+        {{"camera", "exposure_bias", "0.0", "stops brighter (+) or darker (-), -10 to 10", true},
+         [](Scenario& s, const TomlValue& v) { s.camera.exposure_bias = v.keyed(-10.0, 10.0); }},
+
+        {{"sun", "source", "\"sky\"",
+          "sky: a sun that matches the sky; scene: the directional lights of the scene instead"},
+         [](Scenario& s, const TomlValue& v) {
+             s.sun.from_scene = v.choice({"sky", "scene"}) == 1;
+         }},
+        {{"sun", "elevation_degrees", "35.0",
+          "height above the horizon, -90 to 90; without it and a time of day, a weather file's "
+          "place and clock decide",
+          true, true},
+         [](Scenario& s, const TomlValue& v) { s.sun.elevation_degrees = v.keyed(-90.0, 90.0); }},
+        {{"sun", "azimuth_degrees", "140.0",
+          "clockwise from north (-z, see north_degrees) over east; go past 360 rather than back to "
+          "0",
+          true, true},
+         [](Scenario& s, const TomlValue& v) { s.sun.azimuth_degrees = v.keyed(-3600.0, 3600.0); }},
+        {{"sun", "time_of_day_hours", "[[0.0, 14.0], [48.0, 18.5]]",
+          "local solar time instead of elevation and azimuth, 0 to 24 (48 is the next midnight)",
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.sun.time_of_day_hours = v.keyed(-240.0, 2400.0);
+         }},
+        {{"sun", "latitude_degrees", "50.0", "with time_of_day_hours: -90 south to 90 north"},
+         [](Scenario& s, const TomlValue& v) { s.sun.latitude_degrees = v.number(-90.0, 90.0); }},
+        {{"sun", "day_of_year", "80", "with time_of_day_hours: 1 to 366; 80 is the spring equinox"},
+         [](Scenario& s, const TomlValue& v) { s.sun.day_of_year = v.number(1.0, 366.0); }},
+        {{"sun", "illuminance_lux", "100000.0",
+          "of a clear sun on a plane that faces it, 0 to 200000"},
+         [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
+
+        {{"sky", "cloud_cover", "[[0.0, 0.9], [24.0, 0.4]]",
+          "0 clear to 1 overcast; without it the weather decides", true},
+         [](Scenario& s, const TomlValue& v) { s.sky.cloud_cover = v.keyed(0.0, 1.0); }},
+        {{"sky", "turbidity", "2.5", "haze: 1.5 very clear to 10", true},
+         [](Scenario& s, const TomlValue& v) { s.sky.turbidity = v.keyed(1.0, 10.0); }},
+        {{"sky", "environment", "\"sky.hdr\"",
+          "a lat-long HDR picture (.hdr, .exr) that lights the scene instead of the analytic sky"},
+         [](Scenario& s, const TomlValue& v) { s.sky.environment = v.text(); }},
+        {{"sky", "environment_scale", "1.0", "multiplies the HDR picture, 0 to 1e6"},
+         [](Scenario& s, const TomlValue& v) { s.sky.environment_scale = v.number(0.0, 1e6); }},
+        {{"sky", "environment_rotation_degrees", "0.0", "turns the HDR picture about the vertical"},
+         [](Scenario& s, const TomlValue& v) {
+             s.sky.environment_rotation_degrees = v.number(-3600.0, 3600.0);
+         }},
+        {{"sky", "ground_albedo", "0.2", "of the land beyond the scene, 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.sky.ground_albedo = v.number(0.0, 1.0); }},
+
+        {{"weather", "preset", "\"rain-then-snow\"",
+          "a name that `petrichor doctor` lists, or a .toml file with a [weather] table", false,
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.preset = v.text();
+             if (s.weather.preset.empty()) v.refuse("the name of a preset or a file");
+         }},
+        {{"weather", "file", "\"denver.epw\"",
+          "or a weather file (EPW, METAR, CSV, .. as `petrichor simulate` reads): sun, clouds, "
+          "wind "
+          "and sight follow it"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.file = v.text();
+             if (s.weather.file.empty()) v.refuse("the name of a weather file");
+         }},
+        {{"weather", "model", "\"auto\"",
+          "physical (SI: energy and water balance), artist (0..1), or auto: physical for a file"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.model = static_cast<WeatherModel>(v.choice({"auto", "artist", "physical"}));
+         }},
+        {{"weather", "start", "\"01-10\"",
+          "when in the file the clock's 0 s is: ISO 8601, month and day, or seconds; else its "
+          "first "
+          "row"},
+         [](Scenario& s, const TomlValue& v) { s.weather.start = v.text(); }},
+        {{"weather", "end", "\"01-12\"", "and when the film ends, unless output.duration_s says"},
+         [](Scenario& s, const TomlValue& v) { s.weather.end = v.text(); }},
+        {{"weather", "hours_per_second", "1.0",
+          "hours of the file for a second of the clock, 0.0001 to 10000"},
+         [](Scenario& s, const TomlValue& v) { s.weather.hours_per_second = v.number(1e-4, 1e4); }},
+        {{"weather", "surface", "\"asphalt\"",
+          "of the physical model: concrete, paving_stones, cobblestone, brick, soil, grass, .."},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.surface = v.text(); }},
+        {{"weather", "spin_up_days", "30.0",
+          "the physical model begins this long before `start`; else with the file's first row"},
+         [](Scenario& s, const TomlValue& v) { s.weather.spin_up_days = v.number(0.0, 36500.0); }},
+        {{"weather", "max_gap_days", "60.0",
+          "longest time between two rows of the file; longer ones are refused"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.max_gap_days = v.number(0.0, 1e6); }},
+        {{"weather", "latitude_degrees", "45.3", "north; where the file does not say"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.latitude_deg = v.number(-90.0, 90.0);
+         }},
+        {{"weather", "longitude_degrees", "5.77", "east; likewise"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.longitude_deg = v.number(-180.0, 360.0);
+         }},
+        {{"weather", "elevation_m", "1325.0", "above the sea; likewise"},
+         [](Scenario& s, const TomlValue& v) {
+             s.weather.site.elevation_m = v.number(-450.0, 9000.0);
+         }},
+        {{"weather", "station", "\"EGLL\"", "of a METAR file; else the one with most reports"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.station = v.text(); }},
+        {{"weather", "month", "\"2024-02\"", "of METAR reports, which say only the day"},
+         [](Scenario& s, const TomlValue& v) { s.weather.site.month = v.text(); }},
+        {{"weather", "keys",
+          "[\n"
+          "    { time_s = 0.0, temperature_c = 12.0, rainfall = 0.0, cloud_cover = 0.3 },\n"
+          "    { time_s = 10.0, rainfall = 0.8, cloud_cover = 0.9, wind_m_s = 6.0, wind_from_deg = "
+          "240.0 },\n"
+          "    { time_s = 30.0, temperature_c = -6.0, visibility_m = 2000.0 },\n"
+          "]",
+          "or keys of your own (rainfall 0 to 1, or rain_mm_h; snow below 0 C)"},
+         read_by_the_script},
+        {{"weather", "interpolation", "\"linear\"", "between these keys: hold, linear or smooth"},
+         read_by_the_script},
+        {{"weather", "duration_s", "48.0", "of these keys; else to the last"}, read_by_the_script},
+        {{"weather", "loop", "false", "begin these keys again when they end, for ever"},
+         read_by_the_script},
+
+        {{"lights", "lamps", "\"dusk\"",
+          "point and spot lights and glowing materials: on, off, or on at dusk"},
+         [](Scenario& s, const TomlValue& v) {
+             s.lights.lamps = static_cast<Lamps>(v.choice({"on", "off", "dusk"}));
+         }},
+        {{"lights", "dusk_degrees", "4.0",
+          "lamps are fully lit with the sun at this elevation or lower"},
+         [](Scenario& s, const TomlValue& v) { s.lights.dusk_degrees = v.number(-90.0, 90.0); }},
+        {{"lights", "dusk_fade_degrees", "4.0", "and dark this far above it, 0 to 90"},
+         [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
+        {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
+         [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
+
+#define ROW(name, on, meaning)                                  \
+    {{"render", #name, on ? "true" : "false", meaning},         \
+     [](Scenario& s, const TomlValue& v) { s.render.name = v.boolean(); }},
+        FRAME_SWITCHES(ROW)
+#undef ROW
+        {{"render", "ripple_texture_size", "512",
+          "texels a side of the map of rings that rain draws: 64, 128 .. 4096"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.ripple_texture_size = v.integer(64, 4096);
+             if ((s.render.ripple_texture_size & (s.render.ripple_texture_size - 1)) != 0)
+                 v.refuse("a power of two from 64 to 4096");
+         }},
+        {{"render", "occlusion_direct", "0.0",
+          "how much occlusion maps darken sun and lamps too, 0 to 1; they always darken the sky"},
+         [](Scenario& s, const TomlValue& v) { s.render.occlusion_direct = v.number(0.0, 1.0); }},
+        {{"render", "color_space", "\"linear\"",
+          "gamma: lights colours as the sRGB codes that they are stored as and shows the sums as "
+          "codes, without tone mapping; to compare with engines that work so. The EXR holds codes"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.gamma = v.choice({"linear", "gamma"}) == 1;
+         }},
+        {{"render", "surface_path", "\"auto\"",
+          "how surfaces are shaded: fragment, visibility (a buffer of triangle numbers, resolved), "
+          "or auto, the faster on this device"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.surface_path =
+                 static_cast<gpu::SurfacePath>(v.choice({"auto", "fragment", "visibility"}));
+         }},
+
+        {{"output", "width", "640", "pixels, 1 to 16384", false, true},
+         [](Scenario& s, const TomlValue& v) { s.output.width = v.integer(1, 16384); }},
+        {{"output", "height", "360", "pixels, 1 to 16384", false, true},
+         [](Scenario& s, const TomlValue& v) { s.output.height = v.integer(1, 16384); }},
+        {{"output", "samples", "8", "a pixel, for smooth edges, 1 to 256", false, true},
+         [](Scenario& s, const TomlValue& v) { s.output.samples = v.integer(1, 256); }},
+        {{"output", "seed", "1", "of the sample pattern"},
+         [](Scenario& s, const TomlValue& v) {
+             s.output.seed = static_cast<std::uint32_t>(v.integer(0, 1 << 30));
+         }},
+        {{"output", "frames", "48", "number of frames, 1 to 1000000", false, true},
+         [](Scenario& s, const TomlValue& v) { s.output.frames = v.integer(1, 1000000); }},
+        {{"output", "fps", "12.0", "frames a second of the film; also the clock of ripples", false,
+          true},
+         [](Scenario& s, const TomlValue& v) { s.output.fps = v.number(0.01, 1000.0); }},
+        {{"output", "start_s", "0.0", "time of frame 0 on the clock of weather, sun and camera"},
+         [](Scenario& s, const TomlValue& v) { s.output.start_s = v.number(-1e9, 1e9); }},
+        {{"output", "duration_s", "48.0",
+          "from frame 0 to one frame after the last on that clock; without it as long as the "
+          "weather"},
+         [](Scenario& s, const TomlValue& v) { s.output.duration_s = v.number(0.0, 1e9); }},
+        {{"output", "exr", "true", "write frame_0000.exr: linear light, half float, all AOVs"},
+         [](Scenario& s, const TomlValue& v) { s.output.exr = v.boolean(); }},
+        {{"output", "png", "true", "write frame_0000.png: as seen, 8 bits"},
+         [](Scenario& s, const TomlValue& v) { s.output.png = v.boolean(); }},
+        {{"output", "film", "true", "write film.mp4 where ffmpeg is installed (needs the PNGs)"},
+         [](Scenario& s, const TomlValue& v) { s.output.film = v.boolean(); }},
+        {{"output", "aovs", "[]",
+          "images beside the picture in the EXR; `petrichor render --list-aovs` names them"},
+         [](Scenario& s, const TomlValue& v) { s.output.aovs = v.texts(); }},
+    };
+    return table;
+}
+
+}  // namespace petrichor::film

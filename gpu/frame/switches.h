@@ -1,0 +1,26 @@
+// What of a frame may be switched off: one row each. FrameSettings, the keys of [render] in a
+// scenario with their documentation, and the fingerprint of a frame follow from the rows.
+//
+//   ROW(name, on, meaning)   on: the default
+#ifndef PETRICHOR_GPU_FRAME_SWITCHES_H
+#define PETRICHOR_GPU_FRAME_SWITCHES_H
+
+#define FRAME_SWITCHES(ROW)                                                                      \
+    ROW(shadows, true, "of the sun")                                                             \
+    ROW(ambient_occlusion, true, "darker corners")                                               \
+    ROW(image_based_light, true, "light from the sky or the HDR picture")                        \
+    ROW(shelter, true, "roofs keep rain and snow off")                                           \
+    ROW(draw_sky, true, "false: black where the scene ends")                                     \
+    ROW(tone_map, true, "of the PNG; false: plain sRGB. The EXR is never tone mapped")
+
+namespace petrichor::gpu {
+
+struct FrameSwitches {
+#define ROW(name, on, meaning) bool name = on;
+    FRAME_SWITCHES(ROW)
+#undef ROW
+};
+
+}  // namespace petrichor::gpu
+
+#endif

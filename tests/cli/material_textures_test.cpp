@@ -1,0 +1,122 @@
+// Texture slots as keys of a scenario, through whole renders: files, colour space, errors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+
+#include "film/frames/frames_jsonl.h"
+#include "scene/material_table.h"
+#include "tests/support/device.h"
+#include "tests/support/program.h"
+
+namespace petrichor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using namespace testing_program;
+
+constexpr const char* kScenario = R"(
+[scene]
+file = "scene.glb"
+[weather]
+keys = [{ time_s = 0, temperature_c = 5, rainfall = 0.8, script_controlled = 0, wetness = 0.5, cracks = 0.5, puddles = 0.7, snow = 0.4 }]
+[lights]
+lamps = "on"
+[output]
+width = 48
+height = 27
+samples = 1
+frames = 1
+film = false
+exr = false
+[camera]
+position_m = [0.0, 1.5, 4.0]
+look_at_m = [0.0, 0.4, 0.0]
+[materials."stone"]
+emissive_factor = [1, 1, 1]
+emissive_strength = 3000
+)";
+
+class MaterialTextures : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        write_file(place_ / "scene.glb", tiny_scene_glb());
+        (void)testing_device::device_is_there();
+    }
+    Outcome render(const std::string& more, const std::string& folder)
+    {
+        write_file(place_ / "s.toml", kScenario + more);
+        return run_petrichor({.arguments = {"render", "s.toml", "-o", folder}}, place_.path());
+    }
+    std::string picture(const std::string& more, const std::string& folder)
+    {
+        const Outcome outcome = render(more, folder);
+        EXPECT_EQ(outcome.exit_code, 0) << more << outcome.err;
+        return read_file(place_ / folder / "frame_0000.png");
+    }
+
+    Workplace place_{"material-textures-cli"};
+};
+
+// Stripes in all four channels, neither white nor what the scene brings.
+std::string striped_png()
+{
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            const bool band = x / 8 % 2 == 0;
+            for (const int value : band ? std::initializer_list<int>{30, 90, 210, 255}
+                                        : std::initializer_list<int>{200, 160, 225, 255})
+                pixels.push_back(static_cast<std::uint8_t>(value));
+        }
+    }
+    const auto bytes = texproc::encode_png8(32, 32, 4, pixels);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(MaterialTextures, EverySlotTakesAFileThatChangesThePicture)
+{
+    write_file(place_ / "stripes.png", striped_png());
+    const std::string plain = picture("", "plain");
+    for (const scene::MaterialTexture& slot : scene::material_textures()) {
+        const std::string name(slot.name);
+        EXPECT_NE(picture(name + " = \"stripes.png\"\n", name), plain) << name;
+    }
+    EXPECT_NE(picture("base_color_texture = \"\"\n", "bare"), plain);
+}
+
+TEST_F(MaterialTextures, AFileThatChangesIsRenderedAgain)
+{
+    write_file(place_ / "map.png", striped_png());
+    const std::string key = "base_color_texture = \"map.png\"\n";
+    const std::string before = picture(key, "out");
+    const auto made_from = film::read_frame_records(place_ / "out").begin()->second.made_from;
+    write_file(place_ / "map.png", [] {
+        const std::vector<std::uint8_t> red(8 * 8 * 3, 120);
+        const auto bytes = texproc::encode_png8(8, 8, 3, red);
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }());
+    const Outcome again = run_petrichor(
+        {.arguments = {"render", "s.toml", "-o", "out", "--resume"}}, place_.path());
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_NE(film::read_frame_records(place_ / "out").begin()->second.made_from, made_from);
+    EXPECT_NE(read_file(place_ / "out" / "frame_0000.png"), before);
+}
+
+TEST_F(MaterialTextures, WhatCannotBeReadIsAnErrorAndLeavesNothing)
+{
+    write_file(place_ / "broken.png", striped_png().substr(0, 40));
+    for (const std::string file : {"missing.png", "broken.png", "."}) {
+        const Outcome outcome = render("height_texture = \"" + file + "\"\n", "none");
+        EXPECT_EQ(outcome.exit_code, 2) << file << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(file == "." ? "s.toml" : file));
+        EXPECT_FALSE(fs::exists(place_ / "none" / "frame_0000.png"));
+    }
+    const Outcome outcome = render("base_colour_texture = \"a.png\"\n", "none");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("base_color_texture"));
+}
+
+}  // namespace
+}  // namespace petrichor::cli
