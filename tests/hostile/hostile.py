@@ -340,6 +340,24 @@ class Hostile:
         self.put_scene("esc.gltf", [], name="a\u001b[2Jb")
         self.expect("names in scenes", ["render", "esc.gltf", "-o", "g", "--camera", "\x1b[2J"], codes=(2,))
 
+        # Twenty thousand primitives of one material and mesh are one draw.
+        side, corners = 141, ((0, 0), (.28, 0), (.28, .28), (0, .28))
+        places = [(i % side * .3 - 21, i // side * .3 - 21) for i in range(20000)]
+        document, _ = scene([])
+        data = b"".join(struct.pack("<3f", x + c[0], 0, z + c[1]) for x, z in places for c in corners)
+        document["meshes"][0]["primitives"] = [{"attributes": {"POSITION": i}, "indices": len(places), "material": 0}
+                                               for i in range(len(places))]
+        document["bufferViews"] = [{"buffer": 0, "byteLength": len(data)},
+                                   {"buffer": 0, "byteOffset": len(data), "byteLength": 12}]
+        document["accessors"] = [{"bufferView": 0, "byteOffset": 48 * i, "componentType": 5126, "count": 4,
+                                  "type": "VEC3", "min": [x, 0, z], "max": [x + .28, 0, z + .28]}
+                                 for i, (x, z) in enumerate(places)]
+        document["accessors"].append({"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"})
+        document["buffers"] = [{"uri": "grid.bin", "byteLength": len(data) + 12}]
+        self.write("grid.bin", data + struct.pack("<6H", 0, 2, 1, 0, 3, 2))
+        file = self.write("grid.gltf", json.dumps(document))
+        self.expect("many primitives", ["render", file, "-o", "grid", *self.RENDER], codes=(0,) if self.device else (2,))
+
     def interrupts(self):
         scene = self.put_scene("int.gltf", [])
         self.write("large.png", png(8192, 8192, 8, 2, b"\x80\x40\x20" * 8192))
