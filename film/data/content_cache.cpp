@@ -1,5 +1,7 @@
 #include "film/data/content_cache.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kDefaultMib = 2048;
-constexpr char kMagic[9] = "PTRCACH1";
+constexpr char kMagic[9] = "PTRCACH2";
 
 // What an entry starts with.
 struct Header {
@@ -41,6 +43,22 @@ Header header_of(std::span<const std::byte> content)
     header.bytes = content.size();
     std::memcpy(header.fingerprint, hasher.text().data(), 32);
     return header;
+}
+
+// A file as it lies in the system's memory; on file systems that cannot share it, a copy. Entries
+// are never written into: they appear by renaming.
+CachedBytes mapped(const InputFile& in)
+{
+    const auto size = static_cast<std::size_t>(in.size());
+    void* at = size == 0 ? MAP_FAILED
+                         : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, in.fd(), 0);
+    if (at != MAP_FAILED) {
+        return {{static_cast<const std::byte*>(at), size},
+                std::shared_ptr<const void>(at, [size](void* p) { ::munmap(p, size); })};
+    }
+    const auto copy = std::make_shared<std::vector<std::byte>>(size);
+    const std::size_t got = in.read(*copy);
+    return {std::span<const std::byte>(*copy).first(got), copy};
 }
 
 fs::path entry_path(const fs::path& folder, const std::string& kind, const std::string& key)
@@ -77,35 +95,33 @@ ContentCache::ContentCache(fs::path folder, std::uint64_t max_bytes)
 {
 }
 
-std::optional<std::vector<std::byte>> ContentCache::find(const std::string& kind,
-                                                         const std::string& key) const
+std::optional<CachedBytes> ContentCache::find(const std::string& kind, const std::string& key) const
 {
     if (!on()) return std::nullopt;
     const fs::path path = entry_path(folder_, kind, key);
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return std::nullopt;
-    std::vector<std::byte> content;
-    bool good = false;
+    std::optional<CachedBytes> whole;
     try {
-        const InputFile in = open_regular_file(path, "cache");
-        Header header{};
-        const bool whole = in.read(std::as_writable_bytes(std::span(&header, 1))) == sizeof header;
-        good = whole && std::memcmp(header.magic, kMagic, 8) == 0 &&
-               header.bytes == in.size() - sizeof header;
-        if (good) {
-            content.resize(header.bytes);
-            good = in.read(content) == content.size() &&
-                   std::memcmp(header.fingerprint, header_of(content).fingerprint, 32) == 0;
-        }
+        whole = mapped(open_regular_file(path, "cache"));
     } catch (const Error&) {  // gone meanwhile, or a bad disk: it is made again
         return std::nullopt;
+    }
+    Header header{};
+    bool good = whole->size() >= sizeof header;
+    if (good) {
+        std::memcpy(&header, whole->data(), sizeof header);
+        good = std::memcmp(header.magic, kMagic, 8) == 0 &&
+               header.bytes == whole->size() - sizeof header &&
+               std::memcmp(header.fingerprint,
+                           header_of(whole->subspan(sizeof header)).fingerprint, 32) == 0;
     }
     if (!good) {
         fs::remove(path, ignored);
         return std::nullopt;
     }
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);  // used just now
-    return content;
+    return whole->without_first(sizeof header);
 }
 
 void ContentCache::keep(const std::string& kind, const std::string& key,

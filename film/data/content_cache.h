@@ -4,12 +4,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace petrichor::film {
+
+/// The bytes of an entry, where they lie in its file: nothing is copied. They stay while this or a
+/// copy of it lives, also when the entry is thrown out meanwhile.
+class CachedBytes : public std::span<const std::byte> {
+public:
+    CachedBytes(std::span<const std::byte> bytes, std::shared_ptr<const void> holder)
+        : std::span<const std::byte>(bytes), holder_(std::move(holder))
+    {
+    }
+    /// All but the first bytes.
+    CachedBytes without_first(std::size_t count) const { return {subspan(count), holder_}; }
+
+private:
+    std::shared_ptr<const void> holder_;
+};
 
 /// Things that take long to make, kept on disk under the fingerprint of everything they are made
 /// from. What find() returns is what keep() was given, bit for bit, or nothing: an entry that was
@@ -22,8 +39,7 @@ public:
     ContentCache(std::filesystem::path folder, std::uint64_t max_bytes);
 
     /// Bytes that were kept under this key. `kind` is a folder name: "textures".
-    std::optional<std::vector<std::byte>> find(const std::string& kind,
-                                               const std::string& key) const;
+    std::optional<CachedBytes> find(const std::string& kind, const std::string& key) const;
 
     /// Keeps the parts, one after the other. Entries of more than half of the limit are not kept.
     /// Throws Error when the folder cannot be written.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "base/hash.h"
 #include "scene/gltf/glb_writer.h"
 #include "scene/gltf/gltf.h"
+#include "scene/tangents.h"
 
 namespace petrichor::film {
 namespace {
@@ -26,27 +28,43 @@ std::string key_of(const demo::DemoOptions& options)
     return hasher.text();
 }
 
+// Loading would compute them at every start.
+scene::Scene street_with_tangents(const demo::DemoOptions& options)
+{
+    scene::Scene street = demo::make_demo_street(options);
+    for (scene::Mesh& mesh : street.meshes) {
+        for (scene::Primitive& primitive : mesh.primitives) {
+            const bool lacks = primitive.tangents.empty();
+            if (lacks && !primitive.normals.empty() && !primitive.uv0.empty())
+                scene::generate_tangents(primitive);
+        }
+    }
+    return street;
+}
+
 }  // namespace
 
 LoadedScene load_demo_street(const demo::DemoOptions& options, const ContentCache& cache)
 {
     const std::string key = key_of(options);
-    std::optional<std::vector<std::byte>> glb = cache.find(kCacheKind, key);
+    const std::optional<CachedBytes> kept = cache.find(kCacheKind, key);
+    std::vector<std::byte> made;
     std::string problem;
-    if (!glb) {
-        glb = scene::write_glb(demo::make_demo_street(options));
+    if (!kept) {
+        made = scene::write_glb(street_with_tangents(options));
         try {
-            cache.keep(kCacheKind, key, {*glb});
+            cache.keep(kCacheKind, key, {made});
         } catch (const Error& error) {
             problem = std::string(error.what()) + ": the street is made again at every start. " +
                       error.fix();
         }
     }
+    const std::span<const std::byte> glb = kept ? std::span<const std::byte>(*kept) : made;
     Hasher hasher;
-    hasher.add_bytes(*glb);
+    hasher.add_bytes(glb);
     LoadedScene loaded;
     loaded.fingerprint = hasher.text();
-    loaded.scene = scene::load_gltf(*glb, "street.glb", [](const std::string& uri) {
+    loaded.scene = scene::load_gltf(glb, "street.glb", [](const std::string& uri) {
         throw Error("street.glb names the file " + uri, "Report this: it holds all it needs.");
         return std::vector<std::byte>();
     });

@@ -204,16 +204,32 @@ void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std:
     });
 }
 
+GpuBuffer& Staging::of(VkDeviceSize bytes)
+{
+    if (!buffer_ || buffer_->size < bytes) {
+        buffer_ = nullptr;
+        arena_ = std::make_unique<MemoryArena>(*device_);
+        buffer_ = arena_->buffer({.name = "staging",
+                                  .size = bytes,
+                                  .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  .host = true});
+    }
+    return *buffer_;
+}
+
 void upload_image(const Device& device, GpuImage& target,
                   const std::vector<std::vector<std::byte>>& mips)
 {
+    Staging staging(device);
+    upload_image(device, target, mips, staging);
+}
+
+void upload_image(const Device& device, GpuImage& target,
+                  const std::vector<std::vector<std::byte>>& mips, Staging& through)
+{
     VkDeviceSize total = 0;
     for (const auto& level : mips) total += align_up(level.size(), 16);
-    MemoryArena arena(device);
-    const auto staging = arena.buffer({.name = "staging for " + target.name,
-                                       .size = total,
-                                       .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                       .host = true});
+    GpuBuffer* const staging = &through.of(total);
     std::vector<VkBufferImageCopy> regions;
     VkDeviceSize offset = 0;
     for (std::size_t mip = 0; mip < mips.size(); ++mip) {

@@ -91,9 +91,24 @@ private:
 /// Copies bytes into a device-local resource through a staging buffer; waits until done.
 void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes);
 
+/// Host memory that uploads go through, as large as the largest of them.
+class Staging {
+public:
+    explicit Staging(const Device& device) : device_(&device) {}
+    GpuBuffer& of(VkDeviceSize bytes);
+
+private:
+    const Device* device_;
+    std::unique_ptr<MemoryArena> arena_;
+    std::unique_ptr<GpuBuffer> buffer_;
+};
+
 /// Uploads all mips (tightly packed levels) and leaves the image ready for sampling.
 void upload_image(const Device& device, GpuImage& target,
                   const std::vector<std::vector<std::byte>>& mips);
+/// The same through memory that other uploads use too.
+void upload_image(const Device& device, GpuImage& target,
+                  const std::vector<std::vector<std::byte>>& mips, Staging& through);
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,
                            VkSamplerAddressMode wrap_v, bool compare = false, float mip_bias = 0.0f,

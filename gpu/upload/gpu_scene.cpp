@@ -180,6 +180,7 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
     const VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     white_ = arena_.image({.name = "white", .usage = usage});
     upload_image(device, *white_, {std::vector<std::byte>(4, std::byte{255})});
+    Staging staging(device);
     for (const Texture& texture : textures) {
         if (texture.mips.empty()) {
             images_.push_back(nullptr);
@@ -193,7 +194,7 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
                                    .height = texture.height,
                                    .mips = static_cast<int>(texture.mips.size()),
                                    .usage = usage});
-        upload_image(device, *image, texture.mips);
+        upload_image(device, *image, texture.mips, staging);
         images_.push_back(std::move(image));
         image_samplers_.push_back(
             &sampler(device, texture.wrap_u, texture.wrap_v, texture.nearest));
