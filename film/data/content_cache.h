@@ -21,6 +21,7 @@ public:
         : std::span<const std::byte>(bytes), holder_(std::move(holder))
     {
     }
+    const std::shared_ptr<const void>& holder() const { return holder_; }
     /// All but the first bytes.
     CachedBytes without_first(std::size_t count) const { return {subspan(count), holder_}; }
 

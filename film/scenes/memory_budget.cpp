@@ -17,7 +17,18 @@ using Kind = TextureRecipe::Kind;
 
 std::uint64_t texel_bytes(Kind kind)
 {
-    return kind == Kind::Scalar ? 1 : kind == Kind::Normal ? 2 : 4;
+    switch (kind) {
+        case Kind::Scalar:
+            return 1;
+        case Kind::Normal:
+            return 2;
+        case Kind::Light:
+            return 8;
+        case Kind::Color:
+        case Kind::Surface:
+            break;
+    }
+    return 4;
 }
 
 std::string mib(std::uint64_t bytes)

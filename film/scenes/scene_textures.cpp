@@ -152,7 +152,7 @@ void Workshop::finish(std::size_t number)
     if (options_.cache.on()) {
         key = key_of(scene_, recipes_, job, options_);
         if (const auto bytes = options_.cache.find(kCacheKind, key)) {
-            if (auto kept = textures_in(*bytes); kept && kept->size() == wanted)
+            if (auto kept = textures_in(*bytes, bytes->holder()); kept && kept->size() == wanted)
                 textures = std::move(*kept);
         }
     }

@@ -48,18 +48,19 @@ TextureEntry entry_of(const std::vector<gpu::Texture>& textures)
         for (const auto value :
              {static_cast<std::uint32_t>(texture.format), static_cast<std::uint32_t>(texture.width),
               static_cast<std::uint32_t>(texture.height),
-              static_cast<std::uint32_t>(texture.mips.size())}) {
+              static_cast<std::uint32_t>(texture.levels().size())}) {
             add(entry.head, value);
         }
     }
     entry.parts.emplace_back(entry.head);
     for (const gpu::Texture& texture : textures) {
-        for (const auto& level : texture.mips) entry.parts.emplace_back(level);
+        for (const auto& level : texture.levels()) entry.parts.push_back(level);
     }
     return entry;
 }
 
-std::optional<std::vector<gpu::Texture>> textures_in(std::span<const std::byte> bytes)
+std::optional<std::vector<gpu::Texture>> textures_in(std::span<const std::byte> bytes,
+                                                   std::shared_ptr<const void> holder)
 {
     Reader reader{bytes};
     const std::uint32_t count = reader.number();
@@ -73,14 +74,15 @@ std::optional<std::vector<gpu::Texture>> textures_in(std::span<const std::byte> 
         texture.height = static_cast<int>(reader.number());
         const std::uint32_t levels = reader.number();
         if (!reader.good || levels > kMostLevels) return std::nullopt;
-        texture.mips.resize(levels);
+        texture.views.resize(levels);
+        texture.holder = holder;
     }
     for (gpu::Texture& texture : textures) {
-        for (std::size_t k = 0; k < texture.mips.size(); ++k) {
+        for (std::size_t k = 0; k < texture.views.size(); ++k) {
             const auto level = reader.take(gpu::texel_bytes(
                 texture.format, std::max(1, texture.width >> k), std::max(1, texture.height >> k)));
             if (!reader.good) return std::nullopt;
-            texture.mips[k].assign(level.begin(), level.end());
+            texture.views[k] = level;
         }
     }
     if (!reader.rest.empty()) return std::nullopt;

@@ -2,6 +2,7 @@
 #define PETRICHOR_FILM_SCENES_TEXTURE_ENTRY_H
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,8 +19,10 @@ struct TextureEntry {
 };
 TextureEntry entry_of(const std::vector<gpu::Texture>& textures);
 
-/// The same back; nothing when the bytes are not what entry_of() wrote.
-std::optional<std::vector<gpu::Texture>> textures_in(std::span<const std::byte> bytes);
+/// The same back, as views into the bytes, which `holder` keeps; nothing when the bytes are not what
+/// entry_of() wrote.
+std::optional<std::vector<gpu::Texture>> textures_in(std::span<const std::byte> bytes,
+                                                     std::shared_ptr<const void> holder);
 
 }  // namespace petrichor::film
 

@@ -221,11 +221,11 @@ void upload_image(const Device& device, GpuImage& target,
                   const std::vector<std::vector<std::byte>>& mips)
 {
     Staging staging(device);
-    upload_image(device, target, mips, staging);
+    upload_image(device, target, {mips.begin(), mips.end()}, staging);
 }
 
 void upload_image(const Device& device, GpuImage& target,
-                  const std::vector<std::vector<std::byte>>& mips, Staging& through)
+                  const std::vector<std::span<const std::byte>>& mips, Staging& through)
 {
     VkDeviceSize total = 0;
     for (const auto& level : mips) total += align_up(level.size(), 16);

@@ -108,7 +108,7 @@ void upload_image(const Device& device, GpuImage& target,
                   const std::vector<std::vector<std::byte>>& mips);
 /// The same through memory that other uploads use too.
 void upload_image(const Device& device, GpuImage& target,
-                  const std::vector<std::vector<std::byte>>& mips, Staging& through);
+                  const std::vector<std::span<const std::byte>>& mips, Staging& through);
 
 SamplerHandle make_sampler(const Device& device, VkFilter filter, VkSamplerAddressMode wrap_u,
                            VkSamplerAddressMode wrap_v, bool compare = false, float mip_bias = 0.0f,

@@ -182,7 +182,8 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
     upload_image(device, *white_, {std::vector<std::byte>(4, std::byte{255})});
     Staging staging(device);
     for (const Texture& texture : textures) {
-        if (texture.mips.empty()) {
+        const auto levels = texture.levels();
+        if (levels.empty()) {
             images_.push_back(nullptr);
             image_samplers_.push_back(nullptr);
             continue;
@@ -192,9 +193,9 @@ void GpuScene::upload_textures(const Device& device, const std::vector<Texture>&
                                    .format = vk_format(texture.format),
                                    .width = texture.width,
                                    .height = texture.height,
-                                   .mips = static_cast<int>(texture.mips.size()),
+                                   .mips = static_cast<int>(levels.size()),
                                    .usage = usage});
-        upload_image(device, *image, texture.mips, staging);
+        upload_image(device, *image, levels, staging);
         images_.push_back(std::move(image));
         image_samplers_.push_back(
             &sampler(device, texture.wrap_u, texture.wrap_v, texture.nearest));

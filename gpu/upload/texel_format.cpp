@@ -69,17 +69,18 @@ std::size_t texel_bytes(TexelFormat format, int width, int height)
 
 void check_levels(const Texture& texture)
 {
-    for (std::size_t k = 0; k < texture.mips.size(); ++k) {
+    const auto levels = texture.levels();
+    for (std::size_t k = 0; k < levels.size(); ++k) {
         const int width = std::max(1, texture.width >> k);
         const int height = std::max(1, texture.height >> k);
         const std::size_t needed = texel_bytes(texture.format, width, height);
-        if (texture.mips[k].size() == needed &&
+        if (levels[k].size() == needed &&
             (k == 0 || (texture.width >> (k - 1)) > 1 || (texture.height >> (k - 1)) > 1)) {
             continue;
         }
         throw Error("gpu: level " + std::to_string(k) + " of the texture " + texture.name + " (" +
                         std::to_string(width) + " x " + std::to_string(height) + ") has " +
-                        std::to_string(texture.mips[k].size()) + " bytes, " +
+                        std::to_string(levels[k].size()) + " bytes, " +
                         std::to_string(needed) + " are needed",
                     "Give each level in its format, down to 1 x 1 at most.");
     }

@@ -2,6 +2,8 @@
 #define PETRICHOR_GPU_UPLOAD_TEXTURE_H
 
 #include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,16 @@ struct Texture {
     Wrap wrap_v = Wrap::Repeat;
     bool nearest = false;
     std::vector<std::vector<std::byte>> mips;
+    /// Instead of mips: levels that lie in memory which `holder` keeps.
+    std::vector<std::span<const std::byte>> views = {};
+    std::shared_ptr<const void> holder = {};
+
+    /// The levels, wherever they lie; none: there are no pixels.
+    std::vector<std::span<const std::byte>> levels() const
+    {
+        return mips.empty() ? views
+                            : std::vector<std::span<const std::byte>>(mips.begin(), mips.end());
+    }
 };
 
 }  // namespace petrichor::gpu
