@@ -18,6 +18,11 @@ bool same_sky(const shared::SkyParams& a, const shared::SkyParams& b)
     return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
+bool uses_patches(const Frame& frame, const FrameResources& r)
+{
+    return frame.settings.patch_light && frame.settings.image_based_light && r.patches->loaded();
+}
+
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
                     bool weather)
@@ -33,7 +38,8 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_shadow(graph, maps, *r.scene);
         }
     }
-    if (frame.settings.image_based_light && frame.settings.ambient_occlusion) {
+    if (frame.settings.image_based_light && frame.settings.ambient_occlusion &&
+        !uses_patches(frame, r)) {
         const auto views = sky_views(frame.camera, r.scene->bounds());
         if (!maps.sky_valid || views != maps.sky_views) {
             maps.sky_views = views;
@@ -51,7 +57,8 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
     }
 }
 
-void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
+// Draws the sky's maps when they would come out otherwise; true when it did.
+bool add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
 {
     SkyMaps& sky = *r.sky;
     if (!sky.env_brdf_valid) {
@@ -67,6 +74,7 @@ void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResourc
             sky.environment_scale = scale;
             sky.environment_rotation_rad = rotation;
             sky.drawn_valid = true;
+            return true;
         }
     } else {
         shared::SkyParams params = sky_params(frame);
@@ -79,8 +87,16 @@ void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResourc
             add_analytic_sky(graph, sky, params);
             sky.drawn = params;
             sky.drawn_valid = true;
+            return true;
         }
     }
+    return false;
+}
+
+void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
+{
+    SkyMaps& sky = *r.sky;
+    add_sky_maps(graph, frame, r);
     Metering metering;
     metering.sun_illuminance = sun.illuminance;
     metering.sun_up = sun.direction.y;
@@ -128,9 +144,23 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     c.light_count = r.lights->count;
     c.light_words = r.lights->words();
     c.directional_count = r.lights->directional;
+    if (uses_patches(frame, r)) {
+        c.patches = r.patches->grid();
+        // The same radius as PatchScene's `open`.
+        c.ao_radius_m = std::min(c.ao_radius_m, 0.5f);
+    }
 }
 
 }  // namespace
+
+FrameGraph build_sky(const Frame& frame, FrameResources& r)
+{
+    FrameGraph graph;
+    if (!uses_patches(frame, r)) return graph;
+    add_sky_maps(graph, frame, r);
+    add_sky_bins(graph, *r.sky, *r.patches);
+    return graph;
+}
 
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                        const std::vector<AovGroup>& aov_groups)
@@ -156,6 +186,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.shadows = settings.shadows;
     variant.image_based_light = settings.image_based_light;
     variant.ambient_occlusion = settings.ambient_occlusion;
+    variant.patch_light = uses_patches(frame, r);
     variant.emission = r.scene->emissive();
     variant.baked = r.scene->baked();
     variant.gamma = settings.gamma;
@@ -188,7 +219,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
-        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps, constants, variant);
+        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps,
+                     *r.patches, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }

@@ -20,11 +20,16 @@ struct FrameResources {
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;
+    PatchLights* patches = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;
     bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
+
+/// What comes before light between surfaces can be solved: the sky and the means of its bins. Empty
+/// when the frame is lit without patches.
+FrameGraph build_sky(const Frame& frame, FrameResources& resources);
 
 /// The passes of one frame in order. Also writes the constants of every sample.
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& resources,

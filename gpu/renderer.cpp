@@ -66,6 +66,7 @@ struct Renderer::Impl {
           surface_maps(device, shared_arena, options.ripple_texture_size),
           depth_maps(device, shared_arena),
           sky(device, shared_arena),
+          patches(device),
           target_arena(std::make_unique<MemoryArena>(device)),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
@@ -142,6 +143,7 @@ struct Renderer::Impl {
     SurfaceMaps surface_maps;
     DepthMaps depth_maps;
     SkyMaps sky;
+    PatchLights patches;
     std::unique_ptr<MemoryArena> target_arena;
     FrameTargets targets;
     int target_words = 0;
@@ -167,12 +169,18 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
 {
     impl_->resolve = {};
     impl_->scene = nullptr;
+    impl_->patches.load(nullptr);
     impl_->depth_maps.forget();
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
+}
+
+void Renderer::set_patches(std::shared_ptr<const PatchScene> patches)
+{
+    impl_->patches.load(std::move(patches));
 }
 
 void Renderer::set_environment(const EnvironmentMap& map)
@@ -231,16 +239,27 @@ RenderResult Renderer::render(const Frame& frame)
     resources.depth_maps = &impl.depth_maps;
     resources.sky = &impl.sky;
     resources.lights = &impl.light_table;
+    resources.patches = &impl.patches;
     if (impl.prepare_resolve(frame.settings)) resources.resolve = &impl.resolve;
     resources.environment = impl.environment.get();
     resources.constants = impl.constants.get();
     resources.constants_stride = impl.constants_stride;
     resources.own_lighting = impl.own_lighting;
+    // The sky first: what patches send each other depends on it.
+    FrameGraph before = build_sky(frame, resources);
+    std::vector<PassTime> first_passes;
+    if (!before.empty()) {
+        first_passes = before.execute(impl.device, impl.pipelines, impl.descriptors);
+        impl.patches.relight(frame, sun, scene_sun, impl.scene->lights());
+        first_passes.push_back({"patch_light", impl.patches.relight_ms()});
+    }
     FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
-    impl.graph_text = graph.describe();
+    impl.graph_text = before.describe() + graph.describe();
 
     RenderResult result;
-    result.passes = graph.execute(impl.device, impl.pipelines, impl.descriptors);
+    result.passes = std::move(first_passes);
+    for (const PassTime& pass : graph.execute(impl.device, impl.pipelines, impl.descriptors))
+        result.passes.push_back(pass);
     result.width = frame.settings.width;
     result.height = frame.settings.height;
     const auto pixels =

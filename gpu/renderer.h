@@ -11,6 +11,7 @@
 
 #include "gpu/device/device_info.h"
 #include "gpu/frame/frame.h"
+#include "gpu/frame/patch_scene.h"
 #include "gpu/outputs/aov_table.h"
 #include "gpu/upload/texture.h"
 
@@ -47,6 +48,10 @@ public:
 
     /// Lights the scene from an HDR environment; an empty map returns to the analytic sky.
     void set_environment(const EnvironmentMap& environment);
+
+    /// Light between the surfaces of the loaded scene goes by these patches from now on (and the
+    /// switch of each frame); null, and load(): by none.
+    void set_patches(std::shared_ptr<const PatchScene> patches);
 
     RenderResult render(const Frame& frame);
 

@@ -249,8 +249,8 @@ Pixels draw_scene_map(const SceneView& view, const SceneMap& map, const MapCondi
     for (const float size : scene::lookup_sizes(patches))
         gradient.emplace_back(0.0f, 0.0f, 0.0f, size);
     const auto planes = scene::lookup_planes(patches);
-    const scene::LitPatches lit{patches.table, planes, nodes, gradient,
-                                scene::lookup_grid(patches)};
+    const scene::LookupWays ways = scene::lookup_ways(patches);
+    const scene::LitPatches lit{ways.table, ways.ways, planes, nodes, gradient, ways.grid};
     const scene::Tracer tracer(*view.triangles);
     const Painter paint{view, map, tracer, lit, values, range, colors};
 

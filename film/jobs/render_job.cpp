@@ -20,6 +20,7 @@
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "film/scenes/transport.h"
 #include "scene/merge.h"
 
 namespace petrichor::film {
@@ -219,6 +220,21 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
                             .ripple_texture_size = scenario.render.ripple_texture_size});
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
+    std::shared_ptr<const gpu::PatchScene> patches;
+    if (wants_patches(sequence)) {
+        TransportOptions transport;
+        transport.patches.threads = request.threads;
+        transport.patches.stop = request.stop;
+        transport.cache = user_cache();
+        patches = prepare_patch_scene(sequence.scene, transport, report.notes);
+    } else if (sequence.scenario.render.image_based_light) {
+        report.notes.push_back(
+            sequence.scenario.render.indirect == IndirectLight::Ambient
+                ? "light between surfaces: ambient, as [render] indirect asks for"
+                : "light between surfaces: ambient; the scene has " +
+                      std::to_string(sequence.triangles) +
+                      " triangles, and patches may take minutes ([render] indirect = \"patches\")");
+    }
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
     options.threads = request.threads;
@@ -233,6 +249,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
     renderer.load(sequence.scene, textures);
+    renderer.set_patches(std::move(patches));
     return renderer;
 }
 

@@ -57,6 +57,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
         throw Error("scene: " + loaded.scene.name + " shows no triangles",
                     "Export meshes with triangles, placed in the default scene.");
     }
+    sequence.triangles = triangles;
     sequence.bounds = content_bounds(loaded.scene);
     sequence.scene = std::move(loaded.scene);
     const AppliedOverrides applied =

@@ -97,10 +97,18 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
 #define ROW(name, on, meaning) hasher.add(settings.name);
     FRAME_SWITCHES(ROW)
 #undef ROW
+    hasher.add(settings.patch_light);
     for (const std::string& aov : settings.aovs) hasher.add(aov);
 }
 
 }  // namespace
+
+bool wants_patches(const Sequence& sequence)
+{
+    const ScenarioRender& render = sequence.scenario.render;
+    if (!render.image_based_light || render.indirect == IndirectLight::Ambient) return false;
+    return render.indirect == IndirectLight::Patches || sequence.triangles <= kMostAutoTriangles;
+}
 
 FrameRange parse_frame_range(std::string_view text, int count)
 {
@@ -287,6 +295,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
     settings.gamma = scenario.render.gamma;
     settings.surface_path = scenario.render.surface_path;
+    settings.patch_light = wants_patches(sequence);
     settings.aovs = scenario.output.aovs;
     return result;
 }

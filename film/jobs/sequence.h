@@ -50,11 +50,17 @@ struct Sequence {
     double duration_s = 0.0;      ///< frame 0 to one after the last, on the scenario's clock
     std::string content;          ///< fingerprint of the scene's files
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
+    std::size_t triangles = 0;    ///< of all instances
 };
 
 /// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of
 /// the longest weather, else as long as the film). Throws Error as weather_source.
 Sequence make_sequence(Scenario scenario);
+
+/// Scenes of more triangles are lit by patches only when the scenario asks for it: a few minutes.
+inline constexpr std::size_t kMostAutoTriangles = 4'000'000;
+/// Whether frames are lit by patches: [render] indirect, the scene's size, light from the sky.
+bool wants_patches(const Sequence& sequence);
 
 /// Time of a frame on the clock of weather, sun and camera.
 double frame_time_s(const Sequence& sequence, int frame);

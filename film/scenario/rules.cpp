@@ -242,6 +242,13 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
+        {{"render", "indirect", "\"auto\"",
+          "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
+          "a constant), or auto: patches for scenes of up to 4 million triangles"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.indirect =
+                 static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));
+         }},
         {{"render", "surface_path", "\"auto\"",
           "how surfaces are shaded: fragment, visibility (a buffer of triangle numbers, resolved), "
           "or auto, the faster on this device"},

@@ -91,10 +91,18 @@ struct ScenarioLights {
     double scale = 1.0;
 };
 
+/// Light that comes from other surfaces.
+enum class IndirectLight {
+    Auto,     ///< patches, unless tracing them would take minutes
+    Patches,  ///< from the patches of the scene, solved each frame
+    Ambient,  ///< skylight past depth maps, and a constant
+};
+
 struct ScenarioRender : gpu::FrameSwitches {
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
+    IndirectLight indirect = IndirectLight::Auto;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 

@@ -1,6 +1,7 @@
 #include "film/scenes/transport.h"
 
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -45,38 +46,6 @@ std::vector<bool> cut_holes(const scene::Scene& scene)
             cut[static_cast<std::size_t>(use.texture)] = true;
     }
     return cut;
-}
-
-std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,
-                                            std::vector<std::string>& notes)
-{
-    const std::vector<Use> uses = uses_of(scene);
-    std::vector<scene::ColorImage> images(scene.textures.size());
-    std::vector<std::string> problems(scene.textures.size());
-    parallel_for(images.size(), threads, [&](std::size_t i) {
-        const scene::EncodedImage& source = scene.textures[i];
-        if (uses[i] == Use::Nothing || source.bytes.empty()) return;
-        try {
-            const Image image = texproc::decode_image(
-                source.bytes, source.name,
-                {.space = uses[i] == Use::Color ? ColorSpace::Linear : ColorSpace::Data,
-                 .max_side = kColorSide});
-            images[i].width = image.width;
-            images[i].height = image.height;
-            for (int y = 0; y < image.height; ++y) {
-                for (int x = 0; x < image.width; ++x) {
-                    for (int c = 0; c < 3; ++c)
-                        images[i].rgb.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
-                }
-            }
-        } catch (const Error& error) {
-            problems[i] = error.what();
-        }
-    });
-    for (const std::string& problem : problems) {
-        if (!problem.empty()) notes.push_back("patches take it as white: " + problem);
-    }
-    return images;
 }
 
 void keep(const ContentCache& cache, const char* kind, const std::string& key,
@@ -129,6 +98,38 @@ std::string surfaces_key(const scene::Scene& scene, const std::string& patches_k
 
 }  // namespace
 
+std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,
+                                            std::vector<std::string>& notes)
+{
+    const std::vector<Use> uses = uses_of(scene);
+    std::vector<scene::ColorImage> images(scene.textures.size());
+    std::vector<std::string> problems(scene.textures.size());
+    parallel_for(images.size(), threads, [&](std::size_t i) {
+        const scene::EncodedImage& source = scene.textures[i];
+        if (uses[i] == Use::Nothing || source.bytes.empty()) return;
+        try {
+            const Image image = texproc::decode_image(
+                source.bytes, source.name,
+                {.space = uses[i] == Use::Color ? ColorSpace::Linear : ColorSpace::Data,
+                 .max_side = kColorSide});
+            images[i].width = image.width;
+            images[i].height = image.height;
+            for (int y = 0; y < image.height; ++y) {
+                for (int x = 0; x < image.width; ++x) {
+                    for (int c = 0; c < 3; ++c)
+                        images[i].rgb.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
+                }
+            }
+        } catch (const Error& error) {
+            problems[i] = error.what();
+        }
+    });
+    for (const std::string& problem : problems) {
+        if (!problem.empty()) notes.push_back("patches take it as white: " + problem);
+    }
+    return images;
+}
+
 std::vector<scene::AlphaImage> alpha_images(const scene::Scene& scene,
                                             std::vector<std::string>& notes)
 {
@@ -156,6 +157,157 @@ std::vector<scene::AlphaImage> alpha_images(const scene::Scene& scene,
         }
     }
     return images;
+}
+
+namespace {
+
+constexpr const char* kLampKind = "patch_lamps";
+constexpr float kLantern_m = 0.5f;
+
+// Rays are only needed for what is not kept.
+struct LazyTracer {
+    const scene::Scene& scene;
+    std::vector<std::string>& notes;
+    std::optional<scene::Triangles> triangles;
+    std::optional<scene::Tracer> tracer;
+
+    const scene::Tracer& get()
+    {
+        if (!tracer) {
+            triangles.emplace(scene, alpha_images(scene, notes));
+            tracer.emplace(*triangles);
+        }
+        return *tracer;
+    }
+};
+
+// Numbers one after the other, for the cache.
+struct Bytes {
+    std::vector<std::byte> all;
+    template <class T>
+    void add(const std::vector<T>& list)
+    {
+        const std::uint64_t count = list.size();
+        const auto head = std::as_bytes(std::span(&count, 1));
+        all.insert(all.end(), head.begin(), head.end());
+        const auto body = std::as_bytes(std::span(list));
+        all.insert(all.end(), body.begin(), body.end());
+    }
+};
+struct FromBytes {
+    std::span<const std::byte> left;
+    bool good = true;
+    template <class T>
+    std::vector<T> take()
+    {
+        std::uint64_t count = 0;
+        if (left.size() < sizeof count) good = false;
+        if (good) std::memcpy(&count, left.data(), sizeof count);
+        if (!good || count > (left.size() - sizeof count) / sizeof(T)) {
+            good = false;
+            return {};
+        }
+        std::vector<T> list(count);
+        if (count > 0) std::memcpy(list.data(), left.data() + sizeof count, count * sizeof(T));
+        left = left.subspan(sizeof count + count * sizeof(T));
+        return list;
+    }
+};
+
+// Glow and lamps from what was kept; false when it does not fit.
+bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::PatchScene& made)
+{
+    FromBytes from{bytes};
+    scene::GlowLinks glow;
+    glow.senders = from.take<std::uint32_t>();
+    glow.first = from.take<std::uint32_t>();
+    glow.sender = from.take<std::uint32_t>();
+    glow.factor = from.take<float>();
+    std::vector<std::vector<std::uint8_t>> reach;
+    for (std::size_t i = 0; i < lights && from.good; ++i)
+        reach.push_back(from.take<std::uint8_t>());
+    const std::uint32_t count = made.patches.count;
+    bool good = from.good && from.left.empty() && glow.sender.size() == glow.factor.size() &&
+                (glow.senders.empty() || (glow.first.size() == std::size_t{count} + 1 &&
+                                          glow.first.back() == glow.sender.size()));
+    for (const std::uint32_t s : glow.senders) good = good && s < count;
+    for (const std::uint32_t s : glow.sender) good = good && s < glow.senders.size();
+    for (std::size_t i = 1; i < glow.first.size(); ++i)
+        good = good && glow.first[i] >= glow.first[i - 1];
+    for (const auto& list : reach) good = good && (list.empty() || list.size() == count);
+    if (!good) return false;
+    made.glow = std::move(glow);
+    made.lamp_reach = std::move(reach);
+    return true;
+}
+
+std::string lights_key(const gpu::PatchScene& made, const std::vector<scene::Light>& lights,
+                       const std::vector<std::uint32_t>& senders)
+{
+    Hasher hasher;
+    hasher.add(source_fingerprint());
+    hasher.add_bytes(scene::patches_to_bytes(made.patches));
+    hasher.add_bytes(std::as_bytes(std::span(senders)));
+    for (const scene::Light& light : lights) {
+        hasher.add(light.kind);
+        for (const float v : {light.position_m.x, light.position_m.y, light.position_m.z,
+                              light.range_m})
+            hasher.add(v);
+    }
+    return hasher.text();
+}
+
+}  // namespace
+
+std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                           const TransportOptions& options,
+                                                           std::vector<std::string>& notes)
+{
+    const auto start = std::chrono::steady_clock::now();
+    SceneTransport transport = prepare_transport(scene, options);
+    auto made = std::make_shared<gpu::PatchScene>();
+    made->patches = std::move(transport.patches);
+    made->surfaces = std::move(transport.surfaces);
+    made->materials = scene.materials;
+    notes.insert(notes.end(), transport.notes.begin(), transport.notes.end());
+    for (std::uint32_t i = 0; i < made->patches.count; ++i) {
+        for (const scene::Light& light : scene.lights) {
+            if (light.kind == scene::LightKind::Directional) continue;
+            if (glm::distance(light.position_m, made->patches.position_m[i]) < kLantern_m)
+                made->surfaces[i].emission = glm::vec3(0.0f);
+        }
+    }
+    const auto senders = scene::glowing_patches(made->patches, made->surfaces);
+    const std::string key = lights_key(*made, scene.lights, senders);
+    bool kept = false;
+    if (const auto bytes = options.cache.find(kLampKind, key))
+        kept = take_lights(*bytes, scene.lights.size(), *made);
+    if (!kept) {
+        LazyTracer rays{scene, notes, {}, {}};
+        const int threads = options.patches.threads;
+        if (!senders.empty())
+            made->glow = scene::trace_glow(made->patches, rays.get(), senders, threads);
+        for (const scene::Light& light : scene.lights) {
+            made->lamp_reach.emplace_back();
+            if (light.kind == scene::LightKind::Directional) continue;
+            const float range = light.range_m > 0.0f ? light.range_m : 5000.0f;
+            made->lamp_reach.back() = scene::trace_lamp(made->patches, rays.get(),
+                                                        light.position_m, range, threads);
+        }
+        Bytes bytes;
+        bytes.add(made->glow.senders);
+        bytes.add(made->glow.first);
+        bytes.add(made->glow.sender);
+        bytes.add(made->glow.factor);
+        for (const auto& reach : made->lamp_reach) bytes.add(reach);
+        if (options.cache.on()) keep(options.cache, kLampKind, key, bytes.all, notes);
+    }
+    char text[160];
+    std::snprintf(text, sizeof text, "light between surfaces: %u patches, %s in %.1f s",
+                  made->patches.count, transport.kept && kept ? "found in the cache" : "traced",
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    notes.emplace_back(text);
+    return made;
 }
 
 SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptions& options)

@@ -7,6 +7,7 @@
 
 #include "base/interrupted.h"
 #include "film/data/content_cache.h"
+#include "gpu/frame/patch_scene.h"
 #include "scene/patches/patches.h"
 #include "scene/patches/radiosity.h"
 #include "scene/patches/surfaces.h"
@@ -32,6 +33,17 @@ struct TransportOptions {
 /// fingerprint of positions, sides, holes and options. The scene must still hold its encoded images.
 /// An image that cannot be decoded counts as opaque and white, with a note.
 SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptions& options);
+
+/// The same with what the scene's lamps reach and where its glowing surfaces shine, as the renderer
+/// wants it; one note says what was chosen and how long it took. Surfaces within half a metre of a
+/// lamp do not glow: a lantern's glass and the lamp in it are the same light.
+std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                           const TransportOptions& options,
+                                                           std::vector<std::string>& notes);
+
+/// Small pictures of the textures that patches are coloured by, by texture index.
+std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,
+                                            std::vector<std::string>& notes);
 
 /// Alpha of the textures that cut holes, by texture index; empty entries for all others.
 std::vector<scene::AlphaImage> alpha_images(const scene::Scene& scene,

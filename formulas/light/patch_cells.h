@@ -118,7 +118,8 @@ struct PatchGrid {
     float cell_m;      // edge of a cell of level 0
     uint levels;       // the coarsest level is levels - 1
     uint patches;      // nodes from this number on are interior
-    uint table_mask;   // entries of the table - 1
+    uint table_mask;   // entries of the table of coarsest cells - 1
+    uint neighbors;    // where connections begin among the ways
 };
 
 // Light at a point, from the patches around it.

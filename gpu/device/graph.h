@@ -169,6 +169,7 @@ public:
     /// Records all passes into one command buffer, submits, waits. Times are summed by pass name.
     std::vector<PassTime> execute(const Device& device, PipelineCache& pipelines,
                                   DescriptorArena& descriptors);
+    bool empty() const { return passes_.empty(); }
     /// One line a distinct pass: its name, what it reads, what it writes.
     std::string describe() const;
 

@@ -54,6 +54,7 @@ struct FrameSettings : FrameSwitches {
     float exposure_bias_stops = 0.0f;
     float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
     bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
+    bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
     SurfacePath surface_path = SurfacePath::Auto;
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists
     std::vector<std::string> aovs;  ///< names from aov_table()
@@ -68,6 +69,8 @@ struct Frame {
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials
     std::vector<MaterialChange> materials; ///< those that are not named are as loaded
+    /// Albedo of every patch under this frame's weather; empty: worked out from `weather`.
+    std::vector<glm::vec3> patch_albedo = {};
     FrameSettings settings;
 };
 

@@ -3,6 +3,7 @@
 #define PETRICHOR_GPU_FRAME_FRAME_IO_H
 
 #include "base/interop.h"
+#include "formulas/light/patch_cells.h"
 #include "formulas/weather/moment.h"
 
 #define SHADOW_CASCADES 3
@@ -62,6 +63,7 @@ struct FrameConstants {
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
+    PatchGrid patches;  // levels 0: none
 };
 
 SHARED_END

@@ -114,6 +114,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
+    targets.patch_light = target("patch_light", VK_FORMAT_R32G32B32A32_UINT, storage);
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
 
     const auto pixels = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height);

@@ -44,6 +44,7 @@ struct FrameTargets {
         radiance;  ///< of this sample, before smooth reflections; alpha as below
     std::unique_ptr<GpuImage>
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
+    std::unique_ptr<GpuImage> patch_light;   ///< of the first sample: see lighting.comp
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuBuffer> coarse_lights;

@@ -1,6 +1,9 @@
 #include "scene/patches/lookup.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "scene/patches/detail/cells.h"
 
 namespace petrichor::shared {
 namespace {
@@ -14,6 +17,7 @@ struct Lookup {
     const scene::LitPatches& lit;
 
     uvec4 patch_table(uint slot) const { return lit.table[slot]; }
+    uint patch_way(uint index) const { return lit.ways[index]; }
     vec4 patch_plane(uint node) const { return lit.planes[node]; }
     vec4 patch_irradiance(uint node) const { return lit.irradiance[node]; }
     vec4 patch_gradient(uint node) const { return lit.gradient[node]; }
@@ -48,10 +52,76 @@ std::vector<float> lookup_sizes(const Patches& patches)
     return sizes;
 }
 
-shared::PatchGrid lookup_grid(const Patches& patches)
+namespace {
+
+std::uint32_t with_level(const Patches& patches, std::uint32_t node)
 {
-    return {patches.cell_m, static_cast<std::uint32_t>(patches.empty() ? 0 : patches.levels),
-            patches.count, static_cast<std::uint32_t>(patches.table.size() - 1)};
+    return node | static_cast<std::uint32_t>(level_of(patches.key[node])) << 24;
+}
+
+void add_root(LookupWays& made, const Patches& patches, std::uint32_t node)
+{
+    const shared::PatchKey key = patches.key[node];
+    std::uint32_t slot = shared::patch_key_hash(key) & made.grid.table_mask;
+    while (made.table[slot].z != shared::kNoPatch) slot = (slot + 1) & made.grid.table_mask;
+    made.table[slot] = {key.low, key.high, with_level(patches, node), 0};
+}
+
+// The node in a cell of a leaf's level, or the one that holds that cell.
+std::uint32_t node_at(const Patches& patches, glm::ivec3 cell, int axis, int level)
+{
+    for (int up = 0; level + up < patches.levels; ++up) {
+        const std::uint32_t node = find_node(
+            patches,
+            shared::patch_key({cell.x >> up, cell.y >> up, cell.z >> up}, axis, level + up));
+        if (node != Patches::kNoNode) return with_level(patches, node);
+    }
+    return shared::kNoPatch;
+}
+
+}  // namespace
+
+LookupWays lookup_ways(const Patches& patches)
+{
+    LookupWays made;
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t node = 0; node < patches.nodes(); ++node) {
+        if (level_of(patches.key[node]) + 1 == patches.levels) roots.push_back(node);
+    }
+    made.table.assign(std::bit_ceil(std::max<std::size_t>(2 * roots.size(), 2)),
+                      glm::uvec4(0, 0, shared::kNoPatch, 0));
+    made.grid.cell_m = patches.cell_m;
+    made.grid.levels = static_cast<std::uint32_t>(patches.empty() ? 0 : patches.levels);
+    made.grid.patches = patches.count;
+    made.grid.table_mask = static_cast<std::uint32_t>(made.table.size() - 1);
+    made.grid.neighbors = patches.interior * 8;
+    for (const std::uint32_t root : roots) add_root(made, patches, root);
+
+    made.ways.assign(std::max<std::size_t>(std::size_t{patches.interior} * 8 +
+                                               std::size_t{patches.count} * 27,
+                                           1),
+                     shared::kNoPatch);
+    for (std::uint32_t i = 0; i < patches.interior; ++i) {
+        for (std::uint32_t c = patches.children_first[i]; c < patches.children_first[i + 1]; ++c) {
+            const std::uint32_t child = patches.children[c];
+            const glm::ivec3 cell = cell_in(patches.key[child]);
+            const int octant = (cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2;
+            made.ways[std::size_t{i} * 8 + static_cast<std::size_t>(octant)] =
+                with_level(patches, child);
+        }
+    }
+    for (std::uint32_t leaf = 0; leaf < patches.count; ++leaf) {
+        const shared::PatchKey key = patches.key[leaf];
+        const glm::ivec3 cell = cell_in(key);
+        for (int n = 0; n < 27; ++n) {
+            if (((patches.connected[leaf] >> n) & 1u) == 0u) continue;
+            const glm::ivec3 there = cell + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+            made.ways[std::size_t{made.grid.neighbors} + std::size_t{leaf} * 27 +
+                      static_cast<std::size_t>(n)] =
+                node_at(patches, there, axis_of(key), level_of(key));
+        }
+    }
+    return made;
 }
 
 shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal)

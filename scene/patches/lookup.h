@@ -15,12 +15,22 @@ namespace petrichor::scene {
 std::vector<glm::vec4> lookup_planes(const Patches& patches);
 /// min(1, area / 0.3 cell^2), one entry a node: slivers count less.
 std::vector<float> lookup_sizes(const Patches& patches);
-shared::PatchGrid lookup_grid(const Patches& patches);
+
+/// How a lookup finds its way: the table of the coarsest cells, children of interior nodes by octant,
+/// and for each leaf what lies in the 27 cells around that it is connected to, at its own level or
+/// coarser. Numbers carry their level, as patch_lookup.inc has it.
+struct LookupWays {
+    std::vector<glm::uvec4> table;
+    std::vector<std::uint32_t> ways;
+    shared::PatchGrid grid;
+};
+LookupWays lookup_ways(const Patches& patches);
 
 /// Light of patches as pixels look it up: see formulas/light/patch_lookup.inc. Views: what they are
 /// made from must outlive them.
 struct LitPatches {
     std::span<const glm::uvec4> table;
+    std::span<const std::uint32_t> ways;
     std::span<const glm::vec4> planes;
     std::span<const glm::vec4> irradiance;  ///< of nodes; w: open
     std::span<const glm::vec4> gradient;    ///< of nodes; w: lookup_sizes

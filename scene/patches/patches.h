@@ -66,7 +66,7 @@ struct Patches {
     std::vector<glm::vec3> normal;      ///< mean, unit, towards the side that is seen
     std::vector<float> area_m2;
     std::vector<std::uint32_t> connected;  ///< 27 bits: neighbour cell in sight, x fastest, then y
-    std::vector<float> open;  ///< share of links that are longer than 0.5 m
+    std::vector<float> open;  ///< share of links longer than the radius of screen occlusion, 0.5 m at most
     // Interior nodes: children_first[i] .. children_first[i + 1] of children, numbers of nodes;
     // i = node - count.
     std::vector<std::uint32_t> children_first;
@@ -76,7 +76,8 @@ struct Patches {
     std::vector<std::uint32_t> material;  ///< of most of its samples, index into Scene::materials
     std::vector<float> sky_view;  ///< cosine-weighted share of sky above the horizon, 0..1
     /// rays entries a patch. Each stands for 1 / rays of all light that arrives: the number of a
-    /// patch, count + bin of the sky (shared::sky_bin, the whole sphere), or black() (nothing).
+    /// patch, count + bin of the sky (shared::sky_bin, the whole sphere), or black() (nothing: all
+    /// rays of the patch start inside a body).
     /// Form factors: F_ij = how often j is in row i / rays; each row adds up to 1 exactly.
     std::vector<std::uint16_t> links;
     /// 256 bits: a ray in the direction of shared::visibility_raw_direction(bit) leaves the scene.

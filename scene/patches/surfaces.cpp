@@ -44,6 +44,15 @@ float luminance(glm::vec3 v)
 
 }  // namespace
 
+glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
+                        std::span<const ColorImage> images)
+{
+    const Material& m = triangles.scene().materials[triangles.material(triangle)];
+    const glm::vec3 color = texel(triangles, {triangle, at}, m.base_color_texture, images) *
+                            glm::vec3(m.base_color) * glm::vec3(triangles.color(triangle, at));
+    return glm::clamp(color, 0.0f, 1.0f);
+}
+
 std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
                                          std::span<const ColorImage> images)
 {
@@ -58,13 +67,11 @@ std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles
             const PatchSample& sample = patches.samples[std::size_t{i} * kPatchSamples + k];
             const Material& m =
                 triangles.scene().materials[triangles.material(sample.triangle)];
-            const glm::vec3 color = texel(triangles, sample, m.base_color_texture, images) *
-                                    glm::vec3(m.base_color) *
-                                    glm::vec3(triangles.color(sample.triangle, sample.at));
             // Glossy, metallic: glTF's green and blue.
             const glm::vec3 gloss =
                 texel(triangles, sample, m.metallic_roughness_texture, images);
-            mean.base_color += glm::clamp(color, 0.0f, 1.0f) * kShare;
+            mean.base_color +=
+                surface_color(triangles, sample.triangle, sample.at, images) * kShare;
             mean.metallic += m.metallic * gloss.z * kShare;
             mean.roughness += m.roughness * gloss.y * kShare;
             if (luminance(m.emissive) > 0.0f) {

@@ -32,6 +32,10 @@ struct PatchSurface {
 std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
                                          std::span<const ColorImage> images);
 
+/// Base colour at a point of a triangle, 0..1, textures and vertex colours included.
+glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
+                        std::span<const ColorImage> images);
+
 /// Leaves that glow, brightest power (area x luminance) first, at most `most`; then ascending. Only
 /// those whose radiance is above the mean of all surfaces.
 std::vector<std::uint32_t> glowing_patches(const Patches& patches,

@@ -254,11 +254,12 @@ TEST(Radiosity, TheGradientTurnsIrradianceAsALinearSkyDoes)
 
 struct Looked {
     explicit Looked(const Cut& cut, const PatchIrradiance& light)
-        : planes(lookup_planes(cut.patches)),
-          lit{cut.patches.table, planes, light.irradiance, light.gradient,
-              lookup_grid(cut.patches)}
+        : ways(lookup_ways(cut.patches)),
+          planes(lookup_planes(cut.patches)),
+          lit{ways.table, ways.ways, planes, light.irradiance, light.gradient, ways.grid}
     {
     }
+    LookupWays ways;
     std::vector<glm::vec4> planes;
     LitPatches lit;
 };

@@ -23,6 +23,7 @@ layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
 layout(constant_id = LIGHTING_SPEC_GAMMA) const uint GAMMA = 0u;
 layout(constant_id = LIGHTING_SPEC_BAKED) const uint BAKED = 0u;
 layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
+layout(constant_id = LIGHTING_SPEC_PATCHES) const uint PATCHES = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -40,9 +41,37 @@ layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
+layout(binding = LIGHTING_PATCH_TABLE) uniform usamplerBuffer patch_table_texels;
+layout(binding = LIGHTING_PATCH_WAYS) uniform usamplerBuffer patch_way_texels;
+layout(binding = LIGHTING_PATCH_KEPT, rgba32ui) uniform uimage2D patch_light_kept;
+layout(binding = LIGHTING_PATCH_PLANES) uniform samplerBuffer patch_plane_texels;
+layout(binding = LIGHTING_PATCH_IRRADIANCE) uniform samplerBuffer patch_irradiance_texels;
+layout(binding = LIGHTING_PATCH_GRADIENT) uniform samplerBuffer patch_gradient_texels;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
+
+uvec4 patch_table(uint slot)
+{
+    return texelFetch(patch_table_texels, int(slot));
+}
+uint patch_way(uint index)
+{
+    return texelFetch(patch_way_texels, int(index)).r;
+}
+vec4 patch_plane(uint node)
+{
+    return texelFetch(patch_plane_texels, int(node));
+}
+vec4 patch_irradiance(uint node)
+{
+    return texelFetch(patch_irradiance_texels, int(node));
+}
+vec4 patch_gradient(uint node)
+{
+    return texelFetch(patch_gradient_texels, int(node));
+}
+#include "formulas/light/patch_lookup.inc"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
 const float kMirrorRoughness = 0.32;
@@ -212,6 +241,85 @@ void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
     }
 }
 
+// Light from all around: what of it arrives, and what a mirror would see of it.
+struct Ambient {
+    vec3 irradiance;  // over pi
+    float occlusion;  // of what is left to darken it
+    vec3 mirrored;    // the sky's maps times this
+    float open;       // 0..1: how far a mirror sees the sky
+};
+
+// Irradiance over pi from the patches around, and their share of open directions; w < 0: none there.
+vec4 looked_up(LitPoint p, vec3 geometry)
+{
+    const PatchLight light = patch_lookup(frame.patches, p.position, geometry);
+    if (light.weight <= 0.0) return vec4(0.0, 0.0, 0.0, -1.0);
+    const float turned = irradiance_towards(light.gradient, normalize(light.normal), p.normal);
+    return vec4(min(light.irradiance * (0.31830989 * turned), vec3(60000.0)), light.open);
+}
+
+// The first sample of a pixel looks up; those that see the same surface take what it found, as light
+// changes little within a pixel.
+vec4 patch_light_at(LitPoint p, vec3 geometry, float view_m, ivec2 texel)
+{
+    if (frame.sample_index > 0u) {
+        const uvec4 kept = imageLoad(patch_light_kept, texel);
+        const float other_m = uintBitsToFloat(kept.z);
+        const vec3 other = octahedral_decode(unpackSnorm2x16(kept.w));
+        if (abs(view_m - other_m) < 0.5 * frame.patches.cell_m + 0.005 * view_m &&
+            dot(other, p.normal) > 0.85) {
+            return vec4(unpackHalf2x16(kept.x), unpackHalf2x16(kept.y));
+        }
+        return looked_up(p, geometry);
+    }
+    const vec4 found = looked_up(p, geometry);
+    imageStore(patch_light_kept, texel,
+               uvec4(packHalf2x16(found.xy), packHalf2x16(found.zw), floatBitsToUint(view_m),
+                     packSnorm2x16(octahedral_encode(p.normal))));
+    return found;
+}
+
+// From the patches around; nothing (open < 0) where there are none.
+Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
+                      ivec2 texel)
+{
+    Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
+    const vec4 light = patch_light_at(p, geometry, view_m, texel);
+    if (light.w < 0.0) return a;
+    a.irradiance = light.rgb;
+    if (AMBIENT_OCCLUSION != 0u) {
+        // Relief smaller than a patch: what the pixel sees over what its patch does, both with the
+        // light that crevices send back.
+        const vec3 own = bounced_occlusion(p.albedo, screen);
+        const vec3 mean = bounced_occlusion(p.albedo, light.w);
+        a.irradiance *= min(own / max(mean, vec3(0.05)), vec3(2.0));
+    }
+    // A mirror sees about as much more or less than sky as a matt surface does.
+    const vec3 sky = sky_irradiance(p.normal);
+    a.mirrored = clamp(a.irradiance / max(sky, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
+    a.open = clamp(dot(a.irradiance, vec3(0.2126, 0.7152, 0.0722)) /
+                       max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1.0e-6),
+                   0.0, 1.0);
+    return a;
+}
+
+Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
+                      ivec2 texel)
+{
+    if (PATCHES != 0u) {
+        const Ambient a = patch_ambient(p, geometry, crevices, screen, view_m, texel);
+        if (a.open >= 0.0) return a;
+        // Far from all patches: the open sky.
+        return Ambient(sky_irradiance(p.normal), crevices * screen, vec3(1.0), 1.0);
+    }
+    const float open =
+        AMBIENT_OCCLUSION != 0u ? sky_visibility(p.position, geometry, texel) : 1.0;
+    // Where the sky is hidden, walls and ground send some of its light on, warmer.
+    const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
+    const vec3 seen = open + (1.0 - open) * hidden;
+    return Ambient(sky_irradiance(p.normal) * seen, crevices * screen, seen, open);
+}
+
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -222,6 +330,9 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
+        // No surface is so far away: samples that meet one look up for themselves.
+        if (PATCHES != 0u && frame.sample_index == 0u)
+            imageStore(patch_light_kept, texel, uvec4(0u, 0u, floatBitsToUint(1.0e30), 0u));
         radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
                                                    : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
@@ -305,18 +416,16 @@ void main()
         if (IMAGE_BASED_LIGHT != 0u) {
             const float screen =
                 AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
-            const float sky_open =
-                AMBIENT_OCCLUSION != 0u ? sky_visibility(position, g.base_normal, texel) : 1.0;
-            // Where the sky is hidden, walls and ground send some of its light on, warmer.
-            const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
-            const vec3 seen = sky_open + (1.0 - sky_open) * hidden;
+            const Ambient around = ambient_light(p, g.base_normal, m.occlusion, screen, view_m, texel);
+            const vec3 seen = around.mirrored;
+            const float sky_open = around.open;
             const float nv = clamp(dot(n, v), 0.0, 1.0);
             Surroundings s;
-            s.irradiance = sky_irradiance(n) * seen;
+            s.irradiance = around.irradiance;
+            s.occlusion = around.occlusion;
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
-            s.occlusion = m.occlusion * screen;
             // A water surface lies above the crevices that its ground has.
-            const float mirror_occlusion = mix(s.occlusion, 1.0, closed);
+            const float mirror_occlusion = mix(m.occlusion * screen, 1.0, closed);
             // Lagarde and de Rousiers 2014.
             s.specular_occlusion =
                 saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +

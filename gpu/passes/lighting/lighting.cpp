@@ -6,7 +6,7 @@ namespace petrichor::gpu {
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const ConstantsRange& constants, const LightingVariant& variant)
+                  const PatchLights& patches, const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -19,7 +19,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_EMISSION, variant.emission},
                       {LIGHTING_SPEC_BAKED, variant.baked},
                       {LIGHTING_SPEC_GAMMA, variant.gamma},
-                      {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights}},
+                      {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights},
+                      {LIGHTING_SPEC_PATCHES, variant.patch_light}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
@@ -29,6 +30,12 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},
                      {LIGHTING_LIGHTS, texels(*lights.texels)},
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
+                     {LIGHTING_PATCH_TABLE, texels(patches.table())},
+                     {LIGHTING_PATCH_WAYS, texels(patches.ways())},
+                     {LIGHTING_PATCH_PLANES, texels(patches.planes())},
+                     {LIGHTING_PATCH_IRRADIANCE, texels(patches.irradiance())},
+                     {LIGHTING_PATCH_GRADIENT, texels(patches.gradient())},
+                     {LIGHTING_PATCH_KEPT, storage(*targets.patch_light)},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},

@@ -3,6 +3,7 @@
 
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lights/lights.h"
+#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/sky/sky.h"
 
 namespace petrichor::gpu {
@@ -20,6 +21,7 @@ struct LightingVariant {
     bool emission = true;
     bool baked = false;  ///< light maps
     bool gamma = false;
+    bool patch_light = false;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     std::vector<bool> models{true};  ///< by number: something in the picture has it
@@ -28,11 +30,11 @@ struct LightingVariant {
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists
+//   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists, patches
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps, const ConstantsRange& constants,
-                  const LightingVariant& variant);
+                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps, const PatchLights& patches,
+                  const ConstantsRange& constants, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu
 

@@ -13,6 +13,7 @@
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
 #define LIGHTING_SPEC_BAKED 6       // light maps
 #define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
+#define LIGHTING_SPEC_PATCHES 8     // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_MODEL 16      // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
@@ -30,6 +31,12 @@
 #define LIGHTING_MIRROR_WEIGHT 12
 #define LIGHTING_MIRROR_SHAPE 13
 #define LIGHTING_MATERIALS 14
-#define LIGHTING_GBUFFER 15  // depth, then the targets
+#define LIGHTING_PATCH_TABLE 15
+#define LIGHTING_PATCH_PLANES 16
+#define LIGHTING_PATCH_IRRADIANCE 17
+#define LIGHTING_PATCH_GRADIENT 18
+#define LIGHTING_PATCH_WAYS 19
+#define LIGHTING_PATCH_KEPT 20
+#define LIGHTING_GBUFFER 21  // depth, then the targets
 
 #endif

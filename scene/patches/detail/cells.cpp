@@ -120,8 +120,14 @@ private:
     bool wants(glm::ivec3 cell0, int axis) const;
     std::uint32_t add_cell(shared::PatchKey key);
     void examine(Cell& cell, const RawSample* const* raw, std::size_t count) const;
-    bool buried(const SamplePoint& point, std::uint64_t hash, float& inverse_distances,
-                int& rays) const;
+    // What the first rays of a sample say.
+    struct Outlook {
+        bool buried = false;
+        bool outer = false;  ///< most of them are longer than a twig's distance
+        float inverse_distances = 0.0f;
+        int rays = 0;
+    };
+    Outlook look_out(const SamplePoint& point, std::uint64_t hash) const;
     bool parted(const Cell& cell) const;
     void settle();
 
@@ -266,17 +272,15 @@ std::uint32_t Grower::add_cell(shared::PatchKey key)
     return found;
 }
 
-// Three rays; where one meets the back of a single-sided face, five more. Adds up 1 / distance of
-// the rays, each at least a regular cell long.
-bool Grower::buried(const SamplePoint& point, std::uint64_t hash, float& inverse_distances,
-                    int& rays) const
+// Three rays; where one meets the back of a single-sided face, five more. 1 / distance of the rays is
+// added up, each at least a regular cell long.
+Grower::Outlook Grower::look_out(const SamplePoint& point, std::uint64_t hash) const
 {
     const float regular = cell_edge_m(1);
     const glm::vec3 origin =
         point.position_m + point.normal * ray_lift_m(point.position_m, regular);
-    int backs = 0;
-    float sum = 0.0f;
-    int traced = 0;
+    int backs = 0, near = 0;
+    Outlook outlook;
     for (int r = 0; r < 8; ++r) {
         if (r == 3 && backs == 0) break;
         const float u = (static_cast<float>(r) + unit_float(hash)) / 8.0f;
@@ -286,15 +290,15 @@ bool Grower::buried(const SamplePoint& point, std::uint64_t hash, float& inverse
             fraction(kGoldenRatio * static_cast<float>(r) + unit_float(mixed(hash, 5)));
         const glm::vec3 d = cosine_direction(point.normal, height, turn);
         const RayHit hit = tracer_.nearest({origin, d});
-        ++traced;
+        ++outlook.rays;
         if (!hit.hit()) continue;
+        if (r < 3 && hit.distance_m < regular) ++near;
         if (hit.back && !triangles_.double_sided(hit.triangle)) ++backs;
-        sum += 1.0f / std::max(hit.distance_m, regular);
+        outlook.inverse_distances += 1.0f / std::max(hit.distance_m, regular);
     }
-    if (backs >= 2) return true;
-    inverse_distances += sum;
-    rays += traced;
-    return false;
+    outlook.buried = backs >= 2;
+    outlook.outer = near <= 1;
+    return outlook;
 }
 
 // Two groups of samples, a fifth of them or more each, that do not see one another.
@@ -335,12 +339,29 @@ bool Grower::parted(const Cell& cell) const
     return large >= 2;
 }
 
+// Leaves, heaps, grass: what is seen of them, and what they send, is their outside. Where fewer than
+// half of the samples look out, they alone stand for the cell.
+void keep_outer(Cell& cell, const std::array<bool, kPatchSamples>& outer)
+{
+    const auto looking = static_cast<int>(
+        std::count(outer.begin(), outer.begin() + cell.points, true));
+    if (looking < 2 || 2 * looking > cell.points) return;
+    int kept = 0;
+    for (int k = 0; k < cell.points; ++k) {
+        if (outer[static_cast<std::size_t>(k)])
+            cell.samples[static_cast<std::size_t>(kept++)] =
+                cell.samples[static_cast<std::size_t>(k)];
+    }
+    cell.points = kept;
+}
+
 void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count) const
 {
     const std::uint64_t hash = cell_hash(options_.seed, cell.key);
     float inverse_distances = 0.0f;
     int rays = 0;
     int tested = 0;
+    std::array<bool, kPatchSamples> outer{};
     // A stride through all samples first, then the ones beside them.
     const std::size_t wanted = std::min<std::size_t>(count, kPatchSamples);
     const std::size_t rounds = std::min<std::size_t>((count + wanted - 1) / wanted, 3);
@@ -352,10 +373,12 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
             ++tested;
             const PatchSample& sample = raw[at]->point;
             const SamplePoint point = sample_point(triangles_, sample);
-            if (buried(point, mixed(hash, at), inverse_distances, rays)) continue;
+            const Outlook outlook = look_out(point, mixed(hash, at));
+            if (outlook.buried) continue;
+            inverse_distances += outlook.inverse_distances;
+            rays += outlook.rays;
+            outer[static_cast<std::size_t>(cell.points)] = outlook.outer;
             cell.samples[static_cast<std::size_t>(cell.points++)] = sample;
-            cell.position_m += point.position_m;
-            cell.normal += point.normal;
         }
     }
     if (cell.points == 0) {
@@ -365,6 +388,13 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
     float area = 0.0f;
     for (std::size_t i = 0; i < count; ++i) area += raw[i]->area_m2;
     cell.area_m2 = area * static_cast<float>(cell.points) / static_cast<float>(tested);
+    keep_outer(cell, outer);
+    for (int k = 0; k < cell.points; ++k) {
+        const SamplePoint point =
+            sample_point(triangles_, cell.samples[static_cast<std::size_t>(k)]);
+        cell.position_m += point.position_m;
+        cell.normal += point.normal;
+    }
     cell.position_m = cell.position_m / static_cast<float>(cell.points);
     const float length = std::sqrt(glm::dot(cell.normal, cell.normal));
     cell.normal = length > 1e-3f ? cell.normal / length

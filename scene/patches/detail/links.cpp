@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
 #include "base/parallel.h"
 #include "scene/patches/detail/cells.h"
@@ -14,7 +15,6 @@ namespace petrichor::scene {
 namespace {
 
 constexpr std::size_t kPatchesAJob = 64;
-constexpr float kOpen_m = 0.5f;  // the radius of the screen's ambient occlusion
 constexpr int kRedraws = 3;      // of a ray that starts inside something
 
 // body(patch) for all patches, in jobs; says now and then how far it is.
@@ -57,11 +57,19 @@ std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, c
     return found ? *found : patches.black();
 }
 
+// The radius of the screen's ambient occlusion in a scene of that size.
+float open_radius_m(const Triangles& triangles)
+{
+    const glm::vec3 d = triangles.high() - triangles.low();
+    return std::clamp(0.03f * std::sqrt(glm::dot(d, d)), 0.01f, 0.5f);
+}
+
 }  // namespace
 
 void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options)
 {
     const Triangles& triangles = tracer.triangles();
+    const float open_m = open_radius_m(triangles);
     const float regular = patches.level_cell_m(1);
     patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
     patches.sky_view.resize(patches.count);
@@ -71,6 +79,8 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
         int sky = 0;
         int far = 0;
+        int lost = 0;
+        std::vector<std::pair<int, std::uint16_t>> replaced;
         for (int r = 0; r < patches.rays; ++r) {
             std::uint32_t id = patches.black();
             for (int draw = 0; draw <= kRedraws; ++draw) {
@@ -89,13 +99,26 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
                 }
                 if (hit.back && !triangles.double_sided(hit.triangle)) continue;
                 id = patch_of_hit(patches, triangles, ray, hit);
-                far += hit.distance_m > kOpen_m ? 1 : 0;
+                far += hit.distance_m > open_m ? 1 : 0;
                 break;
             }
             row[r] = static_cast<std::uint16_t>(id);
+            lost += id == patches.black() ? 1 : 0;
         }
-        patches.sky_view[patch] = static_cast<float>(sky) / static_cast<float>(patches.rays);
-        patches.open[patch] = static_cast<float>(far) / static_cast<float>(patches.rays);
+        const int found = patches.rays - lost;
+        patches.sky_view[patch] =
+            found > 0 ? static_cast<float>(sky) / static_cast<float>(found) : 0.0f;
+        patches.open[patch] =
+            found > 0 ? static_cast<float>(far) / static_cast<float>(found) : 1.0f;
+        // What starts inside a body sees nothing that is there: the other rays stand in for it, one
+        // after the other, so that the row still adds up to 1.
+        for (int r = 0, other = 0; r < patches.rays && lost > 0 && found > 0; ++r) {
+            if (row[r] != patches.black()) continue;
+            other = (other + 1) % patches.rays;
+            while (row[other] == patches.black()) other = (other + 1) % patches.rays;
+            replaced.push_back({r, row[other]});
+        }
+        for (const auto& [r, id] : replaced) row[r] = id;
     });
     std::vector<glm::vec4> open(patches.count);
     for (std::uint32_t i = 0; i < patches.count; ++i) open[i] = glm::vec4(patches.open[i]);

@@ -1,0 +1,27 @@
+#ifndef PETRICHOR_GPU_FRAME_PATCH_SCENE_H
+#define PETRICHOR_GPU_FRAME_PATCH_SCENE_H
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/patches/patches.h"
+#include "scene/patches/radiosity.h"
+#include "scene/patches/surfaces.h"
+
+namespace petrichor::gpu {
+
+/// What light between the surfaces of a scene needs: its patches, what they are made of, and what
+/// was traced to its lamps.
+struct PatchScene {
+    scene::Patches patches;
+    std::vector<scene::PatchSurface> surfaces;  ///< a leaf each
+    std::vector<scene::Material> materials;     ///< of the scene, for their weather
+    scene::GlowLinks glow;                      ///< of the patches that glow
+    /// A light of Scene::lights each: share of 255 of a leaf that it reaches; empty where it reaches
+    /// all that it faces (directional lights go by the visibility bits).
+    std::vector<std::vector<std::uint8_t>> lamp_reach;
+};
+
+}  // namespace petrichor::gpu
+
+#endif

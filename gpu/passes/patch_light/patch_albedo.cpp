@@ -1,0 +1,110 @@
+#include "gpu/passes/patch_light/patch_albedo.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "formulas/weather/apply_weather.h"
+#include "formulas/weather/surface_weather.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr float kDropSpeed_m_s = 6.0f;
+
+// Towards where rain comes from; a calm that is no number counts as calm.
+glm::vec3 against_rain(glm::vec2 wind_m_s)
+{
+    const glm::vec2 wind = std::isfinite(wind_m_s.x + wind_m_s.y) ? wind_m_s : glm::vec2(0.0f);
+    return glm::normalize(glm::vec3(-wind.x, kDropSpeed_m_s, -wind.y));
+}
+
+bool any_weather(const shared::WeatherMoment& w, const MaterialWeather& m)
+{
+    return w.snow_amount > 0.0f || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f ||
+           w.film_albedo > 0.0f || w.frost > 0.0f || m.water_accumulation.x > 0.0f ||
+           m.water_accumulation.z > 0.0f || m.snow_accumulation.x > 0.0f;
+}
+
+// Cover of snow, a mean over the two masks of the snow map.
+float mean_snow(float amount, float height_factor, float up, const MaterialWeather& m, float melt)
+{
+    constexpr std::array<float, 4> kQuarters{0.125f, 0.375f, 0.625f, 0.875f};
+    float sum = 0.0f;
+    for (const float mask : kQuarters) {
+        for (const float detail : kQuarters) {
+            sum += shared::snow_cover(amount, height_factor, up, m.snow_slope_damp, 1.0f, mask,
+                                      detail, melt)
+                       .snow;
+        }
+    }
+    return sum / static_cast<float>(kQuarters.size() * kQuarters.size());
+}
+
+shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMoment& w,
+                              glm::vec3 position, float up, float open)
+{
+    shared::SurfaceState state{};
+    const float amount = shared::saturate(w.snow_amount * open * shared::smooth_edge(0.0f, 0.4f, up) *
+                                              m.snow_accumulation.y +
+                                          m.snow_accumulation.x);
+    if (amount > 0.0f) {
+        state.snow = mean_snow(amount,
+                               shared::snow_height_factor(position.y, w.snow_start_height_m,
+                                                          w.snow_height_blend_m),
+                               up, m, w.melt * m.snow_accumulation.y);
+    }
+    const glm::vec2 flood{w.flood_cracks * open * m.water_accumulation.y + m.water_accumulation.x,
+                          w.flood_puddles * open * m.water_accumulation.w + m.water_accumulation.z};
+    if (m.wetness != Wetness::None && (flood.x > 0.0f || flood.y > 0.0f)) {
+        state.water =
+            shared::water_cover(flood, m.default_height, 1.0f, up, m.water_slope_damp).anywhere;
+    }
+    state.film = std::sqrt(open) * shared::saturate(up + 1.0f - m.water_slope_damp);
+    state.frost = w.frost * open * shared::saturate(up * 0.6f + 0.5f) * (1.0f - state.water);
+    state.snow_smoothness = 0.3f;
+    return state;
+}
+
+}  // namespace
+
+PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weather,
+                     const shared::WeatherLook& look, bool shelter)
+{
+    const scene::Patches& p = scene.patches;
+    PatchLook result;
+    result.albedo.reserve(p.count);
+    result.glow.reserve(p.count);
+    const glm::vec3 rain = against_rain(weather.wind_m_s);
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const Material& material = scene.materials[p.material[i]];
+        const MaterialWeather& m = material.weather;
+        const scene::PatchSurface& surface = scene.surfaces[i];
+        shared::DryMaterial dry{};
+        dry.base_color = surface.base_color;
+        dry.metallic = surface.metallic;
+        const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
+        dry.f0 = glm::min(root * root * material.specular_color, glm::vec3(1.0f)) * material.specular;
+        dry.roughness = surface.roughness;
+        dry.occlusion = 1.0f;
+        dry.porosity = m.porosity >= 0.0f
+                           ? m.porosity
+                           : shared::porosity_from_smoothness(1.0f - surface.roughness);
+        dry.water_color = m.water_color;
+        dry.snow_opacity = m.snow_opacity;
+        shared::WeatheredMaterial now = shared::dry_material(dry);
+        if (!m.sheltered && any_weather(weather, m)) {
+            const float open = shelter ? scene::visible_share(p, i, rain) : 1.0f;
+            now = shared::apply_weather(
+                dry, state_of(m, weather, p.position_m[i], p.normal[i].y, open), weather, look);
+        }
+        const float mirrored = std::max({now.specular.x, now.specular.y, now.specular.z});
+        result.albedo.push_back(
+            glm::clamp(now.albedo * (1.0f - mirrored) + now.specular, 0.0f, 1.0f));
+        result.glow.push_back(now.emission_scale);
+    }
+    return result;
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,202 @@
+#include "gpu/passes/patch_light/patch_light.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "base/hash.h"
+#include "formulas/light/brdf.h"
+#include "gpu/passes/patch_light/patch_albedo.h"
+#include "gpu/passes/patch_light/patch_light_io.h"
+#include "scene/patches/lookup.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+// Snow sends light on many times over.
+constexpr int kBounces = 3;
+constexpr int kBouncesBright = 4;
+constexpr float kBright = 0.6f;
+
+std::unique_ptr<GpuBuffer> host_texels(MemoryArena& arena, const char* name, std::size_t count,
+                                       VkFormat format)
+{
+    return arena.buffer({.name = name,
+                         .size = count * 16,
+                         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                         .texel_format = format,
+                         .host = true});
+}
+
+// Light of one lamp on every patch, as a pixel computes it.
+void add_lamp(const scene::Patches& p, const Light& light, const std::vector<std::uint8_t>* reach,
+              std::vector<glm::vec3>& direct)
+{
+    const glm::vec3 color = light.color * light.intensity;
+    if (light.kind == LightKind::Directional) {
+        scene::add_sun(p, -light.direction, color, direct);
+        return;
+    }
+    const bool spot = light.kind == LightKind::Spot;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const float seen = reach && !reach->empty() ? static_cast<float>((*reach)[i]) / 255.0f : 1.0f;
+        if (seen <= 0.0f) continue;
+        const glm::vec3 way = light.position_m - p.position_m[i];
+        const float distance = std::sqrt(glm::dot(way, way));
+        if (!(distance > 0.0f)) continue;
+        const glm::vec3 towards = way / distance;
+        const float cosine = glm::dot(p.normal[i], towards);
+        if (cosine <= 0.0f) continue;
+        // A patch is no point: nearer than its own size its light does not grow.
+        const float least = 0.5f * std::sqrt(p.area_m2[i]);
+        float falloff = shared::light_attenuation(std::max(distance, least), light.range_m);
+        if (spot) {
+            falloff *= shared::spot_attenuation(glm::dot(light.direction, -towards),
+                                                std::cos(light.inner_cone_rad),
+                                                std::cos(light.outer_cone_rad));
+        }
+        direct[i] += color * (cosine * falloff * seen);
+    }
+}
+
+template <class T>
+void add_list(Hasher& hasher, const std::vector<T>& list)
+{
+    hasher.add_bytes(std::as_bytes(std::span(list)));
+}
+
+}  // namespace
+
+PatchLights::PatchLights(const Device& device) : device_(&device)
+{
+    make_buffers(1, 1, 1);
+}
+
+void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways)
+{
+    for (auto* buffer : {&table_, &ways_, &planes_, &irradiance_, &gradient_, &sky_bins_}) *buffer = nullptr;
+    arena_ = std::make_unique<MemoryArena>(*device_);
+    table_ = host_texels(*arena_, "patch_table", slots, VK_FORMAT_R32G32B32A32_UINT);
+    ways_ = arena_->buffer({.name = "patch_ways",
+                            .size = ways * 4,
+                            .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                            .texel_format = VK_FORMAT_R32_UINT,
+                            .host = true});
+    planes_ = host_texels(*arena_, "patch_planes", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    irradiance_ = host_texels(*arena_, "patch_irradiance", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    gradient_ = host_texels(*arena_, "patch_gradient", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    sky_bins_ = arena_->buffer({.name = "sky_bins",
+                                .size = static_cast<VkDeviceSize>(shared::kSkyBins) * 16,
+                                .host = true});
+}
+
+void PatchLights::load(std::shared_ptr<const PatchScene> scene)
+{
+    scene_ = std::move(scene);
+    lit_by_.clear();
+    grid_ = {};
+    if (!loaded()) {
+        make_buffers(1, 1, 1);
+        return;
+    }
+    const scene::Patches& p = scene_->patches;
+    const scene::LookupWays ways = scene::lookup_ways(p);
+    make_buffers(p.nodes(), ways.table.size(), ways.ways.size());
+    grid_ = ways.grid;
+    const auto planes = scene::lookup_planes(p);
+    std::memcpy(table_->mapped, ways.table.data(), ways.table.size() * sizeof(ways.table[0]));
+    std::memcpy(ways_->mapped, ways.ways.data(), ways.ways.size() * sizeof(ways.ways[0]));
+    std::memcpy(planes_->mapped, planes.data(), planes.size() * sizeof(planes[0]));
+}
+
+void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene_sun,
+                          const std::vector<Light>& lights)
+{
+    relight_ms_ = 0.0;
+    if (!loaded()) return;
+    const auto start = std::chrono::steady_clock::now();
+    const scene::Patches& p = scene_->patches;
+    std::vector<glm::vec3> sky(static_cast<std::size_t>(shared::kSkyBins));
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+        glm::vec4 bin;
+        std::memcpy(&bin, sky_bins_->mapped + i * sizeof bin, sizeof bin);
+        sky[i] = glm::vec3(bin);
+    }
+
+    Hasher hasher;
+    add_list(hasher, sky);
+    for (const glm::vec3& v : {sun.direction, sun.illuminance})
+        hasher.add_numbers(std::span<const float>(&v.x, 3));
+    hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
+    hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
+    add_list(hasher, frame.patch_albedo);
+    hasher.add(frame.settings.shelter);
+    hasher.add(frame.scene_light_scale);
+    hasher.add(frame.emissive_scale);
+    hasher.add(frame.sky.analytic_sun);
+    for (const Light& l : frame.extra_lights) {
+        hasher.add(l.kind);
+        for (const glm::vec3& v : {l.color, l.position_m, l.direction})
+            hasher.add_numbers(std::span<const float>(&v.x, 3));
+        for (const float v : {l.intensity, l.range_m, l.inner_cone_rad, l.outer_cone_rad})
+            hasher.add(v);
+    }
+    const std::string lit_by = hasher.text();
+    if (lit_by == lit_by_) return;
+
+    PatchLook look = patch_look(*scene_, frame.weather, frame.look, frame.settings.shelter);
+    if (frame.patch_albedo.size() == p.count) look.albedo = frame.patch_albedo;
+    std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
+    scene::add_sun(p, sun.direction, sun.illuminance, direct);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (&lights[i] == scene_sun) continue;
+        if (lights[i].kind == LightKind::Directional && frame.sky.analytic_sun) continue;
+        Light light = lights[i];
+        if (light.kind != LightKind::Directional) light.intensity *= frame.scene_light_scale;
+        add_lamp(p, light, i < scene_->lamp_reach.size() ? &scene_->lamp_reach[i] : nullptr,
+                 direct);
+    }
+    for (const Light& light : frame.extra_lights) add_lamp(p, light, nullptr, direct);
+    float bright = 0.0f, area = 0.0f;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        emission[i] = scene_->surfaces[i].emission *
+                      (shared::kPi * frame.emissive_scale * look.glow[i]);
+        const glm::vec3 a = look.albedo[i];
+        bright += p.area_m2[i] * (a.x + a.y + a.z) / 3.0f;
+        area += p.area_m2[i];
+    }
+    scene::Relight input;
+    input.albedo = look.albedo;
+    input.direct = direct;
+    input.emission = emission;
+    input.sky = sky;
+    input.glow = &scene_->glow;
+    input.bounces = bright > kBright * area ? kBouncesBright : kBounces;
+    const scene::PatchIrradiance lit = scene::relight(p, input);
+    std::memcpy(irradiance_->mapped, lit.irradiance.data(),
+                lit.irradiance.size() * sizeof(lit.irradiance[0]));
+    std::memcpy(gradient_->mapped, lit.gradient.data(),
+                lit.gradient.size() * sizeof(lit.gradient[0]));
+    lit_by_ = lit_by;
+    relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                      .count();
+}
+
+void add_sky_bins(FrameGraph& graph, SkyMaps& sky, PatchLights& lights)
+{
+    graph.add(ComputePass{
+        .name = "sky_bins",
+        .shader = "sky_bins.comp",
+        .constants = {},
+        .bindings = {{SKY_BINS_SOURCE, sampled(*sky.cube, sky.linear)},
+                     {SKY_BINS_TARGET, storage_buffer(lights.sky_bins())}},
+        .push = {},
+        .groups = {(static_cast<std::uint32_t>(shared::kSkyBins) + SKY_BINS_GROUP - 1) /
+                       SKY_BINS_GROUP,
+                   1, 1}});
+    graph.read_back({&lights.sky_bins()});
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,62 @@
+#ifndef PETRICHOR_GPU_PASSES_PATCH_LIGHT_PATCH_LIGHT_H
+#define PETRICHOR_GPU_PASSES_PATCH_LIGHT_PATCH_LIGHT_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formulas/light/patch_cells.h"
+#include "gpu/device/graph.h"
+#include "gpu/frame/frame.h"
+#include "gpu/frame/patch_scene.h"
+#include "gpu/frame/sun.h"
+#include "gpu/passes/sky/sky.h"
+
+namespace petrichor::gpu {
+
+/// Light of patches on the device, as the lighting pass looks it up. Without a scene of patches the
+/// buffers hold one empty entry and grid.levels is 0.
+class PatchLights {
+public:
+    explicit PatchLights(const Device& device);
+
+    /// Takes what was traced; null: none.
+    void load(std::shared_ptr<const PatchScene> scene);
+    bool loaded() const { return scene_ != nullptr && !scene_->patches.empty(); }
+
+    /// Solves the light of a frame with the sky that sky_bins() holds and uploads it. Does nothing
+    /// when all that decides it is as it was. lights: of the loaded scene.
+    void relight(const Frame& frame, const Sun& sun, const Light* scene_sun,
+                 const std::vector<Light>& lights);
+    /// Milliseconds of the last relight; 0 when nothing had changed.
+    double relight_ms() const { return relight_ms_; }
+
+    const shared::PatchGrid& grid() const { return grid_; }
+    GpuBuffer& table() const { return *table_; }
+    GpuBuffer& ways() const { return *ways_; }
+    GpuBuffer& planes() const { return *planes_; }
+    GpuBuffer& irradiance() const { return *irradiance_; }
+    GpuBuffer& gradient() const { return *gradient_; }
+    GpuBuffer& sky_bins() const { return *sky_bins_; }
+
+private:
+    void make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways);
+
+    const Device* device_;
+    std::unique_ptr<MemoryArena> arena_;
+    std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, sky_bins_;
+    std::shared_ptr<const PatchScene> scene_;
+    shared::PatchGrid grid_{};
+    std::string lit_by_;  // fingerprint of what the light was solved from
+    double relight_ms_ = 0.0;
+};
+
+// Mean radiance of the sky's bins, for the host.
+//
+//   reads    cube
+//   writes   sky_bins
+void add_sky_bins(FrameGraph& graph, SkyMaps& sky, PatchLights& lights);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,317 @@
+// How near the light of patches comes to a path tracer's: the demo street, points that its cameras
+// see, light without direct sun and lamps. The table is printed; for the whole of it:
+//
+//   PETRICHOR_QUALITY_POINTS=600 PETRICHOR_QUALITY_PATHS=2048 transport_quality_test
+//
+// RMSE over the mean holds the noise of the reference too: a lamp at night has much of it in the
+// short run, and a tenth of a metre from the lantern decides.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "film/scenes/demo_scene.h"
+#include "film/scenes/transport.h"
+#include "formulas/light/brdf.h"
+#include "scene/patches/detail/sampling.h"
+#include "scene/patches/lookup.h"
+#include "scene/patches/tracer.h"
+
+namespace petrichor::film {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+struct Conditions {
+    const char* name;
+    glm::vec3 sun{0.0f};  // lux; none
+    glm::vec3 towards_sun{0.0f, 1.0f, 0.0f};
+    float zenith = 0.0f, horizon = 0.0f;  // radiance of the sky
+    float ground = 0.0f;                  // below the horizon
+    bool snow = false;
+    bool lamp = false;
+    double most_rmse = 1.0;  // of the short run
+};
+
+int number_of(const char* name, int otherwise)
+{
+    const char* text = std::getenv(name);
+    return text && *text ? std::atoi(text) : otherwise;
+}
+
+struct Street {
+    Street()
+        : scene(load_demo_street({}, user_cache()).scene),
+          triangles(scene, alpha_images(scene, notes)),
+          tracer(triangles),
+          images(color_images(scene, 0, notes))
+    {
+        TransportOptions options;
+        options.cache = user_cache();
+        patches = prepare_patch_scene(scene, options, notes);
+        for (const std::string& note : notes) std::printf("  %s\n", note.c_str());
+    }
+    std::vector<std::string> notes;
+    scene::Scene scene;
+    scene::Triangles triangles;
+    scene::Tracer tracer;
+    std::vector<scene::ColorImage> images;
+    std::shared_ptr<const gpu::PatchScene> patches;
+};
+
+struct Point {
+    glm::vec3 x, n;
+};
+
+std::vector<Point> seen_points(const Street& street, int count)
+{
+    std::vector<Point> points;
+    const std::size_t cameras = std::min<std::size_t>(street.scene.cameras.size(), 2);
+    for (std::uint64_t i = 0; static_cast<int>(points.size()) < count && i < 100000; ++i) {
+        const scene::Camera& camera = street.scene.cameras[i % cameras];
+        const glm::vec2 half = scene::half_extent_m(camera, 16, 9);
+        const float u = 2.0f * scene::unit_float(scene::mixed(i, 1)) - 1.0f;
+        const float v = 2.0f * scene::unit_float(scene::mixed(i, 2)) - 1.0f;
+        const glm::mat4& m = camera.to_world;
+        const glm::vec3 d = glm::normalize(-glm::vec3(m[2]) + glm::vec3(m[0]) * (u * half.x) +
+                                           glm::vec3(m[1]) * (v * half.y));
+        const scene::RayHit hit = street.tracer.nearest({glm::vec3(m[3]), d});
+        if (!hit.hit() || (hit.back && !street.triangles.double_sided(hit.triangle))) continue;
+        glm::vec3 n = street.triangles.normal(hit.triangle);
+        if (hit.back) n = -n;
+        points.push_back({street.triangles.point(hit.triangle, hit.at), n});
+    }
+    return points;
+}
+
+struct World {
+    const Street& street;
+    const Conditions& c;
+
+    float sky(glm::vec3 d) const
+    {
+        if (d.y < 0.0f) return c.ground;
+        return c.horizon + (c.zenith - c.horizon) * std::sqrt(d.y);
+    }
+    glm::vec3 albedo(std::uint32_t t, scene::Barycentric at, glm::vec3 n) const
+    {
+        if (c.snow && n.y > 0.5f) return glm::vec3(0.9f);
+        return glm::min(scene::surface_color(street.triangles, t, at, street.images),
+                        glm::vec3(0.98f));
+    }
+    glm::vec3 direct(glm::vec3 x, glm::vec3 n) const
+    {
+        glm::vec3 sum(0.0f);
+        const glm::vec3 from = x + n * scene_lift;
+        const float cosine = glm::dot(n, c.towards_sun);
+        if (cosine > 0.0f && c.sun.y > 0.0f && !street.tracer.blocked({from, c.towards_sun}))
+            sum += c.sun * cosine;
+        if (!c.lamp) return sum;
+        for (const scene::Light& light : street.scene.lights) {
+            const glm::vec3 way = light.position_m - from;
+            const float r = glm::length(way);
+            const float facing = glm::dot(n, way) / r;
+            if (facing <= 0.0f) continue;
+            const bool hidden =
+                r > 0.35f && street.tracer.blocked({from, way / r, r - 0.35f});
+            if (!hidden)
+                sum += light.color * (light.intensity * facing *
+                                      shared::light_attenuation(r, light.range_m));
+        }
+        return sum;
+    }
+    // Irradiance of a point without direct sun and lamps, by paths.
+    glm::vec3 irradiance(const Point& p, std::uint64_t seed, int paths) const
+    {
+        glm::vec3 sum(0.0f);
+        for (int k = 0; k < paths; ++k) {
+            std::uint64_t h = scene::mixed(seed, static_cast<std::uint64_t>(k));
+            glm::vec3 x = p.x, n = p.n, through(1.0f);
+            for (int depth = 0; depth < 8; ++depth) {
+                h = scene::mixed(h, static_cast<std::uint64_t>(depth));
+                const float u = depth == 0 ? (static_cast<float>(k) + scene::unit_float(h)) /
+                                                 static_cast<float>(paths)
+                                           : scene::unit_float(h);
+                const glm::vec3 d =
+                    scene::cosine_direction(n, u, scene::unit_float(scene::mixed(h, 3)));
+                const scene::RayHit hit = street.tracer.nearest({x + n * scene_lift, d});
+                if (!hit.hit()) {
+                    sum += through * (kPi * sky(d));
+                    break;
+                }
+                if (hit.back && !street.triangles.double_sided(hit.triangle)) break;
+                x = street.triangles.point(hit.triangle, hit.at);
+                n = street.triangles.normal(hit.triangle);
+                if (hit.back) n = -n;
+                through *= albedo(hit.triangle, hit.at, n);
+                sum += through * direct(x, n);
+            }
+        }
+        return sum / static_cast<float>(paths);
+    }
+    float open(const Point& p, float radius, int rays) const
+    {
+        int far = 0;
+        for (int r = 0; r < rays; ++r) {
+            const glm::vec3 d = scene::row_direction(p.n, r, rays, 77);
+            far += street.tracer.blocked({p.x + p.n * scene_lift, d, radius}) ? 0 : 1;
+        }
+        return static_cast<float>(far) / static_cast<float>(rays);
+    }
+    static constexpr float scene_lift = 0.002f;
+};
+
+float luminance(glm::vec3 v)
+{
+    return 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z;
+}
+
+float bounced(float albedo, float open)
+{
+    // The curve of the lighting pass (Jimenez et al. 2016).
+    const float a = 2.0404f * albedo - 0.3324f, b = -4.7951f * albedo + 0.6417f,
+                c = 2.7552f * albedo + 0.6903f;
+    return std::max(open, ((open * a + b) * open + c) * open);
+}
+
+struct Errors {
+    double rmse, bias, median, log2;
+};
+Errors errors_of(const std::vector<double>& got, const std::vector<double>& wanted)
+{
+    double mean = 0.0, square = 0.0, bias = 0.0, stops = 0.0;
+    std::vector<double> relative;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+        mean += wanted[i];
+        bias += got[i] - wanted[i];
+        square += (got[i] - wanted[i]) * (got[i] - wanted[i]);
+        relative.push_back(std::abs(got[i] / std::max(wanted[i], 1e-9) - 1.0));
+        const double l = std::log2(std::max(got[i], 1e-6) / std::max(wanted[i], 1e-6));
+        stops += l * l;
+    }
+    const auto n = static_cast<double>(got.size());
+    std::sort(relative.begin(), relative.end());
+    return {std::sqrt(square / n) / (mean / n), bias / mean, relative[relative.size() / 2],
+            std::sqrt(stops / n)};
+}
+
+TEST(TransportQuality, PatchesComeNearAPathTracer)
+{
+    const Street street;
+    const int count = number_of("PETRICHOR_QUALITY_POINTS", 200);
+    const int paths = number_of("PETRICHOR_QUALITY_PATHS", 192);
+    const std::vector<Point> points = seen_points(street, count);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
+    const scene::Patches& p = street.patches->patches;
+    const glm::vec3 noon = glm::normalize(glm::vec3(0.35f, 0.8f, 0.45f));
+    const Conditions all[] = {
+        {"dry noon", glm::vec3(90000.0f), noon, 3000.0f, 6000.0f, 1500.0f, false, false, 0.18},
+        {"snow .9", glm::vec3(90000.0f), noon, 3000.0f, 6000.0f, 8000.0f, true, false, 0.22},
+        {"overcast", {}, noon, 4000.0f, 1500.0f, 300.0f, false, false, 0.125},
+        {"lamp at night", {}, noon, 0.02f, 0.02f, 0.01f, false, true, 1.10},
+    };
+    std::printf("  %-14s %8s %8s %8s %8s   (%d points, %d paths)\n", "", "rmse", "bias", "median",
+                "log2", count, paths);
+    for (const Conditions& c : all) {
+        const World world{street, c};
+        std::vector<double> wanted(points.size()), plain(points.size()), ratio(points.size()),
+            today(points.size());
+        parallel_for(points.size(), 0, [&](std::size_t i) {
+            wanted[i] = static_cast<double>(luminance(
+                world.irradiance(points[i], static_cast<std::uint64_t>(i), paths)));
+        });
+        // The same world on patches.
+        std::vector<glm::vec3> albedo, direct(p.count, glm::vec3(0.0f)),
+            sky(static_cast<std::size_t>(shared::kSkyBins));
+        for (std::uint32_t i = 0; i < p.count; ++i) {
+            glm::vec3 a = street.patches->surfaces[i].base_color;
+            if (c.snow) {
+                float white = 0.0f;
+                for (std::size_t k = 0; k < scene::kPatchSamples; ++k) {
+                    const auto s = scene::sample_point(
+                        street.triangles, p.samples[i * scene::kPatchSamples + k]);
+                    white += s.normal.y > 0.5f ? 1.0f / scene::kPatchSamples : 0.0f;
+                }
+                a = glm::mix(a, glm::vec3(0.9f), white);
+            }
+            albedo.push_back(a);
+        }
+        for (std::size_t b = 0; b < sky.size(); ++b) {
+            // The mean of a bin, as the renderer takes it.
+            glm::vec3 sum(0.0f);
+            for (int k = 0; k < 16; ++k) {
+                const auto bin = static_cast<int>(b);
+                const glm::vec2 uv =
+                    (glm::vec2(bin % 32 * 4 + k % 4, bin / 32 * 4 + k / 4) + 0.5f) / 128.0f * 2.0f -
+                    1.0f;
+                sum += glm::vec3(world.sky(shared::octahedral_decode(uv)) / 16.0f);
+            }
+            sky[b] = kPi * sum;
+        }
+        scene::add_sun(p, c.towards_sun, c.sun, direct);
+        for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l) {
+            const scene::Light& light = street.scene.lights[l];
+            for (std::uint32_t i = 0; i < p.count; ++i) {
+                const glm::vec3 way = light.position_m - p.position_m[i];
+                const float r = glm::length(way);
+                const float facing = glm::dot(p.normal[i], way) / r;
+                if (facing <= 0.0f) continue;
+                direct[i] += light.color *
+                             (light.intensity * facing * shared::light_attenuation(r, light.range_m) *
+                              static_cast<float>(street.patches->lamp_reach[l][i]) / 255.0f);
+            }
+        }
+        scene::Relight input;
+        input.albedo = albedo;
+        input.direct = direct;
+        input.sky = sky;
+        input.bounces = c.snow ? 4 : 3;
+        const auto light = scene::relight(p, input);
+        const auto planes = scene::lookup_planes(p);
+        const scene::LookupWays ways = scene::lookup_ways(p);
+        const scene::LitPatches lit{ways.table,       ways.ways,      planes,
+                                    light.irradiance, light.gradient, ways.grid};
+        // What there was before: the sky's irradiance times 16 exact rays and a constant.
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point& at = points[i];
+            const auto found = scene::light_at(lit, at.x, at.n);
+            EXPECT_GT(found.weight, 0.0f);
+            plain[i] = static_cast<double>(luminance(found.irradiance));
+            const float rho = c.snow && at.n.y > 0.5f ? 0.9f : 0.2f;
+            const float own = world.open(at, 0.5f, 128);
+            const double factor = static_cast<double>(
+                std::min(bounced(rho, own) / std::max(bounced(rho, found.open), 0.05f), 2.0f));
+            ratio[i] = plain[i] * factor;
+            float open_sky = 0.0f;
+            int seen = 0, asked = 0;
+            for (int r = 0; r < 256; ++r) {
+                const glm::vec3 d = scene::row_direction(at.n, r, 256, 5);
+                open_sky += kPi * world.sky(d) / 256.0f;
+            }
+            for (int r = 0; r < 64 && asked < 16; ++r) {
+                const glm::vec3 d = scene::row_direction(at.n, (r * 37) % 64, 64, 9);
+                if (d.y <= 0.0f) continue;
+                ++asked;
+                seen += street.tracer.blocked({at.x + at.n * 0.002f, d}) ? 0 : 1;
+            }
+            const float open = asked > 0 ? static_cast<float>(seen) / static_cast<float>(asked) : 1.0f;
+            const float hidden = c.snow ? 0.47f : 0.22f;
+            today[i] = static_cast<double>(open_sky * (open + (1.0f - open) * hidden) *
+                                           bounced(rho, world.open(at, 0.7f, 128)));
+        }
+        for (const auto& [name, got] : {std::pair("before", &today), std::pair("patches", &plain),
+                                        std::pair("with ratio", &ratio)}) {
+            const Errors e = errors_of(*got, wanted);
+            std::printf("  %-14s %8.3f %8.3f %8.3f %8.3f   %s\n", c.name, e.rmse, e.bias, e.median,
+                        e.log2, name);
+        }
+        EXPECT_LT(errors_of(ratio, wanted).rmse, c.most_rmse) << c.name;
+        EXPECT_LT(errors_of(ratio, wanted).rmse, errors_of(today, wanted).rmse) << c.name;
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::film

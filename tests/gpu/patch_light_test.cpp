@@ -1,0 +1,215 @@
+// Light between surfaces in whole frames: the device looks up what the CPU does; laws of a room, an
+// arch, snow, a lamp round the corner.
+#include "gpu/passes/patch_light/patch_albedo.h"
+#include "scene/patches/lookup.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+Material lambert(const glm::vec3& color)
+{
+    Material m = plain_material(color, 1.0f);
+    m.lighting_model = "lambert";
+    m.ior = 1.0f;  // nothing is mirrored
+    return m;
+}
+
+// A box of six faces, seen from within or outside.
+void add_box(std::vector<Primitive>& to, glm::vec3 low, glm::vec3 high, bool within,
+             std::uint32_t material)
+{
+    const glm::vec3 d = high - low;
+    const glm::vec3 x{d.x, 0, 0}, y{0, d.y, 0}, z{0, 0, d.z};
+    const glm::vec3 faces[6][3] = {{low, z, x},     {low + y, x, z}, {low, y, z},
+                                   {low + x, z, y}, {low, x, y},     {low + z, y, x}};
+    for (const auto& f : faces)
+        to.push_back(within ? quad(f[0], f[1], f[2], material) : quad(f[0], f[2], f[1], material));
+}
+
+std::shared_ptr<PatchScene> traced(const Scene& scene, float cell_m = 0.3f)
+{
+    auto made = std::make_shared<PatchScene>();
+    const scene::Triangles triangles(scene, {});
+    const scene::Tracer tracer(triangles);
+    scene::PatchOptions options;
+    options.cell_m = cell_m;
+    made->patches = scene::build_patches(tracer, options);
+    made->surfaces = scene::patch_surfaces(made->patches, triangles, {});
+    made->materials = scene.materials;
+    for (const Light& light : scene.lights)
+        made->lamp_reach.push_back(
+            scene::trace_lamp(made->patches, tracer, light.position_m, 5000.0f));
+    made->glow = scene::trace_glow(made->patches, tracer,
+                                   scene::glowing_patches(made->patches, made->surfaces));
+    return made;
+}
+
+Frame frame_from(const Camera& camera, int width = 96, int height = 64)
+{
+    Frame frame;
+    frame.camera = camera;
+    frame.sky.sun_illuminance = 0.0f;
+    frame.settings.width = width;
+    frame.settings.height = height;
+    frame.settings.samples = 1;
+    frame.settings.ambient_occlusion = false;
+    frame.weather.visibility_m = 1e9f;
+    frame.settings.aovs = {"depth", "position", "normal"};
+    return frame;
+}
+
+// A yard: ground, a house, a low wall.
+Scene yard(const Material& material)
+{
+    std::vector<Primitive> p{quad({-8, 0, 8}, {16, 0, 0}, {0, 0, -16})};
+    add_box(p, {-3, 0, -4}, {1, 3, -2}, false, 0);
+    add_box(p, {1.5f, 0, -1}, {1.7f, 1, 3}, false, 0);
+    return scene_of(std::move(p), {material});
+}
+
+class PatchLightTest : public GpuTest {};
+
+TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
+{
+    const Scene scene = yard(lambert({0.5f, 0.4f, 0.3f}));
+    const auto patches = traced(scene);
+    renderer->load(scene, {});
+    renderer->set_patches(patches);
+    renderer->set_environment(constant_environment(1.0f));
+    const RenderResult r = renderer->render(frame_from(look({5, 3, 6}, {-1, 0.8f, -1}, 0.9f)));
+
+    // The same light on the CPU.
+    const scene::Patches& p = patches->patches;
+    const PatchLook seen = patch_look(*patches, {}, {}, true);
+    const std::vector<glm::vec3> none(p.count, glm::vec3(0.0f));
+    const std::vector<glm::vec3> sky(shared::kSkyBins, glm::vec3(kPi));
+    scene::Relight input;
+    input.albedo = seen.albedo;
+    input.direct = none;
+    input.sky = sky;
+    const auto light = scene::relight(p, input);
+    const auto planes = scene::lookup_planes(p);
+    const scene::LookupWays ways = scene::lookup_ways(p);
+    const scene::LitPatches lit{ways.table,       ways.ways,      planes,
+                                light.irradiance, light.gradient, ways.grid};
+    int compared = 0, different = 0;
+    for (int y = 0; y < r.height; ++y) {
+        for (int x = 0; x < r.width; ++x) {
+            if (!std::isfinite(aov(r, "depth", x, y))) continue;
+            const auto three = [&](const char* name) {
+                return glm::vec3(aov(r, name, x, y, 0), aov(r, name, x, y, 1),
+                                 aov(r, name, x, y, 2));
+            };
+            const glm::vec3 n = glm::normalize(three("normal"));
+            const auto at = scene::light_at(lit, three("position"), n);
+            ASSERT_GT(at.weight, 0.0f);
+            const glm::vec3 radiance =
+                at.irradiance *
+                (shared::irradiance_towards(at.gradient, glm::normalize(at.normal), n) / kPi) *
+                glm::vec3(0.5f, 0.4f, 0.3f);
+            ++compared;
+            // Half floats and eight-bit colour; a cell's border may fall to either side.
+            if (glm::length(pixel(r, x, y) - radiance) > 0.02f * glm::length(radiance) + 0.002f)
+                ++different;
+        }
+    }
+    EXPECT_GT(compared, 3000);
+    EXPECT_LE(different, compared / 200);
+}
+
+// A closed white room under a glowing ceiling would be a furnace; here: no light comes in.
+TEST_F(PatchLightTest, AClosedRoomIsDarkAndAnOpenOneIsNot)
+{
+    float inside[2];
+    for (int open = 0; open < 2; ++open) {
+        std::vector<Primitive> p;
+        add_box(p, {-2.2f, -0.2f, -2.2f}, {2.2f, 3.2f, 2.2f}, false, 0);
+        add_box(p, {-2, 0, -2}, {2, 3, 2}, true, 0);
+        if (open) {  // no ceiling: the top faces of both boxes
+            p.erase(p.begin() + 7);
+            p.erase(p.begin() + 1);
+        }
+        const Scene scene = scene_of(std::move(p), {lambert(glm::vec3(0.5f))});
+        renderer->load(scene, {});
+        renderer->set_patches(traced(scene));
+        renderer->set_environment(constant_environment(1.0f));
+        const RenderResult r = renderer->render(frame_from(look({-1.8f, 1.5f, 0}, {2, 1, 0}, 1.0f)));
+        float sum = 0.0f;
+        for (int y = 0; y < r.height; ++y)
+            for (int x = 0; x < r.width; ++x) sum += luminance(pixel(r, x, y));
+        inside[open] = sum / static_cast<float>(r.width * r.height);
+    }
+    EXPECT_LT(inside[0], 0.01f);
+    EXPECT_GT(inside[1], 0.1f);
+}
+
+// Snow on the ground lights what looks down at it.
+TEST_F(PatchLightTest, SnowLightsTheCeilingAboveIt)
+{
+    std::vector<Primitive> p{quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20})};
+    add_box(p, {-1.5f, 2.5f, -1.5f}, {1.5f, 2.7f, 1.5f}, false, 0);
+    const Scene scene = scene_of(std::move(p), {plain_material(glm::vec3(0.15f), 1.0f)});
+    renderer->load(scene, {});
+    renderer->set_patches(traced(scene));
+    renderer->set_environment(constant_environment(1.0f));
+    Frame frame = frame_from(look({0, 1.2f, 4}, {0, 2.5f, 0}, 0.2f));
+    const float dry = luminance(pixel(renderer->render(frame), 48, 32));
+    frame.weather.snow_amount = 1.0f;
+    frame.weather.water_to_snow = 1.0f;
+    const float snowy = luminance(pixel(renderer->render(frame), 48, 32));
+    EXPECT_GT(snowy, 2.0f * dry);
+    frame.settings.patch_light = false;
+    frame.weather = {};
+    frame.weather.visibility_m = 1e9f;
+    const float ambient = luminance(pixel(renderer->render(frame), 48, 32));
+    EXPECT_NE(ambient, dry) << "the switch does nothing";
+}
+
+TEST_F(PatchLightTest, ALampShinesRoundTheCorner)
+{
+    std::vector<Primitive> p{quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12})};
+    add_box(p, {-0.1f, 0, -6}, {0.1f, 3, 1}, false, 0);   // between the lamp and the place
+    add_box(p, {-6, 0, 3}, {6, 3, 3.2f}, false, 0);       // sends light back
+    Scene scene = scene_of(std::move(p), {lambert(glm::vec3(0.6f))});
+    Light lamp;
+    lamp.position_m = {2, 2, -1};
+    lamp.intensity = 100.0f;
+    lamp.range_m = 30.0f;
+    scene.lights = {lamp};
+    const auto patches = traced(scene);
+    renderer->load(scene, {});
+    renderer->set_patches(patches);
+    renderer->set_environment(constant_environment(0.0f));
+    Frame frame = frame_from(look({-3, 2.5f, 2.5f}, {-2, 0, -1}, 0.4f));
+    // Lamps cast no shadow of their own here: their direct light is switched off by the pixel's
+    // difference to a frame without patches.
+    const glm::vec3 with = pixel(renderer->render(frame), 48, 32);
+    frame.settings.patch_light = false;
+    const glm::vec3 without = pixel(renderer->render(frame), 48, 32);
+    EXPECT_GT(luminance(with) - luminance(without), 0.02f);
+    frame.settings.patch_light = true;
+    frame.scene_light_scale = 0.0f;
+    EXPECT_LT(luminance(pixel(renderer->render(frame), 48, 32)), 1e-3f);
+}
+
+TEST_F(PatchLightTest, TheSameBytesAgain)
+{
+    const Scene scene = yard(plain_material({0.5f, 0.4f, 0.3f}));
+    renderer->load(scene, {});
+    renderer->set_patches(traced(scene));
+    Frame frame = frame_from(look({5, 3, 6}, {-1, 0.8f, -1}, 0.9f));
+    frame.sky.sun_illuminance = 100000.0f;
+    const auto first = renderer->render(frame).beauty;
+    Frame other = frame;
+    other.sky.sun_elevation_rad = 0.2f;
+    EXPECT_NE(renderer->render(other).beauty, first);
+    EXPECT_EQ(renderer->render(frame).beauty, first) << "no history";
+    renderer->load(scene, {});
+    EXPECT_NE(renderer->render(frame).beauty, first) << "load() forgets the patches";
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
