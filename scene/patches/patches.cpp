@@ -161,13 +161,16 @@ Patches build_patches(const Tracer& tracer, const PatchOptions& options)
         return patches;
     }
     float cell = first_cell_m(triangles, options);
-    for (;; cell *= 1.5f) {
+    for (;;) {
         report(options, "patches", 0.0f);
         const CellPlan plan = plan_of(cell, triangles, options);
-        auto cells = grow_cells(tracer, plan, options);
-        if (!cells) continue;
-        patches = assemble(*cells, triangles, plan, options);
-        break;
+        GrownCells grown = grow_cells(tracer, plan, options);
+        if (grown.fit) {
+            patches = assemble(grown.cells, triangles, plan, options);
+            break;
+        }
+        // Too many at a coarse level already: far too fine.
+        cell *= grown.level > 3 ? 4.0f : grown.level > 1 ? 2.0f : 1.4f;
     }
     report(options, "links", 0.0f);
     trace_links(patches, tracer, options);

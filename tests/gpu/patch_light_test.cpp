@@ -195,6 +195,21 @@ TEST_F(PatchLightTest, ALampShinesRoundTheCorner)
     EXPECT_LT(luminance(pixel(renderer->render(frame), 48, 32)), 1e-3f);
 }
 
+// A wall that is painted in the course of a film lights what faces it in its new colour.
+TEST_F(PatchLightTest, AMaterialThatChangesChangesItsLight)
+{
+    const Scene scene = yard(lambert(glm::vec3(0.2f)));
+    const auto patches = traced(scene, 0.5f);
+    const PatchLook before = patch_look(*patches, {}, {}, true);
+    const PatchLook after = patch_look(*patches, {}, {}, true,
+                                       {{0, "base_color_factor", {0.8f, 0.4f, 0.2f, 1.0f}}});
+    for (std::size_t i = 0; i < before.albedo.size(); ++i) {
+        ASSERT_NEAR(before.albedo[i].x, 0.2f, 1e-4f);
+        ASSERT_NEAR(after.albedo[i].x, 0.8f, 1e-4f);
+        ASSERT_NEAR(after.albedo[i].y, 0.4f, 1e-4f);
+    }
+}
+
 TEST_F(PatchLightTest, TheSameBytesAgain)
 {
     const Scene scene = yard(plain_material({0.5f, 0.4f, 0.3f}));

@@ -6,6 +6,7 @@
 
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/surface_weather.h"
+#include "scene/material_table.h"
 
 namespace petrichor::gpu {
 
@@ -67,30 +68,59 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
     return state;
 }
 
+// A factor now over what it was when the patches were coloured; what was 0 stays as it is.
+float over(float now, float before)
+{
+    return before > 0.0f ? now / before : 1.0f;
+}
+glm::vec3 over(glm::vec3 now, glm::vec3 before)
+{
+    return {over(now.x, before.x), over(now.y, before.y), over(now.z, before.z)};
+}
+
+std::vector<Material> changed(std::vector<Material> materials,
+                              const std::vector<scene::MaterialChange>& changes)
+{
+    for (const scene::MaterialChange& change : changes) {
+        const scene::MaterialProperty* property = scene::find_property(change.property);
+        if (property && change.material < materials.size())
+            property->set(materials[change.material], change.value);
+    }
+    return materials;
+}
+
 }  // namespace
 
 PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weather,
-                     const shared::WeatherLook& look, bool shelter)
+                     const shared::WeatherLook& look, bool shelter,
+                     const std::vector<scene::MaterialChange>& changes)
 {
+    const std::vector<Material> materials = changed(scene.materials, changes);
     const scene::Patches& p = scene.patches;
     PatchLook result;
     result.albedo.reserve(p.count);
-    result.glow.reserve(p.count);
+    result.emission.reserve(p.count);
     const glm::vec3 rain = against_rain(weather.wind_m_s);
     for (std::uint32_t i = 0; i < p.count; ++i) {
-        const Material& material = scene.materials[p.material[i]];
+        const Material& material = materials[p.material[i]];
+        const Material& before = scene.materials[p.material[i]];
         const MaterialWeather& m = material.weather;
         const scene::PatchSurface& surface = scene.surfaces[i];
         shared::DryMaterial dry{};
-        dry.base_color = surface.base_color;
-        dry.metallic = surface.metallic;
+        dry.base_color = glm::clamp(
+            surface.base_color *
+                over(glm::vec3(material.base_color), glm::vec3(before.base_color)),
+            0.0f, 1.0f);
+        dry.metallic =
+            std::clamp(surface.metallic * over(material.metallic, before.metallic), 0.0f, 1.0f);
         const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
         dry.f0 = glm::min(root * root * material.specular_color, glm::vec3(1.0f)) * material.specular;
-        dry.roughness = surface.roughness;
+        dry.roughness =
+            std::clamp(surface.roughness * over(material.roughness, before.roughness), 0.0f, 1.0f);
         dry.occlusion = 1.0f;
         dry.porosity = m.porosity >= 0.0f
                            ? m.porosity
-                           : shared::porosity_from_smoothness(1.0f - surface.roughness);
+                           : shared::porosity_from_smoothness(1.0f - dry.roughness);
         dry.water_color = m.water_color;
         dry.snow_opacity = m.snow_opacity;
         shared::WeatheredMaterial now = shared::dry_material(dry);
@@ -102,7 +132,10 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         const float mirrored = std::max({now.specular.x, now.specular.y, now.specular.z});
         result.albedo.push_back(
             glm::clamp(now.albedo * (1.0f - mirrored) + now.specular, 0.0f, 1.0f));
-        result.glow.push_back(now.emission_scale);
+        const glm::vec3 glow =
+            surface.emission * over(material.emissive * material.emissive_strength,
+                                    before.emissive * before.emissive_strength);
+        result.emission.push_back(glow * now.emission_scale);
     }
     return result;
 }

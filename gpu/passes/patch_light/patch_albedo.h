@@ -9,17 +9,19 @@
 
 namespace petrichor::gpu {
 
-/// What a patch sends back of its light, and what is left of its glow, under a weather.
+/// What a patch sends back of its light and sends out by itself, under a weather.
 struct PatchLook {
     std::vector<glm::vec3> albedo;
-    std::vector<float> glow;  ///< 0..1
+    std::vector<glm::vec3> emission;  ///< radiance
 };
 
 /// The formulas of a pixel (formulas/weather) at every patch: masks at the middle of their quarters,
 /// height maps at the material's default, roofs by the visibility towards the falling rain. What is
 /// mirrored counts as sent back evenly.
+/// changes: of materials since the scene was loaded (Frame::materials).
 PatchLook patch_look(const PatchScene& patches, const shared::WeatherMoment& weather,
-                     const shared::WeatherLook& look, bool shelter);
+                     const shared::WeatherLook& look, bool shelter,
+                     const std::vector<scene::MaterialChange>& changes = {});
 
 }  // namespace petrichor::gpu
 

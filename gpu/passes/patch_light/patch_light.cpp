@@ -143,10 +143,16 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         for (const float v : {l.intensity, l.range_m, l.inner_cone_rad, l.outer_cone_rad})
             hasher.add(v);
     }
+    for (const scene::MaterialChange& change : frame.materials) {
+        hasher.add(change.material);
+        hasher.add(change.property);
+        hasher.add_numbers(std::span<const float>(&change.value.x, 4));
+    }
     const std::string lit_by = hasher.text();
     if (lit_by == lit_by_) return;
 
-    PatchLook look = patch_look(*scene_, frame.weather, frame.look, frame.settings.shelter);
+    PatchLook look = patch_look(*scene_, frame.weather, frame.look, frame.settings.shelter,
+                                frame.materials);
     if (frame.patch_albedo.size() == p.count) look.albedo = frame.patch_albedo;
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
     scene::add_sun(p, sun.direction, sun.illuminance, direct);
@@ -161,8 +167,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     for (const Light& light : frame.extra_lights) add_lamp(p, light, nullptr, direct);
     float bright = 0.0f, area = 0.0f;
     for (std::uint32_t i = 0; i < p.count; ++i) {
-        emission[i] = scene_->surfaces[i].emission *
-                      (shared::kPi * frame.emissive_scale * look.glow[i]);
+        emission[i] = look.emission[i] * (shared::kPi * frame.emissive_scale);
         const glm::vec3 a = look.albedo[i];
         bright += p.area_m2[i] * (a.x + a.y + a.z) / 3.0f;
         area += p.area_m2[i];

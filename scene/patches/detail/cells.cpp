@@ -109,6 +109,7 @@ public:
     }
 
     std::vector<Cell> take() { return std::move(cells_); }
+    int level() const { return level_; }
 
 private:
     bool grow_level();
@@ -487,12 +488,14 @@ void Grower::settle()
 
 }  // namespace
 
-std::optional<std::vector<Cell>> grow_cells(const Tracer& tracer, const CellPlan& plan,
-                                            const PatchOptions& options)
+GrownCells grow_cells(const Tracer& tracer, const CellPlan& plan, const PatchOptions& options)
 {
     Grower grower(tracer, plan, options);
-    if (!grower.grow()) return std::nullopt;
-    return grower.take();
+    GrownCells grown;
+    grown.fit = grower.grow();
+    grown.level = grower.level();
+    if (grown.fit) grown.cells = grower.take();
+    return grown;
 }
 
 }  // namespace petrichor::scene

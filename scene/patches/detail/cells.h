@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "scene/patches/patches.h"
@@ -48,9 +47,13 @@ struct CellPlan {
     std::uint32_t most = kMostPatches;
 };
 
-/// Cells of the scene, coarse to fine; nothing when there would be more leaves than allowed.
-std::optional<std::vector<Cell>> grow_cells(const Tracer& tracer, const CellPlan& plan,
-                                            const PatchOptions& options);
+struct GrownCells {
+    bool fit = false;  ///< no more leaves than allowed
+    int level = 0;     ///< where there were too many
+    std::vector<Cell> cells;
+};
+/// Cells of the scene, coarse to fine.
+GrownCells grow_cells(const Tracer& tracer, const CellPlan& plan, const PatchOptions& options);
 
 /// How far rays start from their surface: 2 mm on the scale of a street, and more than rounding.
 float ray_lift_m(glm::vec3 position, float regular_cell_m);
