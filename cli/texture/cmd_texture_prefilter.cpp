@@ -6,6 +6,7 @@
 
 #include "cli/texture/block_fit.h"
 #include "cli/texture/chain_output.h"
+#include "base/error.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
 #include "cli/texture/prefilter_options.h"
@@ -23,7 +24,7 @@ namespace {
 
 struct Arguments {
     PrefilterInput input;
-    std::string out, normal_out, anisotropy_out, quality = "full";
+    std::string out, normal_out, anisotropy_out, base_share_out, quality = "full";
     std::string format, normal_format;
     int bits = 16;
     bool roughness_only = false, score = false, timings = false;
@@ -56,13 +57,17 @@ void print_score(const Arguments& a, const PrefilterMaps& maps, const BlockFit& 
 
 void take_options(Arguments& a)
 {
-    for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out}) {
+    for (const std::string& name : {a.out, a.normal_out, a.anisotropy_out, a.base_share_out}) {
         if (!name.empty()) check_chain_name(name);
     }
     texproc::PrefilterOptions& o = a.input.options;
     o.joint = !a.roughness_only;
     o.quick = a.quality == "quick";
     o.anisotropic = !a.anisotropy_out.empty();
+    if (!a.base_share_out.empty() && o.rule != "picture") {
+        throw Error("prefilter: the rule '" + o.rule + "' makes no base share",
+                    "Use the rule picture, or leave --base-share-out out.");
+    }
     // Re-aimed normals are of use only where they are written. Blocks choose their own codes.
     if (a.normal_out.empty()) {
         o.joint = false;
@@ -92,6 +97,11 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
         }
         write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
                     unit.bytes.empty() ? maps.normal : unit, a.input.normal, chains.normal);
+    }
+    if (!a.base_share_out.empty()) {
+        const Image one(maps.normal.width, maps.normal.height, 1, ColorSpace::Data, 1.0f);
+        write_chain({a.base_share_out, "", a.bits, o.threads, {}},
+                    texproc::to_raw(one, texproc::PixelType::U8), "", chains.base_share);
     }
     if (!a.anisotropy_out.empty()) {
         // Level 0 has none: along x, strength 0.
@@ -145,7 +155,7 @@ void run(Arguments& a)
 void add_texture_prefilter(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
-    a->input.options.rule = "overlap";
+    a->input.options.rule = "picture";
     CLI::App* app = texture.add_subcommand(
         "prefilter", "mip levels whose roughness holds what the normals lose");
     add_prefilter_input(*app, a->input);
@@ -154,7 +164,7 @@ void add_texture_prefilter(CLI::App& texture)
     app->add_option("--design-light", a->input.options.design_light,
                     "alpha of the light to fit for: 0 the sun, 0.1 a window")
         ->capture_default_str();
-    app->add_option("--quality", a->quality, "overlap: full or quick")
+    app->add_option("--quality", a->quality, "picture, overlap: full or quick")
         ->check(CLI::IsMember({"full", "quick"}))
         ->capture_default_str();
     app->add_flag("--roughness-only", a->roughness_only, "overlap: keep the mean normals");
@@ -177,6 +187,8 @@ void add_texture_prefilter(CLI::App& texture)
                     "of a texture file of normals: bc5, bc7, ...");
     app->add_option("--anisotropy-out", a->anisotropy_out,
                     "direction (RG) and strength (B) as in glTF: 'aniso_%d.png'");
+    app->add_option("--base-share-out", a->base_share_out,
+                    "picture: what to multiply the base colour of level k by: 'share_%d.png'");
     std::string notes = "Rules:\n";
     for (const texproc::Rule& rule : texproc::rules()) {
         notes += "  " + rule.name +

@@ -10,6 +10,7 @@
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
 #include "cli/texture/prefilter_options.h"
+#include "cli/texture/score_picture.h"
 #include "cli/texture/score_protocol.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/material/normal_channels.h"
@@ -97,6 +98,10 @@ void run(Arguments& a)
         if (!good) throw std::runtime_error("the yardstick does not measure what it should");
         return;
     }
+    if (!a.protocol.pictures.empty()) {
+        run_score_picture(a.protocol, a.input.reading, a.input.options.threads);
+        return;
+    }
     if (!a.protocol.effort.empty()) {
         a.protocol.best_ellipse = a.scoring.best_ellipse;
         run_score_protocol(a.protocol, a.input.reading, a.input.options.threads);
@@ -156,9 +161,17 @@ void add_texture_score(CLI::App& texture)
            "score every rule on the named sets and on hard maps made from code: full (3 rolls "
            "of each map, 64 texels a level) or quick")
         ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option(
+           "--picture", a->protocol.pictures,
+           "score every rule by lit floors under a moving camera against supersampled ones: full "
+           "(18 views and lights) or quick (5)")
+        ->check(CLI::IsMember({"full", "quick"}));
+    app->add_option("--sheet", a->protocol.sheet,
+                    "--picture: a PNG of plain mips, the rules and the truth side by side");
     app->add_option("SETS", a->protocol.sets,
                     "for --protocol: roughness maps, or folders of materials");
-    app->add_option("--rules", a->protocol.rules, "for --protocol: only these, with commas between")
+    app->add_option("--rules", a->protocol.rules,
+                    "for --protocol, --picture: only these, with commas between")
         ->delimiter(',')
         ->allow_extra_args(false);
     app->add_option("--bits", a->protocol.bits, "for --protocol: of the files that would ship")
@@ -184,7 +197,8 @@ void add_texture_score(CLI::App& texture)
     app->add_flag("--best-ellipse", a->scoring.best_ellipse,
                   "also the best elliptic lobe of all, searched for at every texel: what no "
                   "anisotropic output can beat (slow)");
-    app->add_option("--csv", a->protocol.csv, "for --protocol: every level of every row");
+    app->add_option("--csv", a->protocol.csv,
+                    "for --protocol, --picture: every level or case of every row");
     app->footer(
         "A gap of 100 % is the best isotropic lobe about the mean normal, 0 % plain mips; in "
         "brackets,\n"
@@ -192,6 +206,9 @@ void add_texture_score(CLI::App& texture)
         "  petrichor texture score --normal n.png --roughness r.png --chain 'r_%d.png' "
         "--normal-chain 'n_%d.png'\n"
         "  petrichor texture score --protocol quick materials/Rock020 materials/Tiles036\n"
+        "  petrichor texture score --picture quick --no-hard materials/Rock020 --rules "
+        "unreal,picture "
+        "--sheet floors.png\n"
         "  petrichor texture score --protocol quick --fresh 1,2 --only corrugated,strokes,brushed "
         "--best-ellipse");
     app->callback([a] { run(*a); });

@@ -63,7 +63,9 @@ void keep_only(const std::vector<std::string>& words, std::vector<texproc::Score
     });
 }
 
-std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
+}  // namespace
+
+std::vector<texproc::Variant> requested_variants(const ProtocolRequest& request)
 {
     std::vector<texproc::Variant> all = texproc::protocol_variants(request.bits), kept;
     if (request.rules.empty()) return all;
@@ -80,12 +82,9 @@ std::vector<texproc::Variant> chosen_variants(const ProtocolRequest& request)
     return kept;
 }
 
-}  // namespace
-
-void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading,
-                        int threads)
+std::vector<texproc::ScoredMaps> requested_materials(const ProtocolRequest& request,
+                                                     const texproc::ReadOptions& reading)
 {
-    const std::vector<texproc::Variant> variants = chosen_variants(request);
     std::vector<texproc::ScoredMaps> materials;
     for (const std::string& set : request.sets) add_set(set, request, reading, materials);
     if (request.patchwork) add_patchwork(materials);
@@ -105,6 +104,14 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
             "score: there is nothing to score",
             "Name roughness maps or folders of materials, or leave --no-hard or --only out.");
     }
+    return materials;
+}
+
+void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading,
+                        int threads)
+{
+    const std::vector<texproc::Variant> variants = requested_variants(request);
+    const std::vector<texproc::ScoredMaps> materials = requested_materials(request, reading);
     texproc::ProtocolOptions options;
     if (request.effort == "quick") options = texproc::quick_protocol();
     if (request.seeds > 0) options.seeds = request.seeds;

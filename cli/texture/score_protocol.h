@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "texproc/codecs/files/io.h"
+#include "texproc/study/protocol.h"
 
 namespace petrichor::cli {
 
-/// `score --protocol`: every rule on several materials.
+/// `score --protocol` and `score --picture`: every rule on several materials.
 struct ProtocolRequest {
     std::string effort;              ///< full or quick; empty: not asked for
+    std::string pictures;            ///< the same, for lit pictures
     std::vector<std::string> sets;   ///< roughness maps or folders
     std::vector<std::string> rules;  ///< names of variants to keep; empty: all
     int bits = 16;
@@ -22,8 +24,15 @@ struct ProtocolRequest {
     std::vector<std::uint32_t> fresh;  ///< seeds of sets of materials that no rule was chosen on
     std::vector<std::string> only;     ///< materials whose names hold one of these; empty: all
     bool best_ellipse = false;         ///< rows for the best elliptic lobes there are
-    std::string csv;                   ///< every level of every row
+    std::string csv;                   ///< every level or case of every row
+    std::string sheet;                 ///< --picture: a PNG of plain mips, the rules and the truth
 };
+
+/// The materials that a request names. Throws Error when there are none.
+std::vector<texproc::ScoredMaps> requested_materials(const ProtocolRequest& request,
+                                                     const texproc::ReadOptions& reading);
+/// The rules that a request names.
+std::vector<texproc::Variant> requested_variants(const ProtocolRequest& request);
 
 /// Reads the sets, scores, prints the table on stdout and what is being done on stderr.
 void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptions& reading,

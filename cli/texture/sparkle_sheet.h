@@ -14,7 +14,7 @@ struct SparkleSheet {
     Image normal;     ///< 3 channels, green up
     Image roughness;  ///< 1 channel, perceptual
     Image albedo;     ///< 3 channels, linear; may be empty
-    std::string rule = "overlap";
+    std::string rule = "picture";
     bool quick = true;
     float light = 0.0f;
     int threads = 0;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/image/raw_image.h"
+#include "texproc/material/base_share.h"
 
 namespace petrichor::film {
 namespace {
@@ -225,15 +226,40 @@ std::vector<gpu::Texture> finish_surface(const scene::Scene& scene,
     return made;
 }
 
-gpu::Texture finish_plain(const scene::EncodedImage& encoded, const TextureRecipe& recipe,
+// A base colour; with a normal map its small levels are as dark as the slopes make them.
+std::vector<Image> color_levels(const scene::Scene& scene, const TextureRecipe& recipe,
+                                const texproc::MipOptions& mips, const TextureOptions& options)
+{
+    std::vector<Image> levels = texproc::plain_levels(
+        decode(image_at(scene, recipe.image), ColorSpace::Linear, 4, options), "albedo", mips);
+    if (recipe.normal_image < 0 || options.prefilter.rule != "picture") return levels;
+    Image normals = decode_normals(image_at(scene, recipe.normal_image), options);
+    scale_normals(normals, recipe.normal_scale);
+    std::vector<Image> metallic;
+    if (recipe.surface_image >= 0) {
+        const Image surface =
+            decode(image_at(scene, recipe.surface_image), ColorSpace::Data, 4, options);
+        Image metal = channel_of(surface, 2);
+        for (float& value : metal.pixels) value *= recipe.metallic_factor;
+        metallic = texproc::plain_levels(metal, "scalar", mips);
+    } else if (recipe.metallic_factor > 0.0f) {
+        for (const Image& level : levels)
+            metallic.emplace_back(level.width, level.height, 1, ColorSpace::Data,
+                                  recipe.metallic_factor);
+    }
+    texproc::apply_base_shares(levels, texproc::base_shares(normals, 1), metallic);
+    return levels;
+}
+
+gpu::Texture finish_plain(const scene::Scene& scene, const TextureRecipe& recipe,
                           const TextureOptions& options)
 {
+    const scene::EncodedImage& encoded = image_at(scene, recipe.image);
     const texproc::MipOptions mips = mip_options(encoded, recipe);
     switch (recipe.kind) {
         case Kind::Color:
-            return rounded(texproc::plain_levels(decode(encoded, ColorSpace::Linear, 4, options),
-                                                 "albedo", mips),
-                           gpu::TexelFormat::Rgba8Srgb, options);
+            return rounded(color_levels(scene, recipe, mips, options), gpu::TexelFormat::Rgba8Srgb,
+                           options);
         case Kind::Normal:
             return rounded_normals(normal_levels(decode_normals(encoded, options), mips), options);
         case Kind::Light:
@@ -311,7 +337,7 @@ FinishedTextures finish_textures(const scene::Scene& scene,
     if (recipe.prepared) return finish_prepared(encoded, recipe, options);
     if (recipe.kind == Kind::Surface) return {finish_surface(scene, recipes, job, options), {}};
     FinishedTextures finished;
-    finished.textures.push_back(finish_plain(encoded, recipe, options));
+    finished.textures.push_back(finish_plain(scene, recipe, options));
     return finished;
 }
 

@@ -50,6 +50,11 @@ void add_recipe(Hasher& hasher, const scene::Scene& scene, const TextureRecipe& 
     hasher.add(recipe.normal_image >= 0);
     if (recipe.normal_image >= 0)
         hasher.add_bytes(scene.textures[static_cast<std::size_t>(recipe.normal_image)].bytes);
+    hasher.add(recipe.metallic_factor);
+    const bool metal = recipe.kind == TextureRecipe::Kind::Color && recipe.surface_image >= 0;
+    hasher.add(metal);
+    if (metal)
+        hasher.add_bytes(scene.textures[static_cast<std::size_t>(recipe.surface_image)].bytes);
 }
 
 // Everything that decides the bytes of a job: sources, recipe, options, program.

@@ -76,13 +76,27 @@ bool same_wrapping(const scene::EncodedImage& a, const scene::EncodedImage& b)
 }
 
 // The base colour and what shines.
-void plan_color(scene::Material& material, Planner& planner)
+void plan_color(scene::Material& material, const scene::Scene& scene, Planner& planner, bool moves)
 {
     // What lies under holes must not show at their edges; an opaque material shows all of it.
     TextureRecipe color{.kind = Kind::Color,
                         .alpha_covers = material.alpha_mode != scene::AlphaMode::Opaque};
     if (material.alpha_mode == scene::AlphaMode::Mask && material.base_color.a > 0.0f) {
         color.alpha_cutoff = material.alpha_cutoff / material.base_color.a;
+    }
+    const scene::TextureUse& base = material.base_color_texture;
+    const auto fits = [&](const scene::TextureUse& other) {
+        return other.present() && same_coordinates(base, other) &&
+               same_wrapping(scene.textures[static_cast<std::size_t>(base.texture)],
+                             scene.textures[static_cast<std::size_t>(other.texture)]);
+    };
+    if (!moves && base.present() && !planner.prepared(base) && !material.unlit &&
+        fits(material.normal_texture) && !planner.prepared(material.normal_texture)) {
+        color.normal_image = material.normal_texture.texture;
+        color.normal_scale = material.normal_scale;
+        color.metallic_factor = material.metallic;
+        if (material.metallic > 0.0f && fits(material.metallic_roughness_texture))
+            color.surface_image = material.metallic_roughness_texture.texture;
     }
     planner.use(material.base_color_texture, color);
     planner.use(material.emissive_texture, {.kind = Kind::Color});
@@ -142,8 +156,9 @@ std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<
     Planner planner(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         scene::Material& material = scene.materials[i];
-        plan_color(material, planner);
-        plan_surface(material, scene, planner, i < moving.size() && moving[i]);
+        const bool moves = i < moving.size() && moving[i];
+        plan_color(material, scene, planner, moves);
+        plan_surface(material, scene, planner, moves);
         plan_scalar(material.weather.height, planner);
         plan_scalar(material.weather.puddle_mask, planner);
         plan_scalar(material.weather.snow_mask, planner);

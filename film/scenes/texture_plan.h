@@ -22,10 +22,13 @@ struct TextureRecipe {
     int channel = 0;                ///< Scalar: the one that is kept, 0 red .. 3 alpha
     float alpha_cutoff = -1.0f;     ///< Color of a MASK material: keep the coverage in small levels
     bool alpha_covers = false;      ///< Color of a MASK or BLEND material: weighed by its alpha
-    int normal_image = -1;          ///< Surface: the normal map whose lost detail becomes roughness
-    int surface_image = -1;         ///< Normal: the surface map whose roughness it is filtered with
+    /// Surface: the normal map whose lost detail becomes roughness; Color: whose slopes darken it.
+    int normal_image = -1;
+    /// Normal: the surface map whose roughness it is filtered with; Color: which tells metal.
+    int surface_image = -1;
     float normal_scale = 1.0f;      ///< of such a pair: scale of the normal map
     float roughness_factor = 1.0f;  ///< of such a pair: multiplied into the surface map
+    float metallic_factor = 0.0f;   ///< Color: of the material
     bool prepared = false;          ///< brings its own levels (DDS, KTX2): loaded as it is
 
     bool operator==(const TextureRecipe&) const = default;

@@ -14,8 +14,8 @@ namespace petrichor::texproc {
 
 /// How roughness and normals are filtered together.
 struct PrefilterChoice {
-    std::string rule = "overlap";  ///< a name of rules(); "none": plain mips
-    bool quick = true;             ///< overlap: less search
+    std::string rule = "picture";  ///< a name of rules(); "none": plain mips
+    bool quick = true;             ///< overlap, picture: less search
     float design_light = 0.0f;     ///< as PrefilterOptions::design_light
 };
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "texproc/filter/area.h"
 #include "texproc/filter/mips.h"
+#include "texproc/material/base_share.h"
 #include "texproc/material/normal_channels.h"
 #include "texproc/material/prefiltered_maps.h"
 #include "texproc/material/write_levels.h"
@@ -88,13 +89,16 @@ public:
 
     MadeMaterial make()
     {
-        MadeMaterial made{maps_.sources, {}, maps_.green, {}};
+        MadeMaterial made{maps_.sources, {}, maps_.green, {}, {}};
         made.outputs.resize(plan_.outputs.size());
         for (const std::size_t number : prefiltered_.order()) {
             prefiltered_.aim(number, made.outputs, folder_);
             made.outputs[number] = make_output(number);
         }
-        made.lobe_error = prefiltered_.lobe_error(made.outputs, folder_);
+        if (const auto shipped = prefiltered_.shipped(made.outputs, folder_)) {
+            made.lobe_error = prefiltered_.lobe_error(*shipped);
+            made.picture_error = prefiltered_.picture_error(*shipped);
+        }
         return made;
     }
 
@@ -104,6 +108,7 @@ private:
     std::vector<RawImage> levels(std::size_t number, const std::string& role, std::size_t first,
                                  std::size_t last) const;
     std::vector<Image> levels_without_prefilter(const std::string& role, ColorSpace space) const;
+    void darken_small_levels(std::vector<Image>& albedo) const;
 
     const PlannedMaterial& plan_;
     const std::filesystem::path& folder_;
@@ -180,11 +185,23 @@ std::vector<RawImage> Maker::levels(std::size_t number, const std::string& role,
     const std::vector<Image>* chain = prefiltered_.levels(number, role);
     if (!chain) {
         plain = levels_without_prefilter(role, space);
+        if (role == "albedo") darken_small_levels(plain);
         chain = &plain;
     }
     for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k)
         levels.push_back(to_raw((*chain)[k], type));
     return levels;
+}
+
+// Where the slopes of the normal map face away.
+void Maker::darken_small_levels(std::vector<Image>& albedo) const
+{
+    if (prefiltered_.base_share().empty()) return;
+    std::vector<Image> metallic;
+    if (const RawImage* map = maps_.find("metallic")) {
+        if (map->channels == 1) metallic = levels_without_prefilter("metallic", ColorSpace::Data);
+    }
+    apply_base_shares(albedo, prefiltered_.base_share(), metallic);
 }
 
 std::vector<Image> Maker::levels_without_prefilter(const std::string& role, ColorSpace space) const

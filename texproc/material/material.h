@@ -8,6 +8,7 @@
 
 #include "texproc/material/plan.h"
 #include "texproc/material/source_maps.h"
+#include "texproc/prefilter/picture.h"
 #include "texproc/study/score.h"
 
 namespace petrichor::texproc {
@@ -16,11 +17,17 @@ struct MadeOutput {
     std::vector<std::string> files;  ///< relative to the folder; one, or one a level
     int width = 0, height = 0, levels = 0;
 };
+/// How far lit floors (reference_pictures()) with the files that were made are from the truth, mean
+/// over the cases, and with plain mips.
+struct PictureError {
+    PictureScore shipped, plain;
+};
 struct MadeMaterial {
     std::vector<MadeSource> sources;  ///< the maps that were read
     std::vector<MadeOutput> outputs;  ///< in the order of the plan
     std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
     std::optional<Score> lobe_error;
+    std::optional<PictureError> picture_error;
 };
 
 /// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread

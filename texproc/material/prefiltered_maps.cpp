@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "texproc/material/shipped.h"
+#include "texproc/prefilter/picture.h"
 #include "texproc/prefilter/stored.h"
 
 namespace petrichor::texproc {
@@ -125,7 +126,7 @@ void PrefilteredMaps::aim(std::size_t number, const std::vector<MadeOutput>& mad
         if (read[k].empty()) read[k] = chains_.normal[k];
     }
     aimed_[*normals] = aim_roughness(maps_.images.at("normal"), maps_.images.at(rough_role_),
-                                     {std::move(read), chains_.roughness, {}}, options_);
+                                     {std::move(read), chains_.roughness, {}, {}}, options_);
 }
 
 const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std::string& role) const
@@ -155,8 +156,8 @@ std::vector<Image> PrefilteredMaps::texel_weights(std::size_t number, std::size_
     return weights;
 }
 
-std::optional<Score> PrefilteredMaps::lobe_error(const std::vector<MadeOutput>& made,
-                                                 const std::filesystem::path& folder) const
+std::optional<Prefiltered> PrefilteredMaps::shipped(const std::vector<MadeOutput>& made,
+                                                    const std::filesystem::path& folder) const
 {
     if (rough_role_.empty() || !plan_.recipe->score) return {};
     Prefiltered read;
@@ -173,9 +174,34 @@ std::optional<Score> PrefilteredMaps::lobe_error(const std::vector<MadeOutput>& 
         quantize(read, bits_);
     }
     if (!options_.joint) read.normal.clear();
+    read.base_share = chains_.base_share;
+    return read;
+}
+
+Score PrefilteredMaps::lobe_error(const Prefiltered& shipped) const
+{
     return texproc::score(
-        maps_.images.at("normal"), maps_.images.at(rough_role_), read, options_,
+        maps_.images.at("normal"), maps_.images.at(rough_role_), shipped, options_,
         {.light = plan_.recipe->prefilter.design_light, .texels = 16, .threads = options_.threads});
+}
+
+PictureError PrefilteredMaps::picture_error(const Prefiltered& shipped) const
+{
+    PictureOptions pictures = reference_pictures();
+    pictures.frames = 2;
+    pictures.samples = 8;
+    pictures.threads = options_.threads;
+    const PictureBench bench(maps_.images.at("normal"), maps_.images.at(rough_role_), options_,
+                             pictures);
+    const auto mean = [](const std::vector<PictureScore>& scores) {
+        PictureScore sum;
+        for (const PictureScore& score : scores) {
+            sum.rmse += score.rmse / static_cast<double>(scores.size());
+            sum.flicker += score.flicker / static_cast<double>(scores.size());
+        }
+        return sum;
+    };
+    return {mean(bench.score(shipped)), mean(bench.score({}))};
 }
 
 }  // namespace petrichor::texproc

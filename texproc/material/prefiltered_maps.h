@@ -31,12 +31,18 @@ public:
 
     /// Levels 1.. of a role for an output; nullptr where they are plain mips.
     const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
+    /// What the base colour is to be multiplied by (apply_base_shares); empty: by nothing.
+    const std::vector<Image>& base_share() const { return chains_.base_share; }
     /// For TextureWriteOptions::texel_weights of an output whose first level is `first`: a
     /// prefiltered map alone in BC4 or BC5; empty for others.
     std::vector<Image> texel_weights(std::size_t number, std::size_t first) const;
-    /// The lobe error of what engines read from the first outputs that hold the maps.
-    std::optional<Score> lobe_error(const std::vector<MadeOutput>& made,
-                                    const std::filesystem::path& folder) const;
+    /// What engines read from the first outputs that hold the maps; nothing where the recipe asks
+    /// for no scores.
+    std::optional<Prefiltered> shipped(const std::vector<MadeOutput>& made,
+                                       const std::filesystem::path& folder) const;
+    /// The lobe error of a chain, and how far pictures with it are from the truth.
+    Score lobe_error(const Prefiltered& shipped) const;
+    PictureError picture_error(const Prefiltered& shipped) const;
 
 private:
     void check_sizes() const;

@@ -9,6 +9,7 @@
 #include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/filter.h"
 #include "texproc/prefilter/detail/input.h"
+#include "texproc/prefilter/detail/picture_settle.h"
 #include "texproc/prefilter/detail/walk.h"
 #include "texproc/prefilter/lux.h"
 
@@ -74,11 +75,11 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
     WalkOptions walking;
     walking.wanted = wanted;
     for (const PrefilterOptions& o : variants) {
-        filters.emplace_back(o);
+        filters.emplace_back(o, surface);
         chains.push_back(empty_chain(sizes, o));
         walking.cells |= filters.back().needs_cells();
         walking.own_lobes |= o.rule == "vmf";
-        if (o.rule == "overlap") walking.apart = kApart;
+        if (o.rule == "overlap" || o.rule == "picture") walking.apart = kApart;
     }
     walking.threads = variants.front().threads;
     walking.progress = variants.front().progress;
@@ -89,6 +90,8 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
     });
     for (std::size_t i = 0; i < variants.size(); ++i) {
         if (variants[i].rule == "lux") lux_roughness(surface, variants[i], chains[i]);
+        if (variants[i].rule == "picture" && !wanted)
+            settle_picture(surface, variants[i], chains[i]);
     }
     return chains;
 }
@@ -122,6 +125,8 @@ Prefiltered prefilter(const Image& normal, const Image& roughness, const Prefilt
             *to++ = 0.5f + 0.5f * row.nz[x];
         }
     }
+    if (!out.base_share.empty())
+        out.base_share[0] = Image(normal.width, normal.height, 1, ColorSpace::Data, 1.0f);
     if (options.anisotropic) {
         out.anisotropy[0] = Image(normal.width, normal.height, 3, ColorSpace::Data, 0.5f);
         for (std::size_t i = 0; i < out.anisotropy[0].pixels.size(); i += 3) {

@@ -11,7 +11,7 @@
 namespace petrichor::texproc {
 
 struct PrefilterOptions {
-    std::string rule = "moments";  ///< a name of rules(); "overlap" is the best
+    std::string rule = "moments";  ///< a name of rules()
     bool smoothness = false;  ///< the second map holds smoothness instead of perceptual roughness
     int threads = 0;          ///< 0: all cores; the bytes do not depend on it
 
@@ -24,7 +24,7 @@ struct PrefilterOptions {
     float design_light = 0.0f;  ///< overlap, student-t, median: alpha of the light to fit for
     bool joint = true;          ///< overlap: may re-aim the normals; else only roughness changes
     bool anisotropic = false;   ///< overlap: elliptic lobes where they help
-    bool quick = false;         ///< overlap: less search
+    bool quick = false;         ///< overlap, picture: less search
     int bits = 0;               ///< of the files: 8 lets overlap choose the codes; 0 or 16: floats
 
     std::function<void(double)> progress{};  ///< called now and then with the share done, 0..1
@@ -38,6 +38,10 @@ struct Prefiltered {
     /// B = strength as glTF defines it: alpha along = mix(alpha across, 1, strength^2); roughness
     /// then holds the one across.
     std::vector<Image> anisotropy;
+    /// Only with the rule picture, 1 channel, 0..1: what the base colour of anything but metal is
+    /// multiplied by on each level. It is the length of the mean normal, which a normal of unit
+    /// length forgets: slopes that face away make a surface darker from afar.
+    std::vector<Image> base_share;
 };
 
 // A texel is made from its exact area of level 0 and never looks past an edge: maps that wrap,
@@ -56,7 +60,8 @@ Prefiltered prefilter_raw(const RawImage& normal, const RawImage& roughness,
 
 /// Several variants of the same maps in one walk, filling only the texels for which
 /// wanted(level, x, y) holds, which is all that a score looks at; the others stay 0. All variants
-/// must read the maps alike. wanted is called from several threads. The rule lux needs every texel.
+/// must read the maps alike. wanted is called from several threads. The rule lux needs every texel;
+/// picture leaves out its last look at whole pictures.
 std::vector<Prefiltered> prefilter_some(const RawImage& normal, const RawImage& roughness,
                                         const std::vector<PrefilterOptions>& variants,
                                         const std::function<bool(int, int, int)>& wanted);

@@ -10,7 +10,9 @@ namespace petrichor::texproc {
 const std::vector<Rule>& rules()
 {
     static const std::vector<Rule> all{
-        {"overlap", RuleKind::Search, "the lobe of largest overlap; re-aims normals (default)"},
+        {"picture", RuleKind::Picture,
+         "looks most like its footprint, diffuse and specular, lit and shown (default)"},
+        {"overlap", RuleKind::Search, "the lobe of largest overlap; re-aims normals"},
         {"student-t", RuleKind::Cells, "maximum likelihood fit of the lobe; re-aims normals"},
         {"median", RuleKind::Cells, "the radius that holds half of the footprint's half-vectors"},
         {"lean", RuleKind::Cells, "slope variance about the mean normal"},

@@ -11,6 +11,7 @@ enum class RuleKind {
     Moments,  ///< means only: one value from a few numbers
     Cells,    ///< every texel of the footprint
     Search,   ///< a search for the best lobe
+    Picture,  ///< a search for the most like picture
 };
 
 struct Rule {
@@ -20,7 +21,7 @@ struct Rule {
 };
 
 /// All rules: none, lux, lux-formula, moments, filament, filament-1.9, godot, unreal, toksvig, vmf,
-/// lean, median, student-t, overlap.
+/// lean, median, student-t, overlap, picture.
 const std::vector<Rule>& rules();
 /// Throws Error that lists the names.
 const Rule& rule_named(const std::string& name);

@@ -40,7 +40,7 @@ std::vector<Prefiltered> chains_at(const ScoredMaps& maps, const std::vector<Var
     std::vector<PrefilterOptions> some;
     for (const Variant& v : variants) {
         some.push_back(v.options);
-        some.back().design_light = scoring.light;
+        if (v.options.rule != "picture") some.back().design_light = scoring.light;
         some.back().threads = scoring.threads;
         some.back().bits = ships_normals(v) ? v.bits : 0;
     }
@@ -117,6 +117,7 @@ std::vector<Variant> protocol_variants(int bits)
     add("overlap roughness only", "overlap").joint = false;
     add("overlap quick", "overlap").quick = true;
     add("overlap joint", "overlap");
+    add("picture quick", "picture").quick = true;
     add("overlap anisotropic", "overlap").anisotropic = true;
     return all;
 }

@@ -101,6 +101,14 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
                                {"levels_1_to_5", error_json(made.lobe_error->fine())},
                                {"levels_6_up", error_json(made.lobe_error->coarse())}};
     }
+    if (made.picture_error) {
+        const auto numbers = [](const texproc::PictureScore& score) {
+            return ordered_json{{"rmse", score.rmse}, {"flicker", score.flicker}};
+        };
+        entry["picture_error"] = {{"rule", material.recipe->prefilter.rule},
+                                  {"shipped", numbers(made.picture_error->shipped)},
+                                  {"plain", numbers(made.picture_error->plain)}};
+    }
     return entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

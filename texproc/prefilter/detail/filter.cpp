@@ -29,7 +29,7 @@ Direction mean_normal(const Means& m)
 
 }  // namespace
 
-Filter::Filter(const PrefilterOptions& options)
+Filter::Filter(const PrefilterOptions& options, const MapSurface& surface)
     : options_(options),
       kind_(rule_named(options.rule).kind),
       overlap_{options.design_light, options.joint, options.anisotropic, options.quick,
@@ -44,12 +44,19 @@ Filter::Filter(const PrefilterOptions& options)
         throw Error("prefilter: the rule '" + options.rule + "' has no anisotropic output",
                     "Use the rule overlap, or leave --anisotropic out.");
     }
+    if (kind_ != RuleKind::Picture) return;
+    if (options.design_light > 0.0f) {
+        throw Error("prefilter: the rule picture has no design light: it looks at suns and windows",
+                    "Leave the design light out, or use the rule overlap.");
+    }
+    picture_ = std::make_shared<const PictureLobe>(surface, options.quick);
 }
 
 FittedLobe Filter::operator()(const MipTexel& t) const
 {
     if (kind_ == RuleKind::Moments) return from_moments(t.means);
     if (kind_ == RuleKind::Cells) return from_cells(t);
+    if (kind_ == RuleKind::Picture) return (*picture_)(*t.cells, t.means);
     return fit_overlap(*t.cells, t.means, t.level, seed_of(t.level, t.x, t.y), overlap_);
 }
 
@@ -99,11 +106,14 @@ Prefiltered empty_chain(const std::vector<LevelSize>& sizes, const PrefilterOpti
     out.normal.resize(sizes.size());
     out.roughness.resize(sizes.size());
     if (options.anisotropic) out.anisotropy.resize(sizes.size());
+    if (options.rule == "picture") out.base_share.resize(sizes.size());
     for (std::size_t k = 1; k < sizes.size(); ++k) {
         const auto [width, height] = sizes[k];
         out.normal[k] = Image(width, height, 3, ColorSpace::Data);
         out.roughness[k] = Image(width, height, 1, ColorSpace::Data);
         if (options.anisotropic) out.anisotropy[k] = Image(width, height, 3, ColorSpace::Data);
+        if (options.rule == "picture")
+            out.base_share[k] = Image(width, height, 1, ColorSpace::Data);
     }
     return out;
 }
@@ -118,6 +128,11 @@ void store(const FittedLobe& lobe, const MipTexel& t, const PrefilterOptions& op
     const Codes codes = lobe.codes ? *lobe.codes : rounded(lobe.normal, alpha2, exact);
     std::copy(codes.normal.begin(), codes.normal.end(), &out.normal[k].at(t.x, t.y, 0));
     out.roughness[k].at(t.x, t.y, 0) = codes.rough;
+    if (!out.base_share.empty()) {
+        const Means& m = t.means;
+        out.base_share[k].at(t.x, t.y, 0) =
+            std::min(std::sqrt(m.nx * m.nx + m.ny * m.ny + m.nz * m.nz), 1.0f);
+    }
     if (!options.anisotropic) return;
     float* a = &out.anisotropy[k].at(t.x, t.y, 0);
     Direction d = lobe.tangent;

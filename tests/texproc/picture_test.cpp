@@ -1,0 +1,174 @@
+// The picture yardstick measures what it says, and the rule picture wins on it.
+#include "texproc/prefilter/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "texproc/material/base_share.h"
+#include "texproc/study/fresh_maps.h"
+#include "texproc/study/scored_maps.h"
+
+namespace petrichor::texproc {
+namespace {
+
+// Few pixels, enough for what is tested.
+PictureOptions small(int samples)
+{
+    PictureOptions o = reference_pictures();
+    o.views[0].width = 60;
+    o.views[0].rows = 40;
+    o.frames = 3;
+    o.samples = samples;
+    return o;
+}
+
+ScoredMaps material(const std::string& word, std::uint32_t seed)
+{
+    for (ScoredMaps& maps : fresh_maps(192, seed))
+        if (maps.name.starts_with(word)) return std::move(maps);
+    ADD_FAILURE() << "there is no " << word;
+    return {};
+}
+
+RawImage constant(int size, const std::vector<float>& texel)
+{
+    Image image(size, size, static_cast<int>(texel.size()), ColorSpace::Data);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = texel[i % texel.size()];
+    return to_raw(image, PixelType::U16);
+}
+
+TEST(PictureYardstick, AFlatSurfaceHasNoError)
+{
+    const PictureBench bench(constant(64, {0.5f, 0.5f, 1.0f}), constant(64, {0.4f}), {}, small(6));
+    for (const PictureScore& score : bench.score({})) {
+        EXPECT_LT(score.rmse, 0.004) << score.name;  // the eye moves within a pixel
+        EXPECT_LT(score.flicker, 0.002) << score.name;
+    }
+}
+
+TEST(PictureYardstick, MoreSamplesChangeLittle)
+{
+    const ScoredMaps maps = material("mica", 3);
+    const PictureBench few(maps.normal, maps.roughness, {}, small(10));
+    const PictureBench many(maps.normal, maps.roughness, {}, small(20));
+    const auto a = few.score({}), b = many.score({});
+    for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_NEAR(a[i].rmse, b[i].rmse, 0.1 * b[i].rmse + 0.001) << a[i].name;
+}
+
+TEST(PictureYardstick, ThePlainChainIsThePlainMips)
+{
+    const ScoredMaps maps = material("facets", 3);
+    const PictureBench bench(maps.normal, maps.roughness, {}, small(4));
+    const auto given = bench.score(prefilter_raw(maps.normal, maps.roughness, {.rule = "none"}));
+    const auto own = bench.score({});
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        EXPECT_NEAR(given[i].rmse, own[i].rmse, 2e-4) << own[i].name;
+        EXPECT_NEAR(given[i].flicker, own[i].flicker, 2e-4) << own[i].name;
+    }
+}
+
+TEST(PictureYardstick, SameNumbersForAnyThreads)
+{
+    const ScoredMaps maps = material("cloth", 3);
+    PictureOptions one = small(4), three = small(4);
+    one.threads = 1;
+    three.threads = 3;
+    const auto a = PictureBench(maps.normal, maps.roughness, {}, one).score({});
+    const auto b = PictureBench(maps.normal, maps.roughness, {}, three).score({});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].rmse, b[i].rmse);
+        EXPECT_EQ(a[i].flicker, b[i].flicker);
+    }
+}
+
+TEST(PictureYardstick, AMapThatGlossesOverItsSlopesIsWorseThanPlain)
+{
+    const ScoredMaps maps = material("mica", 3);
+    const PictureBench bench(maps.normal, maps.roughness, {}, small(6));
+    Prefiltered gloss;
+    gloss.roughness = bench.plain_roughness();
+    for (Image& level : gloss.roughness)
+        for (float& p : level.pixels) p *= 0.5f;
+    const auto plain = bench.score({}), wrong = bench.score(gloss);
+    EXPECT_GT(wrong[0].rmse, 1.1 * plain[0].rmse);
+}
+
+// On materials that it was not chosen on. The bounds are loose: floors of 60 x 40 pixels.
+TEST(PictureRule, BeatsPlainMipsAndIsSeldomWorse)
+{
+    double ours = 0.0, unreal = 0.0;
+    int cases = 0, worse = 0;
+    for (const char* word : {"cloth", "mica", "ramp", "facets", "gravel", "mosaic"}) {
+        const ScoredMaps maps = material(word, 21);
+        const PictureBench bench(maps.normal, maps.roughness, {}, small(8));
+        const auto plain = bench.score({});
+        const auto score = [&](const char* rule) {
+            return bench.score(
+                prefilter_raw(maps.normal, maps.roughness, {.rule = rule, .quick = true}));
+        };
+        const auto a = score("picture"), b = score("unreal");
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            ours += a[i].rmse / plain[i].rmse - 1.0;
+            unreal += b[i].rmse / plain[i].rmse - 1.0;
+            worse += a[i].rmse > 1.05 * plain[i].rmse + 0.001;
+            ++cases;
+        }
+    }
+    EXPECT_LT(ours / cases, -0.10);
+    EXPECT_LT(ours, unreal);
+    EXPECT_LE(worse, cases / 10);
+}
+
+TEST(PictureRule, SameBytesForAnyThreads)
+{
+    const ScoredMaps maps = material("strokes", 4);
+    const Prefiltered one = prefilter_raw(maps.normal, maps.roughness,
+                                          {.rule = "picture", .threads = 1, .quick = true});
+    const Prefiltered three = prefilter_raw(maps.normal, maps.roughness,
+                                            {.rule = "picture", .threads = 3, .quick = true});
+    for (std::size_t k = 1; k < one.roughness.size(); ++k) {
+        EXPECT_EQ(one.roughness[k].pixels, three.roughness[k].pixels);
+        EXPECT_EQ(one.base_share[k].pixels, three.base_share[k].pixels);
+    }
+}
+
+TEST(BaseShare, IsTheLengthOfTheMeanNormal)
+{
+    const float lean = std::sqrt(0.5f);  // half of the texels lean left, half right, by 45 degrees
+    Image normals(8, 8, 3, ColorSpace::Data, 0.5f);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            normals.at(x, y, 0) = 0.5f + (x % 2 ? 0.5f : -0.5f) * lean;
+            normals.at(x, y, 2) = 0.5f + 0.5f * lean;
+        }
+    const std::vector<Image> shares = base_shares(normals);
+    ASSERT_EQ(shares.size(), 4u);
+    EXPECT_FLOAT_EQ(shares[0].pixels[0], 1.0f);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_NEAR(shares[k].pixels[0], lean, 1e-6f);
+
+    std::vector<Image> color;
+    for (const Image& share : shares)
+        color.emplace_back(share.width, share.height, 4, ColorSpace::Linear, 0.8f);
+    std::vector<Image> metal;
+    for (const Image& share : shares)
+        metal.emplace_back(share.width, share.height, 1, ColorSpace::Data, 1.0f);
+    std::vector<Image> painted = color;
+    apply_base_shares(painted, shares, {});
+    EXPECT_FLOAT_EQ(painted[0].pixels[0], 0.8f);
+    EXPECT_NEAR(painted[2].pixels[0], 0.8f * lean, 1e-6f);
+    EXPECT_FLOAT_EQ(painted[2].pixels[3], 0.8f) << "alpha is no colour";
+    apply_base_shares(color, shares, metal);
+    EXPECT_FLOAT_EQ(color[2].pixels[0], 0.8f) << "the colour of metal is that of its highlight";
+}
+
+TEST(PictureRule, HasNoDesignLight)
+{
+    const ScoredMaps maps = material("cloth", 3);
+    EXPECT_ANY_THROW(
+        prefilter_raw(maps.normal, maps.roughness, {.rule = "picture", .design_light = 0.1f}));
+}
+
+}  // namespace
+}  // namespace petrichor::texproc

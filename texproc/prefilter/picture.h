@@ -1,0 +1,106 @@
+#ifndef PETRICHOR_TEXPROC_PREFILTER_PICTURE_H
+#define PETRICHOR_TEXPROC_PREFILTER_PICTURE_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "texproc/prefilter/prefilter.h"
+
+namespace petrichor::texproc {
+
+namespace detail {
+struct MapSurface;
+}
+
+// The picture yardstick (docs/textures.md, 7): a lit floor under a moving camera, as a renderer
+// draws it from the mips (trilinear, several taps along a long footprint, diffuse and specular
+// light, shaded once a pixel), beside the same floor with many samples a pixel of level 0.
+
+/// Light on the floor. The x axis points to the right, y ahead, z up.
+struct PictureLight {
+    std::string name;
+    std::array<float, 3> to_light{0.0f, 0.0f, 1.0f};  ///< need not be of unit length
+    float alpha = 0.0f;  ///< widens every lobe: 0 the sun, 0.1 a window
+    float sun = 1.0f;    ///< irradiance across its direction
+    float sky = 0.0f;    ///< radiance of the horizon; the zenith is half as bright
+};
+
+/// Where the camera looks from. The material is repeated every metre.
+struct PictureView {
+    std::string name;
+    double height_m = 1.5, pitch_deg = 16.0;  ///< above the floor; down from the horizon
+    double field_of_view_deg = 34.0;          ///< over the width
+    int width = 300, rows = 110;
+    double step_right_m = 0.004, step_ahead_m = 0.021;  ///< from frame to frame
+    int taps = 16;  ///< at most so many samples along a footprint; 1 is plain trilinear filtering
+};
+
+/// What is rendered: the light is tried in turn on paint (F0 0.04, albedo 0.3) or metal (F0 0.9).
+struct PictureCase {
+    int view = 0, light = 0;
+    bool metal = false;
+};
+
+struct PictureOptions {
+    std::vector<PictureView> views;
+    std::vector<PictureLight> lights;
+    std::vector<PictureCase> cases;
+    int frames = 5;
+    int samples = 14;  ///< of the truth, along each side of a pixel
+    std::uint32_t seed = 1;
+    int threads = 0;
+};
+/// The cases of docs/textures.md, 7: a floor to the horizon under the sun ahead, from the left and
+/// from behind and under a window ahead, and metal under the sun ahead.
+PictureOptions reference_pictures();
+/// Those, with the light of the sky beside the sun, a sky alone, metal from the side and behind, a
+/// floor from above, and plain trilinear filtering.
+PictureOptions all_pictures();
+/// Small ones with other lights, views and places: what the rule picture checks itself on.
+PictureOptions design_pictures();
+
+/// One case of one material: display-referred, 0..1.
+struct PictureScore {
+    std::string name;      ///< view, light and material
+    double rmse = 0.0;     ///< over pixels and frames
+    double flicker = 0.0;  ///< mean over the pixels of the standard deviation of the error in time
+};
+
+/// Truth of one material, rendered once and kept, against which any number of chains is held.
+class PictureBench {
+public:
+    /// normal, roughness: level 0 as `input` names it. Throws Error when sizes do not fit.
+    PictureBench(const RawImage& normal, const RawImage& roughness, const PrefilterOptions& input,
+                 PictureOptions options);
+    /// The same from maps that are decoded row by row.
+    PictureBench(const detail::MapSurface& surface, const PrefilterOptions& input,
+                 PictureOptions options);
+    ~PictureBench();
+    PictureBench(PictureBench&&) noexcept;
+    PictureBench& operator=(PictureBench&&) noexcept;
+
+    /// A row a case. Levels of the chain that are empty, and level 0, come from the maps; a chain
+    /// without normals gets the mean ones. Same numbers at any thread count.
+    std::vector<PictureScore> score(const Prefiltered& chain) const;
+
+    /// Levels of the plain mips: mean of the roughness as stored. Level 0 is empty.
+    std::vector<Image> plain_roughness() const;
+
+    /// The picture of a case as it is shown, one channel 0..1; with no chain the truth.
+    Image picture(std::size_t which, int frame, const Prefiltered* chain) const;
+
+    const PictureOptions& options() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace petrichor::texproc
+
+#endif
