@@ -13,7 +13,11 @@
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
 #define LIGHTING_SPEC_BAKED 6       // light maps
 #define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
-#define LIGHTING_SPEC_PATCHES 8     // irradiance from patches, not from sky maps
+#define LIGHTING_SPEC_LAMP_SHADOWS 8
+#define LIGHTING_SPEC_RECTANGLES 9
+#define LIGHTING_SPEC_NIGHT 10
+#define LIGHTING_SPEC_FOG 11
+#define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_MODEL 16      // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
@@ -31,12 +35,13 @@
 #define LIGHTING_MIRROR_WEIGHT 12
 #define LIGHTING_MIRROR_SHAPE 13
 #define LIGHTING_MATERIALS 14
-#define LIGHTING_PATCH_TABLE 15
-#define LIGHTING_PATCH_PLANES 16
-#define LIGHTING_PATCH_IRRADIANCE 17
-#define LIGHTING_PATCH_GRADIENT 18
-#define LIGHTING_PATCH_WAYS 19
-#define LIGHTING_PATCH_KEPT 20
-#define LIGHTING_GBUFFER 21  // depth, then the targets
+#define LIGHTING_LAMP_SHADOWS 15
+#define LIGHTING_PATCH_TABLE 16
+#define LIGHTING_PATCH_PLANES 17
+#define LIGHTING_PATCH_IRRADIANCE 18
+#define LIGHTING_PATCH_GRADIENT 19
+#define LIGHTING_PATCH_WAYS 20
+#define LIGHTING_PATCH_KEPT 21
+#define LIGHTING_GBUFFER 22  // depth, then the targets
 
 #endif
