@@ -124,9 +124,11 @@ Labels label_cells(const HeightField& field, std::span<const std::size_t> drains
     std::size_t next = 0;
     while (next < rising.size() || !reached.empty()) {
         while (next < rising.size() && out.of[rising[next]] != kNoLabel) ++next;
+        // Outlets come first of all at their height: flat ground between one and a pit is shared.
         const bool from_below =
             !reached.empty() &&
-            (next == rising.size() || reached.top().height_m <= field.height_m[rising[next]]);
+            (next == rising.size() || reached.top().height_m < field.height_m[rising[next]] ||
+             (reached.top().height_m == field.height_m[rising[next]] && !leads_out[rising[next]]));
         if (from_below) {
             const Reached top = reached.top();
             reached.pop();
