@@ -200,6 +200,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, r);
+        c.place = r.place->constants();
         if (i == 0) {
             variant.models = visible_models(*r.scene, c);
             variant.fog = c.fog_per_m > 0.0f;
@@ -213,15 +214,15 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
                            c.world_to_clip, c.camera_m);
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
-                                *r.depth_maps, constants, weather);
+                                *r.depth_maps, *r.place, constants, weather);
         } else {
-            add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, constants,
-                        c.world_to_clip, c.camera_m, weather);
+            add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
+                        constants, c.world_to_clip, c.camera_m, weather);
         }
         if (i == 0) {
             const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
-                add_aovs(graph, *r.targets, constants, aov_groups[g], g, parts);
+                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);

@@ -7,6 +7,7 @@
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/place.h"
 
 namespace petrichor::gpu {
 
@@ -22,6 +23,7 @@ struct FrameResources {
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;
     PatchLights* patches = nullptr;
+    GpuPlace* place = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;

@@ -88,6 +88,7 @@ struct Renderer::Impl {
           patches(device),
           pictures(device),
           metering(device),
+          place(device),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
     {
@@ -178,6 +179,7 @@ struct Renderer::Impl {
     PatchLights patches;
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
+    GpuPlace place;
     std::unique_ptr<MemoryArena> light_arena;
     LightTable light_table;
     std::unique_ptr<MemoryArena> environment_arena;
@@ -260,6 +262,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     }
     const Sun sun = sun_of(frame.sky, scene_sun, environment != nullptr);
     prepare_lights(frame, scene_sun);
+    place.update(device, frame.place.get());
     prepare_targets(set, frame.settings, aov_groups);
     descriptors.reset();
 
@@ -273,6 +276,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.sky = &sky;
     resources.lights = &light_table;
     resources.patches = &patches;
+    resources.place = &place;
     if (prepare_resolve(frame.settings)) resources.resolve = &resolve;
     resources.environment = environment.get();
     resources.constants = constants.get();

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "formulas/weather/moment.h"
+#include "gpu/frame/place_io.h"
 #include "gpu/frame/switches.h"
 #include "gpu/upload/scene_names.h"
 #include "scene/material_table.h"
@@ -99,12 +101,32 @@ struct FrameSettings : FrameSwitches {
     std::vector<std::string> aovs;  ///< names from aov_table()
 };
 
+/// Where the patches of the loaded scene lie, and the hollows of its ground: the same for all
+/// frames.
+struct PlaceShape {
+    shared::PatchGrid grid{};
+    std::vector<glm::uvec4> table;  ///< as scene::Patches::table
+    glm::vec2 basin_corner_m{0.0f};
+    float basin_cell_m = 1.0f;
+    std::uint32_t basin_width = 0, basin_depth = 0;
+    std::vector<std::uint32_t> labels;  ///< as scene::Basins::label; basin_width * basin_depth
+};
+
+/// The weather of every patch of the scene at a moment.
+struct PlaceWeather {
+    std::shared_ptr<const PlaceShape> shape;
+    std::vector<glm::vec4> states;  ///< PLACE_STATE_TEXELS a patch, see place_io.h
+    std::vector<float> levels_m;    ///< of the water over each pit, by label; at least one
+};
+
 struct Frame {
     Camera camera;
     Sky sky;
     Fog fog;
     shared::WeatherMoment weather;    ///< all of it: what is seen, and the SI values beside it
     shared::WeatherLook look;         ///< how weather is drawn
+    /// Where pixels find their weather; null: `weather` is everywhere, under the shelter map.
+    std::shared_ptr<const PlaceWeather> place;
     std::vector<Light> extra_lights;  ///< added to the scene's own (a lamp lit at dusk)
     float scene_light_scale = 1.0f;   ///< multiplies point and spot lights of the scene
     float emissive_scale = 1.0f;      ///< multiplies emission of materials

@@ -80,6 +80,11 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sun_illuminance = sun.illuminance;
     c.weather = w;
     c.look = frame.look;
+    if (frame.place) {
+        // Patches hold the film itself: what all of it does to a surface (Lux: 0.85 and 0.5).
+        c.weather.film_albedo = 0.85f;
+        c.weather.film_smoothness = 0.5f;
+    }
     const float size_m = glm::length(scene.high - scene.low);
     c.ao_radius_m = std::clamp(0.03f * size_m, 0.01f, 0.7f);
     c.ao_strength = 1.0f;
@@ -126,6 +131,16 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
     visible.water = scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;
     visible.any = visible.snow || visible.water || w.rain > 0.0f || w.film_albedo > 0.0f ||
                   w.film_smoothness > 0.0f || w.frost > 0.0f;
+    if (!frame.place) return visible;
+    visible.place = visible.any = true;
+    const PlaceWeather& place = *frame.place;
+    for (std::size_t i = 0; i < place.states.size(); i += PLACE_STATE_TEXELS) {
+        const glm::vec4& shown = place.states[i];
+        visible.water = visible.water || shown.y > 0.0f || shown.z > 0.0f;
+        visible.snow = visible.snow || shown.w > 0.0f;
+    }
+    // Hollows may hold water where no patch does.
+    visible.water = visible.water || !place.shape->labels.empty();
     return visible;
 }
 

@@ -5,6 +5,7 @@
 #include "base/interop.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/weather/moment.h"
+#include "gpu/frame/place_io.h"
 
 #define SHADOW_CASCADES 3
 #define LIGHT_TILE 16         // pixels a side of a light list
@@ -78,6 +79,7 @@ struct FrameConstants {
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
     PatchGrid patches;  // levels 0: none
+    PlaceConstants place;  // of the scene's patches
 };
 
 SHARED_END

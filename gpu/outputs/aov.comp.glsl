@@ -15,6 +15,12 @@ layout(constant_id = AOV_SPEC_HAS_WEATHER) const uint HAS_WEATHER = 1u;
 layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
 layout(constant_id = AOV_SPEC_HAS_BAKED) const uint HAS_BAKED = 1u;
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(constant_id = AOV_SPEC_PLACE) const uint PLACE = 0u;
+layout(binding = AOV_PLACE_TABLE) uniform usamplerBuffer place_table;
+layout(binding = AOV_PLACE_STATES) uniform samplerBuffer place_states;
+layout(binding = AOV_PLACE_LABELS) uniform usamplerBuffer place_labels;
+layout(binding = AOV_PLACE_LEVELS) uniform samplerBuffer place_levels;
+#include "gpu/frame/place.glsl"
 layout(binding = AOV_OUTPUT, scalar) writeonly buffer Output { float values[]; };
 
 // What a row's value is made from.
@@ -22,7 +28,26 @@ struct AovPoint {
     float depth;    // as in the depth buffer
     vec3 position;  // world, metres
     GBufferTexel g;
+    // SI: film mm, standing water m, snow m, ice kg/m2; liquid share, surface K, rain share, wind.
+    vec4 stores;
+    vec4 state;
 };
+
+// What the patch of a point holds, as it is: not blended. Without patches the frame's state where
+// its masks say that it shows.
+void set_si(inout AovPoint p)
+{
+    const WeatherMoment w = frame.weather;
+    p.stores = vec4(w.film_mm * p.g.weather.x, w.puddle_depth_m * p.g.weather.y,
+                    w.snow_depth_m * p.g.weather.z, w.ice_kg_m2 * p.g.weather.x);
+    p.state = vec4(1.0 - w.water_to_snow, w.surface_temperature_k, p.g.weather.x, 1.0);
+    if (PLACE == 0u) return;
+    const uint patch_number = place_patch(p.position, p.g.base_normal, vec3(0.0));
+    if (patch_number == kNoPatch) return;
+    p.stores = place_state(patch_number, 2);
+    p.state = place_state(patch_number, 3);
+    if (p.g.base_normal.y > 0.3) p.stores.y = max(p.stores.y, place_depth(p.position));
+}
 
 #define kInfinity uintBitsToFloat(0x7f800000u)  // no constant expression in GLSL
 
@@ -46,6 +71,7 @@ void main()
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
     p.g = decode_gbuffer(
         fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u));
+    set_si(p);
 
     const uint pixels = uint(frame.size.x * frame.size.y);
     const uint pixel = uint(texel.y * frame.size.x + texel.x);

@@ -21,8 +21,9 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
     return groups;
 }
 
-void add_aovs(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
-              const AovGroup& group, std::size_t buffer, const GBufferParts& parts)
+void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
+              const ConstantsRange& constants, const AovGroup& group, std::size_t buffer,
+              const GBufferParts& parts)
 {
     ComputePass pass{
         .name = "aov",
@@ -31,11 +32,13 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& co
                       {AOV_SPEC_ROWS_HIGH, static_cast<std::uint32_t>(group.rows >> 32)},
                       {AOV_SPEC_HAS_WEATHER, parts.weather},
                       {AOV_SPEC_HAS_EMISSION, parts.emission},
-                      {AOV_SPEC_HAS_BAKED, parts.baked}},
+                      {AOV_SPEC_HAS_BAKED, parts.baked},
+                      {AOV_SPEC_PLACE, place.present()}},
         .bindings = {{AOV_FRAME, frame_binding(constants)},
                      {AOV_OUTPUT, storage_buffer(*targets.aovs[buffer])}},
         .push = {},
         .groups = groups_over(targets.width, targets.height, AOV_TILE)};
+    bind_place(pass.bindings, AOV_PLACE_TABLE, place);
     bind_gbuffer(pass.bindings, AOV_GBUFFER, targets.gbuffer, targets.nearest);
     graph.add(std::move(pass));
     graph.read_back({targets.aovs[buffer].get()});

@@ -4,6 +4,7 @@
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/targets.h"
 #include "gpu/outputs/aov_table.h"
+#include "gpu/upload/place.h"
 
 namespace petrichor::gpu {
 
@@ -19,10 +20,11 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
 
 // Labelled outputs from the G-buffer.
 //
-//   reads    the G-buffer
+//   reads    the G-buffer, the states of the patches
 //   writes   aovs[buffer]
-void add_aovs(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants,
-              const AovGroup& group, std::size_t buffer, const GBufferParts& parts);
+void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
+              const ConstantsRange& constants, const AovGroup& group, std::size_t buffer,
+              const GBufferParts& parts);
 
 /// The numbers of a row, pixel by pixel, as the last frame wrote them.
 std::vector<float> read_aov(const FrameTargets& targets, const std::vector<AovGroup>& groups,

@@ -12,9 +12,14 @@
 #define AOV_SPEC_HAS_WEATHER 2
 #define AOV_SPEC_HAS_EMISSION 3
 #define AOV_SPEC_HAS_BAKED 4
+#define AOV_SPEC_PLACE 5
 
 #define AOV_FRAME 0
 #define AOV_OUTPUT 1
-#define AOV_GBUFFER 2  // depth, then the targets
+#define AOV_PLACE_TABLE 2  // gpu/frame/place.glsl
+#define AOV_PLACE_STATES 3
+#define AOV_PLACE_LABELS 4
+#define AOV_PLACE_LEVELS 5
+#define AOV_GBUFFER 6  // depth, then the targets
 
 #endif

@@ -39,6 +39,17 @@
         p.g.porosity, 0.0)                                                                      \
     ROW(specular, 3, "RGB", "1", HALF, "dry reflectance at normal incidence, metals included",  \
         mix(p.g.f0, p.g.base_color, p.g.metallic), 0.0)                                   \
+    ROW(film_depth, 1, "Y", "mm", FLOAT, "film of water on the patch; 1 mm is 1 kg/m2",         \
+        p.stores.x, 0.0)                                                                        \
+    ROW(water_depth, 1, "Y", "m", FLOAT, "standing water on the patch, or of the hollow",       \
+        p.stores.y, 0.0)                                                                        \
+    ROW(snow_depth, 1, "Y", "m", FLOAT, "snow on the patch, along its normal", p.stores.z, 0.0) \
+    ROW(ice, 1, "Y", "kg/m2", FLOAT, "ice on the patch: film, cracks and puddles",              \
+        p.stores.w, 0.0)                                                                        \
+    ROW(liquid, 1, "Y", "1", HALF, "liquid share of all water on the patch", p.state.x, 0.0)    \
+    ROW(surface_temperature, 1, "Y", "K", FLOAT, "of the patch's surface", p.state.y, 0.0)      \
+    ROW(rain_exposure, 1, "Y", "1", HALF, "rain that meets the patch over rain on open ground", \
+        p.state.z, 0.0)                                                                         \
     ROW(lighting_model, 1, "Y", "1", HALF, "number of the lighting model; -1 where nothing is", \
         float(p.g.model), -1.0)
 

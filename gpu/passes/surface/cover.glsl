@@ -2,7 +2,7 @@
 #ifndef PETRICHOR_SURFACE_COVER_GLSL
 #define PETRICHOR_SURFACE_COVER_GLSL
 
-#include "gpu/passes/surface/shelter.glsl"
+#include "gpu/passes/surface/local_weather.glsl"
 #include "gpu/passes/surface/snow.glsl"
 #include "gpu/passes/surface/water.glsl"
 
@@ -33,11 +33,10 @@ Cover no_cover(SurfaceInput at)
 Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
 {
     Cover c = no_cover(at);
-    const float open = exposure_to_sky(at);
-    // Thin wetness creeps further than rain falls.
-    const float damp = sqrt(open);
+    const LocalWeather here = local_weather(at);
+    const float open = here.open;
 
-    const float amount_raw = snow_amount_raw(at, open);
+    const float amount_raw = snow_amount_raw(at, here.snow);
     const float amount = saturate(amount_raw);
     const vec3 smoothed = normalize(
         to_world(f, normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)))));
@@ -46,13 +45,21 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, smoothed.y);
 
-    const vec2 flood = flood_level(open);
+    const vec2 flood = flood_level(here.flood);
     WaterCover water;
     water.anywhere = 0.0;
     water.deep = 0.0;
     if (WATER != 0u) water = water_on(at, flood);
-    c.film = damp * saturate(smoothed.y + 1.0 - material.water_slope_damp);
-    c.frost = frame.weather.frost * open * saturate(at.normal.y * 0.6 + 0.5) * (1.0 - water.anywhere);
+    if (here.pond_m > 0.0) {
+        // A pond drowns what stands in it; its edge is as wide as a drop is high.
+        water.anywhere = max(water.anywhere, smooth_edge(0.0, 0.002, here.pond_m));
+        water.deep = max(water.deep, smooth_edge(0.0005, 0.006, here.pond_m));
+    }
+    // A patch knows which way it faces; the frame's film asks the slope.
+    c.film = here.film *
+             (here.placed ? 1.0 : saturate(smoothed.y + 1.0 - material.water_slope_damp));
+    c.frost = here.frost * (here.placed ? 1.0 : saturate(at.normal.y * 0.6 + 0.5)) *
+              (1.0 - water.anywhere);
 
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
     const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
@@ -65,7 +72,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         ripple = ripple_normal(at, water, open);
     }
     if ((WATER & WATER_FLOWS) != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
-        flow = flow_wave(at, water);
+        flow = flow_wave(at, water, here.still);
     }
     const vec3 rings = vec3(ripple.x, 0.0, ripple.y);
     const vec4 bent = normalize(vec4(rings + flow.lean, ripple.z * flow.up));
@@ -73,7 +80,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
                        flow.lean * material.flow_refraction;
     c.refraction = vec2(dot(shift, f.tangent), dot(shift, f.bitangent)) * water.deep *
                    (1.0 - saturate(2.0 * snow.snow)) *
-                   saturate(1.0 - frame.weather.water_to_snow + material.water_accumulation.z) *
+                   saturate(1.0 - here.frozen + material.water_accumulation.z) *
                    fade;
     c.normal = normalize(bent.xyz * fade + at.normal * max(mix(1.0, bent.w, fade), 0.05));
 

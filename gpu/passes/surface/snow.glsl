@@ -6,11 +6,11 @@
 #include "gpu/passes/surface/textures.glsl"
 
 // Before it is saturated: the amount that falls here, and what the material always has.
-float snow_amount_raw(SurfaceInput at, float open)
+float snow_amount_raw(SurfaceInput at, float lies)
 {
     // What falls does not cling to walls, whatever the slope damp of the material.
     const float clinging = smooth_edge(0.0, 0.4, at.normal.y);
-    return frame.weather.snow_amount * open * clinging * material.snow_accumulation.y +
+    return lies * clinging * material.snow_accumulation.y +
            material.snow_accumulation.x;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/surface/surface_io.h"
@@ -21,23 +22,25 @@ const char* fragment_shader(const GBufferParts& parts)
 }  // namespace
 
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
-                 DepthMaps& depth_maps, const ConstantsRange& constants,
+                 DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather)
 {
     GBuffer& g = targets.gbuffer;
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
+    Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
+                      {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
+                      {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
+                      {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_SHELTER, sampled(*depth_maps.shelter, depth_maps.compare)}};
+    bind_place(bindings, SURFACE_PLACE_TABLE, place);
     graph.add(DrawPass{
         .name = "surface",
         .colors = gbuffer_attachments(g, parts),
         .depth = Attachment(*g.depth),
         .width = targets.width,
         .height = targets.height,
-        .bindings = {{SURFACE_FRAME, frame_binding(constants)},
-                     {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
-                     {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
-                     {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
-                     {SURFACE_SHELTER, sampled(*depth_maps.shelter, depth_maps.compare)}},
+        .bindings = std::move(bindings),
         .record =
             [=, &scene](PassContext& pass) {
                 GraphicsDesc desc;
@@ -94,7 +97,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
-                        {SURFACE_SPEC_SNOW, weather.snow}};
+                        {SURFACE_SPEC_SNOW, weather.snow},
+                        {SURFACE_SPEC_PLACE, weather.place}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);
                 }

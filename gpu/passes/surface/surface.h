@@ -8,16 +8,17 @@
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
 #include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/place.h"
 
 namespace petrichor::gpu {
 
 // Draws the scene into the G-buffer: dry material and weather.
 //
-//   reads    ripple, flow and snow maps, the shelter map
+//   reads    ripple, flow and snow maps, the shelter map, the states of the patches
 //   writes   the G-buffer
 //   variant  weather, emission, light maps: a target that nobody reads is not written
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
-                 DepthMaps& depth_maps, const ConstantsRange& constants,
+                 DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather);
 

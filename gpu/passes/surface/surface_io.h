@@ -8,6 +8,7 @@
 #define SURFACE_SPEC_SLOTS 2  // texture slots that the material has, one bit each
 #define SURFACE_SPEC_WATER 3  // WATER_... bits; 0: no water stands on the material in this frame
 #define SURFACE_SPEC_SNOW 4   // 0: no snow lies anywhere in this frame
+#define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
 #define SURFACE_FRAME 0
@@ -15,5 +16,10 @@
 #define SURFACE_FLOW 2
 #define SURFACE_SNOW 3
 #define SURFACE_SHELTER 4
+#define SURFACE_PLACE_TABLE 5  // gpu/frame/place.glsl
+#define SURFACE_PLACE_STATES 6
+#define SURFACE_PLACE_LABELS 7
+#define SURFACE_PLACE_LEVELS 8
+#define SURFACE_BINDINGS 9  // how many there are
 
 #endif

@@ -6,12 +6,10 @@
 #include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/textures.glsl"
 
-// (cracks, puddles): the level of the weather by the material's influence, and its constant.
-vec2 flood_level(float open)
+// (cracks, puddles): the level of the weather here by the material's influence, and its constant.
+vec2 flood_level(vec2 level)
 {
-    return vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * open *
-               material.water_accumulation.yw +
-           material.water_accumulation.xz;
+    return level * material.water_accumulation.yw + material.water_accumulation.xz;
 }
 
 WaterCover water_on(SurfaceInput at, vec2 flood)
@@ -52,12 +50,12 @@ vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 
 // Waves of water that runs down, and of wind on flat ground. The map is laid along the surface: from
 // above on flat ground, from the sides on walls, blended between.
-Wave flow_wave(SurfaceInput at, WaterCover water)
+Wave flow_wave(SurfaceInput at, WaterCover water, float still)
 {
     const vec3 n = at.normal;
     // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
     const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed *
-                   saturate(1.0 - frame.weather.freeze_exp + material.water_accumulation.z);
+                   saturate(1.0 - still + material.water_accumulation.z);
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
     const vec3 sides = max(n * n * n * n - 0.01, vec3(0.0));
     const vec3 share = sides / (sides.x + sides.y + sides.z);

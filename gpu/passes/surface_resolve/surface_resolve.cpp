@@ -77,7 +77,7 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
 }
 
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
-                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
+                         const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps, GpuPlace& place,
                          const ConstantsRange& constants, const VisibleWeather& weather)
 {
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
@@ -123,6 +123,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {RESOLVE_DRAWS, texels(*tables.draws)},
                       {RESOLVE_TILES, texels(*tables.tiles)},
                       {RESOLVE_COUNTS, texels(counts)}};
+    bind_place(bindings, SURFACE_PLACE_TABLE, place);
 #define ROW(name, location, format, when, meaning) \
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
@@ -140,6 +141,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                                                   {SURFACE_SPEC_WATER,
                                                    weather.water ? material.water : 0u},
                                                   {SURFACE_SPEC_SNOW, weather.snow},
+                                                  {SURFACE_SPEC_PLACE, weather.place},
                                                   {RESOLVE_SPEC_WEATHER, parts.weather},
                                                   {RESOLVE_SPEC_EMISSION, parts.emission},
                                                   {RESOLVE_SPEC_BAKED, parts.baked}},

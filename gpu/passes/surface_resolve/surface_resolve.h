@@ -8,6 +8,7 @@
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
 #include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/place.h"
 
 namespace petrichor::gpu {
 
@@ -31,7 +32,8 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
 //   writes   colour, normals, material; weather and emission when the frame has them
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
                          const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
-                         const ConstantsRange& constants, const VisibleWeather& weather);
+                         GpuPlace& place, const ConstantsRange& constants,
+                         const VisibleWeather& weather);
 
 }  // namespace petrichor::gpu
 

@@ -28,13 +28,13 @@
 #define TILE_OFFSETS_GROUPS 1  // VkDispatchIndirectCommand a material
 
 // Behind the bindings of set 0 that every evaluation of a surface reads:
-#define RESOLVE_IDS (SURFACE_SHELTER + 1)
-#define RESOLVE_VERTICES (SURFACE_SHELTER + 2)
-#define RESOLVE_INDICES (SURFACE_SHELTER + 3)
-#define RESOLVE_DRAWS (SURFACE_SHELTER + 4)
-#define RESOLVE_TILES (SURFACE_SHELTER + 5)
-#define RESOLVE_COUNTS (SURFACE_SHELTER + 6)
-#define RESOLVE_TARGETS (SURFACE_SHELTER + 7)  // of the G-buffer, by location
+#define RESOLVE_IDS SURFACE_BINDINGS
+#define RESOLVE_VERTICES (SURFACE_BINDINGS + 1)
+#define RESOLVE_INDICES (SURFACE_BINDINGS + 2)
+#define RESOLVE_DRAWS (SURFACE_BINDINGS + 3)
+#define RESOLVE_TILES (SURFACE_BINDINGS + 4)
+#define RESOLVE_COUNTS (SURFACE_BINDINGS + 5)
+#define RESOLVE_TARGETS (SURFACE_BINDINGS + 6)  // of the G-buffer, by location
 #define RESOLVE_SPEC_WEATHER 5
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7

@@ -1,0 +1,27 @@
+// Where the weather of the scene's patches and the water of its hollows are found.
+#ifndef PETRICHOR_GPU_FRAME_PLACE_IO_H
+#define PETRICHOR_GPU_FRAME_PLACE_IO_H
+
+#include "base/interop.h"
+#include "formulas/light/patch_cells.h"
+
+// Texels (RGBA32F) a patch in the table of states: what pixels show (place.glsl), then SI:
+//   0  film 0..1, level in cracks, level in puddles, snow amount
+//   1  frost, frozen share, share of the rain that meets it, -
+//   2  film mm, standing water m, snow m, ice kg/m2
+//   3  liquid share of all water, surface temperature K, share of the rain, share of the wind
+#define PLACE_STATE_TEXELS 4
+
+SHARED_BEGIN
+
+struct PlaceConstants {
+    PatchGrid grid;       // levels 0: no patches
+    vec2 basin_corner_m;  // world x and z
+    float basin_cell_m;
+    uint basin_width;  // cells; 0: no hollows
+    uint basin_depth;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,62 @@
+// The weather where a point lies: of its patch, or of the frame under whatever shelters the point.
+#ifndef PETRICHOR_SURFACE_LOCAL_WEATHER_GLSL
+#define PETRICHOR_SURFACE_LOCAL_WEATHER_GLSL
+
+#include "gpu/passes/surface/shelter.glsl"
+#include "gpu/frame/place.glsl"
+
+struct LocalWeather {
+    float open;    // share of what falls that reaches the point
+    float film;    // of the frame's film, on any slope where `placed`
+    vec2 flood;    // level of water in cracks, in puddles
+    float snow;    // amount, before slope and material
+    float frost;
+    float frozen;  // share of the water
+    float still;   // how far frost has stilled it
+    float pond_m;  // depth below the water of a hollow
+    bool placed;   // from a patch
+};
+
+LocalWeather weather_everywhere(SurfaceInput at)
+{
+    LocalWeather here;
+    here.open = exposure_to_sky(at);
+    // Thin wetness creeps further than rain falls.
+    here.film = sqrt(here.open);
+    here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * here.open;
+    here.snow = frame.weather.snow_amount * here.open;
+    here.frost = frame.weather.frost * here.open;
+    here.frozen = frame.weather.water_to_snow;
+    here.still = frame.weather.freeze_exp;
+    here.pond_m = 0.0;
+    here.placed = false;
+    return here;
+}
+
+LocalWeather local_weather(SurfaceInput at)
+{
+    if (PLACE == 0u) return weather_everywhere(at);
+    // A turn of its own for every pixel, evenly spread over its samples: their mean blends between
+    // patches.
+    const uint seed = hash_u3(uint(at.pixel.x), uint(at.pixel.y), 29u);
+    const vec3 first = vec3(hash_f(seed), hash_f(seed ^ 0x9e3779b9u), hash_f(seed ^ 0x7f4a7c15u));
+    const vec3 turn =
+        fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
+    const uint patch_number = place_patch(at.position, at.normal, turn - 0.5);
+    if (patch_number == kNoPatch) return weather_everywhere(at);
+    const vec4 first_texel = place_state(patch_number, 0);
+    const vec4 second_texel = place_state(patch_number, 1);
+    LocalWeather here;
+    here.open = min(second_texel.z, 1.0);
+    here.film = first_texel.x;
+    here.flood = first_texel.yz;
+    here.snow = first_texel.w;
+    here.frost = second_texel.x;
+    here.frozen = second_texel.y;
+    here.still = 1.0 - exp2(-10.0 * here.frozen);
+    here.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+    here.placed = true;
+    return here;
+}
+
+#endif

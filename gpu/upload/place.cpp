@@ -1,0 +1,98 @@
+#include "gpu/upload/place.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace petrichor::gpu {
+namespace {
+
+std::unique_ptr<GpuBuffer> texel_buffer(MemoryArena& arena, const char* name, std::size_t bytes,
+                                        VkFormat format)
+{
+    return arena.buffer({.name = name,
+                         .size = bytes,
+                         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                         .texel_format = format,
+                         .host = true});
+}
+
+template <class T>
+void fill(GpuBuffer& buffer, const std::vector<T>& values)
+{
+    std::memset(buffer.mapped, 0, buffer.size);
+    std::memcpy(buffer.mapped, values.data(),
+                std::min<std::size_t>(buffer.size, values.size() * sizeof(T)));
+}
+
+void check(const PlaceWeather& place)
+{
+    const PlaceShape& s = *place.shape;
+    const bool tables = s.table.size() == std::size_t{s.grid.table_mask} + 1 &&
+                        place.states.size() == std::size_t{s.grid.patches} * PLACE_STATE_TEXELS;
+    const bool hollows =
+        s.labels.size() == std::size_t{s.basin_width} * s.basin_depth && !place.levels_m.empty() &&
+        std::all_of(s.labels.begin(), s.labels.end(),
+                    [&](std::uint32_t l) { return l < place.levels_m.size() || l == 0xffffffffu; });
+    if (tables && hollows) return;
+    throw Error("render: the weather of the patches does not belong to the patches",
+                "Give as many states as there are patches, and a level for every hollow.");
+}
+
+}  // namespace
+
+GpuPlace::GpuPlace(const Device& device)
+{
+    make(device, {}, 1);
+}
+
+void GpuPlace::make(const Device& device, const PlaceShape& shape, std::size_t levels)
+{
+    table_.reset();
+    states_.reset();
+    labels_.reset();
+    levels_.reset();
+    arena_ = std::make_unique<MemoryArena>(device);
+    const auto at_least = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
+    table_ = texel_buffer(*arena_, "place_table", at_least(shape.table.size()) * sizeof(glm::uvec4),
+                          VK_FORMAT_R32G32B32A32_UINT);
+    states_ = texel_buffer(
+        *arena_, "place_states",
+        at_least(std::size_t{shape.grid.patches} * PLACE_STATE_TEXELS) * sizeof(glm::vec4),
+        VK_FORMAT_R32G32B32A32_SFLOAT);
+    labels_ = texel_buffer(*arena_, "place_labels", at_least(shape.labels.size()) * 4,
+                           VK_FORMAT_R32_UINT);
+    levels_ = texel_buffer(*arena_, "place_levels", at_least(levels) * 4, VK_FORMAT_R32_SFLOAT);
+    fill(*table_, shape.table);
+    fill(*labels_, shape.labels);
+    constants_ = {shape.grid, shape.basin_corner_m, shape.basin_cell_m, shape.basin_width,
+                  shape.basin_depth};
+    level_count_ = levels;
+}
+
+void GpuPlace::update(const Device& device, const PlaceWeather* place)
+{
+    if (place == nullptr) {
+        if (shape_) make(device, {}, 1);
+        shape_.reset();
+        return;
+    }
+    if (place->shape != shape_ || place->levels_m.size() != level_count_) {
+        check(*place);
+        make(device, *place->shape, place->levels_m.size());
+        shape_ = place->shape;
+    }
+    fill(*states_, place->states);
+    fill(*levels_, place->levels_m);
+}
+
+void bind_place(Bindings& bindings, std::uint32_t first, GpuPlace& place)
+{
+    bindings.push_back({first, texels(place.table())});
+    bindings.push_back({first + 1, texels(place.states())});
+    bindings.push_back({first + 2, texels(place.labels())});
+    bindings.push_back({first + 3, texels(place.levels())});
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,166 @@
+// Pixels find the weather of the patch where they lie, and the water of the hollow below them.
+#include <cmath>
+
+#include "scene/patches/lookup.h"
+#include "scene/patches/patches.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+class PlaceTest : public GpuTest {
+protected:
+    // A floor of 4 x 4 m seen from above, and its patches.
+    void load_floor()
+    {
+        floor =
+            scene_of({quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4})}, {plain_material(glm::vec3(0.3f))});
+        const scene::Triangles triangles(floor, {});
+        const scene::Tracer tracer(triangles);
+        scene::PatchOptions options;
+        options.cell_m = 0.5f;
+        options.rays = 32;
+        patches = scene::build_patches(tracer, options);
+        ASSERT_GT(patches.count, 8u);
+        renderer->load(floor, {});
+        shape = std::make_shared<PlaceShape>();
+        shape->grid = scene::lookup_grid(patches);
+        shape->table = patches.table;
+    }
+    std::shared_ptr<PlaceWeather> dry() const
+    {
+        auto place = std::make_shared<PlaceWeather>();
+        place->shape = shape;
+        place->states.assign(std::size_t{patches.count} * PLACE_STATE_TEXELS, glm::vec4(0.0f));
+        for (std::uint32_t i = 0; i < patches.count; ++i)
+            place->states[i * PLACE_STATE_TEXELS + 1].z = 1.0f;
+        place->levels_m = {0.0f};
+        return place;
+    }
+    Frame from_above(std::shared_ptr<const PlaceWeather> place, int samples = 1) const
+    {
+        Frame frame;
+        frame.camera = look({0, 6, 0}, {0, 0, 0}, 0.7f);
+        frame.settings.width = 64;
+        frame.settings.height = 64;
+        frame.settings.samples = samples;
+        frame.settings.aovs = {"depth",
+                               "position",
+                               "snow",
+                               "film",
+                               "water",
+                               "film_depth",
+                               "water_depth",
+                               "snow_depth",
+                               "ice",
+                               "liquid",
+                               "surface_temperature",
+                               "rain_exposure"};
+        frame.place = std::move(place);
+        return frame;
+    }
+
+    Scene floor;
+    scene::Patches patches;
+    std::shared_ptr<PlaceShape> shape;
+};
+
+TEST_F(PlaceTest, LabelsAreThoseOfThePatchToTheBit)
+{
+    load_floor();
+    auto place = dry();
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const auto f = static_cast<float>(i);
+        place->states[i * PLACE_STATE_TEXELS + 2] = {0.1f * f, 0.01f * f, 0.003f * f, 2.0f * f};
+        place->states[i * PLACE_STATE_TEXELS + 3] = {0.5f, 250.0f + f, 0.25f, 1.0f};
+    }
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        Frame frame = from_above(place);
+        frame.settings.surface_path = path;
+        const RenderResult r = renderer->render(frame);
+        std::size_t seen = 0;
+        for (int y = 2; y < 62; y += 3) {
+            for (int x = 2; x < 62; x += 3) {
+                if (std::isinf(aov(r, "depth", x, y))) continue;
+                const glm::vec3 at(aov(r, "position", x, y, 0), aov(r, "position", x, y, 1),
+                                   aov(r, "position", x, y, 2));
+                const auto patch = scene::patch_at(patches, at + glm::vec3(0, 0.03f, 0), {0, 1, 0});
+                ASSERT_TRUE(patch);
+                const auto i = static_cast<float>(*patch);
+                EXPECT_EQ(aov(r, "film_depth", x, y), 0.1f * i);
+                EXPECT_EQ(aov(r, "water_depth", x, y), 0.01f * i);
+                EXPECT_EQ(aov(r, "snow_depth", x, y), 0.003f * i);
+                EXPECT_EQ(aov(r, "ice", x, y), 2.0f * i);
+                EXPECT_EQ(aov(r, "surface_temperature", x, y), 250.0f + i);
+                EXPECT_EQ(aov(r, "rain_exposure", x, y), 0.25f);
+                ++seen;
+            }
+        }
+        EXPECT_GT(seen, 200u);
+    }
+}
+
+TEST_F(PlaceTest, SnowLiesWhereItsPatchesAre)
+{
+    load_floor();
+    auto place = dry();
+    for (std::uint32_t i = 0; i < patches.count; ++i)
+        if (patches.position_m[i].x < 0.0f) place->states[i * PLACE_STATE_TEXELS].w = 1.0f;
+    const RenderResult r = renderer->render(from_above(place, 4));
+    EXPECT_GT(aov(r, "snow", 14, 32), 0.8f);
+    EXPECT_EQ(aov(r, "snow", 50, 32), 0.0f);
+    EXPECT_GT(luminance(pixel(r, 14, 32)), 1.8f * luminance(pixel(r, 50, 32)));
+    // Whatever the frame's own weather says: it is the patches' that counts.
+    Frame white = from_above(place);
+    white.weather.snow_amount = 1.0f;
+    EXPECT_EQ(aov(renderer->render(white), "snow", 50, 32), 0.0f);
+    white.place = nullptr;
+    EXPECT_GT(aov(renderer->render(white), "snow", 50, 32), 0.8f);
+}
+
+TEST_F(PlaceTest, FilmsDarkenTheirPatchesOnly)
+{
+    load_floor();
+    auto place = dry();
+    for (std::uint32_t i = 0; i < patches.count; ++i)
+        if (patches.position_m[i].x < 0.0f) place->states[i * PLACE_STATE_TEXELS].x = 1.0f;
+    const RenderResult r = renderer->render(from_above(place, 4));
+    EXPECT_NEAR(aov(r, "film", 14, 32), 1.0f, 0.01f);
+    EXPECT_EQ(aov(r, "film", 50, 32), 0.0f);
+    EXPECT_LT(luminance(pixel(r, 14, 32)), 0.9f * luminance(pixel(r, 50, 32)));
+}
+
+TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
+{
+    load_floor();
+    shape->basin_corner_m = {-2.0f, -2.0f};
+    shape->basin_cell_m = 1.0f;
+    shape->basin_width = shape->basin_depth = 4;
+    shape->labels.assign(16, 0);
+    for (std::size_t z = 0; z < 4; ++z) shape->labels[z * 4 + 3] = 1;
+    auto place = dry();
+    place->levels_m = {0.0f, 0.02f};
+    const RenderResult r = renderer->render(from_above(place));
+    EXPECT_NEAR(aov(r, "water_depth", 56, 32), 0.02f, 1e-4f);
+    EXPECT_EQ(aov(r, "water", 56, 32), 1.0f);
+    EXPECT_EQ(aov(r, "water_depth", 14, 32), 0.0f);
+    EXPECT_EQ(aov(r, "water", 14, 32), 0.0f);
+    auto low = std::make_shared<PlaceWeather>(*place);
+    low->levels_m[1] = -0.01f;
+    EXPECT_EQ(aov(renderer->render(from_above(low)), "water", 56, 32), 0.0f);
+}
+
+TEST_F(PlaceTest, WhatDoesNotBelongTogetherIsRefused)
+{
+    load_floor();
+    auto place = dry();
+    place->states.pop_back();
+    EXPECT_THROW(renderer->render(from_above(place)), Error);
+    auto other = dry();
+    other->levels_m.clear();
+    EXPECT_THROW(renderer->render(from_above(other)), Error);
+    EXPECT_NO_THROW(renderer->render(from_above(dry())));
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
