@@ -181,6 +181,7 @@ std::string frame_line(const FrameFacts& facts)
     if (facts.input.sky.moon_lux > 0.0f) json["moon"] = moon_json(facts.input.sky);
     json["sky"] = sky_json(facts.input.sky);
     json["weather"] = weather_json(facts);
+    for (const auto& [name, sum] : facts.ground) json["ground"][name] = sum;
     json["lamps"] = shortest(facts.input.scene_light_scale);
     json["aovs"] = settings.aovs;
     json["beauty_hash"] = facts.beauty_hash;

@@ -16,6 +16,7 @@
 #include "film/frames/frames_jsonl.h"
 #include "film/frames/kept.h"
 #include "film/jobs/exposure.h"
+#include "film/jobs/scene_places.h"
 #include "film/jobs/scene_source.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/memory_budget.h"
@@ -156,6 +157,8 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
     const ScenarioOutput& output = sequence.scenario.output;
+    // Before the scene loses its images.
+    ScenePlaces places(sequence, request.threads, request.stop, report.notes);
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
@@ -170,16 +173,17 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                 set_environment_of(renderer, sequence, one.job);
                 environment = one.frame.environment;
             }
-            gpu::Frame frame = one.frame.frame;
-            const ExposureFacts exposure = meter.expose(renderer, one.job, frame);
-            gpu::RenderResult result = renderer.render(frame);
             FrameFacts facts;
+            SequenceFrame what = one.frame;
+            const ExposureFacts exposure = meter.expose(renderer, one.job, what.frame);
+            places.place(sequence, one.job, what, facts);
+            gpu::RenderResult result = renderer.render(what.frame);
             facts.job = one.job;
             facts.time_s = one.frame.time_s;
             facts.moment = one.frame.moment;
             facts.weather = one.frame.weather_name;
             facts.made_from = one.made_from;
-            facts.input = std::move(frame);
+            facts.input = std::move(what.frame);
             facts.exposure_by = exposure;
             writer.write(std::move(facts), std::move(result));
             if (request.watcher) request.watcher->written(writer.written());

@@ -415,6 +415,18 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
     parts["weather"] = part(
         [&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1))); });
+    parts["places"] = part([&](Hasher& hasher) {
+        const ScenarioGround& ground = scenario.ground;
+        hasher.add(ground.patches ? (*ground.patches ? 1 : 0) : 2);
+        hasher.add(ground.gutters);
+        for (const std::string& glob : ground.ground) hasher.add(glob);
+        hasher.add("not");
+        for (const std::string& glob : ground.not_ground) hasher.add(glob);
+        for (const glm::dvec3& drain : ground.drains)
+            for (const double v : {drain.x, drain.y, drain.z}) hasher.add(v);
+        hasher.add(scenario.scene.north_degrees);
+        hasher.add(what.moment.utc_us.value_or(0));
+    });
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
                       sizeof(shared::WeatherLook) % sizeof(float) == 0,
                   "all floats: hashed as one run");

@@ -34,6 +34,7 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
     script = looped_script(std::move(script), end_s);
     const auto weather = std::make_shared<const weather::ArtistTimeline>(script.solve());
     const auto shared = std::make_shared<const WeatherScript>(std::move(script));
+    source.script = shared;
     source.at = [shared, weather](double time_s) {
         return weather::artist_moment(*weather, shared->timeline, shared->sky, time_s);
     };
@@ -138,6 +139,9 @@ void make_physical(WeatherSource& source, weather::ForcingTable table,
                                                *options.spin_up_days * 24.0 * kHour_us)));
     }
     const weather::Site site = table.site;
+    source.table = std::make_shared<const weather::ForcingTable>(table);
+    source.physical = params;
+    source.utc_us = [clock](double time_s) { return clock.at(time_s); };
     const weather::PhysicalMoments moments(std::move(table), params);
     const double spun_days =
         static_cast<double>(clock.start_us - moments.begin_us()) / (24.0 * kHour_us);
@@ -170,7 +174,10 @@ void make_artist(WeatherSource& source, weather::ForcingTable table, const Scena
         static_cast<double>(clock.start_us - table.time_us.front()) / clock.us_per_second;
     source.notes.emplace_back(
         "artist model: its rates are of the film's clock, an hour of the file a second");
-    const auto inner = from_script(std::move(script), source.name, end_s + offset_s).at;
+    const WeatherSource on_file = from_script(std::move(script), source.name, end_s + offset_s);
+    source.script = on_file.script;
+    source.script_offset_s = offset_s;
+    const auto inner = on_file.at;
     const auto shared = std::make_shared<const weather::ForcingTable>(std::move(table));
     source.at = [inner, clock, offset_s, shared](double time_s) {
         const std::int64_t us = clock.at(time_s);

@@ -2,7 +2,9 @@
 #define PETRICHOR_FILM_JOBS_WEATHER_SOURCE_H
 
 #include <filesystem>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,13 @@ struct WeatherSource {
     double duration_s = 0.0;  ///< of the clock, to the last key; 0 for weather that never changes
     std::function<weather::Moment(double time_s)> at;
     std::vector<std::string> notes;  ///< what was guessed, filled and spun up; a line each
+    /// Of a weather file under the physical model: what it runs on, for every patch of a scene.
+    std::shared_ptr<const weather::ForcingTable> table = nullptr;
+    weather::PhysicalParams physical = {};
+    std::function<std::int64_t(double time_s)> utc_us = nullptr;
+    /// Under the artist model: its keys, repeated where they loop, and the film's 0 s on them.
+    std::shared_ptr<const WeatherScript> script = nullptr;
+    double script_offset_s = 0.0;
 };
 
 /// The weather of a scenario's [weather]: a preset, keys, or a weather file under the physical

@@ -295,6 +295,30 @@ const std::vector<Rule>& rules()
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
 
+        {{"ground", "patches", "true",
+          "weather on every patch of the scene, with its own sun, sky, rain and wind; false: the "
+          "same everywhere. Without this key true for weather files"},
+         [](Scenario& s, const TomlValue& v) { s.ground.patches = v.boolean(); }},
+        {{"ground", "materials", "[\"street*\"]",
+          "materials that are ground wherever they lie; without it what lies lowest is"},
+         [](Scenario& s, const TomlValue& v) { s.ground.ground = v.texts(); }},
+        {{"ground", "not_materials", "[\"leaf*\"]",
+          "materials that are neither ground nor stand in the way of water"},
+         [](Scenario& s, const TomlValue& v) { s.ground.not_ground = v.texts(); }},
+        {{"ground", "drains", "[[2.0, -1.5, 0.2]]",
+          "where water leaves the ground: x, z and radius, metres"},
+         [](Scenario& s, const TomlValue& v) {
+             s.ground.drains.clear();
+             for (const TomlValue& one : v.elements()) {
+                 const std::vector<double> n = one.numbers(3, -1e6, 1e6);
+                 if (n[2] < 0.0) one.refuse("x, z and a radius of 0 or more");
+                 s.ground.drains.emplace_back(n[0], n[1], n[2]);
+             }
+         }},
+        {{"ground", "gutters", "true",
+          "eaves more than 2 m up give nine tenths of their water to a gutter"},
+         [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
+
 #define ROW(name, on, meaning)                                  \
     {{"render", #name, on ? "true" : "false", meaning},         \
      [](Scenario& s, const TomlValue& v) { s.render.name = v.boolean(); }},

@@ -262,6 +262,8 @@ std::string table_meaning(const std::string& table)
         {"moon", "Without this table: where place and clock of a weather file have it, else none."},
         {"fog", "Fog and haze. Without this table: by the visibility of the weather."},
         {"lights", "The lamps of the scene. Without this table they are always on."},
+        {"ground",
+         "What the scene's surfaces do with a weather file. Sensible without this table."},
         {"render", "What the renderer computes; all of it without this table."},
         {"output", "The sequence and its files."},
         {"weather", "What falls from the sky, and when: a preset, a weather file, or keys."},

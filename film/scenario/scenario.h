@@ -193,12 +193,22 @@ struct ScenarioView {
     ScenarioCamera camera;
 };
 
+/// [ground]: the weather of the scene's places, and what its water does.
+struct ScenarioGround {
+    /// Weather on every patch of the scene; not given: of weather files under the physical model.
+    std::optional<bool> patches;
+    std::vector<std::string> ground, not_ground;  ///< globs of materials
+    std::vector<glm::dvec3> drains;               ///< x, z and radius, m
+    bool gutters = true;
+};
+
 /// Everything a scenario file says, in the units of the file.
 struct Scenario : Conditions {
     std::string name;              ///< for messages: the file as the user gave it
     std::filesystem::path folder;  ///< where relative names in it are looked for
     ScenarioScene scene;
     ScenarioCamera camera;
+    ScenarioGround ground;
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "weather/patches/driving_rain.h"
+#include "weather/patches/place_factors.h"
 #include "weather/patches/sky_light.h"
 #include "weather/patches/visibility.h"
 #include "weather/physics/constants.h"
@@ -187,6 +188,47 @@ TEST(PatchShares, DripsAndSplashes)
     EXPECT_NEAR(snow_holds(60 * kDegree), 0.0, 1e-12);
     EXPECT_NEAR(wall_rain_factor(1.0, true), 0.95, 1e-12);
     EXPECT_NEAR(wall_rain_factor(0.0, false), 0.25, 1e-12);
+}
+
+TEST(PatchShares, FactorsOfPlaces)
+{
+    PatchKind kind;
+    PlaceClimate climate;
+    climate.wind_m_s = 5.0;
+    climate.wind_from_deg = 270.0;
+    WeatherPatch open;
+    open.visible = open_sky({});
+    const PlaceFactors one = place_factors(open, kind, climate);
+    EXPECT_NEAR(one.rain, 1.0, 1e-12);
+    EXPECT_NEAR(one.drying, 1.0, 1e-12);
+    EXPECT_NEAR(one.freezing, 1.0, 1e-5);
+    EXPECT_NEAR(one.snow, 1.0, 1e-12);
+    WeatherPatch roofed;
+    const PlaceFactors none = place_factors(roofed, kind, climate);
+    EXPECT_EQ(none.rain, 0.0);
+    EXPECT_EQ(none.snow, 0.0);
+    EXPECT_LT(none.drying, 0.2);
+    EXPECT_LT(none.freezing, 0.3);
+    // A wall to the south takes the sun: it dries more slowly, and as much rain falls.
+    WeatherPatch shaded = open;
+    for (int i = 0; i < kVisibleBits; ++i) {
+        const Direction d = visible_direction(i);
+        if (d.z > 0.0 && d.y < 0.8)
+            shaded.visible[static_cast<std::size_t>(i >> 5)] &= ~(1u << (i & 31));
+    }
+    climate.wind_m_s = 0.0;
+    const PlaceFactors dim = place_factors(shaded, kind, climate);
+    EXPECT_LT(dim.drying, 0.85);
+    EXPECT_NEAR(dim.rain, 1.0, 1e-12);
+    // West wind: the wall that faces west is wet, the other dry; neither holds snow.
+    climate.wind_m_s = 5.0;
+    WeatherPatch wall;
+    wall.normal = {-1.0, 0.0, 0.0};
+    wall.visible = open_sky(wall.normal);
+    EXPECT_NEAR(place_factors(wall, kind, climate).rain, .91505, 1e-4);
+    EXPECT_EQ(place_factors(wall, kind, climate).snow, 0.0);
+    climate.wind_from_deg = 90.0;
+    EXPECT_EQ(place_factors(wall, kind, climate).rain, 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+#include "film/jobs/scene_places.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "film/data/folders.h"
+#include "film/scenes/transport.h"
+#include "scene/patches/tracer.h"
+
+namespace petrichor::film {
+namespace {
+
+bool wants_places(const ScenarioGround& ground, const WeatherSource& weather)
+{
+    if (weather.table) return ground.patches.value_or(true);
+    return weather.script && ground.patches.value_or(false);
+}
+
+const SequenceVariant& variant_of(const Sequence& sequence, const Job& job)
+{
+    return *std::find_if(sequence.variants.begin(), sequence.variants.end(),
+                         [&](const SequenceVariant& v) { return v.name == job.variant; });
+}
+
+}  // namespace
+
+ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopRequest& stop,
+                         std::vector<std::string>& notes)
+    : threads_(threads > 0 ? threads
+                           : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
+{
+    const auto first = std::find_if(sequence.variants.begin(), sequence.variants.end(),
+                                    [&](const SequenceVariant& v) {
+                                        return wants_places(sequence.scenario.ground, v.weather);
+                                    });
+    if (first == sequence.variants.end()) return;
+    TransportOptions options;
+    options.patches.threads = threads;
+    options.patches.stop = stop;
+    options.cache = user_cache();
+    const SceneTransport transport = prepare_transport(sequence.scene, options);
+    if (transport.patches.empty()) {
+        notes.emplace_back("no surface stops light: the weather is the same everywhere");
+        return;
+    }
+    std::vector<std::string> alpha_notes;
+    const scene::Triangles triangles(sequence.scene, alpha_images(sequence.scene, alpha_notes));
+    const scene::Tracer tracer(triangles);
+    sites_ = scene_sites(sequence.scene, transport.patches, tracer, transport.surfaces,
+                         sequence.scenario.ground, first->weather.physical.surface);
+    notes.insert(notes.end(), transport.notes.begin(), transport.notes.end());
+    for (const std::string& note : sites_->notes) notes.push_back("ground: " + note);
+    notes.push_back("weather on " + std::to_string(transport.patches.count) + " patches, " +
+                    std::to_string(sites_->ground.basins.pits) + " hollows of the ground");
+}
+
+void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame& frame,
+                        FrameFacts& facts)
+{
+    if (!sites_) return;
+    const SequenceVariant& variant = variant_of(sequence, job);
+    if (!wants_places(sequence.scenario.ground, variant.weather)) return;
+    if (!variant.weather.table) {
+        auto keyed = keyed_.find(job.variant);
+        if (keyed == keyed_.end()) {
+            keyed = keyed_
+                        .emplace(job.variant, ArtistPlaces(*sites_, *variant.weather.script,
+                                                           variant.conditions.sun.latitude_degrees,
+                                                           sequence.scenario.scene.north_degrees))
+                        .first;
+        }
+        frame.frame.place =
+            keyed->second.at(std::max(0.0, frame.time_s + variant.weather.script_offset_s));
+        return;
+    }
+    auto run = runs_.find(job.variant);
+    if (run == runs_.end()) {
+        weather::PatchParams params;
+        params.model = variant.weather.physical;
+        params.north_deg = sequence.scenario.scene.north_degrees;
+        params.threads = threads_;
+        // From the sequence's own first frame, whichever are asked for: the same bits for all.
+        const std::int64_t from_us = variant.weather.utc_us(frame_time_s(sequence, 0));
+        run = runs_
+                  .emplace(job.variant,
+                           PlaceWeatherOfFile(*sites_, *variant.weather.table, params, from_us))
+                  .first;
+    }
+    frame.frame.place = run->second.at(variant.weather.utc_us(frame.time_s));
+    const PlaceSums sums = run->second.sums();
+    facts.ground = {{"area_m2", sums.area_m2},
+                    {"film_kg", sums.film_kg},
+                    {"standing_water_kg", sums.standing_kg},
+                    {"ice_kg", sums.ice_kg},
+                    {"snow_kg", sums.snow_kg},
+                    {"ponds_m3", sums.ponds_m3},
+                    {"fallen_kg", sums.books.fallen},
+                    {"evaporated_kg", sums.books.evaporated + sums.books.lost_from_ponds},
+                    {"sublimated_kg", sums.books.sublimated},
+                    {"soaked_kg", sums.books.soaked},
+                    {"left_kg", sums.books.out},
+                    {"not_accounted_kg", sums.books.residual()}};
+}
+
+}  // namespace petrichor::film

@@ -1,0 +1,166 @@
+#include "film/weather/artist_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "scene/basins/water.h"
+#include "weather/moment.h"
+
+namespace petrichor::film {
+namespace {
+
+constexpr double kPuddleRain_m = 0.020;  // that full puddles stand for
+// Factors in steps; rain on a windward wall passes 1.
+constexpr double kSteps = 8.0, kMostRain = 2.0;
+
+using Class = std::array<int, 4>;
+
+int step_of(double factor)
+{
+    return static_cast<int>(std::lround(std::clamp(factor, 0.0, kMostRain) * kSteps));
+}
+Class class_of(const weather::PlaceFactors& f)
+{
+    // Rain and snow make pictures; drying and freezing may be coarser.
+    return {step_of(f.rain), 2 * ((step_of(f.drying) + 1) / 2), 2 * ((step_of(f.freezing) + 1) / 2),
+            step_of(f.snow)};
+}
+weather::PlaceFactors factors_of(const Class& c)
+{
+    return {c[0] / kSteps, c[1] / kSteps, c[2] / kSteps, c[3] / kSteps};
+}
+
+struct Scaling {
+    const char* name;
+    double weather::PlaceFactors::*factor;
+};
+// What of a script a factor scales, by the names of ArtistParams and of states set by hand.
+constexpr Scaling kScalings[] = {
+    {"accumulation_rate_wetness", &weather::PlaceFactors::rain},
+    {"accumulation_rate_cracks", &weather::PlaceFactors::rain},
+    {"accumulation_rate_puddles", &weather::PlaceFactors::rain},
+    {"accumulation_rate_snow", &weather::PlaceFactors::snow},
+    {"evaporation_rate_wetness", &weather::PlaceFactors::drying},
+    {"evaporation_rate_cracks", &weather::PlaceFactors::drying},
+    {"evaporation_rate_puddles", &weather::PlaceFactors::drying},
+    {"water_to_snow_time_scale", &weather::PlaceFactors::freezing},
+    {"wetness", &weather::PlaceFactors::rain},
+    {"cracks", &weather::PlaceFactors::rain},
+    {"puddles", &weather::PlaceFactors::rain},
+    {"snow", &weather::PlaceFactors::snow},
+};
+
+void scale(weather::Channel& channel, double factor, double most)
+{
+    for (double& value : channel.values) value = std::min(value * factor, most);
+}
+
+}  // namespace
+
+WeatherScript script_at_place(const WeatherScript& script, const weather::PlaceFactors& factors)
+{
+    WeatherScript out = script;
+    for (const Scaling& s : kScalings) {
+        const double factor = factors.*s.factor;
+        for (const weather::ArtistParameter& p : weather::artist_parameters())
+            if (p.name == s.name) out.params.*p.member *= factor;
+        for (const weather::HandSetState& state : weather::hand_set_states())
+            if (state.name == s.name)
+                out.initial.*state.member = std::min(1.0, out.initial.*state.member * factor);
+        if (const auto keyed = out.timeline.parameters.find(s.name);
+            keyed != out.timeline.parameters.end())
+            scale(keyed->second, factor, 1e9);
+        if (const auto set = out.timeline.states.find(s.name); set != out.timeline.states.end())
+            scale(set->second, factor, 1.0);
+    }
+    return out;
+}
+
+struct ArtistPlaces::Impl {
+    struct Solved {
+        WeatherScript script;
+        weather::ArtistTimeline weather;
+    };
+    std::shared_ptr<const gpu::PlaceShape> shape;
+    scene::Basins basins;
+    std::vector<Solved> solved;
+    std::vector<std::uint32_t> solved_of;  // of a patch
+    std::vector<float> rain, sky;          // of a patch
+    Solved open;
+};
+
+ArtistPlaces::ArtistPlaces(const SceneSites& sites, const WeatherScript& script,
+                           double latitude_deg, double north_deg)
+{
+    weather::PlaceClimate climate;
+    climate.latitude_deg = latitude_deg;
+    climate.north_deg = north_deg;
+    const double middle_us = 0.5e6 * script.duration_s;
+    climate.wind_m_s = weather::value_at(script.sky.wind_m_s, middle_us);
+    climate.wind_from_deg = weather::value_at(script.sky.wind_from_deg, middle_us);
+    auto impl = std::make_shared<Impl>(
+        Impl{sites.shape, sites.ground.basins, {}, {}, {}, {}, {script, script.solve()}});
+    std::map<Class, std::uint32_t> known;
+    for (const weather::WeatherPatch& patch : sites.set.patches) {
+        const auto factors = weather::place_factors(patch, sites.set.kinds[patch.kind], climate);
+        const Class c = class_of(factors);
+        const auto [place, is_new] =
+            known.try_emplace(c, static_cast<std::uint32_t>(impl->solved.size()));
+        if (is_new) {
+            WeatherScript here = script_at_place(script, factors_of(c));
+            weather::ArtistTimeline weather = here.solve();
+            impl->solved.push_back({std::move(here), std::move(weather)});
+        }
+        impl->solved_of.push_back(place->second);
+        impl->rain.push_back(static_cast<float>(factors.rain));
+        impl->sky.push_back(static_cast<float>(
+            patch.sky_share < 0.0 ? weather::sky_shares(patch.visible, patch.normal).sky
+                                  : patch.sky_share));
+    }
+    impl_ = std::move(impl);
+}
+
+std::size_t ArtistPlaces::scripts() const
+{
+    return impl_->solved.size();
+}
+
+std::shared_ptr<const gpu::PlaceWeather> ArtistPlaces::at(double time_s) const
+{
+    const Impl& m = *impl_;
+    std::vector<shared::WeatherMoment> moments;
+    const auto moment_of = [&](const Impl::Solved& s) {
+        return weather::artist_moment(s.weather, s.script.timeline, s.script.sky, time_s).values;
+    };
+    for (const Impl::Solved& s : m.solved) moments.push_back(moment_of(s));
+    const auto place = std::make_shared<gpu::PlaceWeather>();
+    place->shape = m.shape;
+    for (std::size_t i = 0; i < m.solved_of.size(); ++i) {
+        const shared::WeatherMoment& here = moments[m.solved_of[i]];
+        const double frozen = static_cast<double>(here.water_to_snow);
+        // Lux's film_albedo is wetness x 0.85 x what is not frozen; the pixel has the 0.85.
+        const weather::ArtistParams& params = m.solved[m.solved_of[i]].script.params;
+        const auto influence = static_cast<float>(params.wetness_influence_on_albedo);
+        const float film = influence > 0.0f ? std::min(1.0f, here.film_albedo / influence) : 0.0f;
+        place->states.emplace_back(film, here.flood_cracks, here.flood_puddles, here.snow_amount);
+        place->states.emplace_back(here.frost * m.sky[i], static_cast<float>(frozen), m.rain[i],
+                                   0.0f);
+        place->states.emplace_back(here.film_mm, here.puddle_depth_m, here.snow_depth_m,
+                                   here.ice_kg_m2);
+        place->states.emplace_back(static_cast<float>(1.0 - frozen), here.air_temperature_k,
+                                   m.rain[i], 1.0f);
+    }
+    // Everywhere the same film has run into the hollows.
+    scene::BasinWater water(m.basins);
+    const double depth_m = kPuddleRain_m * static_cast<double>(moment_of(m.open).flood_puddles);
+    std::vector<double> into;
+    for (const double cells : m.basins.pit_cells)
+        into.push_back(depth_m * cells * m.basins.cell_area_m2);
+    scene::pour(m.basins, water, into);
+    place->levels_m = scene::levels_m(m.basins, water);
+    return place;
+}
+
+}  // namespace petrichor::film

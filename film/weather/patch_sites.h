@@ -1,0 +1,43 @@
+#ifndef PETRICHOR_FILM_WEATHER_PATCH_SITES_H
+#define PETRICHOR_FILM_WEATHER_PATCH_SITES_H
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/basins/hierarchy.h"
+#include "scene/patches/patches.h"
+#include "scene/patches/surfaces.h"
+#include "weather/patches/patch_weather.h"
+
+namespace petrichor::film {
+
+/// What the ground of a scene does with water.
+struct SceneGround {
+    scene::HeightField field;
+    scene::Basins basins;
+};
+
+/// Surface of a material for the physical model, from what its name says ("old_cobblestone",
+/// "roof tiles 2"); where it says nothing `otherwise`, for metals a metal roof.
+weather::Surface surface_of_material(const scene::Material& material,
+                                     const weather::Surface& otherwise);
+
+/// A scene's patches as weather sees them: kinds by material (albedo of the patches themselves),
+/// visibility, links, the way that water runs: down a roof from patch to patch, over an edge to
+/// what lies below (nine tenths of it into a gutter where that is more than 2 m), from the ground
+/// into the hollow that it drains to. Deterministic.
+///
+///   surfaces    as scene::patch_surfaces; one a patch
+///   otherwise   of materials whose name says nothing
+weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer& tracer,
+                              std::span<const scene::PatchSurface> surfaces,
+                              const SceneGround& ground, const weather::Surface& otherwise);
+
+/// The hollows of a ground as ponds of a patch set: pond i is pit i + 1.
+weather::Ponds ponds_of(const SceneGround& ground);
+
+}  // namespace petrichor::film
+
+#endif

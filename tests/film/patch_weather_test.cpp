@@ -1,0 +1,262 @@
+// A scene's own geometry under a weather file: where its water goes, what its patches hold.
+#include "film/weather/patch_weather.h"
+#include "film/weather/artist_places.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/basins/water.h"
+#include "weather/physics/constants.h"
+
+namespace petrichor::film {
+namespace {
+
+void add_quad(scene::Scene& scene, std::uint32_t material, const glm::vec3& corner,
+              const glm::vec3& u, const glm::vec3& v)
+{
+    scene::Primitive p;
+    const glm::vec3 normal = glm::normalize(glm::cross(u, v));
+    for (const glm::vec2 at :
+         {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+        p.positions.push_back(corner + u * at.x + v * at.y);
+        p.normals.push_back(normal);
+        p.uv0.push_back(at);
+    }
+    p.indices = {0, 1, 2, 0, 2, 3};
+    p.material = material;
+    scene.meshes.front().primitives.push_back(std::move(p));
+}
+
+// Ground of 12 x 12 m with a trough along z at x = 2, a wall on the line x = -2 that faces east,
+// and an awning over part of the ground.
+scene::Scene yard()
+{
+    scene::Scene scene;
+    for (const char* name : {"Asphalt", "brick wall", "Metal roof"}) {
+        scene::Material m;
+        m.name = name;
+        m.base_color = glm::vec4(0.2f, 0.2f, 0.2f, 1.0f);
+        m.metallic = 0.0f;
+        m.double_sided = std::string(name) == "Metal roof";
+        scene.materials.push_back(m);
+    }
+    scene.meshes.emplace_back();
+    scene.instances.push_back({"yard", 0, glm::mat4(1.0f)});
+    add_quad(scene, 0, {-6, 0, 6}, {7, 0, 0}, {0, 0, -12});
+    // The trough is closed at both ends by the level of the ground around it.
+    add_quad(scene, 0, {1, 0, 4}, {1, -0.1f, 0}, {0, 0, -8});
+    add_quad(scene, 0, {2, -0.1f, 4}, {1, 0.1f, 0}, {0, 0, -8});
+    add_quad(scene, 0, {1, 0, 6}, {2, 0, 0}, {0, 0, -2});
+    add_quad(scene, 0, {1, 0, -4}, {2, 0, 0}, {0, 0, -2});
+    add_quad(scene, 0, {3, 0, 6}, {3, 0, 0}, {0, 0, -12});
+    add_quad(scene, 1, {-2, 0, 3}, {0, 0, -6}, {0, 3, 0});
+    add_quad(scene, 2, {-6, 2.5f, 6}, {2, 0.5f, 0}, {0, 0, -12});
+    return scene;
+}
+
+scene::Patches cut(const scene::Tracer& tracer)
+{
+    scene::PatchOptions options;
+    options.cell_m = 0.5f;
+    options.rays = 64;
+    return scene::build_patches(tracer, options);
+}
+
+struct Place {
+    scene::Scene scene = yard();
+    scene::Triangles triangles{scene, {}};
+    scene::Tracer tracer{triangles};
+    scene::Patches patches = cut(tracer);
+    std::vector<scene::PatchSurface> surfaces = scene::patch_surfaces(patches, triangles, {});
+    SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+
+    // The first patch that a test accepts.
+    template <class Test>
+    std::uint32_t patch_where(const Test& test) const
+    {
+        for (std::uint32_t i = 0; i < patches.count; ++i)
+            if (test(patches.position_m[i], patches.normal[i])) return i;
+        ADD_FAILURE() << "no such patch";
+        return 0;
+    }
+};
+
+weather::ForcingTable rain(std::size_t hours, double mm_h, double wind_m_s, double from_deg)
+{
+    weather::ForcingTable t;
+    t.site = {46.0, 8.0, 600.0};
+    for (std::size_t i = 0; i < hours; ++i) {
+        t.time_us.push_back(1431000000LL * 1000000 + static_cast<std::int64_t>(i) * 3600000000LL);
+        t[weather::Field::AirTemp].push_back(weather::kZeroCelsiusK + 12);
+        t[weather::Field::RelHumidity].push_back(90);
+        t[weather::Field::Wind].push_back(wind_m_s);
+        t[weather::Field::WindFrom].push_back(from_deg);
+        t[weather::Field::Precip].push_back(mm_h / 3600.0);
+        t[weather::Field::Cloud].push_back(1);
+    }
+    weather::ReadReport report;
+    weather::fill_forcing(t, report);
+    return t;
+}
+
+TEST(PatchSites, NamesSayWhatThingsAreMadeOf)
+{
+    const auto kind = [](const char* name, float metallic = 0.0f) {
+        scene::Material m;
+        m.name = name;
+        m.metallic = metallic;
+        return surface_of_material(m, weather::surface_preset("rock")).name;
+    };
+    EXPECT_EQ(kind("Old_Cobblestone.002"), "cobblestone");
+    EXPECT_EQ(kind("ROOF tiles"), "roof_tile");
+    EXPECT_EQ(kind("zinc roof"), "roof_metal");
+    EXPECT_EQ(kind("Material.001"), "rock");
+    EXPECT_EQ(kind("Material.001", 1.0f), "roof_metal");
+}
+
+TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)
+{
+    const Place place;
+    const weather::PatchSet& set = place.sites.set;
+    ASSERT_EQ(set.patches.size(), place.patches.count);
+    // The sides of the trough drain to its hollow.
+    const auto side = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return p.x > 1.2f && p.x < 1.8f && std::abs(p.z) < 3.0f && n.y > 0.5f;
+    });
+    ASSERT_NE(set.patches[side].runs_to, weather::kRunsOut);
+    EXPECT_NE(set.patches[side].runs_to & weather::kToPond, 0u);
+    // Open ground beside the edge leads out.
+    const auto edge = place.patch_where(
+        [](glm::vec3 p, glm::vec3 n) { return p.x > 5.0f && p.z > 4.0f && n.y > 0.9f; });
+    EXPECT_EQ(set.patches[edge].runs_to, weather::kRunsOut);
+    // The wall's rain runs to the ground at its foot, which splashes back.
+    const auto foot = place.patch_where(
+        [](glm::vec3 p, glm::vec3 n) { return n.x > 0.9f && p.y < 0.4f && std::abs(p.z) < 2.0f; });
+    ASSERT_LT(set.patches[foot].runs_to, set.patches.size());
+    EXPECT_GT(place.patches.normal[set.patches[foot].runs_to].y, 0.9f);
+    EXPECT_NE(set.patches[foot].foot, weather::kNoPatch);
+    EXPECT_LT(set.patches[foot].foot_height_m, 0.6);
+    const auto high = place.patch_where(
+        [](glm::vec3 p, glm::vec3 n) { return n.x > 0.9f && p.y > 2.5f && std::abs(p.z) < 1.0f; });
+    EXPECT_EQ(set.patches[high].foot, weather::kNoPatch);
+    EXPECT_GT(set.patches[high].wall_factor, set.patches[foot].wall_factor);
+    // The roof sheds its water over the eaves, most of it into a gutter.
+    const auto eaves = place.patch_where(
+        [](glm::vec3 p, glm::vec3 n) { return n.y > 0.9f && p.y > 2.4f && p.x < -5.6f; });
+    EXPECT_EQ(set.kinds[set.patches[eaves].kind].surface.name, "roof_metal");
+    EXPECT_GT(set.patches[eaves].gutter_share + (set.patches[eaves].runs_to == weather::kRunsOut),
+              0.5);
+    weather::check_patches(set);
+}
+
+TEST(PatchWeatherOfAScene, RainFillsTheHollowAndTheBooksClose)
+{
+    Place place;
+    const auto table = rain(30, 5.0, 0.0, 0.0);
+    weather::PatchParams params;
+    PlaceWeatherOfFile run(place.sites, table, params, table.time_us.front());
+    const auto at = [&](int hour) { return run.at(table.time_us[static_cast<std::size_t>(hour)]); };
+    const auto dry = at(0);
+    const auto wet = at(8);
+    const PlaceSums sums = run.sums();
+    EXPECT_GT(sums.ponds_m3, 0.0);
+    EXPECT_LT(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen);
+    ASSERT_EQ(wet->levels_m.size(), place.sites.ground.basins.pits + 1);
+    bool rose = false;
+    for (std::size_t i = 1; i < wet->levels_m.size(); ++i)
+        rose = rose || wet->levels_m[i] > dry->levels_m[i] + 0.005f;
+    EXPECT_TRUE(rose);
+    // Without end it is as full as it gets: the level of the ground.
+    const auto full = at(29);
+    float highest = -1.0f;
+    for (std::size_t i = 1; i < full->levels_m.size(); ++i)
+        highest = std::max(highest, full->levels_m[i]);
+    EXPECT_NEAR(highest, 0.0f, 0.01f);
+    // Under the roof it stays dry, but for what the run-off brings.
+    const auto under = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > -5.4f && p.x < -4.6f && std::abs(p.z) < 3.0f;
+    });
+    const auto open = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > 4.0f && p.x < 5.0f && std::abs(p.z) < 3.0f;
+    });
+    EXPECT_EQ(wet->states[under * PLACE_STATE_TEXELS + 2].x, 0.0f);
+    EXPECT_GT(wet->states[open * PLACE_STATE_TEXELS + 2].x, 0.3f);
+    EXPECT_EQ(wet->states[under * PLACE_STATE_TEXELS + 1].z, 0.0f);
+    // In any order.
+    const auto again = at(8);
+    EXPECT_EQ(again->states, wet->states);
+    EXPECT_EQ(again->levels_m, wet->levels_m);
+}
+
+TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)
+{
+    Place place;
+    const auto wall = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.x > 0.9f && p.y > 1.5f && p.y < 2.4f && std::abs(p.z) < 2.0f;
+    });
+    const auto film_in = [&](double from_deg) {
+        const auto table = rain(6, 5.0, 6.0, from_deg);
+        PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
+        return run.at(table.time_us[3])->states[wall * PLACE_STATE_TEXELS + 2].x;
+    };
+    EXPECT_GT(film_in(90.0), 0.2f);
+    EXPECT_EQ(film_in(270.0), 0.0f);
+}
+
+TEST(SceneGroundKeys, DrainsAndGlobsThatMeetNothingAreSaid)
+{
+    const scene::Scene scene = yard();
+    ScenarioGround keys;
+    std::vector<std::string> notes;
+    EXPECT_GT(scene_ground(scene, keys, notes).basins.hollow.back().capacity_m3, 0.1);
+    EXPECT_TRUE(notes.empty());
+    keys.drains = {{2.0, 0.0, 0.2}, {500.0, 0.0, 0.1}};
+    keys.ground = {"no such thing"};
+    const SceneGround drained = scene_ground(scene, keys, notes);
+    double capacity = 0.0;
+    for (const scene::Hollow& h : drained.basins.hollow)
+        if (h.parent == 0) capacity += h.capacity_m3;
+    EXPECT_LT(capacity, 0.05);
+    EXPECT_EQ(notes.size(), 2u);
+}
+
+TEST(ArtistPlaces, KeysKnowShelterAndHollows)
+{
+    const Place place;
+    const WeatherScript script = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = 12, rainfall = 0.8, wind_m_s = 0.5, "
+        "wind_from_deg = 90 }, { time_s = 20, rainfall = 0.8 }]",
+        "test");
+    const ArtistPlaces places(place.sites, script, 50.0, 0.0);
+    EXPECT_GT(places.scripts(), 2u);
+    EXPECT_LT(places.scripts(), 200u);
+    const auto wet = places.at(10.0);
+    const auto under = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > -5.4f && p.x < -4.6f && std::abs(p.z) < 3.0f;
+    });
+    const auto open = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < 0.1f && p.x > 4.0f && p.x < 5.0f && std::abs(p.z) < 3.0f;
+    });
+    EXPECT_LT(wet->states[under * PLACE_STATE_TEXELS].x, 0.15f);
+    EXPECT_GT(wet->states[open * PLACE_STATE_TEXELS].x, 0.8f);
+    EXPECT_GT(wet->states[open * PLACE_STATE_TEXELS].z, 0.5f);
+    bool stands = false;
+    for (std::uint32_t i = 1; i < wet->levels_m.size(); ++i)
+        stands = stands || wet->levels_m[i] > place.sites.ground.basins.hollow[i].pit_m + 0.003f;
+    EXPECT_TRUE(stands);
+    // In the open it is the script itself.
+    const auto alone =
+        weather::artist_moment(script.solve(), script.timeline, script.sky, 10.0).values;
+    const WeatherScript same = script_at_place(script, {});
+    const auto again = weather::artist_moment(same.solve(), same.timeline, same.sky, 10.0).values;
+    EXPECT_EQ(alone.flood_puddles, again.flood_puddles);
+    EXPECT_EQ(alone.film_albedo, again.film_albedo);
+    const WeatherScript dry = script_at_place(script, {0.0, 1.0, 1.0, 1.0});
+    EXPECT_EQ(weather::artist_moment(dry.solve(), dry.timeline, dry.sky, 10.0).values.film_albedo,
+              0.0f);
+}
+
+}  // namespace
+}  // namespace petrichor::film

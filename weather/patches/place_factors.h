@@ -1,0 +1,31 @@
+#ifndef PETRICHOR_WEATHER_PATCHES_PLACE_FACTORS_H
+#define PETRICHOR_WEATHER_PATCHES_PLACE_FACTORS_H
+
+#include "weather/patches/patches.h"
+
+namespace petrichor::weather {
+
+/// The weather that factors are means of.
+struct PlaceClimate {
+    double wind_m_s = 2.0;
+    double wind_from_deg = 240.0;
+    double rain_mm_h = 5.0;
+    double latitude_deg = 50.0;
+    double day_of_year = 80.0;  ///< of the sun whose path is averaged
+    double north_deg = 0.0;     ///< azimuth, clockwise from the scene's -z, of true north
+};
+
+/// What a place makes of the weather, over open flat ground: for models that have no energy and no
+/// wind (scene-weather, 0).
+struct PlaceFactors {
+    double rain = 1.0;      ///< of the rain that meets it, >= 0
+    double drying = 1.0;    ///< mean of its share of the day's sun and of the wind, 0..1
+    double freezing = 1.0;  ///< by its share of the sky, 0..1
+    double snow = 1.0;      ///< of the snow that stays on it, 0..1
+};
+PlaceFactors place_factors(const WeatherPatch& patch, const PatchKind& kind,
+                           const PlaceClimate& climate);
+
+}  // namespace petrichor::weather
+
+#endif
