@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/words.h"
 #include "cli/commands.h"
 #include "cli/rooms.h"
+#include "cli/scene/ground_map.h"
 #include "cli/scene/scene_map.h"
 #include "cli/scene/scene_view.h"
 #include "film/jobs/camera.h"
@@ -25,12 +27,14 @@ struct SceneOptions {
     std::string camera;
     std::string size = "960x540";
     MapConditions conditions;
+    std::optional<double> rain_mm;
 };
 
 std::vector<std::string> map_names()
 {
     std::vector<std::string> names;
     for (const SceneMap& map : scene_maps()) names.push_back(map.name);
+    names.emplace_back(kBasinsMap);
     return names;
 }
 
@@ -46,7 +50,7 @@ const SceneMap& find_map(const std::string& name)
 void check(const SceneOptions& options)
 {
     if (!options.map.empty()) {
-        find_map(options.map);
+        if (options.map != kBasinsMap) find_map(options.map);
         const std::filesystem::path file = options.output;
         if (file.extension() != ".png") {
             throw Error("scene: a map is written as .png, got \"" + options.output + "\"",
@@ -56,7 +60,17 @@ void check(const SceneOptions& options)
         throw Error("scene: -o " + options.output + " without --map: nothing would be written",
                     "Add --map sky, or leave out -o.");
     }
+    if (options.rain_mm && options.map != kBasinsMap) {
+        throw Error("scene: --rain-mm is of --map basins", "Add --map basins, or leave it out.");
+    }
     parse_size(options.size);
+}
+
+void write_basins(const SceneOptions& options, const SceneView& view, const GroundView& ground)
+{
+    const Pixels pixels = draw_basins(ground, options.rain_mm);
+    texproc::write_png8(options.output, pixels.width, pixels.height, 3, pixels.rgb,
+                        {{"scene", view.scene->name}, {"map", options.map}});
 }
 
 void run(SceneOptions options)
@@ -64,7 +78,10 @@ void run(SceneOptions options)
     check(options);
     options.view.quiet = options.json;
     const SceneView view = open_scene(options.view);
-    if (!options.map.empty()) {
+    const GroundView ground = find_scene_ground(*view.scene);
+    if (options.map == kBasinsMap) {
+        write_basins(options, view, ground);
+    } else if (!options.map.empty()) {
         const ImageSize size = parse_size(options.size);
         MapPicture picture;
         picture.width = size.width;
@@ -81,9 +98,9 @@ void run(SceneOptions options)
                             {{"scene", view.scene->name}, {"map", options.map}});
     }
     if (options.json)
-        std::cout << scene_json(view) << "\n";
+        std::cout << scene_json(view, ground) << "\n";
     else
-        std::cout << scene_report(view);
+        std::cout << scene_report(view, ground);
 }
 
 }  // namespace
@@ -97,7 +114,11 @@ void add_scene(CLI::App& app)
     command->add_flag("--json", o->json, "report for programs");
     std::string kinds;
     for (const SceneMap& map : scene_maps()) kinds += (kinds.empty() ? "" : "; ") + map.name + ": " + map.help;
+    kinds += "; basins: the ground from above and the water in its hollows";
     command->add_option("--map", o->map, "a picture that explains: " + kinds);
+    command->add_option("--rain-mm", o->rain_mm,
+                        "basins: rain that has run together, mm (without end)")
+        ->check(CLI::Range(0.0, 100000.0));
     command->add_option("-o,--output", o->output, "where the picture goes, .png");
     command->add_option("--camera", o->camera, "of the scene (its first, else one that frames it)");
     command->add_option("--size", o->size, "of the picture (960x540)");

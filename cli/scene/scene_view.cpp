@@ -202,7 +202,7 @@ Ground find_ground(const scene::Patches& patches)
     return ground;
 }
 
-std::string scene_report(const SceneView& view)
+std::string scene_report(const SceneView& view, const GroundView& hollows)
 {
     const scene::Patches& p = view.patches();
     const scene::Triangles& t = *view.triangles;
@@ -237,6 +237,17 @@ std::string scene_report(const SceneView& view)
     } else {
         out << "none\n";
     }
+    const HollowSums sums = hollow_sums(hollows.ground);
+    out << "  hollows      " << sums.pits;
+    if (!hollows.ground.field.empty()) {
+        out << " on a grid of " << hollows.ground.field.width << " x "
+            << hollows.ground.field.depth << " cells of "
+            << number(hollows.ground.field.cell_m, 3) << " m; full they hold "
+            << number(sums.capacity_m3, 3) << " m3 on " << number(sums.wet_m2, 1)
+            << " m2, at most " << number(sums.deepest_m, 3) << " m deep";
+    }
+    out << "\n";
+    for (const std::string& note : hollows.notes) out << "               " << note << "\n";
     out << "  made in      " << number(view.transport.seconds, 2) << " s, "
         << number(view.cpu_seconds, 2) << " CPU-s"
         << (view.transport.kept ? " (found in the cache)" : "") << "\n";
@@ -255,7 +266,7 @@ std::string scene_report(const SceneView& view)
     return out.str();
 }
 
-std::string scene_json(const SceneView& view)
+std::string scene_json(const SceneView& view, const GroundView& hollows)
 {
     const scene::Patches& p = view.patches();
     const scene::Triangles& t = *view.triangles;
@@ -291,6 +302,14 @@ std::string scene_json(const SceneView& view)
                                          {"area_m2", ground.area_m2},
                                          {"share_of_upward", ground.share}}
                                   : Json(nullptr);
+    const HollowSums sums = hollow_sums(hollows.ground);
+    json["hollows"] = {{"pits", sums.pits},
+                       {"capacity_m3", sums.capacity_m3},
+                       {"wet_m2", sums.wet_m2},
+                       {"deepest_m", sums.deepest_m},
+                       {"cell_m", hollows.ground.field.cell_m},
+                       {"cells", {hollows.ground.field.width, hollows.ground.field.depth}},
+                       {"notes", hollows.notes}};
     Json materials = Json::array();
     for (const auto& [material, area] : totals.material_area_m2)
         materials.push_back({{"index", material},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/scene/ground_map.h"
 #include "film/scenes/transport.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/tracer.h"
@@ -29,8 +30,8 @@ struct SceneViewOptions {
     double cell_m = 0.0;
     int rays = 128;
     int threads = 0;
-    bool fresh = false;   ///< neither looks into the cache nor writes to it
-    bool quiet = false;   ///< no progress
+    bool fresh = false;  ///< neither looks into the cache nor writes to it
+    bool quiet = false;  ///< no progress
 };
 
 /// Reads the scene and its patches. Throws Error for a missing or damaged scene.
@@ -46,8 +47,8 @@ struct Ground {
 Ground find_ground(const scene::Patches& patches);
 
 /// What is worth knowing, in lines or as JSON.
-std::string scene_report(const SceneView& view);
-std::string scene_json(const SceneView& view);
+std::string scene_report(const SceneView& view, const GroundView& ground);
+std::string scene_json(const SceneView& view, const GroundView& ground);
 
 }  // namespace petrichor::cli
 

@@ -45,6 +45,20 @@ TEST_F(SceneCommand, SaysWhatItSees)
     EXPECT_NE(words.out.find("found in the cache"), std::string::npos);
 }
 
+TEST_F(SceneCommand, HollowsAreCountedAndDrawn)
+{
+    const Outcome full = run({"tiny.glb", "--json", "--map", "basins", "-o", "full.png"});
+    ASSERT_EQ(full.exit_code, 0) << full.err;
+    const auto json = nlohmann::json::parse(full.out);
+    EXPECT_GE(json["hollows"]["capacity_m3"].get<double>(), 0.0);
+    const Image image = texproc::read_image(place / "full.png");
+    EXPECT_EQ(image.width, json["hollows"]["cells"][0].get<int>());
+    EXPECT_EQ(run({"tiny.glb", "--map", "basins", "--rain-mm", "5", "-o", "wet.png"}).exit_code, 0);
+    const Outcome refused = run({"tiny.glb", "--map", "sky", "--rain-mm", "5", "-o", "sky.png"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("--map basins"), std::string::npos);
+}
+
 TEST_F(SceneCommand, DrawsEveryMap)
 {
     std::vector<std::string> seen;
