@@ -98,7 +98,7 @@ void add_site(CLI::App& command, SimulateOptions& o)
         "anemometer above ground (default 10)");
     add(command, group, "--surface", "NAME", site.surface,
         "asphalt (default), concrete, paving_stones, cobblestone, brick, soil, sand,\ngravel, "
-        "grass, roof_metal, roof_tile, wood, rock, road (in use), bridge");
+        "grass, lawn, roof_metal, roof_tile, wood, rock, road (in use), bridge");
     add(command, group, "--max-gap", "DAYS", site.max_gap_days,
         "longest time between two rows of a weather file (default 60)");
     add(command, group, "--sky-view", "SHARE", site.sky_view,

@@ -49,9 +49,9 @@ constexpr NameWord kWords[] = {
     {"dirt", "soil"},
     {"mud", "soil"},
     {"earth", "soil"},
-    {"grass", "grass"},
-    {"lawn", "grass"},
-    {"meadow", "grass"},
+    {"grass", "lawn"},
+    {"lawn", "lawn"},
+    {"meadow", "lawn"},
     {"metal", "roof_metal"},
     {"steel", "roof_metal"},
     {"zinc", "roof_metal"},
@@ -111,7 +111,7 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
         kind.like_air = is_leaves(material);
         kind.holds_by_tilt = !is_leaves(material);
         kind.sheds_snow = kind.surface.name == "roof_metal";
-        kind.splash = kind.surface.name == "grass" ? 0.3 : 1.0;
+        kind.splash = kind.surface.name == "lawn" ? 0.3 : 1.0;
         kinds.push_back(std::move(kind));
     }
     return kinds;

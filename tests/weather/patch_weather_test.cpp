@@ -438,6 +438,23 @@ TEST(PatchWeather, WallsInTheSunAndSnowLightTheirNeighbours)
     EXPECT_GT(most, 0.9);
 }
 
+// Blades are a skin of their own: dew falls on them while the soil below is warm.
+TEST(PatchWeather, ALawnIsWetInClearNights)
+{
+    ForcingTable table = steady(24 * 6, 14.0, 0.0, 1.5, 240, 0.0, 1433000000LL * 1000000);
+    const auto dew = [&](const char* surface) {
+        PhysicalParams model;
+        model.surface = surface_preset(surface);
+        const PhysicalTimeline run(table, model);
+        double most = 0.0;
+        for (std::size_t hour = 96; hour < table.rows(); ++hour)
+            most = std::max(most, run.state_at(table.time_us[hour]).film);
+        return most;
+    };
+    EXPECT_GT(dew("lawn"), dew("grass") + 0.01);
+    EXPECT_GT(dew("lawn"), 0.02);
+}
+
 TEST(PatchWeather, OddWeatherIsDefined)
 {
     const PatchSet set = busy_street();

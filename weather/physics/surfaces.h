@@ -39,8 +39,8 @@ struct Surface {
 };
 
 /// Presets: asphalt, concrete, paving_stones, cobblestone, brick, soil, sand, gravel, grass,
-/// roof_metal, roof_tile, wood, rock; road (asphalt in use: crowned, ploughed, warmed by traffic)
-/// and bridge (the same over air). Each value is a default to start from, not a measurement.
+/// lawn (grass with a skin of blades), roof_metal, roof_tile, wood, rock; road (asphalt in use:
+/// crowned, ploughed, warmed by traffic) and bridge (the same over air). Each value is a default to start from, not a measurement.
 const std::vector<Surface>& surface_presets();
 
 /// Preset by name; spaces, hyphens and letter case do not matter.
