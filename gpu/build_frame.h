@@ -7,7 +7,7 @@
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/upload/gpu_scene.h"
-#include "gpu/upload/place.h"
+#include "gpu/place/gpu_place.h"
 
 namespace petrichor::gpu {
 

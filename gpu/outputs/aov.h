@@ -4,7 +4,7 @@
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/targets.h"
 #include "gpu/outputs/aov_table.h"
-#include "gpu/upload/place.h"
+#include "gpu/place/gpu_place.h"
 
 namespace petrichor::gpu {
 

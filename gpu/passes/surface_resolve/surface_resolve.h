@@ -8,7 +8,7 @@
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
 #include "gpu/upload/gpu_scene.h"
-#include "gpu/upload/place.h"
+#include "gpu/place/gpu_place.h"
 
 namespace petrichor::gpu {
 

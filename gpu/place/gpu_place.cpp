@@ -1,4 +1,4 @@
-#include "gpu/upload/place.h"
+#include "gpu/place/gpu_place.h"
 
 #include <algorithm>
 #include <cstring>
