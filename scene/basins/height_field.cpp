@@ -14,8 +14,8 @@ namespace {
 using detail::GroundTriangle;
 using detail::Layer;
 
-constexpr double kWideScene_m = 256.0;  // wider ones are cut to where their triangles are
-constexpr double kKeptShare = 0.98, kMargin_m = 30.0;
+constexpr double kWideScene_m = 32.0;  // wider ones are cut to where their triangles are
+constexpr double kKeptShare = 0.98, kMargin_m = 5.0;
 constexpr std::size_t kBandRows = 64;  // of columns held at a time
 
 void check(const GroundOptions& o)
@@ -174,7 +174,7 @@ HeightField ground_height_field(const Scene& scene, const GroundOptions& options
     field.corner_m = {x.low, z.low};
     if (cut) {
         field.notes.emplace_back(
-            "the scene is wider than 256 m: hollows are looked for around most of its triangles");
+            "the scene is wider than 32 m: hollows are looked for around most of its triangles");
     }
     field.height_m.resize(field.cells());
     for (std::size_t row = 0; row < field.depth; row += kBandRows)

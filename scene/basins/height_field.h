@@ -59,8 +59,8 @@ struct GroundOptions {
 /// between (kerbs, steps, cobbles: looking up from the ground one sees the inside of their tops) is
 /// ground instead, and solid where it rises more than `solid_above_m`. Meshes that are closed and
 /// inside-out are turned; where nothing faces up at all, what faces down is taken. Doubled and
-/// double-sided faces count both ways. Scenes wider than 256 m are cut to the box that holds 98 %
-/// of their triangles, and 30 m around it: one triangle of 10 km leaves the grid where the houses
+/// double-sided faces count both ways. Scenes wider than 32 m are cut to the box that holds 98 %
+/// of their triangles, and 5 m around it: one triangle of 10 km leaves the grid where the houses
 /// are. Triangles with positions that are not finite are left out and counted in `notes`.
 ///
 /// Same bits for the same scene, whatever the order of its threads; memory is bounded by the grid.
