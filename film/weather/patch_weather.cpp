@@ -119,7 +119,7 @@ SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
     if (!keys.gutters)
         for (weather::WeatherPatch& p : sites.set.patches) p.gutter_share = 0.0;
     const auto shape = std::make_shared<gpu::PlaceShape>();
-    shape->grid = scene::lookup_grid(patches);
+    shape->grid = scene::table_grid(patches);
     shape->table = patches.table;
     const scene::HeightField& field = sites.ground.field;
     shape->basin_corner_m = glm::vec2(field.corner_m);

@@ -124,6 +124,12 @@ LookupWays lookup_ways(const Patches& patches)
     return made;
 }
 
+shared::PatchGrid table_grid(const Patches& patches)
+{
+    return {patches.cell_m, static_cast<std::uint32_t>(patches.empty() ? 0 : patches.levels),
+            patches.count, static_cast<std::uint32_t>(patches.table.size() - 1), 0};
+}
+
 shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal)
 {
     return shared::Lookup{lit}.patch_lookup(lit.grid, position, normal);

@@ -16,6 +16,9 @@ std::vector<glm::vec4> lookup_planes(const Patches& patches);
 /// min(1, area / 0.3 cell^2), one entry a node: slivers count less.
 std::vector<float> lookup_sizes(const Patches& patches);
 
+/// The grid of Patches::table, where every node is found by the key of its cell.
+shared::PatchGrid table_grid(const Patches& patches);
+
 /// How a lookup finds its way: the table of the coarsest cells, children of interior nodes by octant,
 /// and for each leaf what lies in the 27 cells around that it is connected to, at its own level or
 /// coarser. Numbers carry their level, as patch_lookup.inc has it.

@@ -24,7 +24,7 @@ protected:
         ASSERT_GT(patches.count, 8u);
         renderer->load(floor, {});
         shape = std::make_shared<PlaceShape>();
-        shape->grid = scene::lookup_grid(patches);
+        shape->grid = scene::table_grid(patches);
         shape->table = patches.table;
     }
     std::shared_ptr<PlaceWeather> dry() const
