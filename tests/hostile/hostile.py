@@ -34,7 +34,8 @@ class Table:
 class Lateness(threading.Thread):
     """How much longer half a second takes while others have the machine: the latest that a sleep of 5 ms
     ended, here and in a thread of lowest priority (the driver keeps one, and a process is gone when its last
-    thread is), and what 0.2 s of work took above 0.2 s."""
+    thread is), and how much longer the end itself takes: 0.2 s of work, and a quarter of a second for each
+    GiB that the kernel takes back, which no program can hurry."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -61,11 +62,12 @@ class Lateness(threading.Thread):
             self.cpu += time.thread_time() - before
             self.wall += time.monotonic() - start
 
-    def seconds(self):
+    def seconds(self, mib):
         self.done = True
         self.join()
         self.background.join()
-        return self.overslept + self.background_s + 0.2 * max(0.0, self.wall / self.cpu - 1.0 if self.cpu else 0.0)
+        stretch = max(1.0, self.wall / self.cpu) if self.cpu else 1.0
+        return self.overslept + self.background_s + 0.2 * (stretch - 1.0) + 0.25 * mib / 1024 * stretch
 
 
 class Run:
@@ -98,7 +100,7 @@ class Run:
                 time.sleep(0.005)
             self.seconds, self.mib = now, usage.ru_maxrss // 1024
             if asked is not None:
-                self.late_s, self.machine_late_s = now - asked, lateness.seconds()
+                self.late_s, self.machine_late_s = now - asked, lateness.seconds(self.mib)
             self.code = os.waitstatus_to_exitcode(status)
             self.child.returncode = self.code
             for file in (out, err):
