@@ -239,7 +239,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     } else if (sequence.scenario.render.image_based_light) {
         report.notes.push_back(
             sequence.scenario.render.indirect == IndirectLight::Ambient
-                ? "light between surfaces: ambient, as [render] indirect asks for"
+                ? "light between surfaces: ambient ([render] indirect)"
                 : "light between surfaces: ambient; the scene has " +
                       std::to_string(sequence.triangles) +
                       " triangles, and patches may take minutes ([render] indirect = \"patches\")");

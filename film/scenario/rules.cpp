@@ -353,7 +353,7 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
-        {{"render", "indirect", "\"auto\"",
+        {{"render", "indirect", "\"ambient\"",
           "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
           "a constant), or auto: patches for scenes of up to 4 million triangles"},
          [](Scenario& s, const TomlValue& v) {

@@ -135,7 +135,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
-    IndirectLight indirect = IndirectLight::Auto;
+    IndirectLight indirect = IndirectLight::Ambient;  ///< the others cost a third more
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 
