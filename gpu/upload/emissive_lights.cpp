@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <map>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "formulas/color/srgb.h"
@@ -25,7 +26,7 @@ const glm::vec3 kWeights(0.2126f, 0.7152f, 0.0722f);
 struct Facet {
     glm::vec3 corners[3];
     glm::vec3 area;      // half the cross product
-    glm::vec3 radiance;  // by channel
+    glm::vec3 radiance;  // by channel, for an emission of 1
 };
 
 // Facets that belong together.
@@ -38,7 +39,6 @@ struct Patch {
     glm::vec3 low{1e30f}, high{-1e30f};
 
     bool flat() const { return glm::length(vector) > kFlat * area; }
-    float flux() const { return area * glm::dot(radiance, kWeights); }
 };
 
 float wrapped(float t, Wrap wrap)
@@ -57,7 +57,8 @@ glm::vec3 texel_at(const Texture& texture, glm::vec2 uv)
     std::size_t level = 0;
     int width = texture.width;
     int height = texture.height;
-    while (level + 1 < texture.mips.size() && std::max(width, height) > 64) {
+    const std::vector<std::span<const std::byte>> levels = texture.levels();
+    while (level + 1 < levels.size() && std::max(width, height) > 64) {
         ++level;
         width = std::max(1, width / 2);
         height = std::max(1, height / 2);
@@ -68,7 +69,7 @@ glm::vec3 texel_at(const Texture& texture, glm::vec2 uv)
     const int x = pick(wrapped(uv.x, texture.wrap_u), width);
     const int y = pick(wrapped(uv.y, texture.wrap_v), height);
     const auto at = static_cast<std::size_t>(y * width + x);
-    const std::byte* bytes = texture.mips[level].data();
+    const std::byte* bytes = levels[level].data();
     glm::vec3 color(0.0f);
     for (int c = 0; c < 3; ++c) {
         const auto i = 4 * at + static_cast<std::size_t>(c);
@@ -88,11 +89,10 @@ glm::vec3 texel_at(const Texture& texture, glm::vec2 uv)
 std::vector<Facet> facets_of(const Primitive& p, const Material& material,
                              const glm::mat4& to_world, const std::vector<Texture>& textures)
 {
-    const glm::vec3 factor = material.emissive * material.emissive_strength;
     const TextureUse& use = material.emissive_texture;
     const auto t = static_cast<std::size_t>(use.texture);
     const bool textured =
-        use.texture != kNoTexture && t < textures.size() && !textures[t].mips.empty();
+        use.texture != kNoTexture && t < textures.size() && !textures[t].levels().empty();
     const auto& uvs = use.texcoord == 0 ? p.uv0 : p.uv1;
     std::vector<Facet> facets;
     float brightest = 0.0f;
@@ -106,7 +106,7 @@ std::vector<Facet> facets_of(const Primitive& p, const Material& material,
         }
         f.area = 0.5f * glm::cross(f.corners[1] - f.corners[0], f.corners[2] - f.corners[0]);
         if (!(glm::length(f.area) > 0.0f)) continue;
-        f.radiance = factor;
+        f.radiance = glm::vec3(1.0f);
         if (textured) {
             const float c = std::cos(use.rotation_rad);
             const float s = std::sin(use.rotation_rad);
@@ -267,16 +267,14 @@ Light rectangle_of(const Patch& patch, bool both_sides)
 Light light_of(const Patch& patch, bool both_sides)
 {
     Light light;
-    const float peak = std::max({patch.radiance.r, patch.radiance.g, patch.radiance.b});
     if (patch.flat()) {
         light = rectangle_of(patch, both_sides);
-        light.intensity = peak;
+        light.intensity = 1.0f;
     } else {
         // Seen from all around, a convex body shows a quarter of its surface.
-        light.intensity = peak * patch.area / 4.0f;
+        light.intensity = patch.area / 4.0f;
     }
     light.name = "glow";
-    light.color = patch.radiance / peak;
     light.position_m = patch.centre;
     return light;
 }
@@ -290,10 +288,9 @@ bool encloses(const Patch& patch, const Light& light)
 
 }  // namespace
 
-std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture>& textures)
+std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Texture>& textures)
 {
-    std::vector<std::pair<float, Light>> found;
-    float total = 0.0f;
+    std::vector<GlowSource> sources;
     for (const Instance& instance : scene.instances) {
         for (const Primitive& p : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[p.material];
@@ -304,10 +301,30 @@ std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture
                                 [&](const Light& l) { return encloses(patch, l); })) {
                     continue;
                 }
-                found.emplace_back(patch.flux(), light_of(patch, material.double_sided));
-                total += patch.flux();
+                sources.push_back({light_of(patch, material.double_sided), patch.radiance,
+                                   patch.area, p.material});
             }
         }
+    }
+    return sources;
+}
+
+std::vector<Light> glowing(const std::vector<GlowSource>& sources,
+                           const std::vector<Material>& materials)
+{
+    std::vector<std::pair<float, Light>> found;
+    float total = 0.0f;
+    for (const GlowSource& source : sources) {
+        const Material& material = materials[source.material];
+        const glm::vec3 radiance = material.emissive * material.emissive_strength * source.share;
+        const float peak = std::max({radiance.r, radiance.g, radiance.b});
+        if (!(peak > 0.0f)) continue;
+        Light light = source.light;
+        light.intensity *= peak;
+        light.color = radiance / peak;
+        const float flux = source.area_m2 * glm::dot(radiance, kWeights);
+        found.emplace_back(flux, light);
+        total += flux;
     }
     std::erase_if(found, [&](const auto& one) { return one.first < kFaint * total; });
     std::stable_sort(found.begin(), found.end(),
@@ -317,6 +334,11 @@ std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture
         if (lights.size() < kMost) lights.push_back(light);
     }
     return lights;
+}
+
+std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture>& textures)
+{
+    return glowing(glow_sources(scene, textures), scene.materials);
 }
 
 }  // namespace petrichor::gpu

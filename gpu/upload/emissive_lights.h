@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_UPLOAD_EMISSIVE_LIGHTS_H
 #define PETRICHOR_GPU_UPLOAD_EMISSIVE_LIGHTS_H
 
+#include <cstddef>
 #include <vector>
 
 #include "gpu/upload/texture.h"
@@ -19,6 +20,18 @@ namespace petrichor::gpu {
 ///
 /// Deterministic: in the order of instances and triangles.
 std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture>& textures);
+
+/// The same in two steps, for emission that changes from frame to frame: where surfaces can glow
+/// (those whose material glows as it was loaded), and how they do with these materials.
+struct GlowSource {
+    Light light;            ///< of radiance 1
+    glm::vec3 share{1.0f};  ///< of the material's emission, by its texture
+    float area_m2 = 0.0f;
+    std::size_t material = 0;
+};
+std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Texture>& textures);
+std::vector<Light> glowing(const std::vector<GlowSource>& sources,
+                           const std::vector<Material>& materials);
 
 }  // namespace petrichor::gpu
 

@@ -87,7 +87,7 @@ const std::vector<VertexAttribute>& vertex_attributes()
 GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures)
     : arena_(device),
       lights_(scene.lights),
-      glows_(emissive_lights(scene, textures)),
+      glow_sources_(glow_sources(scene, textures)),
       bounds_(scene_bounds(scene))
 {
     upload_textures(device, textures);
@@ -290,6 +290,7 @@ void GpuScene::sum_up_materials()
         return m.emissive * m.emissive_strength != glm::vec3(0.0f);
     });
     baked_ = any([](const Material& m) { return m.light_map.present(); });
+    glows_ = glowing(glow_sources_, current_);
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;
         return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||

@@ -7,6 +7,7 @@
 #include "gpu/device/pipelines.h"
 #include "gpu/lighting/lighting_models.h"
 #include "gpu/upload/material_io.h"
+#include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/texture.h"
 #include "scene/material_table.h"
 
@@ -102,6 +103,7 @@ private:
     std::vector<bool> loaded_;  // textures that have pixels
     VkDeviceSize constants_stride_ = 0;
     std::vector<Light> lights_;
+    std::vector<GlowSource> glow_sources_;
     std::vector<Light> glows_;
     LightingModels lighting_models_;
     Bounds bounds_;
