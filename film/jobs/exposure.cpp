@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostNeighbours = 48;  // on each side
+constexpr double kMetered_s = 0.125;   // about so far apart are the frames that are metered
 
 }  // namespace
 
@@ -28,16 +29,20 @@ std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job)
     const ScenarioOutput& output = sequence.scenario.output;
     const double frames = std::round(camera.exposure_smoothing_s * output.fps);
     const int n = static_cast<int>(std::min<double>(frames, kMostNeighbours));
+    const int step = std::clamp(static_cast<int>(std::lround(kMetered_s * output.fps)), 1,
+                                std::max(n, 1));
     std::vector<MeteredJob> jobs;
     double sum = 0.0;
     for (int k = -n; k <= n; ++k) {
         Job other = job;
         other.frame += k;
         if (k != 0 && (other.frame < 0 || other.frame >= output.frames)) continue;
+        if (n > 0 && other.frame % step != 0) continue;
         const double c = std::cos(kPi * k / (2.0 * (n + 1)));
         jobs.push_back({other, c * c});
         sum += c * c;
     }
+    if (jobs.empty()) return {{job, 1.0}};  // a frame outside of the sequence
     for (MeteredJob& one : jobs) one.weight /= sum;
     return jobs;
 }

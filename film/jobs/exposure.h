@@ -20,9 +20,10 @@ struct MeteredJob {
 };
 
 /// The frames that are metered for a job whose camera has exposure = "auto", in order; none for the
-/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48): the job's
-/// own and n before and after it, within the sequence, weighted by cos^2(pi k / (2 (n + 1))). A
-/// step of brightness so spreads over 2 n + 1 frames, and no frame depends on how it was reached.
+/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48): those of
+/// the n before and after it, within the sequence, that lie on a grid of about an eighth of a second
+/// (every frame where n is less), weighted by cos^2(pi k / (2 (n + 1))). A step of brightness so
+/// spreads over 2 n + 1 frames, and no frame depends on how it was reached.
 std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job);
 
 /// EV100 to set for what those frames were metered to (black ones: nothing, left out), and that
