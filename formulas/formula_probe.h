@@ -5,8 +5,13 @@
 
 #include "formulas/codec/octahedral.h"
 #include "formulas/color/tone_map.h"
+#include "formulas/color/white_balance.h"
+#include "formulas/geometry/footprint.h"
+#include "formulas/light/area.h"
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/exposure.h"
+#include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/ripple.h"
@@ -15,7 +20,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 18;
+SHARED_CONST int kProbeKinds = 27;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -116,6 +121,45 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         look.snow_color = vec3(0.92f, 0.94f, 0.97f);
         look.snow_specular = vec3(0.02f);
         return probe_material(apply_weather(dry, state, moment, look));
+    }
+    if (kind == 17) {
+        const float ev100 = 40.0f * a.x - 20.0f;
+        return vec4(exposure_of_ev100(ev100), ev100_of_luminance(exp2(ev100)), metered_setting(ev100),
+                    0.0f);
+    }
+    if (kind >= 18 && kind <= 20) {
+        const vec3 t = display_light(TONE_MAP_AGX + kind - 18,
+                                     vec3(8.0f * a.x * a.x, a.y, 0.1f * a.z));
+        return vec4(t.x, t.y, t.z, 0.0f);
+    }
+    if (kind == 21) {
+        const vec3 t = white_balanced(vec3(a.x, a.y, a.z), white_balance_gains(1700.0f + 20000.0f * a.w));
+        return vec4(t.x, t.y, t.z, planckian_xy(1700.0f + 20000.0f * b.x).y);
+    }
+    if (kind == 22) {
+        const float path = fog_path(500.0f * a.x, 50.0f * a.y, 300.0f * a.z, 20.0f + 200.0f * a.w);
+        return vec4(path, fog_path_to_sky(b.x, 50.0f * b.y, 20.0f + 200.0f * b.z) * 1.0e-3f,
+                    fog_phase(2.0f * b.w - 1.0f), fog_beyond_haze(0.01f * c.x));
+    }
+    if (kind == 23) {
+        const float path = 400.0f * a.x;
+        return vec4(fog_kept(FOG_METRES, path, 0.02f * a.y, 0.0f, 1.0f),
+                    fog_kept(FOG_EXP2, path, 0.02f * a.y, 0.0f, 1.0f),
+                    fog_kept(FOG_LINEAR, path, 1.0f, 100.0f * a.z, 100.0f + 300.0f * a.w),
+                    fog_kept(FOG_OFF, path, 1.0f, 0.0f, 1.0f));
+    }
+    if (kind == 24) {
+        const vec3 u = 2.0f * a.w * probe_direction(b.x, b.y);
+        const vec3 side = probe_direction(b.z, b.w);
+        const vec3 f = rectangle_irradiance(probe_direction(a.x, a.y) * (1.0f + 3.0f * a.z), u,
+                                            cross(u, side) * c.x);
+        return vec4(f.x, f.y, f.z, sphere_form_factor(c.y, 2.0f * c.z - 1.0f));
+    }
+    if (kind == 25) {
+        const vec2 dx = vec2(a.x, a.y - 0.5f) * 0.1f;
+        const vec2 dy = vec2(a.z - 0.5f, a.w) * b.x;
+        return vec4(footprint_scale(dx, dy, 1.0f), footprint_scale(dx, dy, 8.0f),
+                    footprint_scale(dx, dy, 64.0f), 0.0f);
     }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);

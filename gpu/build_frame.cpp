@@ -4,6 +4,7 @@
 
 #include "gpu/build_frame.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
+#include "gpu/passes/glare/glare.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
 #include "gpu/upload/draw.h"
@@ -149,6 +150,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_flow(graph, *r.surface_maps, time_s);
     }
     add_depth_maps(graph, frame, sun, r, weather.any);
+    r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
@@ -159,13 +161,20 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.emission = r.scene->emissive();
     variant.baked = r.scene->baked();
     variant.gamma = settings.gamma;
+    variant.lamp_shadows = !r.lights->shadowed.empty();
+    variant.rectangles = r.lights->rectangles;
     variant.all_lights = settings.all_lights;
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, r);
-        if (i == 0) variant.models = visible_models(*r.scene, c);
+        if (i == 0) {
+            variant.models = visible_models(*r.scene, c);
+            variant.fog = c.fog_per_m > 0.0f;
+            variant.night =
+                settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
+        }
         constants.offset = i * r.constants_stride;
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 
@@ -188,12 +197,14 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
-        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps, constants, variant);
+        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps,
+                     *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }
     }
-    add_resolve(graph, *r.targets, *r.sky, constants);
+    if (settings.bloom > 0.0f) add_glare(graph, *r.targets, settings.samples);
+    add_resolve(graph, *r.targets, *r.sky, constants, settings);
     return graph;
 }
 

@@ -17,6 +17,7 @@ struct FrameResources {
     FrameTargets* targets = nullptr;
     SurfaceMaps* surface_maps = nullptr;
     DepthMaps* depth_maps = nullptr;
+    LampShadows* lamp_shadows = nullptr;
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;

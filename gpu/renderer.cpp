@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gpu/build_frame.h"
+#include "gpu/frame/metering.h"
 #include "gpu/surface_path.h"
 
 namespace petrichor::gpu {
@@ -40,6 +41,15 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
     if (!(std::isfinite(frame.sky.sun_elevation_rad) && std::isfinite(frame.sky.sun_azimuth_rad))) {
         throw Error("render: the sun's direction is not a number", "Give finite angles.");
     }
+    if (s.lamp_shadows < 0 || s.lamp_shadows > kMostLampShadows) {
+        throw Error("render: shadows of 0 to " + std::to_string(kMostLampShadows) +
+                        " lamps are possible, got " + std::to_string(s.lamp_shadows),
+                    "Choose another lamp_shadows.");
+    }
+    if (!(s.bloom >= 0.0f && s.bloom <= 1.0f)) {
+        throw Error("render: bloom must be 0 to 1, got " + std::to_string(s.bloom),
+                    "It is the share of the light that is scattered.");
+    }
     const Camera& camera = frame.camera;
     const bool fov = camera.vertical_fov_rad > 0.0f && camera.vertical_fov_rad < 3.14159f;
     if (!(camera.orthographic_height_m > 0.0f) && !fov) {
@@ -57,6 +67,14 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
 
 }  // namespace
 
+// Images of one frame size; they die before their memory.
+struct TargetSet {
+    explicit TargetSet(const Device& device) : arena(std::make_unique<MemoryArena>(device)) {}
+    std::unique_ptr<MemoryArena> arena;
+    FrameTargets targets;
+    int words = 0;
+};
+
 struct Renderer::Impl {
     explicit Impl(const RendererOptions& options)
         : device(options),
@@ -65,8 +83,10 @@ struct Renderer::Impl {
           shared_arena(device),
           surface_maps(device, shared_arena, options.ripple_texture_size),
           depth_maps(device, shared_arena),
+          lamp_shadows(device),
           sky(device, shared_arena),
-          target_arena(std::make_unique<MemoryArena>(device)),
+          pictures(device),
+          metering(device),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
     {
@@ -91,22 +111,31 @@ struct Renderer::Impl {
             }
             if (lights.back().intensity <= 0.0f) lights.pop_back();
         }
+        for (const Light& glow : scene->glows()) {
+            if (!frame.emissive_lights || frame.emissive_scale <= 0.0f) break;
+            lights.push_back(glow);
+            lights.back().intensity *= frame.emissive_scale;
+        }
         lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
         check_light_lists(device.limits(), lights.size(), frame.settings.width,
                           frame.settings.height);
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);
-        light_table = make_light_table(device, *light_arena, lights);
+        light_table = make_light_table(device, *light_arena, lights,
+                                       frame.settings.shadows ? frame.settings.lamp_shadows : 0,
+                                       glm::vec3(frame.camera.to_world[3]));
     }
 
-    void prepare_targets(const FrameSettings& s, const std::vector<AovGroup>& aov_groups)
+    void prepare_targets(TargetSet& set, const FrameSettings& s,
+                         const std::vector<AovGroup>& aov_groups)
     {
+        FrameTargets& targets = set.targets;
         const int words = static_cast<int>(light_table.words());
-        if (targets.width != s.width || targets.height != s.height || words > target_words) {
+        if (targets.width != s.width || targets.height != s.height || words > set.words) {
             targets = {};
-            target_arena = std::make_unique<MemoryArena>(device);
-            targets = make_frame_targets(device, *target_arena, s.width, s.height, words);
-            target_words = words;
+            set.arena = std::make_unique<MemoryArena>(device);
+            targets = make_frame_targets(device, *set.arena, s.width, s.height, words);
+            set.words = words;
         }
         const auto pixels =
             static_cast<VkDeviceSize>(s.width) * static_cast<VkDeviceSize>(s.height);
@@ -114,7 +143,7 @@ struct Renderer::Impl {
             const VkDeviceSize size = aov_groups[i].numbers * pixels * sizeof(float);
             if (i >= targets.aovs.size()) targets.aovs.emplace_back();
             if (targets.aovs[i] && targets.aovs[i]->size >= size) continue;
-            targets.aovs[i] = target_arena->buffer({.name = "aov", .size = size, .host = true});
+            targets.aovs[i] = set.arena->buffer({.name = "aov", .size = size, .host = true});
         }
     }
 
@@ -133,6 +162,8 @@ struct Renderer::Impl {
         return true;
     }
 
+    RenderResult render(const Frame& frame, TargetSet& set);
+
     Device device;
     PipelineCache pipelines;
     DescriptorArena descriptors;
@@ -141,10 +172,10 @@ struct Renderer::Impl {
     VkDeviceSize constants_stride = 0;
     SurfaceMaps surface_maps;
     DepthMaps depth_maps;
+    LampShadows lamp_shadows;
     SkyMaps sky;
-    std::unique_ptr<MemoryArena> target_arena;
-    FrameTargets targets;
-    int target_words = 0;
+    TargetSet pictures;  ///< of the frames that are asked for
+    TargetSet metering;  ///< of the small ones that tell their exposure
     std::unique_ptr<MemoryArena> light_arena;
     LightTable light_table;
     std::unique_ptr<MemoryArena> environment_arena;
@@ -168,6 +199,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->resolve = {};
     impl_->scene = nullptr;
     impl_->depth_maps.forget();
+    impl_->lamp_shadows.forget();
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
@@ -195,69 +227,85 @@ void Renderer::set_environment(const EnvironmentMap& map)
     upload_image(impl_->device, *impl_->environment, {texels});
 }
 
-RenderResult Renderer::render(const Frame& frame)
+RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
 {
-    Impl& impl = *impl_;
-    check_frame(frame, impl.device.limits());
-    if (!impl.scene) throw Error("render: no scene is loaded", "Call load() before render().");
     std::vector<std::size_t> aov_rows;
     for (const std::string& name : frame.settings.aovs) aov_rows.push_back(aov_row(name));
     const std::vector<AovGroup> aov_groups =
         group_aovs(aov_rows,
                    static_cast<std::size_t>(frame.settings.width) *
                        static_cast<std::size_t>(frame.settings.height),
-                   impl.device.limits().maxStorageBufferRange);
+                   device.limits().maxStorageBufferRange);
 
-    if (impl.scene->set_materials(frame.materials)) impl.depth_maps.forget();
+    if (scene->set_materials(frame.materials)) {
+        depth_maps.forget();
+        lamp_shadows.forget();
+    }
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {
-        for (const Light& light : impl.scene->lights()) {
+        for (const Light& light : scene->lights()) {
             if (light.kind == LightKind::Directional) {
                 scene_sun = &light;
                 break;
             }
         }
     }
-    const Sun sun = sun_of(frame.sky, scene_sun, impl.environment != nullptr);
-    impl.prepare_lights(frame, scene_sun);
-    impl.prepare_targets(frame.settings, aov_groups);
-    impl.descriptors.reset();
+    const Sun sun = sun_of(frame.sky, scene_sun, environment != nullptr);
+    prepare_lights(frame, scene_sun);
+    prepare_targets(set, frame.settings, aov_groups);
+    descriptors.reset();
 
     FrameResources resources;
-    resources.device = &impl.device;
-    resources.scene = impl.scene.get();
-    resources.targets = &impl.targets;
-    resources.surface_maps = &impl.surface_maps;
-    resources.depth_maps = &impl.depth_maps;
-    resources.sky = &impl.sky;
-    resources.lights = &impl.light_table;
-    if (impl.prepare_resolve(frame.settings)) resources.resolve = &impl.resolve;
-    resources.environment = impl.environment.get();
-    resources.constants = impl.constants.get();
-    resources.constants_stride = impl.constants_stride;
-    resources.own_lighting = impl.own_lighting;
+    resources.device = &device;
+    resources.scene = scene.get();
+    resources.targets = &set.targets;
+    resources.surface_maps = &surface_maps;
+    resources.depth_maps = &depth_maps;
+    resources.lamp_shadows = &lamp_shadows;
+    resources.sky = &sky;
+    resources.lights = &light_table;
+    if (prepare_resolve(frame.settings)) resources.resolve = &resolve;
+    resources.environment = environment.get();
+    resources.constants = constants.get();
+    resources.constants_stride = constants_stride;
+    resources.own_lighting = own_lighting;
     FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
-    impl.graph_text = graph.describe();
+    graph_text = graph.describe();
 
     RenderResult result;
-    result.passes = graph.execute(impl.device, impl.pipelines, impl.descriptors);
+    result.passes = graph.execute(device, pipelines, descriptors);
     result.width = frame.settings.width;
     result.height = frame.settings.height;
     const auto pixels =
         static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height);
-    const auto* beauty = reinterpret_cast<const std::uint16_t*>(impl.targets.beauty->mapped);
-    const auto* display = reinterpret_cast<const std::uint8_t*>(impl.targets.display->mapped);
+    const auto* beauty = reinterpret_cast<const std::uint16_t*>(set.targets.beauty->mapped);
+    const auto* display = reinterpret_cast<const std::uint8_t*>(set.targets.display->mapped);
     result.beauty.assign(beauty, beauty + pixels * 4);
     result.display.assign(display, display + pixels * 4);
     shared::SkyLight light{};
-    std::memcpy(&light, impl.sky.light->mapped, sizeof(light));
+    std::memcpy(&light, sky.light->mapped, sizeof(light));
     result.exposure = light.exposure;
     for (const std::size_t row : aov_rows) {
         const AovInfo& info = aov_table()[row];
         result.aovs.push_back({info.name, static_cast<int>(info.channels.size()),
-                               read_aov(impl.targets, aov_groups, row)});
+                               read_aov(set.targets, aov_groups, row)});
     }
     return result;
+}
+
+RenderResult Renderer::render(const Frame& frame)
+{
+    check_frame(frame, impl_->device.limits());
+    if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before render().");
+    return impl_->render(frame, impl_->pictures);
+}
+
+std::optional<float> Renderer::meter(const Frame& frame)
+{
+    check_frame(frame, impl_->device.limits());
+    if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
+    const RenderResult result = impl_->render(metering_frame(frame), impl_->metering);
+    return metered_ev100(result.beauty);
 }
 
 const DeviceInfo& Renderer::device() const

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,11 @@ public:
     void set_environment(const EnvironmentMap& environment);
 
     RenderResult render(const Frame& frame);
+
+    /// Meters what the frame shows: renders it small, without a sample pattern, and returns EV100 of
+    /// the trimmed mean of its luminance (gpu/frame/metering.h). A function of the frame alone, as
+    /// render() is; nothing: the picture is black. `exposure` and `aovs` of the frame do not count.
+    std::optional<float> meter(const Frame& frame);
 
     const DeviceInfo& device() const;
     /// Messages of the validation layer since construction (severity warning and above).

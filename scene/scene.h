@@ -135,19 +135,22 @@ struct Instance {
     glm::mat4 to_world{1.0f};
 };
 
-enum class LightKind { Directional, Point, Spot };
+enum class LightKind { Directional, Point, Spot, Rectangle };
 
-/// KHR_lights_punctual, in world space.
+/// KHR_lights_punctual in world space, and glowing rectangles.
 struct Light {
     std::string name;
     LightKind kind = LightKind::Point;
     glm::vec3 color{1.0f};
-    float intensity = 1.0f;  ///< lux for directional, candela for point and spot
+    float intensity = 1.0f;  ///< lux for directional, candela for point and spot, cd/m2 of a rectangle
     float range_m = 0.0f;    ///< 0: unlimited
     glm::vec3 position_m{0.0f};
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< the light travels this way, unit
     float inner_cone_rad = 0.0f;
     float outer_cone_rad = 0.785398163f;
+    glm::vec3 half_u_m{0.0f};  ///< of a rectangle: half its edges; `direction` is its front
+    glm::vec3 half_v_m{0.0f};
+    bool both_sides = false;
 };
 
 /// Looks along -z of `to_world`, +y up.

@@ -82,6 +82,16 @@ Json sun_json(const gpu::Sky& sky)
             {"from_scene", !sky.analytic_sun}};
 }
 
+Json moon_json(const gpu::Sky& sky)
+{
+    const glm::vec3 towards = gpu::moon_direction(sky);
+    return {{"elevation_rad", shortest(sky.moon_elevation_rad)},
+            {"azimuth_rad", shortest(sky.moon_azimuth_rad)},
+            {"towards", {shortest(towards.x), shortest(towards.y), shortest(towards.z)}},
+            {"illuminance_lux", shortest(sky.moon_lux)},
+            {"illuminated", shortest(sky.moon_illuminated)}};
+}
+
 Json sky_json(const gpu::Sky& sky)
 {
     return {{"cloud_cover", shortest(sky.cloud_cover)},
@@ -160,8 +170,15 @@ std::string frame_line(const FrameFacts& facts)
     json["samples"] = settings.samples;
     json["seed"] = settings.seed;
     json["exposure"] = shortest(facts.exposure);
+    json["exposure_mode"] = facts.exposure_by.mode;
+    // The same as a camera's setting: what the scale is 1 / (1.2 2^EV100) of, bias included.
+    json["ev100"] = shortest(-std::log2(1.2f * facts.exposure));
+    if (facts.exposure_by.metered_ev100) {
+        json["metered_ev100"] = shortest(*facts.exposure_by.metered_ev100);
+    }
     json["camera"] = camera_json(facts.input.camera, settings.width, settings.height);
     json["sun"] = sun_json(facts.input.sky);
+    if (facts.input.sky.moon_lux > 0.0f) json["moon"] = moon_json(facts.input.sky);
     json["sky"] = sky_json(facts.input.sky);
     json["weather"] = weather_json(facts);
     json["lamps"] = shortest(facts.input.scene_light_scale);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "film/frames/job.h"
@@ -24,6 +25,12 @@ using FrameParts = std::map<std::string, std::string>;
 /// One fingerprint of all of them, to tell pictures apart.
 std::string fingerprint_of(const FrameParts& parts);
 
+/// Where a frame's exposure comes from.
+struct ExposureFacts {
+    std::string mode = "fixed";          ///< auto, incident or fixed, as in a scenario
+    std::optional<float> metered_ev100;  ///< with auto: of the picture and those around it
+};
+
 /// What frames.jsonl says about one frame. The line holds no times of day, durations or paths: the
 /// same frame gives the same line on every run.
 struct FrameFacts {
@@ -34,6 +41,7 @@ struct FrameFacts {
     FrameParts made_from;     ///< everything that decides the picture
     std::string beauty_hash;  ///< of the half-float pixels
     float exposure = 1.0f;    ///< scale from scene light to the PNG
+    ExposureFacts exposure_by;  ///< what decided it
     gpu::Frame input;
     std::map<std::string, FileMark> files;  ///< by name
 };

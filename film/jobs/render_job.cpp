@@ -15,6 +15,7 @@
 #include "film/frames/frame_writer.h"
 #include "film/frames/frames_jsonl.h"
 #include "film/frames/kept.h"
+#include "film/jobs/exposure.h"
 #include "film/jobs/scene_source.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/memory_budget.h"
@@ -161,20 +162,24 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     {
         FrameWriter writer(request.folder, {output.exr, output.png},
                            {.stop = request.stop, .published = &tally.there});
+        Meter meter(sequence);
         for (const Pending& one : pending) {
             if (stopped(request)) break;
             if (one.frame.environment != environment) {
                 set_environment_of(renderer, sequence, one.job);
                 environment = one.frame.environment;
             }
-            gpu::RenderResult result = renderer.render(one.frame.frame);
+            gpu::Frame frame = one.frame.frame;
+            const ExposureFacts exposure = meter.expose(renderer, one.job, frame);
+            gpu::RenderResult result = renderer.render(frame);
             FrameFacts facts;
             facts.job = one.job;
             facts.time_s = one.frame.time_s;
             facts.moment = one.frame.moment;
             facts.weather = one.frame.weather_name;
             facts.made_from = one.made_from;
-            facts.input = one.frame.frame;
+            facts.input = std::move(frame);
+            facts.exposure_by = exposure;
             writer.write(std::move(facts), std::move(result));
             if (request.watcher) request.watcher->written(writer.written());
         }

@@ -12,6 +12,8 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/exposure.h"
+#include "film/jobs/night_sky.h"
 #include "film/jobs/sun.h"
 #include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
@@ -20,6 +22,7 @@ namespace petrichor::film {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
 constexpr int kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = 64 << 20;
 
@@ -59,10 +62,12 @@ void add_camera(Hasher& hasher, const scene::Camera& camera)
 
 void add_sky(Hasher& hasher, const gpu::Sky& sky)
 {
-    static_assert(sizeof(gpu::Sky) == 9 * sizeof(float), "hash the new field too");
+    static_assert(sizeof(gpu::Sky) == 16 * sizeof(float), "hash the new field too");
     for (const float value :
          {sky.sun_elevation_rad, sky.sun_azimuth_rad, sky.sun_illuminance, sky.cloud_cover,
-          sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad}) {
+          sky.turbidity, sky.ground_albedo, sky.environment_scale, sky.environment_rotation_rad,
+          sky.moon_elevation_rad, sky.moon_azimuth_rad, sky.moon_lux, sky.moon_illuminated,
+          sky.latitude_rad, sky.sidereal_rad, sky.north_rad}) {
         hasher.add(value);
     }
     hasher.add(sky.analytic_sun);
@@ -71,7 +76,9 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
 void add_light(Hasher& hasher, const scene::Light& light)
 {
     hasher.add(light.kind);
-    for (const glm::vec3& v : {light.color, light.position_m, light.direction}) {
+    hasher.add(light.both_sides);
+    for (const glm::vec3& v :
+         {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m}) {
         hasher.add(v.x);
         hasher.add(v.y);
         hasher.add(v.z);
@@ -97,6 +104,10 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
 #define ROW(name, on, meaning) hasher.add(settings.name);
     FRAME_SWITCHES(ROW)
 #undef ROW
+    hasher.add(settings.tone_map);
+    hasher.add(settings.white_balance_k);
+    hasher.add(settings.bloom);
+    hasher.add(settings.lamp_shadows);
     for (const std::string& aov : settings.aovs) hasher.add(aov);
 }
 
@@ -233,13 +244,19 @@ std::vector<Job> jobs_of(const Sequence& sequence, const FrameRange& range, cons
     return {jobs.begin() + cut(shard.index - 1), jobs.begin() + cut(shard.index)};
 }
 
+const ScenarioCamera& camera_of(const Sequence& sequence, const Job& job)
+{
+    return named_part(sequence.views, job.view, "view").camera;
+}
+
 SequenceFrame frame_at(const Sequence& sequence, const Job& job)
 {
     const Scenario& scenario = sequence.scenario;
     const SequenceVariant& variant = named_part(sequence.variants, job.variant, "variant");
-    const ScenarioCamera& camera = named_part(sequence.views, job.view, "view").camera;
+    const ScenarioCamera& camera = camera_of(sequence, job);
     const Conditions& here = variant.conditions;
     SequenceFrame result;
+    result.job = job;
     result.time_s = frame_time_s(sequence, job.frame);
     const double time_s = result.time_s;
     result.moment = variant.weather.at(time_s);
@@ -263,17 +280,37 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     const double clouds = static_cast<double>(out.weather.cloud_fraction);
     out.sky.cloud_cover = narrow(value_at(here.sky.cloud_cover, time_s, clouds));
     out.weather.cloud_fraction = out.sky.cloud_cover;
+    if (here.fog.visibility_m.given())
+        out.weather.visibility_m = narrow(value_at(here.fog.visibility_m, time_s));
     result.moment.values = out.weather;
     out.sky.turbidity = narrow(value_at(here.sky.turbidity, time_s, 2.5));
     out.sky.ground_albedo = narrow(here.sky.ground_albedo);
     out.sky.environment_scale = narrow(here.sky.environment_scale);
     out.sky.environment_rotation_rad = narrow(here.sky.environment_rotation_degrees * kPi / 180.0);
     out.sky.analytic_sun = !here.sun.from_scene;
+    const NightSky night = night_sky_at(here.moon, here.sun, result.moment, sun, time_s);
+    if (night.moon) {
+        out.sky.moon_elevation_rad = narrow(night.moon->angles.elevation_rad);
+        out.sky.moon_azimuth_rad = narrow(night.moon->angles.azimuth_rad + north_rad);
+        out.sky.moon_lux = narrow(night.moon->lux);
+        out.sky.moon_illuminated = narrow(night.moon->illuminated);
+    }
+    out.sky.latitude_rad = narrow(night.latitude_rad);
+    out.sky.sidereal_rad = narrow(night.sidereal_rad);
+    out.sky.north_rad = narrow(north_rad);
+
+    const ScenarioFog& fog = here.fog;
+    out.fog.mode = fog.mode;
+    out.fog.per_m = narrow(value_at(fog.per_m, time_s, 0.01));
+    out.fog.start_m = narrow(value_at(fog.start_m, time_s, 0.0));
+    out.fog.end_m = narrow(value_at(fog.end_m, time_s, 100.0));
+    out.fog.height_m = narrow(value_at(fog.height_m, time_s, 120.0));
 
     const double lamps = lamp_scale(here.lights, sun.elevation_rad);
     out.scene_light_scale = narrow(lamps);
     out.emissive_scale = narrow(lamps);
     out.materials = material_changes(scenario.materials, sequence.scene.materials, time_s);
+    out.emissive_lights = here.lights.emissive;
 
     gpu::FrameSettings& settings = out.settings;
     settings.width = scenario.output.width;
@@ -281,15 +318,53 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.samples = scenario.output.samples;
     settings.time_s = job.frame / scenario.output.fps;
     settings.seed = scenario.output.seed;
-    settings.exposure = narrow(value_at(camera.exposure, time_s, 0.0));
+    settings.exposure = narrow(fixed_exposure(camera, time_s));
     settings.exposure_bias_stops = narrow(value_at(camera.exposure_bias, time_s, 0.0));
     static_cast<gpu::FrameSwitches&>(settings) = scenario.render;
     settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
     settings.gamma = scenario.render.gamma;
+    settings.lamp_shadows = scenario.render.lamp_shadows;
+    settings.tone_map = scenario.render.tone_map;
+    settings.white_balance_k = narrow(value_at(camera.white_balance_k, time_s, 0.0));
+    settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));
     settings.surface_path = scenario.render.surface_path;
     settings.aovs = scenario.output.aovs;
     return result;
 }
+
+namespace {
+
+void add_fog(Hasher& hasher, const gpu::Fog& fog)
+{
+    hasher.add(fog.mode);
+    for (const float value : {fog.per_m, fog.start_m, fog.end_m, fog.height_m}) hasher.add(value);
+}
+
+void add_materials(Hasher& hasher, const gpu::Frame& frame)
+{
+    for (const scene::MaterialChange& change : frame.materials) {
+        hasher.add(change.material);
+        hasher.add(change.property);
+        hasher.add_numbers(std::span<const float>(&change.value[0], 4));
+    }
+}
+
+void add_frame(Hasher& hasher, const gpu::Frame& frame)
+{
+    add_camera(hasher, frame.camera);
+    add_sky(hasher, frame.sky);
+    add_fog(hasher, frame.fog);
+    hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
+    hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
+    for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
+    hasher.add(frame.scene_light_scale);
+    hasher.add(frame.emissive_scale);
+    hasher.add(frame.emissive_lights);
+    add_materials(hasher, frame);
+    add_settings(hasher, frame.settings);
+}
+
+}  // namespace
 
 FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
 {
@@ -323,15 +398,12 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
                     hasher.add(file);
                 }
             }
-            for (const scene::MaterialChange& change : frame.materials) {
-                hasher.add(change.material);
-                hasher.add(change.property);
-                hasher.add_numbers(std::span<const float>(&change.value[0], 4));
-            }
+            add_materials(hasher, frame);
         });
     }
     parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
+    parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
     parts["weather"] = part(
         [&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1))); });
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
@@ -343,12 +415,26 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
         hasher.add(frame.scene_light_scale);
         hasher.add(frame.emissive_scale);
+        hasher.add(frame.emissive_lights);
     });
     parts["output settings"] = part([&](Hasher& hasher) {
         add_settings(hasher, frame.settings);
         hasher.add(scenario.scene.max_texture);
         hasher.add(scenario.render.ripple_texture_size);
     });
+    // The frames around it say how it is exposed.
+    const auto metered = metered_jobs(sequence, what.job);
+    if (!metered.empty()) {
+        parts["exposure"] = part([&](Hasher& hasher) {
+            const ScenarioCamera& camera = camera_of(sequence, what.job);
+            hasher.add(camera.ev100_low);
+            hasher.add(camera.ev100_high);
+            for (const MeteredJob& one : metered) {
+                hasher.add(one.weight);
+                if (one.job != what.job) add_frame(hasher, frame_at(sequence, one.job).frame);
+            }
+        });
+    }
     return parts;
 }
 

@@ -63,7 +63,11 @@ double frame_time_s(const Sequence& sequence, int frame);
 std::vector<Job> jobs_of(const Sequence& sequence, const FrameRange& range,
                          const Shard& shard = {});
 
+/// The camera of the job's view. Throws Error for a view that is not there.
+const ScenarioCamera& camera_of(const Sequence& sequence, const Job& job);
+
 struct SequenceFrame {
+    Job job;
     double time_s = 0.0;
     weather::Moment moment;    ///< its clock, place and sun; values as in frame.weather
     std::string weather_name;  ///< of the preset or file
@@ -71,7 +75,8 @@ struct SequenceFrame {
     gpu::Frame frame;
 };
 
-/// Everything that the renderer is told about a job; depends on nothing but the sequence and the
+/// Everything that the renderer is told about a job but a metered exposure (film/jobs/exposure.h);
+/// depends on nothing but the sequence and the
 /// job, so any picture can be rendered alone. Throws Error for a variant or view that is not there.
 SequenceFrame frame_at(const Sequence& sequence, const Job& job);
 

@@ -86,11 +86,52 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.camera.interpolation = v.interpolation(); }},
         {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
          [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
-        {{"camera", "exposure", "1.0e-4",
-          "linear scale of the PNG; without it metered from sun and sky", true},
-         [](Scenario& s, const TomlValue& v) { s.camera.exposure = v.keyed(1e-12, 1e12); }},
+        {{"camera", "exposure", "\"auto\"",
+          "of the PNG: auto (metered from the picture), incident (from the light of sun and sky on "
+          "the ground), fixed (by ev100), or a number: its linear scale",
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.camera.exposure = {};
+             if (v.is_text()) {
+                 s.camera.exposure_mode =
+                     static_cast<Exposure>(v.choice({"auto", "incident", "fixed"}));
+             } else {
+                 s.camera.exposure_mode = Exposure::Fixed;
+                 s.camera.exposure = v.keyed(1e-12, 1e12);
+             }
+         }},
+        {{"camera", "ev100", "12.0",
+          "fixes the exposure: exposure value at ISO 100; sunlight 15, a lit street 4, full moon -3; "
+          "-20 to 40",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.camera.ev100 = v.keyed(-20.0, 40.0); }},
+        {{"camera", "ev100_limits", "[-6.0, 18.0]",
+          "with exposure = \"auto\": it never sets less or more than these"},
+         [](Scenario& s, const TomlValue& v) {
+             const auto limits = v.numbers(2, -20.0, 40.0);
+             if (limits[0] > limits[1]) v.refuse("the lower limit first");
+             s.camera.ev100_low = limits[0];
+             s.camera.ev100_high = limits[1];
+         }},
+        {{"camera", "exposure_smoothing_s", "0.25",
+          "with exposure = \"auto\": frames up to this far before and after are metered too, seconds "
+          "of the film, 0 to 4"},
+         [](Scenario& s, const TomlValue& v) {
+             s.camera.exposure_smoothing_s = v.number(0.0, 4.0);
+         }},
         {{"camera", "exposure_bias", "0.0", "stops brighter (+) or darker (-), -10 to 10", true},
          [](Scenario& s, const TomlValue& v) { s.camera.exposure_bias = v.keyed(-10.0, 10.0); }},
+
+        {{"camera", "white_balance_k", "5000.0",
+          "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it is",
+          true},
+         [](Scenario& s, const TomlValue& v) {
+             s.camera.white_balance_k = v.keyed(0.0, 25000.0);
+         }},
+        {{"camera", "bloom", "0.04",
+          "of the PNG: share of the light that the lens scatters around, so that lamps glow, 0 to 1",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.camera.bloom = v.keyed(0.0, 1.0); }},
 
         {{"sun", "source", "\"sky\"",
           "sky: a sun that matches the sky; scene: the directional lights of the scene instead"},
@@ -137,6 +178,37 @@ const std::vector<Rule>& rules()
          }},
         {{"sky", "ground_albedo", "0.2", "of the land beyond the scene, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.sky.ground_albedo = v.number(0.0, 1.0); }},
+
+        {{"moon", "elevation_degrees", "40.0",
+          "height above the horizon, -90 to 90; without it where a weather file's place and clock "
+          "have it",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.moon.elevation_degrees = v.keyed(-90.0, 90.0); }},
+        {{"moon", "azimuth_degrees", "200.0", "clockwise from north; likewise", true},
+         [](Scenario& s, const TomlValue& v) { s.moon.azimuth_degrees = v.keyed(-3600.0, 3600.0); }},
+        {{"moon", "illuminated", "1.0", "share of its disc that is lit, 0 to 1; likewise", true},
+         [](Scenario& s, const TomlValue& v) { s.moon.illuminated = v.keyed(0.0, 1.0); }},
+
+        {{"fog", "mode", "\"metres\"",
+          "metres (2 % contrast left at the visibility), exp, exp2, linear, or off; it veils the "
+          "analytic sky too"},
+         [](Scenario& s, const TomlValue& v) {
+             s.fog.mode =
+                 static_cast<gpu::FogMode>(v.choice({"off", "metres", "exp", "exp2", "linear"}));
+         }},
+        {{"fog", "visibility_m", "400.0", "with metres; without it the weather decides, 1 to 1e6",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.fog.visibility_m = v.keyed(1.0, 1e6); }},
+        {{"fog", "per_m", "0.01", "with exp: extinction, with exp2: density, 0 to 10 a metre", true},
+         [](Scenario& s, const TomlValue& v) { s.fog.per_m = v.keyed(0.0, 10.0); }},
+        {{"fog", "start_m", "0.0", "with linear: where it begins ..", true},
+         [](Scenario& s, const TomlValue& v) { s.fog.start_m = v.keyed(0.0, 1e6); }},
+        {{"fog", "end_m", "100.0", ".. and where it hides all", true},
+         [](Scenario& s, const TomlValue& v) { s.fog.end_m = v.keyed(0.0, 1e6); }},
+        {{"fog", "height_m", "120.0",
+          "it thins out to 1/e over this height above the scene's lowest point; 0: it has no top",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.fog.height_m = v.keyed(0.0, 1e5); }},
 
         {{"weather", "preset", "\"rain-then-snow\"",
           "a name that `petrichor doctor` lists, or a .toml file with a [weather] table", false,
@@ -218,6 +290,8 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_degrees = v.number(-90.0, 90.0); }},
         {{"lights", "dusk_fade_degrees", "4.0", "and dark this far above it, 0 to 90"},
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
+        {{"lights", "emissive", "true", "glowing materials light what is around them"},
+         [](Scenario& s, const TomlValue& v) { s.lights.emissive = v.boolean(); }},
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
 
@@ -226,6 +300,19 @@ const std::vector<Rule>& rules()
      [](Scenario& s, const TomlValue& v) { s.render.name = v.boolean(); }},
         FRAME_SWITCHES(ROW)
 #undef ROW
+        {{"render", "lamp_shadows", "4",
+          "so many lamps throw shadows, 0 to 16: those that give most light at the camera"},
+         [](Scenario& s, const TomlValue& v) { s.render.lamp_shadows = v.integer(0, 16); }},
+        {{"render", "tone_map", "\"filmic\"",
+          "of the PNG: filmic, agx, aces, neutral (Khronos), linear (plain sRGB); true is filmic, "
+          "false linear. The EXR is never tone mapped"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.tone_map = v.is_text()
+                                     ? static_cast<gpu::ToneMap>(v.choice(
+                                           {"linear", "filmic", "agx", "aces", "neutral"}))
+                                 : v.boolean() ? gpu::ToneMap::Filmic
+                                               : gpu::ToneMap::Linear;
+         }},
         {{"render", "ripple_texture_size", "512",
           "texels a side of the map of rings that rain draws: 64, 128 .. 4096"},
          [](Scenario& s, const TomlValue& v) {

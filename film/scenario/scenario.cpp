@@ -103,7 +103,18 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
 {
     read_rules(scenario, "camera", value);
     check_camera(scenario.camera, value, table);
-    for (KeyedNumber* number : {&scenario.camera.exposure, &scenario.camera.exposure_bias}) {
+    ScenarioCamera& camera = scenario.camera;
+    if (table.contains("ev100") && !table.contains("exposure"))
+        camera.exposure_mode = Exposure::Fixed;
+    const bool by_ev100 = camera.exposure_mode == Exposure::Fixed && !camera.exposure.given();
+    if (by_ev100 != camera.ev100.given()) {
+        throw Error(value.place() + (by_ev100 ? ": camera has exposure = \"fixed\" and no ev100"
+                                              : ": camera has ev100 and an exposure that is not "
+                                                "\"fixed\""),
+                    "Give ev100 alone or with exposure = \"fixed\", for example ev100 = 12.");
+    }
+    for (KeyedNumber* number :
+         {&camera.exposure, &camera.ev100, &camera.exposure_bias, &camera.white_balance_k, &camera.bloom}) {
         number->interpolation = scenario.camera.interpolation;
     }
 }
@@ -191,7 +202,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
     }
     // Over all that the file says, wherever in it they stand.
     if (const toml::node* node = root.get("variant")) {
-        read_parts(scenario, "variant", *node, {"weather", "sun", "sky", "lights", "look"},
+        read_parts(scenario, "variant", *node, {"weather", "sun", "sky", "moon", "fog", "lights", "look"},
                    [&](const std::string& part, const Scenario& changed) {
                        scenario.variants.push_back({part, changed});
                    });
@@ -248,6 +259,8 @@ std::string table_meaning(const std::string& table)
          "framed."},
         {"sun", "Without this table: the direction of the scene's own sun, else a morning sun."},
         {"sky", "What lights the scene besides the sun."},
+        {"moon", "Without this table: where place and clock of a weather file have it, else none."},
+        {"fog", "Fog and haze. Without this table: by the visibility of the weather."},
         {"lights", "The lamps of the scene. Without this table they are always on."},
         {"render", "What the renderer computes; all of it without this table."},
         {"output", "The sequence and its files."},

@@ -31,13 +31,27 @@ struct CameraKey {
     std::optional<double> fov_degrees;  ///< vertical
 };
 
+/// What decides how bright a PNG is.
+enum class Exposure {
+    Auto,      ///< the picture and those of the frames around it
+    Incident,  ///< the light of sun and sky on level ground
+    Fixed,     ///< a number of the camera
+};
+
 struct ScenarioCamera {
     std::string name;             ///< of a camera in the scene; empty: the first one, else framed
     std::vector<CameraKey> keys;  ///< a path of our own; wins over `name`
     Interpolation interpolation = Interpolation::Smooth;
     std::optional<double> near_m;
-    KeyedNumber exposure;       ///< linear scale; not given: metered
-    KeyedNumber exposure_bias;  ///< stops
+    Exposure exposure_mode = Exposure::Auto;
+    KeyedNumber exposure;          ///< with Fixed: linear scale, else ..
+    KeyedNumber ev100;             ///< .. the exposure value at ISO 100
+    KeyedNumber exposure_bias;     ///< stops
+    double ev100_low = -6.0;       ///< limits of Auto
+    double ev100_high = 18.0;
+    KeyedNumber white_balance_k;   ///< not given: as it is
+    KeyedNumber bloom;
+    double exposure_smoothing_s = 0.25;  ///< of the film: half width of Auto's window
 };
 
 struct ScenarioSun {
@@ -57,6 +71,22 @@ struct ScenarioSky {
     double environment_scale = 1.0;
     double environment_rotation_degrees = 0.0;
     double ground_albedo = 0.2;
+};
+
+/// [moon]: keys win over what place and clock say.
+struct ScenarioMoon {
+    KeyedNumber elevation_degrees;
+    KeyedNumber azimuth_degrees;
+    KeyedNumber illuminated;  ///< share of its disc, 0..1
+};
+
+/// [fog]: how it thickens; what it veils.
+struct ScenarioFog {
+    gpu::FogMode mode = gpu::FogMode::Metres;
+    KeyedNumber visibility_m;  ///< with Metres; not given: from the weather
+    KeyedNumber per_m;         ///< with Exp and Exp2
+    KeyedNumber start_m, end_m;  ///< with Linear
+    KeyedNumber height_m;
 };
 
 /// Which model makes the moments of a weather file.
@@ -88,10 +118,13 @@ struct ScenarioLights {
     Lamps lamps = Lamps::On;         ///< point and spot lights and glowing materials of the scene
     double dusk_degrees = 4.0;       ///< with Dusk: full light at this sun elevation and below ...
     double dusk_fade_degrees = 4.0;  ///< ... none this much above it
+    bool emissive = true;            ///< what glows lights its surroundings
     double scale = 1.0;
 };
 
 struct ScenarioRender : gpu::FrameSwitches {
+    int lamp_shadows = 4;
+    gpu::ToneMap tone_map = gpu::ToneMap::Filmic;
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
@@ -134,6 +167,8 @@ struct Conditions {
     ScenarioWeather weather;
     ScenarioSun sun;
     ScenarioSky sky;
+    ScenarioMoon moon;
+    ScenarioFog fog;
     ScenarioLights lights;
     ScenarioLook look;
 };

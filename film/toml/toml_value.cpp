@@ -68,6 +68,11 @@ std::string TomlValue::text() const
     return *node_->value<std::string>();
 }
 
+bool TomlValue::is_text() const
+{
+    return node_->is_string();
+}
+
 int TomlValue::choice(const std::vector<std::string>& words) const
 {
     if (node_->is_string()) {

@@ -28,6 +28,7 @@ public:
     int integer(int low, int high) const;
     bool boolean() const;
     std::string text() const;
+    bool is_text() const;  ///< of any content
     /// Index of the word in `words`.
     int choice(const std::vector<std::string>& words) const;
     std::vector<double> numbers(std::size_t count, double low, double high) const;

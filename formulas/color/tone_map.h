@@ -4,7 +4,17 @@
 #define PETRICHOR_FORMULAS_COLOR_TONE_MAP_H
 
 #include "base/interop.h"
+#include "formulas/color/aces.h"
+#include "formulas/color/agx.h"
+#include "formulas/color/khronos_neutral.h"
 #include "formulas/color/srgb.h"
+
+// The curves by number; linear only clips.
+#define TONE_MAP_LINEAR 0
+#define TONE_MAP_FILMIC 1
+#define TONE_MAP_AGX 2
+#define TONE_MAP_ACES 3
+#define TONE_MAP_NEUTRAL 4
 
 SHARED_BEGIN
 
@@ -24,6 +34,16 @@ SHARED_FN vec3 tone_map(vec3 exposed)
     const float grey = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
     const vec3 c = mix(exposed, vec3(grey), to_white * 0.6f);
     return vec3(filmic_channel(c.x), filmic_channel(c.y), filmic_channel(c.z));
+}
+
+// Linear display light for exposed light under the curve of that number.
+SHARED_FN vec3 display_light(int curve, vec3 exposed)
+{
+    if (curve == TONE_MAP_FILMIC) return tone_map(exposed);
+    if (curve == TONE_MAP_AGX) return agx(exposed);
+    if (curve == TONE_MAP_ACES) return aces(exposed);
+    if (curve == TONE_MAP_NEUTRAL) return khronos_neutral(exposed);
+    return exposed;
 }
 
 SHARED_END

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "formulas/color/srgb.h"
+#include "formulas/color/white_balance.h"
+#include "formulas/light/fog.h"
 #include "formulas/weather/visibility.h"
+#include "gpu/frame/sun.h"
 
 namespace petrichor::gpu {
 
@@ -12,7 +15,57 @@ namespace {
 
 constexpr float kSunAngularRadius = 0.00465f;
 
+static_assert(static_cast<int>(FogMode::Metres) == FOG_METRES &&
+              static_cast<int>(FogMode::Exp) == FOG_EXP &&
+              static_cast<int>(FogMode::Exp2) == FOG_EXP2 &&
+              static_cast<int>(FogMode::Linear) == FOG_LINEAR);
+
 }  // namespace
+
+namespace {
+
+// Where moon and stars stand; the lighting pass draws them.
+void set_night(shared::FrameConstants& c, const Sky& sky)
+{
+    c.moon_direction = moon_direction(sky);
+    const float solid_angle = 6.42e-5f;
+    const float lit = std::max(sky.moon_illuminated, 0.01f);
+    c.moon_radiance = moonlight_at_ground(sky) / (solid_angle * lit);
+    // Towards the sun, turned so that as much of the disc is lit as is said.
+    const glm::vec3 sun = sun_direction(sky);
+    const glm::vec3 side = sun - c.moon_direction * glm::dot(sun, c.moon_direction);
+    const float length = glm::length(side);
+    const float facing = 2.0f * sky.moon_illuminated - 1.0f;
+    const glm::vec3 across = length > 1e-4f ? side / length : glm::vec3(0.0f, 1.0f, 0.0f);
+    c.moon_lit_from = -c.moon_direction * facing +
+                      across * std::sqrt(std::max(1.0f - facing * facing, 0.0f));
+
+    const glm::vec3 south(-std::sin(sky.north_rad), 0.0f, std::cos(sky.north_rad));
+    const glm::vec3 west(-std::cos(sky.north_rad), 0.0f, -std::sin(sky.north_rad));
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    const glm::vec3 meridian = std::sin(sky.latitude_rad) * south + std::cos(sky.latitude_rad) * up;
+    c.stars_x = std::cos(sky.sidereal_rad) * meridian + std::sin(sky.sidereal_rad) * west;
+    c.stars_y = std::sin(sky.sidereal_rad) * meridian - std::cos(sky.sidereal_rad) * west;
+    c.stars_z = std::sin(sky.latitude_rad) * up - std::cos(sky.latitude_rad) * south;
+}
+
+}  // namespace
+
+float fog_per_m(const Frame& frame)
+{
+    switch (frame.fog.mode) {
+        case FogMode::Off:
+            return 0.0f;
+        case FogMode::Metres:
+            // Koschmieder: 2 % contrast is left at the visibility.
+            return static_cast<float>(KOSCHMIEDER_2_PERCENT) /
+                   std::max(frame.weather.visibility_m, 1.0f);
+        case FogMode::Linear:
+            return 1.0f;
+        default:
+            return frame.fog.per_m;
+    }
+}
 
 shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
                                        std::uint32_t sample_index)
@@ -33,10 +86,16 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.shelter_spread_m = std::clamp(0.01f * size_m, 0.001f, 0.18f);
     c.ambient_scale = s.image_based_light ? 1.0f : 0.0f;
     c.sky_scale = 1.0f;
-    // Koschmieder: 2 % contrast is left at the visibility. The veil is skylight: none without it.
-    c.fog_per_m = s.image_based_light
-                      ? static_cast<float>(KOSCHMIEDER_2_PERCENT) / std::max(w.visibility_m, 1.0f)
-                      : 0.0f;
+    // The veil is skylight: none without it.
+    c.fog_per_m = s.image_based_light ? fog_per_m(frame) : 0.0f;
+    c.fog_mode = static_cast<int>(frame.fog.mode);
+    c.fog_start_m = frame.fog.start_m;
+    c.fog_end_m = frame.fog.end_m;
+    c.fog_height_m = frame.fog.height_m;
+    c.fog_base_m = scene.low.y;
+    c.white_gains = s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k)
+                                             : glm::vec3(1.0f);
+    c.bloom = s.bloom;
     c.emissive_scale = frame.emissive_scale;
     c.occlusion_direct = s.occlusion_direct;
     c.bounce = 0.22f + 0.25f * std::clamp(w.snow_amount, 0.0f, 1.0f);
@@ -46,7 +105,8 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
     flag(s.draw_sky, FRAME_SKY);
-    flag(s.tone_map, FRAME_TONE_MAP);
+    flag(s.dither, FRAME_DITHER);
+    flag(s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
     flag(s.shelter, FRAME_SHELTER);
     flag(sun.disc, FRAME_SUN_DISC);
     flag(s.gamma, FRAME_GAMMA);
@@ -54,6 +114,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
         c.look.snow_color = shared::srgb_codes(c.look.snow_color);
         c.look.snow_specular = shared::srgb_codes(c.look.snow_specular);
     }
+    set_night(c, frame.sky);
     return c;
 }
 

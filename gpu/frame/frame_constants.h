@@ -21,6 +21,9 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
 /// What of the weather can show in a frame, constant water and snow of materials included.
 VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather);
 
+/// Extinction or density of the frame's fog at its base, 1/m; 0: no fog.
+float fog_per_m(const Frame& frame);
+
 }  // namespace petrichor::gpu
 
 #endif

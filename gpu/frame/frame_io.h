@@ -38,6 +38,13 @@ struct FrameConstants {
     vec4 cascade_end_m;    // view distance where cascade i ends
     vec4 cascade_scale;    // texel size of cascade i relative to the first
 
+    vec3 moon_direction;  // towards it, unit
+    vec3 moon_radiance;   // of its lit part, behind the air
+    vec3 moon_lit_from;   // towards the sun as the moon has it, unit
+    vec3 stars_x;         // axes of right ascension 0, 6 h and the pole, in the world
+    vec3 stars_y;
+    vec3 stars_z;
+
     WeatherMoment weather;
     WeatherLook look;
 
@@ -52,7 +59,14 @@ struct FrameConstants {
     float ao_strength;
     float ambient_scale;  // of the environment
     float sky_scale;      // of what is seen behind the scene
-    float fog_per_m;      // extinction
+    float fog_per_m;      // extinction; 0: no fog
+    int fog_mode;
+    float fog_start_m;
+    float fog_end_m;
+    float fog_height_m;
+    float fog_base_m;     // world height
+    vec3 white_gains;     // of the cones
+    float bloom;
     float emissive_scale;
     float exposure;       // > 0: given; 0: metered
     float exposure_bias;  // linear factor
@@ -67,10 +81,11 @@ struct FrameConstants {
 SHARED_END
 
 #define FRAME_SKY 8u
-#define FRAME_TONE_MAP 16u
+#define FRAME_DITHER 16u
 #define FRAME_SHELTER 32u
 #define FRAME_ORTHOGRAPHIC 64u
 #define FRAME_SUN_DISC 128u
 #define FRAME_GAMMA 256u
+#define FRAME_WHITE_BALANCE 512u
 
 #endif

@@ -14,13 +14,31 @@ float cloud_shadow(float cover)
     return 1.0f - glm::smoothstep(0.25f, 0.95f, cover);
 }
 
+glm::vec3 direction_of(float elevation_rad, float azimuth_rad)
+{
+    const float level = std::cos(elevation_rad);
+    return {level * std::sin(azimuth_rad), std::sin(elevation_rad),
+            -level * std::cos(azimuth_rad)};
+}
+
 }  // namespace
 
 glm::vec3 sun_direction(const Sky& sky)
 {
-    const float level = std::cos(sky.sun_elevation_rad);
-    return {level * std::sin(sky.sun_azimuth_rad), std::sin(sky.sun_elevation_rad),
-            -level * std::cos(sky.sun_azimuth_rad)};
+    return direction_of(sky.sun_elevation_rad, sky.sun_azimuth_rad);
+}
+
+glm::vec3 moon_direction(const Sky& sky)
+{
+    return direction_of(sky.moon_elevation_rad, sky.moon_azimuth_rad);
+}
+
+glm::vec3 moonlight_at_ground(const Sky& sky)
+{
+    const float up = std::sin(sky.moon_elevation_rad);
+    if (!(sky.moon_lux > 0.0f) || up <= -0.01f) return glm::vec3(0.0f);
+    return shared::air_transmittance(2.0f, std::max(up, 0.0f), sky.turbidity) *
+           (sky.moon_lux * glm::smoothstep(-0.01f, 0.015f, up));
 }
 
 glm::vec3 sunlight_at_ground(const Sky& sky)
@@ -38,6 +56,12 @@ Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
         sun.direction = sun_direction(sky);
         sun.illuminance = sunlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
         sun.disc = !has_environment;
+        sun.analytic = !has_environment;
+        if (sun.illuminance == glm::vec3(0.0f) && !has_environment && sky.sun_elevation_rad < 0.0f) {
+            sun.direction = moon_direction(sky);
+            sun.illuminance = moonlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
+            sun.disc = false;
+        }
     } else if (scene_sun) {
         sun.direction = -scene_sun->direction;
         sun.illuminance = scene_sun->color * scene_sun->intensity;

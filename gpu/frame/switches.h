@@ -6,12 +6,12 @@
 #define PETRICHOR_GPU_FRAME_SWITCHES_H
 
 #define FRAME_SWITCHES(ROW)                                                                      \
-    ROW(shadows, true, "of the sun")                                                             \
+    ROW(shadows, true, "of the sun and of lamps")                                                \
     ROW(ambient_occlusion, true, "darker corners")                                               \
     ROW(image_based_light, true, "light from the sky or the HDR picture")                        \
     ROW(shelter, true, "roofs keep rain and snow off")                                           \
     ROW(draw_sky, true, "false: black where the scene ends")                                     \
-    ROW(tone_map, true, "of the PNG; false: plain sRGB. The EXR is never tone mapped")
+    ROW(dither, true, "of the PNG: hides steps in soft gradients")
 
 namespace petrichor::gpu {
 

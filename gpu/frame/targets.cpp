@@ -116,6 +116,16 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
 
+    for (int w = width, h = height; targets.glare.empty() || std::min(w, h) > 4;) {
+        w = divide_up(w, 2);
+        h = divide_up(h, 2);
+        targets.glare.push_back(arena.image({.name = "glare",
+                                             .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                             .width = w,
+                                             .height = h,
+                                             .usage = storage | VK_IMAGE_USAGE_SAMPLED_BIT}));
+    }
+
     const auto pixels = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height);
     const auto coarse = static_cast<VkDeviceSize>(targets.coarse_x() * targets.coarse_y());
     const VkBufferUsageFlags table =

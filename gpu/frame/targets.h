@@ -46,6 +46,7 @@ struct FrameTargets {
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
+    std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "gpu/upload/detail/texel_format.h"
+#include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/material_constants.h"
 
 namespace petrichor::gpu {
@@ -84,7 +85,10 @@ const std::vector<VertexAttribute>& vertex_attributes()
 }
 
 GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures)
-    : arena_(device), lights_(scene.lights), bounds_(scene_bounds(scene))
+    : arena_(device),
+      lights_(scene.lights),
+      glows_(emissive_lights(scene, textures)),
+      bounds_(scene_bounds(scene))
 {
     upload_textures(device, textures);
     make_materials(device, scene);
@@ -272,6 +276,7 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source);
+    materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);
 }
 
 void GpuScene::sum_up_materials()

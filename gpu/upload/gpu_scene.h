@@ -42,6 +42,7 @@ struct GpuMaterial {
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     bool masked = false;
     bool blended = false;
+    bool glows = false;
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
     std::uint32_t lighting_model = 0;  ///< its number
@@ -69,6 +70,7 @@ public:
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
     const std::vector<Light>& lights() const { return lights_; }
+    const std::vector<Light>& glows() const { return glows_; }  ///< glowing surfaces as lights
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
     bool baked() const { return baked_; }        ///< any has a light map
@@ -100,6 +102,7 @@ private:
     std::vector<bool> loaded_;  // textures that have pixels
     VkDeviceSize constants_stride_ = 0;
     std::vector<Light> lights_;
+    std::vector<Light> glows_;
     LightingModels lighting_models_;
     Bounds bounds_;
     bool emissive_ = false;

@@ -51,6 +51,16 @@ TEST(FramesJsonl, NumbersAreShortAndThereIsNoClock)
     EXPECT_EQ(line, frame_line(facts_of(1, "a")));
 }
 
+TEST(FramesJsonl, SayHowAFrameIsExposed)
+{
+    FrameFacts facts = facts_of(1, "a");
+    facts.exposure = 1.0f / (1.2f * 1024.0f);
+    EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"exposure_mode\":\"fixed\",\"ev100\":10."));
+    EXPECT_THAT(frame_line(facts), testing::Not(testing::HasSubstr("metered_ev100")));
+    facts.exposure_by = {"auto", 9.5f};
+    EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"metered_ev100\":9.5,"));
+}
+
 TEST(FramesJsonl, BrokenLinesAreLeftOut)
 {
     const Workplace place("broken");

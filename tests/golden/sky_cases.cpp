@@ -143,7 +143,7 @@ Shot plain_display()
     Shot shot = plain_land(look({0, 1.4f, 2}, {0, 1.0f, -3}, 1.6f));
     shot.frame.camera.near_m = 0.5f;
     shot.frame.settings.exposure = 0.00008f;
-    shot.frame.settings.tone_map = false;
+    shot.frame.settings.tone_map = gpu::ToneMap::Linear;
     shot.frame.settings.draw_sky = false;
     shot.frame.settings.seed = 5;
     shot.frame.settings.samples = 3;

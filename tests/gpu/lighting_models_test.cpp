@@ -148,7 +148,7 @@ TEST_F(LightingModelsTest, UnlitIsTheSameByDayAndByNight)
         frame.sky = {};
         frame.sky.sun_elevation_rad = elevation;
         frame.settings.image_based_light = true;
-        frame.settings.tone_map = false;
+        frame.settings.tone_map = ToneMap::Linear;
         const RenderResult result = renderer->render(frame);
         EXPECT_NEAR(pixel(result, 8, 8).g * result.exposure, 0.5f, 0.01f) << elevation;
         EXPECT_NEAR(result.display[(8 * 17 + 8) * 4], 188, 2) << "sRGB of one half";

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/passes/depth_maps/depth_maps_io.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
-
-namespace {
 
 ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer)
 {
@@ -22,10 +21,6 @@ ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uin
     return {device.handle(), view};
 }
 
-// What a map is for: light passes through what is blended, in part; rain and snow are not asked.
-enum class Falls { Light, Rain };
-
-// Draws every caster that the view can see.
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
                   Falls falls)
 {
@@ -36,6 +31,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     plain.vertex = "depth_only.vert";
     plain.stride = sizeof(Vertex);
     plain.attributes = {vertex_attributes()[0]};
+    plain.specialization = {{DEPTH_SPEC_FLATTEN, falls != Falls::Lamp}};
     GraphicsDesc masked = plain;
     masked.vertex = "depth_masked.vert";
     masked.fragment = "depth_masked.frag";
@@ -48,6 +44,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     for (const Draw& draw : scene.draws()) {
         const GpuMaterial& material = scene.materials()[draw.material];
         if (material.blended && falls == Falls::Rain) continue;
+        if (material.glows && falls == Falls::Lamp) continue;
         const bool holes = material.masked || material.blended;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
@@ -67,6 +64,8 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, draw.vertex_offset, 0);
     }
 }
+
+namespace {
 
 void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                    const DepthView& view, GpuImage& map, VkImageView layer, Falls falls)

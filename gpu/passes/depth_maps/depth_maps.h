@@ -30,6 +30,18 @@ struct DepthMaps {
     void forget() { shadow_valid = shelter_valid = sky_valid = false; }
 };
 
+/// What a map is for: light passes through what is blended, in part; rain and snow are not asked. A
+/// lamp is not shadowed by what glows, the glass around it, nor by what is nearer than its map's near
+/// plane.
+enum class Falls { Light, Rain, Lamp };
+
+/// Draws every caster that the view can see.
+void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
+                  Falls falls);
+
+/// One layer of an array as an attachment.
+ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer);
+
 // Depth of the scene from the sun, all cascades.
 //
 //   writes   shadow

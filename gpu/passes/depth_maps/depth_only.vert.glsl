@@ -3,6 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "base/interop.h"
+#include "gpu/passes/depth_maps/depth_maps_io.h"
+
+layout(constant_id = DEPTH_SPEC_FLATTEN) const uint FLATTEN = 1u;
 
 layout(location = 0) in vec3 in_position;
 
@@ -14,6 +17,5 @@ layout(push_constant, scalar) uniform Push { DepthDraw draw; };
 void main()
 {
     gl_Position = draw.clip_from_object * vec4(in_position, 1.0);
-    // Casters in front of the near plane are kept: flattened onto it.
-    gl_Position.z = min(gl_Position.z, gl_Position.w);
+    if (FLATTEN != 0u) gl_Position.z = min(gl_Position.z, gl_Position.w);
 }

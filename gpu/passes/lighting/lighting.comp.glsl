@@ -5,10 +5,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
+#include "formulas/light/area.h"
+#include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/passes/lighting/lighting_io.h"
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
+#include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
 #include "formulas/noise/noise.h"
@@ -23,6 +26,11 @@ layout(constant_id = LIGHTING_SPEC_EMISSION) const uint EMISSION = 1u;
 layout(constant_id = LIGHTING_SPEC_GAMMA) const uint GAMMA = 0u;
 layout(constant_id = LIGHTING_SPEC_BAKED) const uint BAKED = 0u;
 layout(constant_id = LIGHTING_SPEC_ALL_LIGHTS) const uint ALL_LIGHTS = 0u;
+layout(constant_id = LIGHTING_SPEC_LAMP_SHADOWS) const uint LAMP_SHADOWS = 1u;
+layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
+// Constants, not branches: a device without branches of its own computes both sides of one.
+layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
+layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -32,6 +40,7 @@ layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; }
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArrayShadow shadow_map;
+layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArrayShadow lamp_shadow_map;
 layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
 layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
 layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
@@ -43,6 +52,9 @@ layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visib
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
+
+#include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
+#include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
 const float kMirrorRoughness = 0.32;
@@ -114,7 +126,9 @@ vec2 split_sum(vec3 n, vec3 v, float roughness)
 
 vec3 background(vec3 direction)
 {
-    vec3 radiance = textureLod(sky_map, direction, 0.0).rgb * frame.sky_scale;
+    const vec4 sky = textureLod(sky_map, direction, 0.0);
+    vec3 radiance = sky.rgb * frame.sky_scale;
+    if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
     if ((frame.flags & FRAME_SUN_DISC) != 0u) {
         const float c = dot(direction, frame.sun_direction);
         if (c > frame.sun_angular_cos) {
@@ -168,36 +182,79 @@ vec3 model_own(LitPoint p)
     return radiance;
 }
 
-// One light of the table; zero out of its range or behind the surface.
-vec3 punctual_light(LitPoint p, int light)
+// A glowing rectangle: exact for a matt surface that sees all of it; what is mirrored, as of a light in
+// the direction of the irradiance, blurred by its size. Surfaces that mirror the picture itself have it
+// from there.
+vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
 {
-    const vec4 sphere = texelFetch(lights, light * 3);
+    const vec3 half_u = texelFetch(lights, light * LIGHT_TEXELS + 2).xyz;
+    vec3 half_v = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    if (dot(centre, cross(half_u, half_v)) >= 0.0) {  // it is turned away
+        if (color.w > LIGHT_BOTH_SIDES + 0.5) return vec3(0.0);
+        half_v = -half_v;
+    }
+    const vec3 f = rectangle_irradiance(centre, half_u, half_v);
+    const float size = length(f);
+    if (size < 1.0e-7) return vec3(0.0);
+    vec3 l = f / size;
+    const float nl = dot(p.normal, l);
+    const float seen = sphere_form_factor(size, nl);
+    if (seen <= 0.0) return vec3(0.0);
+    // Where the horizon cuts it, from the middle of what is left.
+    const float wide = sqrt(min(size, 1.0));
+    const float cosine = max(nl, 0.25 * wide);
+    if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
+    const float alpha = p.roughness * p.roughness;
+    const float blurred = min(alpha + 0.5 * wide, 1.0);
+    const float mirrored =
+        IMAGE_BASED_LIGHT != 0u ? smoothstep(kMirrorRoughness, kMirrorRoughness + 0.1, p.roughness) : 1.0;
+    LitPoint q = p;
+    q.roughness = sqrt(blurred);
+    q.specular = p.specular * mirrored;
+    q.lobe = make_lobe(p.normal, p.view, p.diffuse, q.specular, blurred);
+    return model_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+}
+
+// One light of the table; zero out of its range or behind the surface.
+vec3 punctual_light(LitPoint p, int light, ivec2 texel)
+{
+    const vec4 sphere = texelFetch(lights, light * LIGHT_TEXELS);
     const vec3 to_light = sphere.xyz - p.position;
     const float d2 = dot(to_light, to_light);
     if (d2 >= sphere.w * sphere.w) return vec3(0.0);
+    float visible = 1.0;
+    if (LAMP_SHADOWS != 0u) {
+        const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
+        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, p.normal, texel);
+        if (visible <= 0.0) return vec3(0.0);
+    }
+    if (RECTANGLES != 0u) {
+        const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
+        if (glow.w < LIGHT_POINT - 0.5) return rectangle_light(p, light, to_light, glow) * visible;
+    }
     const float distance_m = sqrt(d2);
     const vec3 l = to_light / max(distance_m, 1.0e-4);
     if (dot(p.normal, l) <= 0.0) return vec3(0.0);
-    const vec4 color = texelFetch(lights, light * 3 + 1);
-    const vec4 axis = texelFetch(lights, light * 3 + 2);
+    const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
+    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
     float falloff = light_attenuation(distance_m, sphere.w);
     if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
-    return model_light(p, l) * color.rgb * falloff;
+    return model_light(p, l) * color.rgb * (falloff * visible);
 }
 
 // Adds lights far away, then those that reach this tile, in the order of the table.
 void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
 {
     for (uint i = 0u; i < frame.directional_count; ++i) {
-        const vec4 color = texelFetch(lights, int(i * 3u + 1u));
-        const vec4 direction = texelFetch(lights, int(i * 3u + 2u));
+        const vec4 color = texelFetch(lights, int(i) * LIGHT_TEXELS + 1);
+        const vec4 direction = texelFetch(lights, int(i) * LIGHT_TEXELS + 2);
         radiance += model_light(p, -direction.xyz) * color.rgb;
     }
     if (ALL_LIGHTS != 0u) {
         for (uint i = frame.directional_count; i < frame.light_count; ++i) {
-            radiance += punctual_light(p, int(i));
+            radiance += punctual_light(p, int(i), texel);
         }
         return;
     }
@@ -207,7 +264,7 @@ void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
     for (int i = 1; i <= words; ++i) {
         const uvec2 word = texelFetch(light_lists, list + i).rg;
         for (uint bits = word.g; bits != 0u; bits &= bits - 1u) {
-            radiance += punctual_light(p, int(word.r * 32u) + findLSB(bits));
+            radiance += punctual_light(p, int(word.r * 32u) + findLSB(bits), texel);
         }
     }
 }
@@ -334,9 +391,13 @@ void main()
                     reflected.mirror * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
             }
         }
-        if (frame.fog_per_m > 0.0) {
+        if (FOG != 0u) {
             const float distance_m = length(position - frame.camera_m);
-            const float kept = exp(-frame.fog_per_m * distance_m);
+            const float path =
+                fog_path(distance_m, frame.camera_m.y - frame.fog_base_m,
+                         position.y - frame.fog_base_m, frame.fog_height_m);
+            const float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
+                                        frame.fog_end_m);
             const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
             const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);

@@ -6,7 +6,8 @@ namespace petrichor::gpu {
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const ConstantsRange& constants, const LightingVariant& variant)
+                  LampShadows& lamp_shadows, const ConstantsRange& constants,
+                  const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -19,11 +20,16 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_EMISSION, variant.emission},
                       {LIGHTING_SPEC_BAKED, variant.baked},
                       {LIGHTING_SPEC_GAMMA, variant.gamma},
-                      {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights}},
+                      {LIGHTING_SPEC_ALL_LIGHTS, variant.all_lights},
+                      {LIGHTING_SPEC_LAMP_SHADOWS, variant.lamp_shadows},
+                      {LIGHTING_SPEC_RECTANGLES, variant.rectangles},
+                      {LIGHTING_SPEC_NIGHT, variant.night},
+                      {LIGHTING_SPEC_FOG, variant.fog}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
                      {LIGHTING_SHADOW, sampled(*depth_maps.shadow, depth_maps.compare)},
+                     {LIGHTING_LAMP_SHADOWS, sampled(lamp_shadows.map(), lamp_shadows.compare())},
                      {LIGHTING_SPECULAR, sampled(*sky.specular, sky.linear)},
                      {LIGHTING_ENV_BRDF, sampled(*sky.env_brdf, sky.linear)},
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 
 #include "gpu/passes/depth_maps/depth_maps.h"
+#include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lights/lights.h"
 #include "gpu/passes/sky/sky.h"
 
@@ -20,6 +21,10 @@ struct LightingVariant {
     bool emission = true;
     bool baked = false;  ///< light maps
     bool gamma = false;
+    bool lamp_shadows = false;
+    bool rectangles = false;  ///< some lights are
+    bool night = false;       ///< stars and moon may be seen
+    bool fog = false;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     std::vector<bool> models{true};  ///< by number: something in the picture has it
@@ -28,10 +33,11 @@ struct LightingVariant {
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, sky maps, light lists
+//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps, const ConstantsRange& constants,
+                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
+                  LampShadows& lamp_shadows, const ConstantsRange& constants,
                   const LightingVariant& variant);
 
 }  // namespace petrichor::gpu

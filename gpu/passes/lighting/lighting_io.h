@@ -13,6 +13,10 @@
 #define LIGHTING_SPEC_ALL_LIGHTS 5  // 1: no lists; what they are tested against
 #define LIGHTING_SPEC_BAKED 6       // light maps
 #define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
+#define LIGHTING_SPEC_LAMP_SHADOWS 8
+#define LIGHTING_SPEC_RECTANGLES 9
+#define LIGHTING_SPEC_NIGHT 10
+#define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_MODEL 16      // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
@@ -30,6 +34,7 @@
 #define LIGHTING_MIRROR_WEIGHT 12
 #define LIGHTING_MIRROR_SHAPE 13
 #define LIGHTING_MATERIALS 14
-#define LIGHTING_GBUFFER 15  // depth, then the targets
+#define LIGHTING_LAMP_SHADOWS 15
+#define LIGHTING_GBUFFER 16  // depth, then the targets
 
 #endif

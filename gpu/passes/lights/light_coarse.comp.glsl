@@ -22,7 +22,7 @@ void main()
     for (uint i = 0u; i < 32u; ++i) {
         const uint light = word * 32u + i;
         if (light >= frame.light_count) break;
-        const vec4 sphere = texelFetch(lights, int(light * 3u));
+        const vec4 sphere = texelFetch(lights, int(light * LIGHT_TEXELS));
         if (touches_sides(volume, sphere.xyz, sphere.w)) bits |= 1u << i;
     }
     words[tile * frame.light_words + word] = bits;

@@ -61,7 +61,7 @@ void main()
                 bits &= bits - 1u;
                 const uint light = w * 32u + uint(bit);
                 if (light < frame.directional_count) continue;
-                const vec4 sphere = texelFetch(lights, int(light * 3u));
+                const vec4 sphere = texelFetch(lights, int(light * LIGHT_TEXELS));
                 const vec3 offset = sphere.xyz - frame.camera_m;
                 const float along = dot(offset, frame.forward);
                 const vec2 across = vec2(dot(offset, right), dot(offset, down));

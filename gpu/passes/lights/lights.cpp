@@ -11,8 +11,12 @@ namespace petrichor::gpu {
 
 float light_radius_m(const Light& light)
 {
+    // Of a rectangle: as candela, straight on.
+    const float area = light.kind == LightKind::Rectangle
+                           ? 4.0f * glm::length(light.half_u_m) * glm::length(light.half_v_m)
+                           : 1.0f;
     const float strongest =
-        light.intensity * std::max({light.color.r, light.color.g, light.color.b});
+        area * light.intensity * std::max({light.color.r, light.color.g, light.color.b});
     // Where it would give a hundredth of a lux.
     const float faded = std::sqrt(std::max(strongest, 0.0f) / 0.01f);
     const float radius = light.range_m > 0.0f ? light.range_m : faded;
@@ -29,7 +33,7 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
     }
     const auto words = static_cast<int>((lights + 31) / 32);
     const VkDeviceSize bytes = light_lists_bytes(width, height, words);
-    const VkDeviceSize elements = std::max<VkDeviceSize>(bytes / sizeof(glm::uvec2), 3 * lights);
+    const VkDeviceSize elements = std::max<VkDeviceSize>(bytes / sizeof(glm::uvec2), LIGHT_TEXELS * lights);
     if (bytes > limits.maxStorageBufferRange || elements > limits.maxTexelBufferElements) {
         throw Error("render: the lists of " + std::to_string(lights) + " lights over " +
                         std::to_string(width) + " x " + std::to_string(height) + " pixels take " +
@@ -40,8 +44,34 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
     }
 }
 
+namespace {
+
+// Numbers of the lights that own a shadow, brightest first.
+std::vector<std::size_t> with_shadows(const std::vector<const Light*>& lights, int shadows,
+                                      const glm::vec3& eye_m)
+{
+    std::vector<std::pair<float, std::size_t>> ranked;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = *lights[i];
+        if (light.kind == LightKind::Directional) continue;
+        const float reach = light_radius_m(light);
+        const float strength = light.range_m > 0.0f ? light.intensity : 0.01f * reach * reach;
+        const glm::vec3 away = light.position_m - eye_m;
+        ranked.emplace_back(strength / std::max(glm::dot(away, away), 1.0f), i);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::size_t> chosen;
+    for (const auto& [strength, i] : ranked) {
+        if (static_cast<int>(chosen.size()) < shadows) chosen.push_back(i);
+    }
+    return chosen;
+}
+
+}  // namespace
+
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights)
+                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m)
 {
     std::vector<const Light*> ordered;
     for (const Light& light : lights) ordered.push_back(&light);
@@ -52,10 +82,22 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     for (const Light* light : ordered) {
         if (light->kind == LightKind::Directional) ++table.directional;
         const bool spot = light->kind == LightKind::Spot;
+        const bool rectangle = light->kind == LightKind::Rectangle;
+        table.rectangles = table.rectangles || rectangle;
+        const float kind = spot                ? std::cos(light->outer_cone_rad)
+                           : !rectangle        ? LIGHT_POINT
+                           : light->both_sides ? LIGHT_BOTH_SIDES
+                                               : LIGHT_ONE_SIDE;
         texels.emplace_back(light->position_m, light_radius_m(*light));
-        texels.emplace_back(light->color * light->intensity,
-                            spot ? std::cos(light->outer_cone_rad) : -2.0f);
-        texels.emplace_back(light->direction, std::cos(light->inner_cone_rad));
+        texels.emplace_back(light->color * light->intensity, kind);
+        texels.emplace_back(rectangle ? light->half_u_m : light->direction,
+                            std::cos(light->inner_cone_rad));
+        texels.emplace_back(light->half_v_m, -1.0f);
+    }
+    const auto chosen = with_shadows(ordered, shadows, eye_m);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        texels[LIGHT_TEXELS * chosen[k] + 3].w = static_cast<float>(k);
+        table.shadowed.push_back(*ordered[chosen[k]]);
     }
     table.count = static_cast<std::uint32_t>(ordered.size());
     if (texels.empty()) texels.emplace_back(0.0f);

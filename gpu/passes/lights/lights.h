@@ -11,13 +11,14 @@
 
 namespace petrichor::gpu {
 
-/// Lights as the shaders read them: three texels each (centre and radius; colour in cd and cosine
-/// of the outer cone, -2 for a point light; axis and cosine of the inner cone). Directional lights
-/// come first.
+/// Lights as the shaders read them: LIGHT_TEXELS texels each (lights_io.h). Directional lights come
+/// first.
 struct LightTable {
     std::unique_ptr<GpuBuffer> texels;
     std::uint32_t count = 0;
     std::uint32_t directional = 0;
+    bool rectangles = false;         ///< some are
+    std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
 
     std::uint32_t words() const { return (count + 31) / 32; }
 };
@@ -33,8 +34,10 @@ inline constexpr std::size_t kMostLights = 60000;
 void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
                        int height);
 
+/// `shadows`: so many lamps own a shadow: those that give most light at the eye, by intensity over
+/// squared distance (at least a metre), the earlier of equals.
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights);
+                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m);
 
 // Finds, for each tile of 16 x 16 pixels, the lights that can reach what is seen there.
 //

@@ -1,17 +1,23 @@
 #version 460
-// Averages the samples; packs the linear picture as halves and the display picture as sRGB bytes.
+// Averages the samples; packs the linear picture as halves and the display picture as sRGB bytes. The
+// display alone sees through the lens: glare, white balance, exposure, tone curve.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/color/tone_map.h"
+#include "formulas/color/white_balance.h"
 #include "gpu/frame/frame_io.h"
+#include "gpu/passes/glare/glare.glsl"
 #include "gpu/passes/resolve/resolve_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "formulas/noise/noise.h"
 
 layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
+layout(constant_id = RESOLVE_SPEC_TONE_MAP) const int TONE_MAP = TONE_MAP_FILMIC;
+layout(constant_id = RESOLVE_SPEC_BLOOM) const uint BLOOM = 0u;
 layout(binding = RESOLVE_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = RESOLVE_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = RESOLVE_ACCUMULATED, rgba32f) uniform readonly image2D accumulated;
+layout(binding = RESOLVE_GLARE) uniform sampler2D glare;
 layout(binding = RESOLVE_BEAUTY, scalar) writeonly buffer Beauty { uvec2 beauty[]; };
 layout(binding = RESOLVE_DISPLAY, scalar) writeonly buffer Display { uint display[]; };
 
@@ -23,15 +29,20 @@ void main()
     const int index = texel.y * frame.size.x + texel.x;
     beauty[index] = uvec2(packHalf2x16(mean.rg), packHalf2x16(mean.ba));
 
-    const vec3 exposed = mean.rgb * sky_light.exposure;
+    vec3 seen = mean.rgb;
+    if (BLOOM != 0u) seen = mix(seen, glare_between(glare, texel).rgb, frame.bloom);
+    if ((frame.flags & FRAME_WHITE_BALANCE) != 0u) {
+        seen = max(white_balanced(seen, frame.white_gains), vec3(0.0));
+    }
+    const vec3 exposed = seen * sky_light.exposure;
     // Codes are shown as they are.
     const bool gamma = (frame.flags & FRAME_GAMMA) != 0u;
-    const vec3 mapped = (frame.flags & FRAME_TONE_MAP) != 0u ? tone_map(exposed) : exposed;
+    const vec3 mapped = display_light(TONE_MAP, exposed);
     const vec3 encoded =
         gamma ? clamp(exposed, vec3(0.0), vec3(1.0))
               : vec3(srgb_encode(mapped.r), srgb_encode(mapped.g), srgb_encode(mapped.b));
     // Half a step of dither hides banding in soft gradients such as the sky.
-    const float noise = dither(texel, 0u) - 0.5;
+    const float noise = (frame.flags & FRAME_DITHER) != 0u ? dither(texel, 0u) - 0.5 : 0.0;
     const uvec3 bytes = uvec3(clamp(encoded * 255.0 + 0.5 + noise, vec3(0.0), vec3(255.0)));
     display[index] = bytes.r | (bytes.g << 8) | (bytes.b << 16) | 0xff000000u;
 }

@@ -10,10 +10,10 @@ namespace petrichor::gpu {
 // Mean of the samples, as halves and as display bytes; both are read by the host, as is the
 // exposure.
 //
-//   reads    accumulated, sky_light
+//   reads    accumulated, glare, sky_light
 //   writes   beauty, display
 void add_resolve(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                 const ConstantsRange& constants);
+                 const ConstantsRange& constants, const FrameSettings& settings);
 
 }  // namespace petrichor::gpu
 

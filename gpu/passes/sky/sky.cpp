@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "formulas/light/brdf.h"
+#include "formulas/light/fog.h"
+#include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sun.h"
 #include "gpu/passes/sky/sky_io.h"
@@ -12,7 +14,9 @@ namespace petrichor::gpu {
 
 namespace {
 
-constexpr float kNightRadiance = 0.05f;  // cd/m2, stars and the glow of a town
+// Sky over a small town by night, cd/m2: clear, and under clouds that its lamps light.
+constexpr float kClearNight = 0.01f;
+constexpr float kCloudyNight = 0.05f;
 
 constexpr int kAirWidth = 64;
 constexpr int kAirHeight = 96;
@@ -71,7 +75,15 @@ shared::SkyParams sky_params(const Frame& frame)
     p.cloud_cover = std::clamp(sky.cloud_cover, 0.0f, 1.0f);
     p.time_s = static_cast<float>(frame.settings.time_s);
     p.wind_m_s = frame.weather.wind_m_s;
-    p.night_radiance = kNightRadiance;
+    p.night_radiance = glm::mix(kClearNight, kCloudyNight, p.cloud_cover);
+    p.fog_per_m = fog_per_m(frame);
+    if (frame.fog.mode == FogMode::Metres) p.fog_per_m = shared::fog_beyond_haze(p.fog_per_m);
+    if (p.fog_per_m > 0.0f) {
+        p.fog_mode = static_cast<int>(frame.fog.mode);
+        p.fog_start_m = frame.fog.start_m;
+        p.fog_end_m = frame.fog.end_m;
+        p.fog_height_m = frame.fog.height_m;
+    }
     // Kasten and Czeplak 1980 for the light under clouds; a clear sky adds about 15 % to the sun.
     const float up = std::max(p.sun_direction.y, 0.0f);
     const glm::vec3 level =

@@ -1,8 +1,11 @@
 #version 460
-// The whole sky as a cube map: air, clouds, the land below the horizon. The sun's disc is not in it.
+// The whole sky as a cube map: air, clouds, the land below the horizon, fog before all of it. Alpha:
+// what clouds and fog leave of the stars behind. Sun, moon and stars are not in it.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/atmosphere.h"
+#include "formulas/light/fog.h"
+#include "formulas/light/brdf.h"
 #include "gpu/passes/sky/clouds.glsl"
 #include "gpu/passes/sky/cube.glsl"
 #include "gpu/passes/sky/sky_io.h"
@@ -19,6 +22,27 @@ vec3 clear_air(vec3 direction)
     const vec2 b = normalize(sky.sun_direction.xz + vec2(1.0e-5));
     const float azimuth = acos(clamp(dot(a, b), -1.0, 1.0)) / 3.14159265;
     return textureLod(air, vec2(azimuth, sqrt(up)), 0.0).rgb;
+}
+
+// Share of light from a direction that passes the fog: out of its layer, or over the land.
+float kept_by_fog(float up)
+{
+    const float eye_m = 2.0;
+    const float path = up >= 0.0 ? fog_path_to_sky(up, 0.0, sky.fog_height_m)
+                                 : min(eye_m / -up, fog_path_to_sky(0.0, 0.0, sky.fog_height_m));
+    return fog_kept(sky.fog_mode, path, sky.fog_per_m, sky.fog_start_m, sky.fog_end_m);
+}
+
+// What the fog itself sends: light from above, scattered until it comes from all sides (a thick layer
+// throws a part of it back up), and around a sun that shines into it a glow.
+vec3 fog_radiance(vec3 direction, vec3 light_on_ground, vec3 sun_at_ground)
+{
+    const float depth = sky.fog_mode == FOG_LINEAR ? 0.0 : sky.fog_per_m * sky.fog_height_m;
+    const float half_land = 0.75;  // the lower half of what surrounds it is the darker land
+    const vec3 from_all = light_on_ground * (half_land / (kPi * (1.0 + 0.11 * depth)));
+    const float up = max(sky.sun_direction.y, 0.05);
+    const float shine = (1.0 - smoothstep(0.25, 0.95, sky.cloud_cover)) * exp(-depth / up);
+    return from_all + sun_at_ground * (shine * fog_phase(dot(direction, sky.sun_direction)));
 }
 
 void main()
@@ -40,8 +64,15 @@ void main()
     // Far clouds fade into the haze of the horizon.
     const float haze = mix(exp(-0.06 / max(seen.y, 0.004)), 1.0, smoothstep(0.6, 1.0, sky.cloud_cover));
     radiance = mix(radiance, cloud, cover.x * haze);
+    float seen_through = 1.0 - cover.x * haze;
     radiance += sky.night_radiance * vec3(0.75, 0.85, 1.1);
     const float below = smoothstep(0.0, -0.06, direction.y);
     radiance = mix(radiance, sky.ground_radiance + sky.night_radiance * 0.5, below);
-    imageStore(target, id, vec4(min(radiance, vec3(60000.0)), 1.0));
+    seen_through *= 1.0 - below;
+    if (sky.fog_per_m > 0.0) {
+        seen_through *= kept_by_fog(direction.y);
+        const vec3 lit = light_under_clouds(sky, sun_at_ground, zenith) + sky.night_radiance * kPi;
+        radiance = mix(fog_radiance(direction, lit, sun_at_ground), radiance, kept_by_fog(direction.y));
+    }
+    imageStore(target, id, vec4(min(radiance, vec3(60000.0)), seen_through));
 }

@@ -22,7 +22,11 @@ struct SkyParams {
     float time_s;
     vec2 wind_m_s;
     float night_radiance;
-    float padding;
+    float fog_per_m;  // towards the sky; 0: none
+    int fog_mode;
+    float fog_start_m;
+    float fog_end_m;
+    float fog_height_m;
 };
 
 SHARED_END

@@ -8,6 +8,7 @@
 #ifndef PETRICHOR_EVALUATE_SURFACE_GLSL
 #define PETRICHOR_EVALUATE_SURFACE_GLSL
 
+#include "formulas/geometry/footprint.h"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
 
@@ -33,8 +34,19 @@ vec3 dielectric_reflectance()
     return min(root * root * material.specular_color_factor, vec3(1.0)) * material.specular_factor;
 }
 
+// The samples of a pixel share its footprint: each may read finer levels.
+void share_footprint(inout SurfaceInput at)
+{
+    const float first = footprint_scale(at.uv_dx.xy, at.uv_dy.xy, frame.samples);
+    const float second = footprint_scale(at.uv_dx.zw, at.uv_dy.zw, frame.samples);
+    const vec4 scale = vec4(first, first, second, second);
+    at.uv_dx *= scale;
+    at.uv_dy *= scale;
+}
+
 SurfaceData evaluate_surface(SurfaceInput at)
 {
+    share_footprint(at);
     const TangentFrame f = tangent_frame(at);
     Cover cover = no_cover(at);
     vec3 mapped = vec3(0.0, 0.0, 1.0);

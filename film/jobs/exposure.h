@@ -1,0 +1,53 @@
+#ifndef PETRICHOR_FILM_JOBS_EXPOSURE_H
+#define PETRICHOR_FILM_JOBS_EXPOSURE_H
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "film/frames/frames_jsonl.h"
+#include "film/jobs/sequence.h"
+
+namespace petrichor::film {
+
+/// The linear scale that a camera fixes at a time, by number or by EV100; 0 when it fixes none.
+double fixed_exposure(const ScenarioCamera& camera, double time_s);
+
+/// A frame that has a say in a picture's exposure.
+struct MeteredJob {
+    Job job;
+    double weight = 0.0;  ///< of all 1
+};
+
+/// The frames that are metered for a job whose camera has exposure = "auto", in order; none for the
+/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48): the job's
+/// own and n before and after it, within the sequence, weighted by cos^2(pi k / (2 (n + 1))). A
+/// step of brightness so spreads over 2 n + 1 frames, and no frame depends on how it was reached.
+std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job);
+
+/// EV100 to set for what those frames were metered to (black ones: nothing, left out), and that
+/// mean itself. Within the camera's limits; the lower one when all are black.
+struct MeteredSetting {
+    double ev100 = 0.0;
+    std::optional<double> metered_ev100;
+};
+MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<MeteredJob>& jobs,
+                               const std::vector<std::optional<float>>& ev100);
+
+/// Finds exposures of a sequence's frames; keeps what it has metered, so that neighbours share it.
+class Meter {
+public:
+    explicit Meter(const Sequence& sequence) : sequence_(&sequence) {}
+
+    /// Sets the exposure of a job's frame where its picture decides. The renderer holds the scene
+    /// and the environment of the job's variant.
+    ExposureFacts expose(gpu::Renderer& renderer, const Job& job, gpu::Frame& frame);
+
+private:
+    const Sequence* sequence_;
+    std::map<Job, std::optional<float>> metered_;
+};
+
+}  // namespace petrichor::film
+
+#endif

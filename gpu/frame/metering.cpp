@@ -1,0 +1,90 @@
+#include "gpu/frame/metering.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/packing.hpp>
+
+namespace petrichor::gpu {
+
+namespace {
+
+constexpr int kLongSide = 96;
+constexpr int kLowStop = -24;
+constexpr int kStops = 41;
+constexpr int kStepsAStop = 8;
+constexpr std::uint64_t kSurface = 4;
+constexpr std::uint64_t kSky = 1;
+
+// 2^(k/8) / 2: where a mantissa of 0.5..1 passes into the next eighth of a stop.
+constexpr std::array<float, kStepsAStop> kEighths{0.5f,         0.545253866f, 0.594603558f,
+                                                  0.648419777f, 0.707106781f, 0.771105413f,
+                                                  0.840896415f, 0.917004043f};
+
+// The step of a luminance > 0, found by comparisons alone: no logarithm differs between machines.
+int step_of(float luminance)
+{
+    int exponent = 0;
+    const float mantissa = std::frexp(luminance, &exponent);  // 0.5..1
+    int eighth = 0;
+    while (eighth + 1 < kStepsAStop && mantissa >= kEighths[static_cast<std::size_t>(eighth + 1)])
+        ++eighth;
+    const int step = (exponent - 1 - kLowStop) * kStepsAStop + eighth;
+    return std::clamp(step, 0, kStops * kStepsAStop - 1);
+}
+
+}  // namespace
+
+Frame metering_frame(const Frame& frame)
+{
+    Frame small = frame;
+    FrameSettings& s = small.settings;
+    const int longer = std::max(s.width, s.height);
+    const auto scaled = [longer](int side) {
+        return longer <= kLongSide ? side : std::max(1, (side * kLongSide + longer / 2) / longer);
+    };
+    s.width = scaled(s.width);
+    s.height = scaled(s.height);
+    s.samples = 1;
+    s.aovs.clear();
+    s.surface_path = SurfacePath::Fragment;
+    // What is unlit is divided by the exposure: it must not be metered by itself.
+    s.exposure = 1e12f;
+    s.exposure_bias_stops = 0.0f;
+    return small;
+}
+
+std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty)
+{
+    std::array<std::uint64_t, kStops * kStepsAStop> counts{};
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i + 3 < beauty.size(); i += 4) {
+        const float luminance = 0.2126f * glm::unpackHalf1x16(beauty[i]) +
+                                0.7152f * glm::unpackHalf1x16(beauty[i + 1]) +
+                                0.0722f * glm::unpackHalf1x16(beauty[i + 2]);
+        // The smallest half of one channel is 2^-24.
+        if (!(luminance > 1e-7f && std::isfinite(luminance))) continue;
+        const std::uint64_t weight = beauty[i + 3] != 0 ? kSurface : kSky;
+        counts[static_cast<std::size_t>(step_of(luminance))] += weight;
+        total += weight;
+    }
+    if (total == 0) return std::nullopt;
+    // In twentieths of the weight: 5 % at both ends is one of them. A step may be cut in two.
+    const std::uint64_t low = total;
+    const std::uint64_t high = 19 * total;
+    std::uint64_t before = 0;
+    std::uint64_t sum = 0;  // of twentieths of weight times twice the middle of the step
+    for (std::size_t step = 0; step < counts.size(); ++step) {
+        const std::uint64_t after = before + 20 * counts[step];
+        const std::uint64_t from = std::max(before, low);
+        const std::uint64_t to = std::min(after, high);
+        if (to > from) sum += (to - from) * (2 * step + 1);
+        before = after;
+    }
+    const double steps = static_cast<double>(sum) / static_cast<double>(2 * (high - low));
+    const auto stops = static_cast<float>(kLowStop + steps / kStepsAStop);
+    return stops + 3.0f;  // ev100_of_luminance(2^stops)
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,26 @@
+#ifndef PETRICHOR_GPU_FRAME_METERING_H
+#define PETRICHOR_GPU_FRAME_METERING_H
+
+#include <optional>
+#include <vector>
+
+#include "gpu/frame/frame.h"
+
+namespace petrichor::gpu {
+
+/// The small frame that is rendered in place of `frame` to meter it: its longer side at most 96
+/// pixels, one sample in their centres, no outputs besides the picture.
+Frame metering_frame(const Frame& frame);
+
+/// EV100 (formulas/light/exposure.h) of a picture of RGBA half bits, cd/m2; alpha 0 is sky.
+///
+/// A histogram of luminance in steps of an eighth of a stop, 2^-24 to 2^17 cd/m2; a pixel of a
+/// surface counts four times as one of the sky; the darkest and the brightest 5 % of the weight are
+/// left out, and the mean of the logarithms of the rest is what is metered. All counts are
+/// integers: the order of pixels does not matter. Black and non-finite pixels do not count;
+/// nothing: none does.
+std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty);
+
+}  // namespace petrichor::gpu
+
+#endif

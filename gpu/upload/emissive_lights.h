@@ -1,0 +1,25 @@
+#ifndef PETRICHOR_GPU_UPLOAD_EMISSIVE_LIGHTS_H
+#define PETRICHOR_GPU_UPLOAD_EMISSIVE_LIGHTS_H
+
+#include <vector>
+
+#include "gpu/upload/texture.h"
+
+namespace petrichor::gpu {
+
+/// What glows in a scene, as lights: connected triangles of glowing materials become one rectangle
+/// where they are flat (its middle, direction, area and mean radiance are theirs), a point of the
+/// same mean intensity where they are closed around. Panes beside each other in one plane are one.
+///
+///   radiance   of a triangle: that of the material, times its texture at the triangle's middle;
+///              below 2 % of the brightest it is left out. Block-compressed textures are not read:
+///              what they make glow is seen, and lights nothing
+///   left out   what encloses a point or spot light of the scene, which stands for it already; what
+///              sends less than a thousandth of the whole; all but the brightest 256.
+///
+/// Deterministic: in the order of instances and triangles.
+std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture>& textures);
+
+}  // namespace petrichor::gpu
+
+#endif

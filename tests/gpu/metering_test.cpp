@@ -1,0 +1,177 @@
+// Metering by the picture: its histogram, and what a frame of a scene is metered to.
+#include "gpu/frame/metering.h"
+
+#include <algorithm>
+#include <glm/gtc/packing.hpp>
+
+#include "formulas/light/exposure.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+void add_pixels(std::vector<std::uint16_t>& picture, int count, float luminance,
+                bool surface = true)
+{
+    const std::uint16_t level = glm::packHalf1x16(luminance);
+    for (int i = 0; i < count; ++i) {
+        picture.insert(picture.end(),
+                       {level, level, level, glm::packHalf1x16(surface ? 1.0f : 0.0f)});
+    }
+}
+
+TEST(Metering, OneLuminanceIsItsEv100)
+{
+    for (const float luminance : {0.001f, 0.05f, 1.0f, 250.0f, 8000.0f, 60000.0f}) {
+        std::vector<std::uint16_t> picture;
+        add_pixels(picture, 10, luminance);
+        const auto ev100 = metered_ev100(picture);
+        ASSERT_TRUE(ev100);
+        // To half a step of the histogram, and the rounding to halves.
+        EXPECT_NEAR(*ev100, shared::ev100_of_luminance(luminance), 0.0626f + 0.01f) << luminance;
+    }
+}
+
+TEST(Metering, FollowsTheScaleOfThePictureExactly)
+{
+    std::vector<std::uint16_t> dim, bright;
+    for (int i = 1; i <= 400; ++i) {
+        add_pixels(dim, 1, 0.01f * static_cast<float>(i));
+        add_pixels(bright, 1, 0.32f * static_cast<float>(i));  // five stops more, in halves too
+    }
+    EXPECT_FLOAT_EQ(*metered_ev100(bright), *metered_ev100(dim) + 5.0f);
+    // And has no order.
+    std::vector<std::uint16_t> turned;
+    for (std::size_t i = dim.size(); i > 0; i -= 4)
+        turned.insert(turned.end(), dim.begin() + static_cast<std::ptrdiff_t>(i - 4),
+                      dim.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_EQ(metered_ev100(turned), metered_ev100(dim));
+}
+
+TEST(Metering, AFewLampsAndHolesDoNotCount)
+{
+    std::vector<std::uint16_t> street;
+    add_pixels(street, 960, 2.0f);
+    const auto plain = metered_ev100(street);
+    add_pixels(street, 40, 20000.0f);
+    EXPECT_NEAR(*metered_ev100(street), *plain, 1e-5f) << "4 % of lamps";
+    add_pixels(street, 500, 0.0f);
+    EXPECT_NEAR(*metered_ev100(street), *plain, 1e-5f) << "black is no light at all";
+    std::vector<std::uint16_t> lit;
+    add_pixels(lit, 500, 2.0f);
+    add_pixels(lit, 500, 20000.0f);
+    EXPECT_GT(*metered_ev100(lit), *plain + 5.0f) << "half of it does count";
+}
+
+TEST(Metering, SkyCountsAQuarterOfASurface)
+{
+    std::vector<std::uint16_t> picture;
+    add_pixels(picture, 200, 1.0f);
+    add_pixels(picture, 800, 1.0f, false);
+    std::vector<std::uint16_t> half;
+    add_pixels(half, 200, 64.0f);
+    add_pixels(half, 800, 1.0f, false);
+    // Of equal weight: the mean lies in the middle, three of the six stops up; the cut takes both
+    // ends alike.
+    EXPECT_NEAR(*metered_ev100(half), *metered_ev100(picture) + 3.0f, 1e-4f);
+}
+
+TEST(Metering, NothingToSeeIsNoNumber)
+{
+    std::vector<std::uint16_t> black;
+    add_pixels(black, 50, 0.0f);
+    EXPECT_FALSE(metered_ev100(black));
+    black[0] = 0x7c00;  // infinite
+    EXPECT_FALSE(metered_ev100(black));
+    EXPECT_FALSE(metered_ev100({}));
+}
+
+TEST(MeteringFrame, IsSmallAndOfTheSameShape)
+{
+    Frame frame;
+    frame.settings.width = 1280;
+    frame.settings.height = 720;
+    frame.settings.samples = 64;
+    frame.settings.aovs = {"depth"};
+    const Frame small = metering_frame(frame);
+    EXPECT_EQ(small.settings.width, 96);
+    EXPECT_EQ(small.settings.height, 54);
+    EXPECT_EQ(small.settings.samples, 1);
+    EXPECT_TRUE(small.settings.aovs.empty());
+    frame.settings.width = 3;
+    frame.settings.height = 16384;
+    EXPECT_EQ(metering_frame(frame).settings.width, 1);
+}
+
+using MeterTest = GpuTest;
+
+Frame lamp_at_night(float candela)
+{
+    Frame frame;
+    frame.camera = look({0, 2, 3}, {0, 0, 0});
+    frame.sky.sun_elevation_rad = -0.3f;
+    frame.settings.width = 48;
+    frame.settings.height = 27;
+    Light lamp;
+    lamp.position_m = {0, 2, 0};
+    lamp.intensity = candela;
+    frame.extra_lights.push_back(lamp);
+    return frame;
+}
+
+Scene grey_floor()
+{
+    return scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})}, {plain_material(glm::vec3(0.4f))});
+}
+
+TEST_F(MeterTest, ALampAtNightIsMeteredWhichSunAndSkyAreNot)
+{
+    renderer->load(grey_floor(), {});
+    const auto dim = renderer->meter(lamp_at_night(100.0f));
+    const auto bright = renderer->meter(lamp_at_night(3200.0f));
+    ASSERT_TRUE(dim && bright);
+    EXPECT_NEAR(*bright - *dim, 5.0f, 0.15f) << "the night sky adds a little to both";
+    // The light that falls in from the sky does not know of it.
+    const float incident = renderer->render(lamp_at_night(100.0f)).exposure;
+    EXPECT_EQ(renderer->render(lamp_at_night(3200.0f)).exposure, incident);
+}
+
+TEST_F(MeterTest, IsAFunctionOfTheFrameAlone)
+{
+    renderer->load(grey_floor(), {});
+    const auto first = renderer->meter(lamp_at_night(100.0f));
+    Frame other = lamp_at_night(5000.0f);
+    other.sky.sun_elevation_rad = 0.6f;
+    other.settings.exposure = 3.0f;
+    renderer->render(other);
+    renderer->meter(other);
+    EXPECT_EQ(renderer->meter(lamp_at_night(100.0f)), first);
+    Renderer fresh({.device = "", .validation = true});
+    fresh.load(grey_floor(), {});
+    EXPECT_EQ(fresh.meter(lamp_at_night(100.0f)), first);
+    // Neither does metering leave anything in the next picture.
+    Frame shown = lamp_at_night(100.0f);
+    shown.settings.exposure = 0.05f;
+    EXPECT_EQ(renderer->render(shown).display, fresh.render(shown).display);
+}
+
+TEST_F(MeterTest, WhatIsUnlitDoesNotMeterItself)
+{
+    Scene scene = grey_floor();
+    const auto alone = (renderer->load(scene, {}), renderer->meter(lamp_at_night(100.0f)));
+    scene.materials.push_back(plain_material(glm::vec3(1.0f)));
+    scene.materials[1].unlit = true;
+    scene.meshes[0].primitives.push_back(
+        quad({-0.2f, 0.01f, 0.2f}, {0.4f, 0, 0}, {0, 0, -0.4f}, 1));
+    renderer->load(scene, {});
+    EXPECT_NEAR(*renderer->meter(lamp_at_night(100.0f)), *alone, 0.4f);
+    scene.meshes[0].primitives.erase(scene.meshes[0].primitives.begin());
+    renderer->load(scene, {});
+    Frame no_sky = lamp_at_night(100.0f);
+    no_sky.settings.draw_sky = false;
+    no_sky.settings.image_based_light = false;  // nor haze
+    EXPECT_FALSE(renderer->meter(no_sky));
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
