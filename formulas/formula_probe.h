@@ -166,7 +166,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const int i = int(8.999f * a.z);
         return vec4(harmonic(i, d), cosine_band(i), srgb_from_linear(b.x), linear_from_srgb(b.y));
     }
-    if (kind == 17) {
+    if (kind == 26) {
         const uint seed = uint(100.0f * b.x);
         const vec2 uv = vec2(a.x, a.y);
         return vec4(rain_drops(uv, seed).x, snow_relief(uv, seed), snow_preference(uv, seed),
