@@ -86,9 +86,9 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.camera.interpolation = v.interpolation(); }},
         {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
          [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
-        {{"camera", "exposure", "\"auto\"",
-          "of the PNG: auto (metered from the picture), incident (from the light of sun and sky on "
-          "the ground), fixed (by ev100), or a number: its linear scale",
+        {{"camera", "exposure", "1.0e-4",
+          "of the PNG: \"auto\" (metered from the picture; as without this key), \"incident\" (from the "
+          "light of sun and sky on the ground), \"fixed\" (by ev100), or a number: its linear scale",
           true},
          [](Scenario& s, const TomlValue& v) {
              s.camera.exposure = {};
