@@ -39,7 +39,7 @@
         p.g.porosity, 0.0)                                                                      \
     ROW(specular, 3, "RGB", "1", HALF, "dry reflectance at normal incidence, metals included",  \
         mix(p.g.f0, p.g.base_color, p.g.metallic), 0.0)                                   \
-    ROW(lighting_model, 1, "Y", "1", HALF, "number of the lighting model; -1 where nothing is", \
+    ROW(lighting_model, 1, "Y", "1", HALF, "number of the lighting model, behind them of layers; -1: nothing", \
         float(p.g.model), -1.0)
 
 #endif

@@ -46,6 +46,7 @@ layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
 layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
 layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
 layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
+layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
@@ -139,6 +140,13 @@ vec3 background(vec3 direction)
     return radiance;
 }
 
+// Numbers from here on mean a model and layers.
+const uint LIGHTING_MODEL_COUNT = 0u
+#define ROW(number_, name_) + 1u
+LIGHTING_MODELS(ROW)
+#undef ROW
+;
+
 // The answer of the surface's model. A model that nothing in the picture has is not compiled.
 const bool ONE_MODEL = (0u
 #define ROW(number_, name_) + USES_##name_
@@ -225,7 +233,8 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     float visible = 1.0;
     if (LAMP_SHADOWS != 0u) {
         const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
-        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, p.normal, texel);
+        const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
+        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, faced, texel);
         if (visible <= 0.0) return vec3(0.0);
     }
     if (RECTANGLES != 0u) {
@@ -234,7 +243,7 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     }
     const float distance_m = sqrt(d2);
     const vec3 l = to_light / max(distance_m, 1.0e-4);
-    if (dot(p.normal, l) <= 0.0) return vec3(0.0);
+    if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0) return vec3(0.0);
     const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
     const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
     float falloff = light_attenuation(distance_m, sphere.w);
@@ -335,13 +344,46 @@ void main()
         p.emission = g.emission * m.emission_scale;
         p.exposure = sky_light.exposure;
         p.model = g.model;
+        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0);
+        vec3 mirror_normal = n;
+        if (USES_layered != 0u && g.model >= LIGHTING_MODEL_COUNT) {
+            const int at = int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS;
+            const vec4 first = texelFetch(layers_table, at);
+            const vec4 second = texelFetch(layers_table, at + 1);
+            const vec4 third = texelFetch(layers_table, at + 2);
+            p.model = uint(first.x);
+            // Snow lies over all of it; standing water over fibres.
+            const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
+            const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
+            p.layers.transmitted = first.y * bare;
+            p.layers.coat = first.z * bare;
+            p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);
+            p.layers.sheen = second.rgb * open;
+            p.layers.sheen_roughness = second.w;
+            p.layers.anisotropy = third.x * open;
+            // Along the surface as it is seen.
+            const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);
+            const vec3 level = tangent - n * dot(n, tangent);
+            const float size = length(level);
+            if (size < 1.0e-3) p.layers.anisotropy = 0.0;
+            p.layers.tangent = level / max(size, 1.0e-3);
+            if (p.layers.anisotropy > 0.0) {
+                // What is mirrored is smeared along the tangent: as of a normal bent to the eye across
+                // it (KHR_materials_anisotropy).
+                const vec3 across = cross(n, p.layers.tangent);
+                const vec3 grain = cross(cross(across, v), across);
+                const float keep = 1.0 - p.layers.anisotropy * m.smoothness;
+                mirror_normal = normalize(mix(normalize(grain), n, keep * keep * keep * keep));
+            }
+        }
         p.lobe = make_lobe(n, v, p.diffuse, m.specular, p.roughness * p.roughness);
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
-        if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
+        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0) && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const float visible =
-                SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
+                SHADOWS != 0u ? sun_visibility(position, sun_lit > 0.0 ? g.base_normal : -g.base_normal,
+                                              view_m, texel) : 1.0;
             if (visible > 0.0) {
                 direct += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
             }
@@ -370,6 +412,8 @@ void main()
             const float nv = clamp(dot(n, v), 0.0, 1.0);
             Surroundings s;
             s.irradiance = sky_irradiance(n) * seen;
+            s.irradiance_behind =
+                p.layers.transmitted > 0.0 ? sky_irradiance(-n) * seen : vec3(0.0);
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             s.occlusion = m.occlusion * screen;
             // A water surface lies above the crevices that its ground has.
@@ -380,15 +424,31 @@ void main()
                          mirror_occlusion);
             s.split_sum = split_sum(n, v, p.roughness);
             s.scale = frame.ambient_scale;
-            const Reflected reflected = model_surround(p, s);
+            Reflected reflected = model_surround(p, s);
+            vec3 coat = vec3(0.0);
+            if (p.layers.coat > 0.0) {  // it mirrors first, what is left goes on
+                const float kept = p.layers.coat * coat_fresnel(nv);
+                reflected.radiance *= 1.0 - kept;
+                reflected.mirror *= 1.0 - kept;
+                coat = vec3(kept * s.specular_occlusion * s.scale);
+            }
             radiance += reflected.radiance;
-            if (p.roughness < kMirrorRoughness) {
+            // The pass of reflections takes one lobe: the coat's where there is one.
+            const bool coated = p.layers.coat > 0.0 && p.layers.coat_roughness < kMirrorRoughness;
+            if (coated) {
+                mirror = vec4(coat, closed);
+                shape = vec4(octahedral_encode(n), p.layers.coat_roughness, sky_open);
+            } else if (p.layers.coat > 0.0) {
+                const float lod = p.layers.coat_roughness * float(SKY_PREFILTER_MIPS - 1);
+                radiance += coat * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
+            }
+            if (p.roughness < kMirrorRoughness && !coated) {
                 mirror = vec4(reflected.mirror, closed);
-                shape = vec4(octahedral_encode(n), p.roughness, sky_open);
+                shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
                 const float lod = p.roughness * float(SKY_PREFILTER_MIPS - 1);
-                radiance +=
-                    reflected.mirror * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
+                radiance += reflected.mirror *
+                            textureLod(specular_map, reflect(-v, mirror_normal), lod).rgb * seen;
             }
         }
         if (FOG != 0u) {

@@ -35,6 +35,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},
                      {LIGHTING_LIGHTS, texels(*lights.texels)},
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
+                     {LIGHTING_LAYERS, texels(scene.layers())},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},

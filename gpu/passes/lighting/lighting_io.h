@@ -35,6 +35,7 @@
 #define LIGHTING_MIRROR_SHAPE 13
 #define LIGHTING_MATERIALS 14
 #define LIGHTING_LAMP_SHADOWS 15
-#define LIGHTING_GBUFFER 16  // depth, then the targets
+#define LIGHTING_LAYERS 16
+#define LIGHTING_GBUFFER 17  // depth, then the targets
 
 #endif
