@@ -98,6 +98,14 @@ void run(Arguments& a)
         if (!good) throw std::runtime_error("the yardstick does not measure what it should");
         return;
     }
+    if (!a.protocol.sheet.empty() && a.protocol.pictures.empty()) {
+        throw Error("score: --sheet shows the pictures of --picture, which was not asked for",
+                    "Add --picture quick, or leave --sheet out.");
+    }
+    if (!a.protocol.pictures.empty() && !a.protocol.effort.empty()) {
+        throw Error("score: --picture and --protocol are two measures",
+                    "Ask for one of them at a time.");
+    }
     if (!a.protocol.pictures.empty()) {
         run_score_picture(a.protocol, a.input.reading, a.input.options.threads);
         return;

@@ -119,6 +119,21 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
     }
 }
 
+// Linear fog from start_m to end_m: at every key of either the end lies beyond the start.
+void check_fog(const ScenarioFog& fog, const TomlValue& value)
+{
+    for (const KeyedNumber* keyed : {&fog.start_m, &fog.end_m}) {
+        for (const NumberKey& key : keyed->keys) {
+            const double start = value_at(fog.start_m, key.time_s, 0.0);
+            const double end = value_at(fog.end_m, key.time_s, 100.0);
+            if (end > start) continue;
+            throw Error(value.place() + ": fog ends at " + std::to_string(end) +
+                            " m and begins at " + std::to_string(start) + " m",
+                        "Let end_m (100 when it is not given) lie beyond start_m (0).");
+        }
+    }
+}
+
 void read_table(Scenario& scenario, const std::string& table, const toml::node& node,
                 const TomlValue& value)
 {
@@ -133,6 +148,7 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
         read_camera(scenario, value, *node.as_table());
     } else {
         read_rules(scenario, table, value);
+        if (table == "fog") check_fog(scenario.fog, value);
     }
 }
 

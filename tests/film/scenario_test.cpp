@@ -80,6 +80,17 @@ sheltered = true
     EXPECT_EQ(scenario.materials[0].values.size(), 2u);
 }
 
+TEST(Scenario, FogEndsBehindItsBeginning)
+{
+    const auto read = [](const char* keys) {
+        return parse_scenario(std::string("[fog]\nmode = \"linear\"\n") + keys, "s.toml");
+    };
+    EXPECT_THROW(read("start_m = 50\nend_m = 10\n"), Error);
+    EXPECT_THROW(read("start_m = 100\n"), Error) << "the end is 100 by itself";
+    EXPECT_THROW(read("start_m = [[0, 5], [10, 80]]\nend_m = 60\n"), Error);
+    EXPECT_NO_THROW(read("start_m = 5\nend_m = 60\n"));
+}
+
 TEST(Scenario, AMisspeltKeyNamesLineAndNearest)
 {
     const Message message = error_of("[output]\nframes = 3\nwidht = 64\n");
