@@ -206,6 +206,7 @@ struct Recipe {
     glm::vec4 water{0.0f, 1.0f, 0.0f, 1.0f};
     float specular = 1.0f;
     float snow_influence = 1.0f;
+    float diffuse_transmission = 0.0f;
     bool double_sided = false;
 };
 
@@ -289,6 +290,7 @@ void add_street_materials(const DemoOptions& options, scene::Scene& scene, Kit& 
          .water = {0.0f, 0.0f, 0.0f, 0.0f},
          .specular = 0.4f,
          .snow_influence = 0.8f,
+         .diffuse_transmission = 0.35f,
          .double_sided = true},
         {.slot = Slot::Glass,
          .name = "window glass",
@@ -343,6 +345,7 @@ void add_street_materials(const DemoOptions& options, scene::Scene& scene, Kit& 
         material.roughness = recipe.roughness;
         material.specular = recipe.specular;
         material.double_sided = recipe.double_sided;
+        material.diffuse_transmission = recipe.diffuse_transmission;
         material.weather.porosity = recipe.porosity;
         material.weather.water_accumulation = recipe.water;
         material.weather.snow_accumulation = glm::vec2(0.0f, recipe.snow_influence);

@@ -12,6 +12,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/layers.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/ripple.h"
@@ -20,7 +21,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 27;
+SHARED_CONST int kProbeKinds = 28;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -160,6 +161,20 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 dy = vec2(a.z - 0.5f, a.w) * b.x;
         return vec4(footprint_scale(dx, dy, 1.0f), footprint_scale(dx, dy, 8.0f),
                     footprint_scale(dx, dy, 64.0f), 0.0f);
+    }
+    if (kind == 27) {
+        const vec3 n = probe_direction(a.x, a.y);
+        Layers layers;
+        layers.coat = c.x;
+        layers.coat_roughness = 0.2f + 0.8f * c.y;
+        layers.sheen = vec3(c.z, 0.5f, c.w);
+        layers.sheen_roughness = 0.3f + 0.7f * c.w;
+        layers.anisotropy = 0.5f * c.z;
+        layers.tangent = tangent_at(n, 3.0f * c.x);
+        layers.transmitted = 0.5f * c.y;
+        const vec3 r = shade_layers(n, probe_direction(a.z, a.w), probe_direction(b.x, b.y),
+                                    vec3(b.z), vec3(0.9f * b.z), vec3(0.04f), 0.3f + 0.7f * b.w, layers);
+        return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
     }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);

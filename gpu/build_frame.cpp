@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "gpu/build_frame.h"
+#include "gpu/lighting/models_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/reflections/reflections.h"
@@ -107,20 +108,27 @@ void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResourc
     add_sky_light(graph, sky, metering);
 }
 
-// The lighting models of what may be seen, by number; a pixel around the view counts, since samples
-// are jittered.
-std::vector<bool> visible_models(const GpuScene& scene, const shared::FrameConstants& c)
+// The lighting models and layers of what may be seen; a pixel around the view counts, since samples are
+// jittered.
+void see_models(LightingVariant& variant, const GpuScene& scene, const shared::FrameConstants& c)
 {
-    std::vector<bool> models(scene.lighting_models().count(), false);
+    std::vector<bool>& models = variant.models;
+    models.assign(scene.lighting_models().count(), false);
+    variant.layers = 0;
     const Frustum frustum(c.world_to_clip);
     for (const Draw& draw : scene.draws()) {
-        const std::uint32_t model = scene.materials()[draw.material].lighting_model;
-        if (models[model]) continue;
+        const GpuMaterial& material = scene.materials()[draw.material];
+        const std::uint32_t model = material.lighting_model;
+        if (models[model] && (material.layers & ~variant.layers) == 0) continue;
         const float pixel_m =
             c.pixel_angle * std::max(1.0f, glm::length(draw.centre_m - c.camera_m));
-        if (frustum.touches(draw.centre_m, draw.radius_m + pixel_m)) models[model] = true;
+        if (frustum.touches(draw.centre_m, draw.radius_m + pixel_m)) {
+            models[model] = true;
+            variant.layers |= material.layers;
+        }
     }
-    return models;
+    // Without layers the layered model is the standard one: one text runs instead of both.
+    if (models[LIGHTING_MODEL_LAYERED]) models[LIGHTING_MODEL_STANDARD] = false;
 }
 
 void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResources& r)
@@ -202,7 +210,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         fill_views(c, frame, r);
         c.place = r.place->constants();
         if (i == 0) {
-            variant.models = visible_models(*r.scene, c);
+            see_models(variant, *r.scene, c);
             variant.fog = c.fog_per_m > 0.0f;
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;

@@ -168,29 +168,33 @@ void add_gltf_rows(std::vector<Row>& t)
     t.push_back(number<&M::specular_color>("specular_color_factor", 0, kLargest,
                                            {"KHR_materials_specular", "", "specularColorFactor"},
                                            "linear tint of a dielectric's reflectance"));
+    t.push_back(number<&M::diffuse_transmission>(
+        "diffuse_transmission_factor", 0, 1,
+        {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionFactor"},
+        "share of the diffuse light that thin things such as leaves let through"));
     t.push_back(number<&M::transmission>(
         "transmission_factor", 0, 1, {"KHR_materials_transmission", "", "transmissionFactor"},
         "light that passes; shown as transparency of the surface, up to nine tenths"));
-    t.push_back(not_shaded(number<&M::clearcoat>("clearcoat_factor", 0, 1,
+    t.push_back(number<&M::clearcoat>("clearcoat_factor", 0, 1,
                                                  {"KHR_materials_clearcoat", "", "clearcoatFactor"},
-                                                 "strength of a clear coat")));
-    t.push_back(not_shaded(
+                                                 "strength of a clear coat"));
+    t.push_back(
         number<&M::clearcoat_roughness>("clearcoat_roughness_factor", 0, 1,
                                         {"KHR_materials_clearcoat", "", "clearcoatRoughnessFactor"},
-                                        "perceptual roughness of the clear coat")));
-    t.push_back(not_shaded(number<&M::sheen_color>(
+                                        "perceptual roughness of the clear coat"));
+    t.push_back(number<&M::sheen_color>(
         "sheen_color_factor", 0, 1, {"KHR_materials_sheen", "", "sheenColorFactor"},
-        "linear colour of cloth fibres at grazing angles")));
-    t.push_back(not_shaded(number<&M::sheen_roughness>(
+        "linear colour of cloth fibres at grazing angles"));
+    t.push_back(number<&M::sheen_roughness>(
         "sheen_roughness_factor", 0, 1, {"KHR_materials_sheen", "", "sheenRoughnessFactor"},
-        "perceptual roughness of the sheen")));
-    t.push_back(not_shaded(number<&M::anisotropy>(
+        "perceptual roughness of the sheen"));
+    t.push_back(number<&M::anisotropy>(
         "anisotropy_strength", 0, 1, {"KHR_materials_anisotropy", "", "anisotropyStrength"},
-        "0 round highlight .. 1 stretched along the tangent")));
-    t.push_back(not_shaded(number<&M::anisotropy_rotation_rad>(
+        "0 round highlight .. 1 stretched along the tangent"));
+    t.push_back(number<&M::anisotropy_rotation_rad>(
         "anisotropy_rotation", -kLargest, kLargest,
         {"KHR_materials_anisotropy", "", "anisotropyRotation"},
-        "radians, of the stretch from the tangent towards the bitangent")));
+        "radians, of the stretch from the tangent towards the bitangent"));
     t.push_back(flag<&M::unlit>("unlit", {"KHR_materials_unlit", "", ""},
                                 "shows its base colour whatever the light"));
 }

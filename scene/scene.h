@@ -92,6 +92,7 @@ struct Material {
     float ior = 1.5f;
     float specular = 1.0f;           ///< KHR_materials_specular factor
     glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
+    float diffuse_transmission = 0.0f;  ///< KHR_materials_diffuse_transmission factor
     float transmission = 0.0f;       ///< KHR_materials_transmission factor
     float clearcoat = 0.0f;
     float clearcoat_roughness = 0.0f;

@@ -15,7 +15,8 @@ struct GBufferTexel {
     float metallic;
     float porosity;
     vec3 f0;       // reflectance of what is not metal at normal incidence, 0..1
-    uint model;    // lighting model, 0..255
+    float tangent; // of anisotropic materials: tangent_code (formulas/light/layers.h)
+    uint model;    // lighting model, 0..255; behind the models: a model and layers
     vec4 weather;  // film, water, snow, frost
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
@@ -39,7 +40,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
         vec4(octahedral_encode(texel.base_normal), octahedral_encode(texel.cover_normal));
     code.material = vec4(texel.roughness, texel.metallic, texel.porosity,
                          float(texel.model) / 255.0);
-    code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), 0.0);  // 0.04 is exact
+    code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), texel.tangent);  // 0.04 is exact
     code.weather = texel.weather;
     code.identity = vec4(float(texel.material) / 65535.0, texel.snow_smoothness, 0.0, 0.0);
     code.emission = vec4(texel.emission, 1.0);
@@ -59,6 +60,7 @@ GBufferTexel decode_gbuffer(GBufferCode code)
     texel.porosity = code.material.z;
     texel.model = uint(code.material.w * 255.0 + 0.5);
     texel.f0 = code.payload.rgb * code.payload.rgb;
+    texel.tangent = code.payload.a;
     texel.weather = code.weather;
     texel.material = uint(code.identity.x * 65535.0 + 0.5);
     texel.snow_smoothness = code.identity.y;

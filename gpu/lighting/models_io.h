@@ -5,10 +5,13 @@
 #ifndef PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 #define PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 
-#define BUILT_IN_LIGHTING_MODELS(ROW) ROW(0, standard) ROW(1, unlit) ROW(2, lambert)
+#define BUILT_IN_LIGHTING_MODELS(ROW) ROW(0, standard) ROW(1, unlit) ROW(2, lambert) ROW(3, layered)
+#define LIGHTING_MODEL_STANDARD 0
+#define LIGHTING_MODEL_LAYERED 3
 
 #ifndef __cplusplus
 #include "gpu/lighting/models/lambert.glsl"
+#include "gpu/lighting/models/layered.glsl"
 #include "gpu/lighting/models/standard.glsl"
 #include "gpu/lighting/models/unlit.glsl"
 // The run-time compiler puts the rows and files of a user's own models here.

@@ -50,7 +50,8 @@
     ROW(surface_temperature, 1, "Y", "K", FLOAT, "of the patch's surface", p.state.y, 0.0)      \
     ROW(rain_exposure, 1, "Y", "1", HALF, "rain that meets the patch over rain on open ground", \
         p.state.z, 0.0)                                                                         \
-    ROW(lighting_model, 1, "Y", "1", HALF, "number of the lighting model; -1 where nothing is", \
+    ROW(lighting_model, 1, "Y", "1", HALF,                                                      \
+        "number of the lighting model, behind them of layers; -1: nothing",                     \
         float(p.g.model), -1.0)
 
 #endif

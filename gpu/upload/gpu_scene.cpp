@@ -62,10 +62,20 @@ std::uint32_t water_bits(scene::Wetness wetness)
     return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
 }
 
+// LAYERS_... of a material. A roughness or a direction alone shows nothing.
+std::uint32_t layers_of(const Material& m)
+{
+    return (m.clearcoat > 0.0f ? LAYERS_COAT : 0u) |
+           (m.sheen_color != glm::vec3(0.0f) ? LAYERS_SHEEN : 0u) |
+           (m.anisotropy > 0.0f ? LAYERS_ANISOTROPY : 0u) |
+           (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u);
+}
+
 std::string lighting_model_of(const Material& material)
 {
     if (!material.lighting_model.empty()) return material.lighting_model;
-    return material.unlit ? "unlit" : "standard";
+    if (material.unlit) return "unlit";
+    return layers_of(material) != 0 ? "layered" : "standard";
 }
 
 }  // namespace
@@ -241,6 +251,11 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                             .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                             .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
                             .host = true});
+    layers_ = arena_.buffer({.name = "layers",
+                             .size = 256 * LAYERS_TEXELS * sizeof(glm::vec4),
+                             .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                             .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                             .host = true});
     sources_ = current_ = scene.materials;
     const SamplerHandle& plain = sampler(device, Wrap::Repeat, Wrap::Repeat, false);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -248,7 +263,6 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         GpuMaterial material;
         material.cull = cull_mode(source);
         material.water = water_bits(source.weather.wetness);
-        material.lighting_model = lighting_models_.number_of(models[i]);
         material.bindings.push_back(uniform(*constants_, i * constants_stride_,
                                             sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);
@@ -271,7 +285,14 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
 void GpuScene::set_material(std::size_t index, const Material& source)
 {
     shared::MaterialConstants c = material_constants(source, loaded_);
-    c.lighting_model = materials_[index].lighting_model;
+    GpuMaterial& material = materials_[index];
+    material.lighting_model = lighting_models_.number_of(lighting_model_of(source));
+    c.lighting_model = material.lighting_model;
+    // Who names one of the other built-in models gets it as it is.
+    const std::string model = lighting_model_of(source);
+    const bool plain = model == "standard" || model == "unlit" || model == "lambert";
+    material.layers = plain ? 0 : layers_of(source);
+    if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
                                                   {c.snow_opacity, 0.0f, 0.0f, 0.0f}};
@@ -279,6 +300,29 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source);
     materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);
+}
+
+// Layers have a row a material; the G-buffer numbers the rows behind the models.
+std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
+{
+    if (material.layers_row == 0) {
+        if (lighting_models_.count() + layers_used_ > 255) {
+            throw Error("scene: " + std::to_string(layers_used_ + 1) +
+                            " materials with a coat, sheen, anisotropy or light that passes; at "
+                            "most " +
+                            std::to_string(256 - lighting_models_.count()) + " are possible",
+                        "Merge materials that are alike.");
+        }
+        material.layers_row = ++layers_used_;
+    }
+    const std::size_t row = material.layers_row - 1;
+    const glm::vec4 texels[LAYERS_TEXELS] = {
+        {static_cast<float>(material.lighting_model), m.diffuse_transmission, m.clearcoat,
+         m.clearcoat_roughness},
+        glm::vec4(m.sheen_color, m.sheen_roughness),
+        {m.anisotropy, 0.0f, 0.0f, 0.0f}};
+    std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
+    return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }
 
 void GpuScene::sum_up_materials()

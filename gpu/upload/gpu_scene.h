@@ -47,6 +47,8 @@ struct GpuMaterial {
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
     std::uint32_t lighting_model = 0;  ///< its number
+    std::uint32_t layers = 0;          ///< LAYERS_... that it has
+    std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
     std::vector<Binding> bindings;     ///< constants, then the texture slots
 };
 
@@ -70,6 +72,7 @@ public:
     const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
+    GpuBuffer& layers() const { return *layers_; }  ///< LAYERS_TEXELS each
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<Light>& glows() const { return glows_; }  ///< glowing surfaces as lights
     const Bounds& bounds() const { return bounds_; }
@@ -84,6 +87,7 @@ private:
     void make_materials(const Device& device, const Scene& scene);
     void set_material(std::size_t index, const Material& source);
     void sum_up_materials();
+    std::uint32_t set_layers(GpuMaterial& material, const Material& source);
     const SamplerHandle& sampler(const Device& device, Wrap u, Wrap v, bool nearest);
 
     MemoryArena arena_;
@@ -91,6 +95,8 @@ private:
     std::unique_ptr<GpuBuffer> indices_;
     std::unique_ptr<GpuBuffer> constants_;
     std::unique_ptr<GpuBuffer> looks_;
+    std::unique_ptr<GpuBuffer> layers_;
+    std::uint32_t layers_used_ = 0;
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;
     std::vector<const SamplerHandle*> image_samplers_;

@@ -21,6 +21,13 @@
     X(float, specular_factor)      \
     X(vec3, specular_color_factor) \
     X(float, transmission_factor)  \
+    X(float, clearcoat_factor)     \
+    X(float, clearcoat_roughness_factor) \
+    X(vec3, sheen_color_factor)    \
+    X(float, sheen_roughness_factor) \
+    X(float, anisotropy_strength)  \
+    X(float, anisotropy_rotation)  \
+    X(float, diffuse_transmission_factor) \
     X(float, porosity)             \
     X(float, default_height)       \
     X(float, water_slope_damp)     \
@@ -78,6 +85,18 @@
 //   0  water_color
 //   1  snow_opacity, -, -, -
 #define MATERIAL_LOOK_TEXELS 2
+
+// Layers of those materials that have some, by number:
+//   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor
+//   1  sheen_color_factor, sheen_roughness_factor
+//   2  anisotropy_strength, -, -, -
+#define LAYERS_TEXELS 3
+
+// Which of them a material has.
+#define LAYERS_COAT 1u
+#define LAYERS_SHEEN 2u
+#define LAYERS_ANISOTROPY 4u
+#define LAYERS_TRANSMISSION 8u
 
 SHARED_BEGIN
 

@@ -183,7 +183,7 @@ TEST_F(LightingModelsTest, ModelsStandSideBySide)
         const RenderResult one = renderer->render(frame);
         int seen = 0;
         for (int x = 0; x < 48; ++x) {
-            if (aov(all, "lighting_model", x, 8) != static_cast<float>(i < 1 ? 0 : i < 2 ? 2 : 3)) {
+            if (aov(all, "lighting_model", x, 8) != static_cast<float>(i < 1 ? 0 : i < 2 ? 2 : 4)) {
                 continue;
             }
             ++seen;
@@ -221,6 +221,32 @@ TEST_F(LightingModelsTest, ATextThatUnfoldsWithoutEndIsStopped)
     }
     text += "float bomb_light_surround_own_bomb_surround_bomb_own = A39;\n";
     EXPECT_NE(refusal(write("bomb.glsl", text)), "");
+}
+
+// A leaf between the eye and a lamp: black with an opaque leaf, lit with one that lets light through.
+TEST_F(LightingModelsTest, ALeafBeforeALampIsLitFromBehind)
+{
+    Material leaf = plain_material(glm::vec3(0.5f), 1.0f);
+    leaf.double_sided = true;
+    Frame frame;
+    frame.camera = look({0, 0, 3}, {0, 0, 0});
+    frame.settings.width = frame.settings.height = 16;
+    frame.settings.image_based_light = false;
+    frame.settings.exposure = 1.0f;
+    frame.sky.analytic_sun = false;
+    Light lamp;
+    lamp.position_m = {0, 0, -2};
+    lamp.intensity = 40.0f;
+    frame.extra_lights.push_back(lamp);
+    const auto seen = [&](const Material& material) {
+        renderer->load(scene_of({quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})}, {material}), {});
+        return pixel(renderer->render(frame), 8, 8).g;
+    };
+    EXPECT_EQ(seen(leaf), 0.0f);
+    leaf.diffuse_transmission = 0.4f;
+    EXPECT_NEAR(seen(leaf), 0.5f * 0.4f / 3.14159f * 10.0f, 0.01f);
+    leaf.lighting_model = "standard";
+    EXPECT_EQ(seen(leaf), 0.0f) << "who names a model gets it";
 }
 
 }  // namespace

@@ -81,6 +81,9 @@ Material rich_material()
 // What a row needs of the others to be seen.
 void make_visible(std::string_view row, Material& m)
 {
+    if (row == "clearcoat_roughness_factor") m.clearcoat = 1.0f;
+    if (row == "sheen_roughness_factor") m.sheen_color = glm::vec3(0.8f);
+    if (row == "anisotropy_rotation") m.anisotropy = 0.9f;
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
     if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;

@@ -14,6 +14,7 @@
 #define PETRICHOR_GPU_LIGHTING_LIGHTING_MODEL_GLSL
 
 #include "formulas/light/brdf.h"
+#include "formulas/light/layers.h"
 
 // A surface point; weather is on it already.
 struct LitPoint {
@@ -29,11 +30,13 @@ struct LitPoint {
     float exposure;    // radiance times this is 1 where the display is white
     uint model;        // its number
     Lobe lobe;         // of GGX, made ready for shade_lobe()
+    Layers layers;     // coat, sheen and so on of the material; zero where it has none
 };
 
 // Light from all around a point.
 struct Surroundings {
     vec3 irradiance;           // divided by pi: what a white Lambert surface sends out
+    vec3 irradiance_behind;    // the same on the other side, for what lets light through
     float occlusion;           // 1 open; of the material and the screen
     float specular_occlusion;  // the same for what is mirrored
     vec2 split_sum;            // scale and offset of F0 for GGX at this roughness and angle

@@ -32,6 +32,7 @@ layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 // Constants, not branches: a device without branches of its own computes both sides of one.
 layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
+layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -47,6 +48,7 @@ layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
 layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
 layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
 layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
+layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
@@ -167,6 +169,13 @@ vec3 background(vec3 direction)
     return radiance;
 }
 
+// Numbers from here on mean a model and layers.
+const uint LIGHTING_MODEL_COUNT = 0u
+#define ROW(number_, name_) + 1u
+LIGHTING_MODELS(ROW)
+#undef ROW
+;
+
 // The answer of the surface's model. A model that nothing in the picture has is not compiled.
 const bool ONE_MODEL = (0u
 #define ROW(number_, name_) + USES_##name_
@@ -239,7 +248,8 @@ vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
     LitPoint q = p;
     q.roughness = sqrt(blurred);
     q.specular = p.specular * mirrored;
-    q.lobe = make_lobe(p.normal, p.view, p.diffuse, q.specular, blurred);
+    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
+                       blurred);
     return model_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
 }
 
@@ -253,7 +263,8 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     float visible = 1.0;
     if (LAMP_SHADOWS != 0u) {
         const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
-        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, p.normal, texel);
+        const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
+        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, faced, texel);
         if (visible <= 0.0) return vec3(0.0);
     }
     if (RECTANGLES != 0u) {
@@ -262,7 +273,7 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     }
     const float distance_m = sqrt(d2);
     const vec3 l = to_light / max(distance_m, 1.0e-4);
-    if (dot(p.normal, l) <= 0.0) return vec3(0.0);
+    if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0) return vec3(0.0);
     const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
     const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
     float falloff = light_attenuation(distance_m, sphere.w);
@@ -445,13 +456,56 @@ void main()
         p.emission = g.emission * m.emission_scale;
         p.exposure = sky_light.exposure;
         p.model = g.model;
-        p.lobe = make_lobe(n, v, p.diffuse, m.specular, p.roughness * p.roughness);
+        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0);
+        vec3 mirror_normal = n;
+        if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
+            p.model = uint(LIGHTING_MODEL_LAYERED);  // with none it is the same
+        }
+        if (LAYERS != 0u && g.model >= LIGHTING_MODEL_COUNT) {
+            const int at = int(g.model - LIGHTING_MODEL_COUNT) * LAYERS_TEXELS;
+            const vec4 first = texelFetch(layers_table, at);
+            p.model = uint(first.x);
+            // Snow lies over all of it; standing water over fibres.
+            const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
+            const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare;
+            if ((LAYERS & LAYERS_COAT) != 0u) {
+                p.layers.coat = first.z * bare;
+                p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);
+            }
+            if ((LAYERS & LAYERS_SHEEN) != 0u) {
+                const vec4 second = texelFetch(layers_table, at + 1);
+                p.layers.sheen = second.rgb * open;
+                p.layers.sheen_roughness = second.w;
+            }
+            if ((LAYERS & LAYERS_ANISOTROPY) != 0u) {
+                // Along the surface as it is seen.
+                const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);
+                const vec3 level = tangent - n * dot(n, tangent);
+                const float size = length(level);
+                p.layers.tangent = level / max(size, 1.0e-3);
+                p.layers.anisotropy =
+                    size < 1.0e-3 ? 0.0 : texelFetch(layers_table, at + 2).x * open;
+                if (p.layers.anisotropy > 0.0) {
+                    // What is mirrored is smeared along the tangent: as of a normal bent to the eye
+                    // across it (KHR_materials_anisotropy).
+                    const vec3 across = cross(n, p.layers.tangent);
+                    const vec3 grain = cross(cross(across, v), across);
+                    const float keep = 1.0 - p.layers.anisotropy * m.smoothness;
+                    mirror_normal = normalize(mix(normalize(grain), n, keep * keep * keep * keep));
+                }
+            }
+        }
+        p.lobe = make_lobe(n, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
+                           p.roughness * p.roughness);
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
-        if (sun_lit > 0.0 && frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
+        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0) &&
+            frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
+            const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
             const float visible =
-                SHADOWS != 0u ? sun_visibility(position, g.base_normal, view_m, texel) : 1.0;
+                SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
             if (visible > 0.0) {
                 direct += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
             }
@@ -463,6 +517,7 @@ void main()
             // Light of the map comes from all around; the crevices of its own it holds already.
             Surroundings s;
             s.irradiance = g.baked;
+            s.irradiance_behind = vec3(0.0);
             s.occlusion = m.occlusion;
             s.specular_occlusion = 0.0;
             s.split_sum = split_sum(n, v, p.roughness);
@@ -479,6 +534,7 @@ void main()
             Surroundings s;
             s.irradiance = around.irradiance;
             s.occlusion = around.occlusion;
+            s.irradiance_behind = p.layers.transmitted > 0.0 ? sky_irradiance(-n) * seen : vec3(0.0);
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             // A water surface lies above the crevices that its ground has.
             const float mirror_occlusion = mix(m.occlusion * screen, 1.0, closed);
@@ -488,15 +544,31 @@ void main()
                          mirror_occlusion);
             s.split_sum = split_sum(n, v, p.roughness);
             s.scale = frame.ambient_scale;
-            const Reflected reflected = model_surround(p, s);
+            Reflected reflected = model_surround(p, s);
+            vec3 coat = vec3(0.0);
+            if (p.layers.coat > 0.0) {  // it mirrors first, what is left goes on
+                const float kept = p.layers.coat * coat_fresnel(nv);
+                reflected.radiance *= 1.0 - kept;
+                reflected.mirror *= 1.0 - kept;
+                coat = vec3(kept * s.specular_occlusion * s.scale);
+            }
             radiance += reflected.radiance;
-            if (p.roughness < kMirrorRoughness) {
+            // The pass of reflections takes one lobe: the coat's where there is one.
+            const bool coated = p.layers.coat > 0.0 && p.layers.coat_roughness < kMirrorRoughness;
+            if (coated) {
+                mirror = vec4(coat, closed);
+                shape = vec4(octahedral_encode(n), p.layers.coat_roughness, sky_open);
+            } else if (p.layers.coat > 0.0) {
+                const float lod = p.layers.coat_roughness * float(SKY_PREFILTER_MIPS - 1);
+                radiance += coat * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
+            }
+            if (p.roughness < kMirrorRoughness && !coated) {
                 mirror = vec4(reflected.mirror, closed);
-                shape = vec4(octahedral_encode(n), p.roughness, sky_open);
+                shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
                 const float lod = p.roughness * float(SKY_PREFILTER_MIPS - 1);
-                radiance +=
-                    reflected.mirror * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
+                radiance += reflected.mirror *
+                            textureLod(specular_map, reflect(-v, mirror_normal), lod).rgb * seen;
             }
         }
         if (FOG != 0u) {

@@ -18,7 +18,8 @@
 #define LIGHTING_SPEC_NIGHT 10
 #define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
-#define LIGHTING_SPEC_MODEL 16      // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_LAYERS 13   // bits of LAYERS_..., gpu/upload/material_io.h: in the picture
+#define LIGHTING_SPEC_MODEL 16    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -42,6 +43,7 @@
 #define LIGHTING_PATCH_GRADIENT 19
 #define LIGHTING_PATCH_WAYS 20
 #define LIGHTING_PATCH_KEPT 21
-#define LIGHTING_GBUFFER 22  // depth, then the targets
+#define LIGHTING_LAYERS 22
+#define LIGHTING_GBUFFER 23  // depth, then the targets
 
 #endif

@@ -9,6 +9,7 @@
 #define PETRICHOR_EVALUATE_SURFACE_GLSL
 
 #include "formulas/geometry/footprint.h"
+#include "formulas/light/layers.h"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
 
@@ -112,6 +113,12 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.porosity = porosity;
     data.texel.f0 = dielectric_reflectance();
     data.texel.model = material.lighting_model;
+    data.texel.tangent = 0.0;
+    if (material.anisotropy_strength > 0.0) {
+        const float turn = material.anisotropy_rotation;
+        data.texel.tangent =
+            tangent_code(normal, f.tangent * cos(turn) + f.bitangent * sin(turn));
+    }
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;

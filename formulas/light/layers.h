@@ -1,0 +1,186 @@
+// Lobes beside plain GGX: a clear coat, a sheen of fibres, highlights that are longer than wide, and
+// light that a thin sheet lets through.
+//
+// Coat and sheen as in KHR_materials_clearcoat and KHR_materials_sheen, layered without gain; the distribution of
+// fibres is Estevez and Kulla 2017, its visibility Neubelt and Pettineo 2013; anisotropic GGX is Burley
+// 2012 with the correlated visibility of Heitz 2014, roughness as KHR_materials_anisotropy has it.
+#ifndef PETRICHOR_FORMULAS_LIGHT_LAYERS_H
+#define PETRICHOR_FORMULAS_LIGHT_LAYERS_H
+
+#include "base/interop.h"
+#include "formulas/light/brdf.h"
+
+SHARED_BEGIN
+
+// What lies over and in a surface besides its base.
+struct Layers {
+    float coat;             // weight of the clear coat, 0..1
+    float coat_roughness;   // perceptual
+    vec3 sheen;             // colour of the fibres
+    float sheen_roughness;  // perceptual
+    float anisotropy;       // 0 round .. 1
+    vec3 tangent;           // along which highlights are long; unit, in the surface
+    float transmitted;      // share of the diffuse light that comes out on the other side
+};
+
+// Directional albedo of the sheen: columns by the square root of n.v, rows by perceptual roughness,
+// both 0, 1/9 .. 1. Made by summing sheen_lobe over the hemisphere (the test does it again).
+SHARED_CONST float kSheenAlbedo[100] =
+#ifdef __cplusplus
+    {
+#else
+    float[](
+#endif
+    5.2608f, 3.9693f, 1.8601f, 0.5829f, 0.1031f, 0.0075f, 0.0001f, 0.0000f, 0.0000f, 0.0000f,
+    3.4229f, 2.8218f, 1.6995f, 0.8143f, 0.2918f, 0.0693f, 0.0087f, 0.0004f, 0.0000f, 0.0000f,
+    1.8020f, 1.6147f, 1.2194f, 0.8297f, 0.5028f, 0.2627f, 0.1113f, 0.0338f, 0.0053f, 0.0000f,
+    1.2636f, 1.1666f, 0.9543f, 0.7304f, 0.5219f, 0.3428f, 0.2006f, 0.0981f, 0.0341f, 0.0034f,
+    1.0041f, 0.9411f, 0.8015f, 0.6504f, 0.5036f, 0.3686f, 0.2502f, 0.1512f, 0.0738f, 0.0191f,
+    0.8566f, 0.8099f, 0.7062f, 0.5931f, 0.4811f, 0.3748f, 0.2766f, 0.1881f, 0.1105f, 0.0449f,
+    0.7643f, 0.7267f, 0.6433f, 0.5523f, 0.4615f, 0.3740f, 0.2911f, 0.2133f, 0.1406f, 0.0734f,
+    0.7027f, 0.6707f, 0.5999f, 0.5227f, 0.4457f, 0.3711f, 0.2994f, 0.2307f, 0.1643f, 0.0997f,
+    0.6597f, 0.6313f, 0.5688f, 0.5009f, 0.4333f, 0.3678f, 0.3045f, 0.2430f, 0.1828f, 0.1225f,
+    0.6286f, 0.6027f, 0.5459f, 0.4845f, 0.4236f, 0.3646f, 0.3076f, 0.2521f, 0.1971f, 0.1414f
+#ifdef __cplusplus
+    };
+#else
+    );
+#endif
+
+SHARED_FN float sheen_albedo(float n_dot, float roughness)
+{
+    const float x = clamp(sqrt(clamp(n_dot, 0.0f, 1.0f)), 0.0f, 1.0f) * 9.0f;
+    const float y = clamp(roughness, 0.0f, 1.0f) * 9.0f;
+    const int i = min(int(x), 8);
+    const int j = min(int(y), 8);
+    const float u = x - float(i);
+    const float v = y - float(j);
+    const float low = mix(kSheenAlbedo[10 * j + i], kSheenAlbedo[10 * j + i + 1], u);
+    const float high = mix(kSheenAlbedo[10 * j + 10 + i], kSheenAlbedo[10 * j + 11 + i], u);
+    return mix(low, high, v);
+}
+
+// 1/sr for white fibres; at grazing angles of smooth cloth this law alone sends out more than comes in.
+SHARED_FN float sheen_lobe(float nl, float nv, float nh, float roughness)
+{
+    const float alpha = max(roughness * roughness, 0.0049f);
+    const float sine = sqrt(max(1.0f - nh * nh, 0.0f));
+    const float d = (2.0f + 1.0f / alpha) * pow(max(sine, 1.0e-5f), 1.0f / alpha) / (2.0f * kPi);
+    return d / max(4.0f * (nl + nv - nl * nv), 1.0e-4f);
+}
+
+// The same, held to what comes in: divided by its albedo where that is over one. Reciprocal.
+SHARED_FN float sheen_kept(float nl, float nv, float nh, float roughness)
+{
+    const float most = max(sheen_albedo(nl, roughness), sheen_albedo(nv, roughness));
+    return sheen_lobe(nl, nv, nh, roughness) / max(most, 1.0f);
+}
+
+// What the sheen leaves of the light for what lies below, on the way in and out.
+SHARED_FN float below_sheen(vec3 sheen, float nl, float nv, float roughness)
+{
+    const float strength = max(sheen.x, max(sheen.y, sheen.z));
+    const float most = max(sheen_albedo(nl, roughness), sheen_albedo(nv, roughness));
+    return 1.0f - strength * min(most, 1.0f);
+}
+
+// Distribution times visibility of anisotropic GGX, 1/sr; alpha_t along the tangent t, alpha_b across.
+SHARED_FN float anisotropic_lobe(vec3 n, vec3 t, vec3 v, vec3 l, float alpha_t, float alpha_b)
+{
+    const vec3 b = cross(n, t);
+    const vec3 h = normalize(v + l);
+    const float nl = max(dot(n, l), 1.0e-4f);
+    const float nv = max(dot(n, v), 1.0e-4f);
+    const float ht = dot(h, t) / alpha_t;
+    const float hb = dot(h, b) / alpha_b;
+    const float nh = dot(n, h);
+    const float q = ht * ht + hb * hb + nh * nh;
+    const float d = 1.0f / (kPi * alpha_t * alpha_b * q * q);
+    const float from_l = length(vec3(alpha_t * dot(l, t), alpha_b * dot(l, b), nl));
+    const float from_v = length(vec3(alpha_t * dot(v, t), alpha_b * dot(v, b), nv));
+    return d * 0.5f / (nl * from_v + nv * from_l);
+}
+
+SHARED_FN float coat_fresnel(float cosine)
+{
+    const float m = 1.0f - clamp(cosine, 0.0f, 1.0f);
+    const float m2 = m * m;
+    return 0.04f + 0.96f * m2 * m2 * m;
+}
+
+// Reflected radiance per unit irradiance on a facing plane, times the cosine, of a base with layers; light
+// from behind comes through. Of a lobe whose diffuse part lacks what is transmitted.
+//   albedo      of the diffuse part before it is shared between the sides
+//   roughness   of the base, perceptual
+SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughness, Layers layers)
+{
+    const vec3 n = lobe.normal;
+    const vec3 v = lobe.view;
+    const float facing = dot(n, l);
+    vec3 base = shade_lobe(lobe, l);
+    if (layers.anisotropy > 0.0f) {
+        const float alpha = roughness * roughness;
+        const float along = mix(alpha, 1.0f, layers.anisotropy * layers.anisotropy);
+        const float lh = clamp(dot(l, normalize(v + l)), 0.0f, 1.0f);
+        const float lobe_here = anisotropic_lobe(n, layers.tangent, v, l, along, alpha) * lobe.lit;
+        base = (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * lobe_here) * max(facing, 0.0f);
+    }
+    if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {
+        const float nl = max(facing, 0.0f);
+        const float nh = clamp(dot(n, normalize(v + l)), 0.0f, 1.0f);
+        base = base * below_sheen(layers.sheen, nl, lobe.nv, layers.sheen_roughness) +
+               layers.sheen * (sheen_kept(nl, lobe.nv, nh, layers.sheen_roughness) * nl);
+    }
+    if (layers.coat > 0.0f) {
+        const float nl = max(facing, 0.0f);
+        const vec3 h = normalize(v + l);
+        const float coat_alpha = max(layers.coat_roughness * layers.coat_roughness, 0.002f);
+        const float coat_here = ggx_distribution(clamp(dot(n, h), 0.0f, 1.0f), coat_alpha) *
+                                ggx_visibility(nl, lobe.nv, coat_alpha);
+        // What passes on the way in and on the way out. (The extension's own factor, of the half
+        // vector, lets a grazing coat send out a quarter more than comes in.)
+        const float below = (1.0f - layers.coat * coat_fresnel(nl)) *
+                            (1.0f - layers.coat * coat_fresnel(lobe.nv));
+        const float mirrored =
+            layers.coat * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
+        base = base * below + vec3(mirrored);
+    }
+    return base + albedo * (layers.transmitted / kPi * max(-facing, 0.0f));
+}
+
+// The same for one light alone.
+//   diffuse   albedo without its specular share
+SHARED_FN vec3 shade_layers(vec3 n, vec3 v, vec3 l, vec3 albedo, vec3 diffuse, vec3 f0,
+                            float roughness, Layers layers)
+{
+    const Lobe lobe =
+        make_lobe(n, v, diffuse * (1.0f - layers.transmitted), f0, roughness * roughness);
+    return shade_layered_lobe(lobe, l, albedo, roughness, layers);
+}
+
+// A direction within the surface for an angle of 0..pi, and back: the frame of Duff et al. 2017 about
+// the normal.
+SHARED_FN vec3 frame_tangent(vec3 n)
+{
+    const float s = n.z >= 0.0f ? 1.0f : -1.0f;
+    const float a = -1.0f / (s + n.z);
+    return vec3(1.0f + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
+SHARED_FN vec3 tangent_at(vec3 n, float angle)
+{
+    const vec3 t = frame_tangent(n);
+    return t * cos(angle) + cross(n, t) * sin(angle);
+}
+
+// 0..1 of half a turn: a tangent and its opposite are the same.
+SHARED_FN float tangent_code(vec3 n, vec3 tangent)
+{
+    const vec3 t = frame_tangent(n);
+    const float turn = atan(dot(cross(n, t), tangent), dot(t, tangent)) / kPi;
+    return turn - floor(turn);
+}
+
+SHARED_END
+
+#endif
