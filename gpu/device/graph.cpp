@@ -241,6 +241,7 @@ void FrameGraph::add(ComputePass compute)
     Pass pass;
     pass.name = compute.name;
     touch(pass, compute.bindings);
+    pass.pipelines = {{compute.shader, compute.constants, {types_of(compute.bindings)}}};
     pass.record = [compute = std::move(compute)](VkCommandBuffer commands, PipelineCache& pipelines,
                                                  DescriptorArena& descriptors) {
         record_dispatch(compute, commands, pipelines, descriptors);
@@ -304,6 +305,11 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
 {
     const auto queries = static_cast<std::uint32_t>(passes_.size() + 1);
     const QueryPoolHandle pool = make_query_pool(device, queries);
+    std::vector<ComputeDesc> wanted;
+    for (const Pass& pass : passes_) {
+        wanted.insert(wanted.end(), pass.pipelines.begin(), pass.pipelines.end());
+    }
+    pipelines.prepare(wanted);
     device.run([&](VkCommandBuffer commands) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(), 0);
         std::uint32_t query = 1;

@@ -182,6 +182,7 @@ private:
     struct Pass {
         std::string name;
         std::vector<Touch> touches;
+        std::vector<ComputeDesc> pipelines;  ///< that are known before it is recorded
         std::function<void(VkCommandBuffer, PipelineCache&, DescriptorArena&)> record;
     };
     static void touch(Pass& pass, const Touch& touch);

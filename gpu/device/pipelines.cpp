@@ -1,7 +1,13 @@
 #include "gpu/device/pipelines.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <chrono>
+#include <future>
+#include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "gpu/device/shaders.h"
 
@@ -168,23 +174,30 @@ void PipelineCache::add_shader(const std::string& name, std::vector<std::uint32_
 {
     auto& slot = added_[name];
     if (slot == code) return;
+    ahead_ = nullptr;
     slot = std::move(code);
     modules_.erase(name);
     std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.rfind(name, 0) == 0; });
+}
+
+std::span<const std::uint32_t> PipelineCache::code(const std::string& shader) const
+{
+    const auto added = added_.find(shader);
+    const auto words = added != added_.end() ? std::span<const std::uint32_t>(added->second)
+                                             : embedded_shader(shader);
+    if (words.empty()) throw std::logic_error("no embedded shader " + shader);
+    return words;
 }
 
 VkShaderModule PipelineCache::module(const std::string& shader)
 {
     auto& slot = modules_[shader];
     if (slot) return slot.get();
-    const auto added = added_.find(shader);
-    const auto code = added != added_.end() ? std::span<const std::uint32_t>(added->second)
-                                            : embedded_shader(shader);
-    if (code.empty()) throw std::logic_error("no embedded shader " + shader);
+    const auto words = code(shader);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = code.size_bytes();
-    info.pCode = code.data();
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
     VkShaderModule made = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device_->handle(), &info, nullptr, &made), "creating a shader");
     device_->name(VK_OBJECT_TYPE_SHADER_MODULE, made, shader);
@@ -192,28 +205,133 @@ VkShaderModule PipelineCache::module(const std::string& shader)
     return made;
 }
 
-const Pipeline& PipelineCache::compute(const std::string& shader,
-                                       const std::vector<Specialization>& specialization,
-                                       const std::vector<BindingTypes>& sets)
+// A list of pipelines that threads work through, and so does who waits for one.
+class PipelineCache::Ahead {
+public:
+    struct Task {
+        std::string key;
+        ComputeDesc desc;
+        VkShaderModule module;
+        VkPipelineLayout layout;
+        std::atomic_flag taken;
+        std::promise<std::unique_ptr<Pipeline>> promise;
+        std::future<std::unique_ptr<Pipeline>> made = promise.get_future();
+    };
+
+    Ahead(const PipelineCache& cache, std::vector<std::unique_ptr<Task>> tasks)
+        : cache_(&cache), tasks_(std::move(tasks))
+    {
+        const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+        for (std::size_t i = 0; i < std::min(cores - 1, tasks_.size()); ++i) {
+            threads_.emplace_back([this] {
+                while (work()) {}
+            });
+        }
+    }
+    ~Ahead()
+    {
+        for (const auto& task : tasks_) task->taken.test_and_set();
+        for (std::thread& thread : threads_) thread.join();
+    }
+    Ahead(const Ahead&) = delete;
+    Ahead& operator=(const Ahead&) = delete;
+
+    // Null when it is not on the list.
+    std::unique_ptr<Pipeline> take(const std::string& key)
+    {
+        for (const auto& task : tasks_) {
+            if (task->key != key || !task->made.valid()) continue;
+            if (!task->taken.test_and_set()) make(*task);
+            while (task->made.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
+                   work()) {}
+            return task->made.get();
+        }
+        return nullptr;
+    }
+
+private:
+    void make(Task& task) const
+    {
+        try {
+            task.promise.set_value(cache_->make_compute(task.desc, task.module, task.layout));
+        } catch (...) {
+            task.promise.set_exception(std::current_exception());
+        }
+    }
+    // One that nobody has begun; false when there is none.
+    bool work() const
+    {
+        for (const auto& task : tasks_) {
+            if (task->taken.test_and_set()) continue;
+            make(*task);
+            return true;
+        }
+        return false;
+    }
+
+    const PipelineCache* cache_;
+    std::vector<std::unique_ptr<Task>> tasks_;
+    std::vector<std::thread> threads_;
+};
+
+PipelineCache::PipelineCache(const Device& device) : device_(&device)
 {
-    auto& slot = pipelines_[key_of(shader, specialization)];
-    if (slot) return *slot;
+}
+PipelineCache::~PipelineCache() = default;
+
+void PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
+{
+    ahead_ = nullptr;
+    std::vector<std::unique_ptr<Ahead::Task>> tasks;
+    std::set<std::string> keys;
+    for (const ComputeDesc& desc : wanted) {
+        std::string key = key_of(desc.shader, desc.specialization);
+        if (pipelines_.contains(key) || !keys.insert(key).second) continue;
+        tasks.push_back(std::make_unique<Ahead::Task>());
+        tasks.back()->key = std::move(key);
+        tasks.back()->desc = desc;
+        tasks.back()->module = module(desc.shader);
+        tasks.back()->layout = layout(desc.sets);
+    }
+    // The long ones first.
+    std::stable_sort(tasks.begin(), tasks.end(), [this](const auto& a, const auto& b) {
+        return code(a->desc.shader).size() > code(b->desc.shader).size();
+    });
+    if (!tasks.empty()) ahead_ = std::make_unique<Ahead>(*this, std::move(tasks));
+}
+
+std::unique_ptr<Pipeline> PipelineCache::make_compute(const ComputeDesc& desc,
+                                                      VkShaderModule module,
+                                                      VkPipelineLayout layout) const
+{
     auto made = std::make_unique<Pipeline>();
-    const SpecializationInfo constants(specialization);
+    const SpecializationInfo constants(desc.specialization);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module(shader);
+    info.stage.module = module;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &constants.info;
-    info.layout = layout(sets);
+    info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "creating a compute pipeline");
-    device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, shader);
+    device_->name(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.shader);
     made->pipeline = PipelineHandle(device_->handle(), pipeline);
-    made->layout = info.layout;
+    made->layout = layout;
+    return made;
+}
+
+const Pipeline& PipelineCache::compute(const std::string& shader,
+                                       const std::vector<Specialization>& specialization,
+                                       const std::vector<BindingTypes>& sets)
+{
+    const std::string key = key_of(shader, specialization);
+    auto& slot = pipelines_[key];
+    if (slot) return *slot;
+    auto made = ahead_ ? ahead_->take(key) : nullptr;
+    if (!made) made = make_compute({shader, specialization, sets}, module(shader), layout(sets));
     for (const BindingTypes& set : sets) made->set_layouts.push_back(set_layout(set));
     slot = std::move(made);
     return *slot;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,11 +74,20 @@ struct GraphicsDesc {
     bool depth_equal = false;  ///< draws where depth is already its own; does not write it
 };
 
+struct ComputeDesc {
+    std::string shader;
+    std::vector<Specialization> specialization;
+    std::vector<BindingTypes> sets;
+};
+
 /// Makes pipelines on first use and keeps them, by content.
 class PipelineCache {
 public:
-    explicit PipelineCache(const Device& device) : device_(&device) {}
+    explicit PipelineCache(const Device& device);
+    ~PipelineCache();
 
+    /// What compute() will soon be asked for: threads of its own begin to make what is missing.
+    void prepare(const std::vector<ComputeDesc>& wanted);
     const Pipeline& compute(const std::string& shader,
                             const std::vector<Specialization>& specialization,
                             const std::vector<BindingTypes>& sets);
@@ -87,6 +97,10 @@ public:
     VkDescriptorSetLayout set_layout(const BindingTypes& types);
 
 private:
+    class Ahead;  // the threads of prepare()
+    std::unique_ptr<Pipeline> make_compute(const ComputeDesc& desc, VkShaderModule module,
+                                           VkPipelineLayout layout) const;
+    std::span<const std::uint32_t> code(const std::string& shader) const;
     VkPipelineLayout layout(const std::vector<BindingTypes>& sets);
     VkShaderModule module(const std::string& shader);
 
@@ -96,6 +110,7 @@ private:
     std::map<std::string, std::vector<std::uint32_t>> added_;
     std::map<std::string, ShaderModuleHandle> modules_;
     std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
+    std::unique_ptr<Ahead> ahead_;
 };
 
 /// Descriptor sets that live until reset().
