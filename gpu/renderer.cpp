@@ -73,6 +73,8 @@ struct TargetSet {
     std::unique_ptr<MemoryArena> arena;
     FrameTargets targets;
     int words = 0;
+    std::unique_ptr<MemoryArena> resolve_arena;
+    ResolveTables resolve;
 };
 
 struct Renderer::Impl {
@@ -150,16 +152,17 @@ struct Renderer::Impl {
     }
 
     // True when this frame resolves a visibility buffer; its tables are then made for its size.
-    bool prepare_resolve(const FrameSettings& s)
+    bool prepare_resolve(TargetSet& set, const FrameSettings& s)
     {
+        ResolveTables& resolve = set.resolve;
         if (chosen_surface_path(s.surface_path, device, *scene, s.width, s.height) !=
             SurfacePath::Visibility) {
             return false;
         }
         if (!resolve.ids || resolve.ids->width != s.width || resolve.ids->height != s.height) {
             resolve = {};
-            resolve_arena = std::make_unique<MemoryArena>(device);
-            resolve = make_resolve_tables(device, *resolve_arena, *scene, s.width, s.height);
+            set.resolve_arena = std::make_unique<MemoryArena>(device);
+            resolve = make_resolve_tables(device, *set.resolve_arena, *scene, s.width, s.height);
         }
         return true;
     }
@@ -185,8 +188,6 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> environment_arena;
     std::unique_ptr<GpuImage> environment;
     std::unique_ptr<GpuScene> scene;
-    std::unique_ptr<MemoryArena> resolve_arena;
-    ResolveTables resolve;
     bool own_lighting = false;
     std::string graph_text;
 };
@@ -200,7 +201,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
 {
-    impl_->resolve = {};
+    for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
     impl_->patches.load(nullptr);
     impl_->depth_maps.forget();
@@ -277,7 +278,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.lights = &light_table;
     resources.patches = &patches;
     resources.place = &place;
-    if (prepare_resolve(frame.settings)) resources.resolve = &resolve;
+    if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
     resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;

@@ -48,7 +48,6 @@ Frame metering_frame(const Frame& frame)
     s.height = scaled(s.height);
     s.samples = 1;
     s.aovs.clear();
-    s.surface_path = SurfacePath::Fragment;
     // What is unlit is divided by the exposure: it must not be metered by itself.
     s.exposure = 1e12f;
     s.exposure_bias_stops = 0.0f;
