@@ -78,12 +78,12 @@ struct TargetSet {
 };
 
 struct Renderer::Impl {
-    explicit Impl(const RendererOptions& options)
+    Impl(const RendererOptions& options, const WeatherMaps& weather_maps)
         : device(options),
           pipelines(device),
           descriptors(device),
           shared_arena(device),
-          surface_maps(device, shared_arena, options.ripple_texture_size),
+          surface_maps(device, shared_arena, options.ripple_texture_size, weather_maps),
           depth_maps(device, shared_arena),
           lamp_shadows(device),
           sky(device, shared_arena),
@@ -192,7 +192,8 @@ struct Renderer::Impl {
     std::string graph_text;
 };
 
-Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options))
+Renderer::Renderer(const RendererOptions& options, const WeatherMaps& weather_maps)
+    : impl_(std::make_unique<Impl>(options, weather_maps))
 {
 }
 Renderer::~Renderer() = default;

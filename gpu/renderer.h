@@ -13,6 +13,7 @@
 #include "gpu/device/device_info.h"
 #include "gpu/frame/frame.h"
 #include "gpu/frame/patch_scene.h"
+#include "gpu/frame/weather_maps.h"
 #include "gpu/outputs/aov_table.h"
 #include "gpu/upload/texture.h"
 
@@ -38,7 +39,8 @@ struct RenderResult {
 class Renderer {
 public:
     /// Throws Error when no device fits, naming what was found and what is needed.
-    explicit Renderer(const RendererOptions& options);
+    /// `weather_maps`: those that are given are used instead of drawn ones.
+    explicit Renderer(const RendererOptions& options, const WeatherMaps& weather_maps = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;

@@ -23,6 +23,7 @@
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
 #include "film/scenes/transport.h"
+#include "film/scenes/weather_textures.h"
 #include "scene/merge.h"
 
 namespace petrichor::film {
@@ -224,9 +225,11 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
         scenario.output.width, scenario.output.height, request.memory_budget);
-    gpu::Renderer renderer({.device = request.device,
-                            .validation = request.validation,
-                            .ripple_texture_size = scenario.render.ripple_texture_size});
+    gpu::Renderer renderer(
+        {.device = request.device,
+         .validation = request.validation,
+         .ripple_texture_size = scenario.render.ripple_texture_size},
+        read_weather_textures(scenario.render.weather_textures, scenario.folder));
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     std::shared_ptr<const gpu::PatchScene> patches;

@@ -14,6 +14,7 @@
 #include "film/scenario/material_keys.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/scene_file.h"
+#include "film/scenes/weather_textures.h"
 
 namespace petrichor::film {
 namespace {
@@ -68,6 +69,8 @@ void load_sequence_scene(Sequence& sequence, int threads)
     content.add(loaded.fingerprint);
     content.add(applied.textures);
     sequence.content = content.text();
+    sequence.weather_textures =
+        weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);
     for (SequenceVariant& variant : sequence.variants) {
         const std::string& file = variant.conditions.sky.environment;
         if (!file.empty()) variant.environment = file_fingerprint(scenario.folder / file);

@@ -389,6 +389,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["scene files"] = sequence.content;
     if (!sequence.lighting_models.empty()) parts["lighting models"] = sequence.lighting_models;
     if (!what.environment.empty()) parts["sky picture"] = what.environment;
+    if (!sequence.weather_textures.empty()) parts["weather textures"] = sequence.weather_textures;
     if (!scenario.materials.empty()) {
         parts["materials"] = part([&](Hasher& hasher) {
             for (const MaterialOverride& one : scenario.materials) {

@@ -50,7 +50,8 @@ struct Sequence {
     double duration_s = 0.0;      ///< frame 0 to one after the last, on the scenario's clock
     std::string content;          ///< fingerprint of the scene's files
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
-    std::size_t triangles = 0;    ///< of all instances
+    std::string weather_textures;  ///< of [render]'s, weather_textures_fingerprint()
+    std::size_t triangles = 0;     ///< of all instances
 };
 
 /// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of

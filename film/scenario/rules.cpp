@@ -344,6 +344,18 @@ const std::vector<Rule>& rules()
              if ((s.render.ripple_texture_size & (s.render.ripple_texture_size - 1)) != 0)
                  v.refuse("a power of two from 64 to 4096");
          }},
+        {{"render", "ripple_texture", "\"ripple.png\"",
+          "drops of rain to use instead of drawn ones, laid out as `texture generate ripple`"},
+         [](Scenario& s, const TomlValue& v) { s.render.weather_textures.ripple = v.text(); }},
+        {{"render", "snow_mask_texture", "\"snow_mask.png\"",
+          "where snow lies first: its blue, or a grey picture (`texture generate snow_mask`)"},
+         [](Scenario& s, const TomlValue& v) { s.render.weather_textures.snow_mask = v.text(); }},
+        {{"render", "snow_water_bump_texture", "\"snow_water_bump.png\"",
+          "relief of snow and waves of moving water: alpha and green a normal, blue the smoothness "
+          "of snow (`texture generate snow_water_bump`)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.weather_textures.snow_water_bump = v.text();
+         }},
         {{"render", "occlusion_direct", "0.0",
           "how much occlusion maps darken sun and lamps too, 0 to 1; they always darken the sky"},
          [](Scenario& s, const TomlValue& v) { s.render.occlusion_direct = v.number(0.0, 1.0); }},

@@ -129,9 +129,19 @@ enum class IndirectLight {
     Ambient,  ///< skylight past depth maps, and a constant
 };
 
+/// Files in the layouts that `texture generate` writes (Lux's, docs/lux.md 6); "": none.
+struct WeatherTextures {
+    std::string ripple;           ///< R envelope of a drop, GB direction, A when it falls
+    std::string snow_mask;        ///< B where snow lies first; a grey one will do
+    std::string snow_water_bump;  ///< AG normal of snow and of moving water, B smoothness of snow
+
+    bool operator==(const WeatherTextures&) const = default;
+};
+
 struct ScenarioRender : gpu::FrameSwitches {
     int lamp_shadows = 4;
     gpu::ToneMap tone_map = gpu::ToneMap::Filmic;
+    WeatherTextures weather_textures;  ///< relative to the scenario
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"

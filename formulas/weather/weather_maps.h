@@ -61,6 +61,19 @@ SHARED_FN float snow_gloss(vec2 uv, uint seed)
     return tileable_fbm(uv, 41, 3, 91u + seed);
 }
 
+// What gives a snow cover its edges and its relief: x, y of a soft normal, coded 0..1; the mask, spread
+// as artists paint it (mean near 0.7, few dark spots); smoothness. texel: its side in uv.
+SHARED_FN vec4 snow_texel(vec2 uv, float texel)
+{
+    const float gx = (snow_relief(uv + vec2(texel, 0.0f), 0u) - snow_relief(uv - vec2(texel, 0.0f), 0u)) /
+                     (2.0f * texel);
+    const float gy = (snow_relief(uv + vec2(0.0f, texel), 0u) - snow_relief(uv - vec2(0.0f, texel), 0u)) /
+                     (2.0f * texel);
+    const vec3 normal = normalize(vec3(-gx * kSnowSteepness, -gy * kSnowSteepness, 1.0f));
+    const float mask = clamp(0.72f + (snow_preference(uv, 0u) - 0.5f) * 1.1f, 0.0f, 1.0f);
+    return vec4(0.5f + 0.5f * normal.x, 0.5f + 0.5f * normal.y, mask, 0.32f + 0.14f * snow_gloss(uv, 0u));
+}
+
 SHARED_END
 
 #endif

@@ -9,9 +9,7 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr int kSnowSize = 512;
-constexpr int kSnowMips = 10;
 constexpr int kFlowSize = 256;
-constexpr int kFlowMips = 9;
 
 std::unique_ptr<GpuImage> map(MemoryArena& arena, const char* name, int size, int mips)
 {
@@ -24,6 +22,16 @@ std::unique_ptr<GpuImage> map(MemoryArena& arena, const char* name, int size, in
                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
+int size_of(const WeatherMap& given, int own)
+{
+    return given.size != 0 ? given.size : own;
+}
+
+int mips_of(int size)
+{
+    return std::bit_width(static_cast<unsigned>(size));
+}
+
 void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
 {
     graph.add(TransferPass{
@@ -34,34 +42,47 @@ void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
 
 }  // namespace
 
-SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size)
-    : ripple_source(map(arena, "ripple_source", size, 1)),
-      ripple(map(arena, "ripple", size, std::bit_width(static_cast<unsigned>(size)))),
-      flow(map(arena, "flow", kFlowSize, kFlowMips)),
-      snow(map(arena, "snow", kSnowSize, kSnowMips)),
-      ripple_size(size),
+SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
+                         const WeatherMaps& given)
+    : ripple_source(map(arena, "ripple_source", size_of(given.drops, size), 1)),
+      ripple(map(arena, "ripple", size_of(given.drops, size), mips_of(size_of(given.drops, size)))),
+      flow(map(arena, "flow", size_of(given.water, kFlowSize),
+               mips_of(size_of(given.water, kFlowSize)))),
+      snow(map(arena, "snow", size_of(given.snow, kSnowSize),
+               mips_of(size_of(given.snow, kSnowSize)))),
+      ripple_size(size_of(given.drops, size)),
+      drops_given(given.drops.size != 0),
+      snow_given(given.snow.size != 0),
+      water_given(given.water.size != 0),
       trilinear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                              VK_SAMPLER_ADDRESS_MODE_REPEAT))
 {
+    if (drops_given) upload_image(device, *ripple_source, {given.drops.rgba});
+    if (snow_given) upload_image(device, *snow, {given.snow.rgba});
+    if (water_given) upload_image(device, *flow, {given.water.rgba});
 }
 
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)
 {
-    const Groups rings = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE);
-    const Groups snow = groups_over(kSnowSize, kSnowSize, SURFACE_MAPS_TILE);
-    graph.add(ComputePass{.name = "ripple_source",
-                          .shader = "ripple_source.comp",
-                          .constants = {},
-                          .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.ripple_source)}},
-                          .push = {},
-                          .groups = rings});
-    graph.add(ComputePass{.name = "snow_mask",
-                          .shader = "snow_mask.comp",
-                          .constants = {},
-                          .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.snow, 0)}},
-                          .push = {},
-                          .groups = snow});
+    if (!maps.drops_given) {
+        graph.add(ComputePass{
+            .name = "ripple_source",
+            .shader = "ripple_source.comp",
+            .constants = {},
+            .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.ripple_source)}},
+            .push = {},
+            .groups = groups_over(maps.ripple_size, maps.ripple_size, SURFACE_MAPS_TILE)});
+    }
+    if (!maps.snow_given) {
+        graph.add(ComputePass{.name = "snow_mask",
+                              .shader = "snow_mask.comp",
+                              .constants = {},
+                              .bindings = {{SURFACE_MAPS_ALONE_TARGET, storage(*maps.snow, 0)}},
+                              .push = {},
+                              .groups = groups_over(kSnowSize, kSnowSize, SURFACE_MAPS_TILE)});
+    }
     add_mips(graph, "snow_mask_mips", *maps.snow);
+    if (maps.water_given) add_mips(graph, "flow_mips", *maps.flow);
 }
 
 void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed)
@@ -79,6 +100,7 @@ void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, 
 
 void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s)
 {
+    if (maps.water_given) return;
     graph.add(ComputePass{.name = "flow",
                           .shader = "flow.comp",
                           .constants = {},

@@ -2,26 +2,30 @@
 #define PETRICHOR_GPU_PASSES_SURFACE_MAPS_SURFACE_MAPS_H
 
 #include "gpu/device/graph.h"
+#include "gpu/frame/weather_maps.h"
 
 namespace petrichor::gpu {
 
 /// Tileable maps of the weather that every surface samples.
 struct SurfaceMaps {
-    /// ripple_size: texels a side of the rings, a power of two.
-    SurfaceMaps(const Device& device, MemoryArena& arena, int ripple_size);
+    /// ripple_size: texels a side of the rings where their drops are drawn, a power of two.
+    SurfaceMaps(const Device& device, MemoryArena& arena, int ripple_size, const WeatherMaps& given);
 
     std::unique_ptr<GpuImage> ripple_source;  ///< drops: envelope, direction, time offset
     std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
     int ripple_size = 0;
+    bool drops_given = false;
+    bool snow_given = false;
+    bool water_given = false;
     SamplerHandle trilinear;
-    bool generated = false;  ///< source and snow are made once
+    bool generated = false;  ///< what is made once is
 };
 
-// Draws the drops and the snow mask; once.
+// Draws the drops and the snow mask where none are given, and the mips of those that are; once.
 //
-//   writes   ripple_source, snow
+//   writes   ripple_source, snow, flow
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 
 // Rings of rain drops at `time_s`; speed 1 is as photographed.
@@ -30,7 +34,7 @@ void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps);
 //   writes   ripple, with mips
 void add_ripple(FrameGraph& graph, SurfaceMaps& maps, float rain, float time_s, float speed);
 
-// Waves of flowing and wind-blown water at `time_s`.
+// Waves of flowing and wind-blown water at `time_s`, unless a map of them is given.
 //
 //   writes   flow, with mips
 void add_flow(FrameGraph& graph, SurfaceMaps& maps, float time_s);
