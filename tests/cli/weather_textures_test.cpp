@@ -30,7 +30,7 @@ look_at_m = [0.0, 0.4, 0.0]
 [render]
 )";
 
-class WeatherTextures : public testing::Test {
+class WeatherTextureFiles : public testing::Test {
 protected:
     void SetUp() override
     {
@@ -60,7 +60,7 @@ protected:
     Workplace place_{"weather-textures-cli"};
 };
 
-TEST_F(WeatherTextures, EachChangesThePicture)
+TEST_F(WeatherTextureFiles, EachChangesThePicture)
 {
     const std::string plain = picture("", "plain");
     for (const std::string kind : {"ripple", "snow_mask", "snow_water_bump"}) {
@@ -73,7 +73,7 @@ TEST_F(WeatherTextures, EachChangesThePicture)
 }
 
 // `texture generate` and the renderer draw the drops by one text.
-TEST_F(WeatherTextures, TheDropsOfTheSameSeedAreThoseThatAreDrawn)
+TEST_F(WeatherTextureFiles, TheDropsOfTheSameSeedAreThoseThatAreDrawn)
 {
     generate("ripple", "0", "512");
     // Pixels only: what a picture was made from stands in front of them.
@@ -82,7 +82,7 @@ TEST_F(WeatherTextures, TheDropsOfTheSameSeedAreThoseThatAreDrawn)
                 pixels(picture("", "plain")));
 }
 
-TEST_F(WeatherTextures, WhatDoesNotFitIsRefused)
+TEST_F(WeatherTextureFiles, WhatDoesNotFitIsRefused)
 {
     generate("snow_mask", "9", "64");
     generate("snow_water_bump", "9", "128");
