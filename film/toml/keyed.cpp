@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "base/cubic.h"
+
 namespace petrichor::film {
 namespace {
 
@@ -15,28 +17,13 @@ std::size_t segment_of(const std::vector<Key>& keys, double time_s)
     return i;
 }
 
-template <class Value>
-Value hermite(const Value& from, const Value& to, const Value& slope_from, const Value& slope_to,
-              double length, double u)
-{
-    const double u2 = u * u;
-    const double u3 = u2 * u;
-    return (2.0 * u3 - 3.0 * u2 + 1.0) * from + (u3 - 2.0 * u2 + u) * length * slope_from +
-           (3.0 * u2 - 2.0 * u3) * to + (u3 - u2) * length * slope_to;
-}
-
-// Fritsch and Carlson: zero at extremes and ends, else the weighted harmonic mean of the secants.
-double monotone_slope(const std::vector<NumberKey>& keys, std::size_t i)
+double slope_at(const std::vector<NumberKey>& keys, std::size_t i)
 {
     if (i == 0 || i + 1 == keys.size()) return 0.0;
     const double before_s = keys[i].time_s - keys[i - 1].time_s;
     const double after_s = keys[i + 1].time_s - keys[i].time_s;
-    const double before = (keys[i].value - keys[i - 1].value) / before_s;
-    const double after = (keys[i + 1].value - keys[i].value) / after_s;
-    if (before * after <= 0.0) return 0.0;
-    const double weight_before = 2.0 * after_s + before_s;
-    const double weight_after = after_s + 2.0 * before_s;
-    return (weight_before + weight_after) / (weight_before / before + weight_after / after);
+    return monotone_slope(before_s, (keys[i].value - keys[i - 1].value) / before_s, after_s,
+                          (keys[i + 1].value - keys[i].value) / after_s);
 }
 
 glm::dvec3 path_slope(const std::vector<PathKey>& keys, std::size_t i)
@@ -60,8 +47,8 @@ double value_at(const KeyedNumber& number, double time_s, double otherwise)
     if (number.interpolation == Interpolation::Linear) {
         return keys[i].value + (keys[i + 1].value - keys[i].value) * u;
     }
-    return hermite(keys[i].value, keys[i + 1].value, monotone_slope(keys, i),
-                   monotone_slope(keys, i + 1), length, u);
+    return hermite(keys[i].value, keys[i + 1].value, slope_at(keys, i), slope_at(keys, i + 1),
+                   length, u);
 }
 
 glm::dvec3 point_at(const std::vector<PathKey>& keys, Interpolation interpolation, double time_s)

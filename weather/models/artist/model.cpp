@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/cubic.h"
 #include "weather/models/artist/detail/math.h"
 
 namespace petrichor::weather {
@@ -16,15 +17,11 @@ double saturate(double x)
 }
 
 // d C/dt is not needed anywhere, only the value: the two ends, their slopes, u in 0..1.
-double hermite(const CurveKey& a, const CurveKey& b, double time)
+double between(const CurveKey& a, const CurveKey& b, double time)
 {
     if (std::isinf(a.slope_out) || std::isinf(b.slope_in)) return a.value;
     const double span = b.time - a.time;
-    const double u = (time - a.time) / span;
-    const double u2 = u * u;
-    const double u3 = u2 * u;
-    return (2 * u3 - 3 * u2 + 1) * a.value + (u3 - 2 * u2 + u) * span * a.slope_out +
-           (-2 * u3 + 3 * u2) * b.value + (u3 - u2) * span * b.slope_in;
+    return hermite(a.value, b.value, a.slope_out, b.slope_in, span, (time - a.time) / span);
 }
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t word)
@@ -130,7 +127,7 @@ double curve_value(std::span<const CurveKey> keys, double time)
     if (time >= keys.back().time) return keys.back().value;
     const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                         [](double t, const CurveKey& key) { return t < key.time; });
-    return hermite(*(after - 1), *after, time);
+    return between(*(after - 1), *after, time);
 }
 
 std::vector<CurveKey> automatic_tangents(std::vector<CurveKey> keys)
@@ -140,13 +137,8 @@ std::vector<CurveKey> automatic_tangents(std::vector<CurveKey> keys)
         if (i > 0 && i + 1 < keys.size()) {
             const double before = keys[i].time - keys[i - 1].time;
             const double after = keys[i + 1].time - keys[i].time;
-            const double in = (keys[i].value - keys[i - 1].value) / before;
-            const double out = (keys[i + 1].value - keys[i].value) / after;
-            if (in * out > 0.0) {
-                const double w_in = 2.0 * after + before;
-                const double w_out = after + 2.0 * before;
-                slope = (w_in + w_out) / (w_in / in + w_out / out);
-            }
+            slope = monotone_slope(before, (keys[i].value - keys[i - 1].value) / before, after,
+                                   (keys[i + 1].value - keys[i].value) / after);
         }
         keys[i].slope_in = slope;
         keys[i].slope_out = slope;
