@@ -157,13 +157,13 @@ std::vector<Sensitivity> sensitivity_table(const ForcingTable& table, const Phys
         const double days = static_cast<double>(grid.time_us() - before) / 86400e6;
         samples += 1.0;
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const CellState c = grid.state(i);
-            const auto d = diagnostics(c);
+            const CellState cell = grid.state(i);
+            const auto d = diagnostics(cell);
             out[i].peak_swe_kg_m2 = std::max(out[i].peak_swe_kg_m2, d.swe_kg_m2);
             if (d.snow_depth_m > 0.01) out[i].snow_days += days;
-            out[i].mean_film_kg_m2 += c.film;
-            out[i].mean_puddle_kg_m2 += c.puddle;
-            out[i].mean_surface_c += c.surface_temp_c;
+            out[i].mean_film_kg_m2 += cell.film;
+            out[i].mean_puddle_kg_m2 += cell.puddle;
+            out[i].mean_surface_c += cell.surface_temp_c;
         }
     }
     for (std::size_t i = 0; i < out.size(); ++i) {
