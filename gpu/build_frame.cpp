@@ -26,7 +26,7 @@ bool uses_patches(const Frame& frame, const FrameResources& r)
 
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
-                    bool weather)
+                    bool weather, bool falls)
 {
     DepthMaps& maps = *r.depth_maps;
     const float aspect =
@@ -48,7 +48,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_sky_visibility(graph, maps, *r.scene);
         }
     }
-    if (frame.settings.shelter && weather) {
+    if (frame.settings.shelter && (weather || falls)) {
         const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
@@ -152,6 +152,22 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     }
 }
 
+FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
+{
+    return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0)));
+}
+
+FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
+{
+    FallingFacts facts;
+    facts.per_m3 = plan.per_m3;
+    facts.extinction_per_m = plan.extinction_per_m;
+    facts.drawn_reach_m = plan.drawn_reach_m;
+    facts.seen = plan.seen;
+    facts.visibility_m = frame.weather.visibility_m;
+    return facts;
+}
+
 }  // namespace
 
 FrameGraph build_sky(const Frame& frame, FrameResources& r)
@@ -164,7 +180,7 @@ FrameGraph build_sky(const Frame& frame, FrameResources& r)
 }
 
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
-                       const std::vector<AovGroup>& aov_groups)
+                       const std::vector<AovGroup>& aov_groups, FallingFacts& falling)
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
@@ -179,7 +195,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
-    add_depth_maps(graph, frame, sun, r, weather.any);
+    const FallingPlan plan = plan_of(frame, sun, r);
+    add_depth_maps(graph, frame, sun, r, weather.any, !plan.classes.empty());
     r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
@@ -200,6 +217,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, r);
+        // Other modes of fog know nothing of what falls.
+        c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
+        c.drawn_reach_m = plan.drawn_reach_m;
         c.place = r.place->constants();
         if (i == 0) {
             variant.models = visible_models(*r.scene, c);
@@ -233,6 +253,17 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                      *r.patches, *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
+        }
+    }
+    falling = falling_facts(plan, frame);
+    if (plan.drawn_reach_m > 0.0f) {
+        const FallingView view = falling_view(frame_constants(frame, sun, r.scene->bounds(), 0));
+        r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
+        falling.drawn = r.falling->count();
+        constants.offset = 0;
+        if (falling.drawn > 0) {
+            add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, constants,
+                        settings.shelter, settings.shadows && sun.illuminance != glm::vec3(0.0f));
         }
     }
     if (settings.bloom > 0.0f) add_glare(graph, *r.targets, settings.samples);

@@ -67,6 +67,8 @@ struct FrameConstants {
     float fog_end_m;
     float fog_height_m;
     float fog_base_m;     // world height
+    float drawn_per_m;    // extinction of the drops and flakes that are drawn one by one ..
+    float drawn_reach_m;  // .. and how far they are, in the mean
     vec3 white_gains;     // of the cones
     float bloom;
     float emissive_scale;

@@ -115,7 +115,7 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
     targets.patch_light = target("patch_light", VK_FORMAT_R32G32B32A32_UINT, storage);
-    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
+    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
     for (int w = width, h = height; targets.glare.empty() || std::min(w, h) > 4;) {
         w = divide_up(w, 2);
