@@ -14,13 +14,14 @@
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falling.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 27;
+SHARED_CONST int kProbeKinds = 29;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -171,6 +172,20 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 uv = vec2(a.x, a.y);
         return vec4(rain_drops(uv, seed).x, snow_relief(uv, seed), snow_preference(uv, seed),
                     snow_gloss(uv, seed));
+    }
+    if (kind == 27) {
+        const float rate = 100.0f * a.x;
+        const float low = 4.0f * a.y;
+        return vec4(rain_drops_per_m3(rate, low, low + 1.0f) * 1.0e-3f,
+                    rain_extinction_per_m(rate, low, low + 1.0f) * 1.0e3f,
+                    snow_flakes_per_m3(20.0f * a.z, kDrySnow_kg_m2, low, low + 1.0f) * 1.0e-3f,
+                    snow_extinction_per_m(20.0f * a.z, kWetSnow_kg_m2, low, low + 1.0f) * 1.0e3f);
+    }
+    if (kind == 28) {
+        return vec4(drop_phase(2.0f * a.x - 1.0f), flake_phase(2.0f * a.y - 1.0f),
+                    drawn_depth(100.0f * a.z, 0.1f * a.w, 10.0f * b.x),
+                    streak_opacity(1000.0f, 0.005f * b.y, 10.0f * b.z, drop_speed_m_s(5.0f * b.y),
+                                   0.02f * b.w));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -19,6 +19,9 @@ constexpr float kFadeFrom = 0.75f;  // and go from this share of the reach on
 constexpr float kFarthest_m = 250.0f;
 constexpr float kFaintest = 0.01f;  // a hundredth is not seen
 constexpr double kMostInCell = 400.0;
+constexpr float kMostRain_mm_h = 1000.0f;  // nothing has been measured beyond: no more are drawn
+constexpr float kMostSnow_mm_h = 100.0f;
+constexpr float kLongest_px = 200.0f;  // of a streak that begins outside of the picture
 // Drops are seen near the ground: the wind at 2 m over a suburb.
 constexpr float kSeenAt_m = 2.0f;
 constexpr float kRoughness_m = 0.5f;
@@ -241,10 +244,14 @@ glm::vec3 light_of(const std::vector<Light>& lamps, const glm::vec3& p, const gl
 struct Sway {
     glm::vec3 offset_m, speed_m_s;
 };
+float sway_amplitude_m(bool flake, float wind_m_s)
+{
+    return flake ? 0.05f + 0.012f * std::min(wind_m_s, 8.0f) : 0.015f;
+}
 Sway sway_of(Numbers& numbers, bool flake, float wind_m_s, double time_s)
 {
     Sway sway{glm::vec3(0.0f), glm::vec3(0.0f)};
-    const float wide = flake ? 0.05f + 0.012f * std::min(wind_m_s, 8.0f) : 0.015f;
+    const float wide = sway_amplitude_m(flake, wind_m_s);
     for (int axis = 0; axis < 3; ++axis) {
         const float amplitude = wide * (0.3f + numbers.next()) * (axis == 1 ? 0.5f : 1.0f);
         const double turns = static_cast<double>(flake ? 0.25f + 0.5f * numbers.next()
@@ -257,7 +264,6 @@ Sway sway_of(Numbers& numbers, bool flake, float wind_m_s, double time_s)
     }
     return sway;
 }
-constexpr double kSwayMost_m = 0.25;
 
 // One class as one view sees it.
 class ClassInView {
@@ -299,9 +305,9 @@ public:
             last = std::max(last, p[axis]);
         }
         // Where drops of cells beside the view sway into it, and streaks reach into it.
-        const double way =
-            static_cast<double>(glm::length(speed_m_s_) * shutter_s_);
-        const double margin = kSwayMost_m + 0.5 * std::min(way, 1.0);
+        const float way = std::min(0.5f * glm::length(speed_m_s_) * shutter_s_,
+                                   kLongest_px * class_->reach_m / view_->focal_px);
+        const double margin = static_cast<double>(sway_most_m() + way);
         std::array<std::int64_t, 3> cell{};
         for (cell[at(axis)] = cell_of(first - margin); cell[at(axis)] <= cell_of(last + margin);
              ++cell[at(axis)]) {
@@ -320,6 +326,7 @@ public:
     }
 
 private:
+    float sway_most_m() const { return 1.3f * sway_amplitude_m(flake_, wind_m_s_); }
     static std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
     std::int64_t cell_of(double x) const
     {
@@ -370,7 +377,7 @@ private:
                   std::vector<shared::FallingDrop>& drops) const
     {
         const float reach = class_->reach_m;
-        const auto most = static_cast<float>(kSwayMost_m);
+        const float most = sway_most_m();
         const float before = glm::dot(from_eye, view_->forward);
         if (before > reach + most || before < kNear_m - most) return;
         const Sway sway = sway_of(numbers, flake_, wind_m_s_, time_s_);
@@ -386,16 +393,20 @@ private:
         drop.diameter_m = glm::mix(class_->low_mm, class_->high_mm, numbers.next()) * 1e-3f;
         const float seen_px = drop.diameter_m * view_->focal_px / z;
         drop.half_px = 0.5f * seen_px + 0.5f;
-        const glm::vec2 low = glm::min(drop.from_px, drop.to_px) - drop.half_px;
-        const glm::vec2 high = glm::max(drop.from_px, drop.to_px) + drop.half_px;
+        const glm::vec2 middle = on_screen(from_eye);
+        const glm::vec2 low = glm::max(glm::min(drop.from_px, drop.to_px), middle - kLongest_px) -
+                              drop.half_px;
+        const glm::vec2 high = glm::min(glm::max(drop.from_px, drop.to_px), middle + kLongest_px) +
+                               drop.half_px;
         if (high.x < 0.0f || high.y < 0.0f || low.x > 2.0f * half_px_.x ||
             low.y > 2.0f * half_px_.y) {
             return;
         }
-        // What is hidden, summed over pixels and the shutter's time, is the section of the drop;
-        // the divisor is the sum of the outline that the shader draws.
+        // What is hidden, summed over pixels and the shutter's time, is twice the section of the
+        // drop, as extinction counts it (bent light and shadow); the divisor is the sum of the
+        // outline that the shader draws.
         const float length = glm::length(drop.to_px - drop.from_px);
-        const float section = 0.7853982f * seen_px * seen_px;
+        const float section = 1.5707963f * seen_px * seen_px;
         const float outline = drop.half_px * (1.3333333f * length + 1.5707963f * drop.half_px);
         const float there = glm::smoothstep(kNear_m, kWhole_m, z) *
                             (1.0f - glm::smoothstep(kFadeFrom * reach, reach, z));
@@ -447,11 +458,12 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view)
     const float share = shared::wind_share_at(kSeenAt_m, kRoughness_m);
     plan.air_m_s = glm::vec3(w.wind_m_s.x * share, 0.0f, w.wind_m_s.y * share);
 
-    add_rain(plan, w.rain_kg_m2_s * 3600.0f);
+    add_rain(plan, std::min(w.rain_kg_m2_s * 3600.0f, kMostRain_mm_h));
     const float air_per_m =
         static_cast<float>(KOSCHMIEDER_2_PERCENT) / std::max(w.visibility_m, 1.0f);
     const float a_mm_h = shared::snow_bulk_extinction_per_m(1.0f, shared::kDrySnow_kg_m2, 1.0f);
-    const float snow_mm_h = std::min(w.snowfall_kg_m2_s * 3600.0f, 3.0f * air_per_m / a_mm_h);
+    const float snow_mm_h =
+        std::min({w.snowfall_kg_m2_s * 3600.0f, 3.0f * air_per_m / a_mm_h, kMostSnow_mm_h});
     const float wet = glm::smoothstep(272.15f, 274.65f, w.air_temperature_k);
     add_snow(plan, snow_mm_h * (1.0f - wet), shared::kDrySnow_kg_m2);
     add_snow(plan, snow_mm_h * wet, shared::kWetSnow_kg_m2);

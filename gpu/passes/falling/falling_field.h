@@ -45,7 +45,8 @@ struct FallingPlan {
 /// What falls by the SI values of the weather. As many are drawn as the budget allows, those that
 /// hide most first: a class reaches as far as one of its drops hides `least_opacity`. Snow is never
 /// denser than the visibility of the weather allows three times over (what falls and how far one
-/// sees scatter by so much: Rasmussen et al. 1999).
+/// sees scatter by so much: Rasmussen et al. 1999). More than 1000 mm/h of rain or 100 mm/h of snow
+/// are drawn as those.
 ///
 /// Orthographic views and a budget of 0: nothing is drawn one by one.
 FallingPlan plan_falling(const Frame& frame, const FallingView& view);
@@ -56,8 +57,7 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view);
 /// hash of its number, so a drop has its own way through the world whatever the camera does and
 /// whichever frame is asked for.
 ///
-///   time_s   of the film
-///   lamps    that light them
+///   lamps   that light them
 std::vector<shared::FallingDrop> falling_drops(const FallingPlan& plan, const Frame& frame,
                                                const FallingView& view,
                                                const std::vector<Light>& lamps);
