@@ -12,6 +12,7 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/lamp_glow.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
@@ -21,7 +22,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 29;
+SHARED_CONST int kProbeKinds = 30;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -186,6 +187,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     drawn_depth(100.0f * a.z, 0.1f * a.w, 10.0f * b.x),
                     streak_opacity(1000.0f, 0.005f * b.y, 10.0f * b.z, drop_speed_m_s(5.0f * b.y),
                                    0.02f * b.w));
+    }
+    if (kind == 29) {
+        const GlowRay ray =
+            glow_ray(0.1f * a.x, 60.0f * a.y - 20.0f, 0.1f + 10.0f * a.z, 100.0f * a.w);
+        return vec4(ray.u, glow_function(ray.u, ray.to_v), glow_function(ray.u, ray.from_v),
+                    ray.scale);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -168,6 +168,24 @@ FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
     return facts;
 }
 
+// What floats and falls between the eye and the scene, once for all samples.
+void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const FallingPlan& plan,
+             FrameResources& r, const ConstantsRange& constants, FallingFacts& facts)
+{
+    const FrameSettings& settings = frame.settings;
+    const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
+    if (r.lamp_glow->prepare(frame, c, r.lights->brightest)) {
+        add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
+    }
+    facts = falling_facts(plan, frame);
+    if (plan.drawn_reach_m <= 0.0f) return;
+    r.falling->fill(falling_drops(plan, frame, falling_view(c), r.lights->brightest));
+    facts.drawn = r.falling->count();
+    if (facts.drawn == 0) return;
+    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, constants, settings.shelter,
+                settings.shadows && sun.illuminance != glm::vec3(0.0f));
+}
+
 }  // namespace
 
 FrameGraph build_sky(const Frame& frame, FrameResources& r)
@@ -255,17 +273,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_reflections(graph, *r.targets, *r.sky, constants);
         }
     }
-    falling = falling_facts(plan, frame);
-    if (plan.drawn_reach_m > 0.0f) {
-        const FallingView view = falling_view(frame_constants(frame, sun, r.scene->bounds(), 0));
-        r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
-        falling.drawn = r.falling->count();
-        constants.offset = 0;
-        if (falling.drawn > 0) {
-            add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, constants,
-                        settings.shelter, settings.shadows && sun.illuminance != glm::vec3(0.0f));
-        }
-    }
+    constants.offset = 0;
+    add_air(graph, frame, sun, plan, r, constants, falling);
     if (settings.bloom > 0.0f) add_glare(graph, *r.targets, settings.samples);
     add_resolve(graph, *r.targets, *r.sky, constants, settings);
     return graph;

@@ -4,6 +4,7 @@
 #include "gpu/frame/frame_constants.h"
 #include "gpu/outputs/aov.h"
 #include "gpu/passes/falling/falling.h"
+#include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
@@ -23,6 +24,7 @@ struct FrameResources {
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;
+    LampGlow* lamp_glow = nullptr;
     FallingTable* falling = nullptr;
     PatchLights* patches = nullptr;
     GpuPlace* place = nullptr;

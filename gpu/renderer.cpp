@@ -85,6 +85,7 @@ struct Renderer::Impl {
           depth_maps(device, shared_arena),
           lamp_shadows(device),
           sky(device, shared_arena),
+          lamp_glow(device),
           falling(device),
           patches(device),
           pictures(device),
@@ -177,6 +178,7 @@ struct Renderer::Impl {
     DepthMaps depth_maps;
     LampShadows lamp_shadows;
     SkyMaps sky;
+    LampGlow lamp_glow;
     FallingTable falling;
     PatchLights patches;
     TargetSet pictures;  ///< of the frames that are asked for
@@ -277,6 +279,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.lamp_shadows = &lamp_shadows;
     resources.sky = &sky;
     resources.lights = &light_table;
+    resources.lamp_glow = &lamp_glow;
     resources.falling = &falling;
     resources.patches = &patches;
     resources.place = &place;

@@ -48,7 +48,7 @@ SHARED_FN GlowRay glow_ray(float per_m, float along_m, float aside_m, float end_
     ray.u = per_m * aside;
     ray.from_v = 0.78539816f - 0.5f * atan(along_m / aside);
     ray.to_v = 0.78539816f + 0.5f * atan((end_m - along_m) / aside);
-    ray.scale = per_m * exp(-per_m * along_m) / (6.2831853f * aside);
+    ray.scale = per_m * exp(min(-per_m * along_m, 60.0f)) / (6.2831853f * aside);
     return ray;
 }
 

@@ -10,6 +10,7 @@
 #define SHADOW_CASCADES 3
 #define LIGHT_TILE 16         // pixels a side of a light list
 #define LIGHT_COARSE 8        // light tiles a side of a coarse tile
+#define GLOW_BLOCK 4          // pixels a side for which the glow of lamps is computed once
 #define SKY_DIRECTIONS 16     // depth maps over the upper hemisphere, for skylight's shadow
 #define SKY_PREFILTER_MIPS 6  // roughness 0, 0.2 .. 1
 

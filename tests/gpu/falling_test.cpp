@@ -1,7 +1,8 @@
-// Rain and snow in the picture.
+// Rain, snow and the glow of lamps in the picture.
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/light/lamp_glow.h"
 #include "tests/gpu/gpu_fixture.h"
 
 namespace petrichor::gpu {
@@ -182,6 +183,46 @@ TEST_F(FallingTest, LampsLightTheRainAroundThem)
         }
     }
     EXPECT_GT(near, 3.0 * far);
+}
+
+// The glow of a lamp beside the picture of it, by the closed form.
+TEST_F(FallingTest, AirGlowsAroundALampAsTheClosedFormSays)
+{
+    Scene scene = wall(60.0f);
+    scene.materials[0].base_color = glm::vec4(0, 0, 0, 1);
+    Light lamp;
+    lamp.position_m = {0, 0, -20};
+    lamp.intensity = 1000.0f;
+    scene.lights.push_back(lamp);
+    renderer->load(scene, {});
+    Frame frame = downpour();
+    frame.weather.rain_kg_m2_s = 0.0f;
+    frame.weather.visibility_m = 195.6f;
+    frame.fog.height_m = 0.0f;
+    frame.sky.sun_elevation_rad = -1.2f;
+    const RenderResult with = renderer->render(frame);
+    frame.settings.lamp_glow = false;
+    const RenderResult bare = renderer->render(frame);
+    // 0.02 1/m less what a clear day has.
+    const float per_m = 0.02f - 3.912f / 20000.0f;
+    const float focal_px = 72.0f / std::tan(0.325f);
+    for (const int x : {88, 120, 138, 170, 230}) {
+        const float aside = (static_cast<float>(x) + 0.5f - 128.0f) / focal_px;
+        const float angle = std::atan(std::abs(aside));
+        const float end = 60.0f * std::sqrt(1.0f + aside * aside);
+        const shared::GlowRay ray =
+            shared::glow_ray(per_m, 20.0f * std::cos(angle), 20.0f * std::sin(angle), end);
+        const float expected = 1000.0f * ray.scale *
+                               (shared::glow_function(ray.u, ray.to_v) -
+                                shared::glow_function(ray.u, ray.from_v));
+        const float got = pixel(with, x, 72).g - pixel(bare, x, 72).g;
+        EXPECT_NEAR(got, expected, 0.06f * expected) << x;
+    }
+    frame.settings.lamp_glow = true;
+    frame.weather.visibility_m = 20000.0f;
+    const RenderResult clear = renderer->render(frame);
+    frame.settings.lamp_glow = false;
+    EXPECT_EQ(changed_pixels(clear, renderer->render(frame)), 0) << "a clear day has none";
 }
 
 }  // namespace

@@ -20,12 +20,11 @@ void main()
     const vec2 from_way = vec2(max(abs(at_px.x) - shape.x, 0.0), at_px.y);
     float r = length(from_way) / shape.y;
     if (shape.w > 0.5) {
-        // Aggregates are ragged: the larger the flake in the picture, the more of it is seen.
         const vec2 d = from_way / max(length(from_way), 1.0e-4);
         const float turn = 6.2831853 * shape.w;
         const float three = d.x * (4.0 * d.x * d.x - 3.0);
         const float two = 2.0 * d.x * d.y;
-        r *= 1.0 + min(0.06 * shape.y, 0.3) * (three * cos(turn) + two * sin(turn));
+        r *= 1.0 + flake_raggedness(shape.x, shape.y) * (three * cos(turn) + two * sin(turn));
     }
     const float depth = texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r;
     const float behind_m = linear_depth(frame, depth) - light.w;

@@ -63,7 +63,9 @@ void main()
     const vec2 along = length_px > 1.0e-3 ? whole / length_px : vec2(0.0, 1.0);
     const vec2 across = vec2(-along.y, along.x);
     const float half_way = 0.5 * length_px;
-    at_px = corner * vec2(half_way + half_px, half_px);
+    const float wide_px =
+        flake ? half_px / (1.0 - 1.42 * flake_raggedness(half_way, half_px)) : half_px;
+    at_px = corner * vec2(half_way + wide_px, wide_px);
     const vec2 pixel = 0.5 * (way.xy + way.zw) + along * at_px.x + across * at_px.y;
     gl_Position = vec4(pixel / vec2(frame.size) * 2.0 - 1.0, 0.5, 1.0);
     shape.x = half_way;

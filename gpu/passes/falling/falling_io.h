@@ -32,6 +32,13 @@ struct FallingDrop {
     float diameter_m;
 };
 
+// Aggregates are ragged; the larger in the picture, the more of that is seen, unless it is blurred by
+// their way.
+SHARED_FN float flake_raggedness(float half_way_px, float half_px)
+{
+    return clamp(0.05f * half_px - 0.03f, 0.0f, 0.2f) * half_px / (half_px + half_way_px);
+}
+
 SHARED_END
 
 #endif
