@@ -13,15 +13,17 @@
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/lamp_glow.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falling.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 28;
+SHARED_CONST int kProbeKinds = 33;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -162,7 +164,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(footprint_scale(dx, dy, 1.0f), footprint_scale(dx, dy, 8.0f),
                     footprint_scale(dx, dy, 64.0f), 0.0f);
     }
-    if (kind == 27) {
+    if (kind == 32) {
         const vec3 n = probe_direction(a.x, a.y);
         Layers layers;
         layers.coat = c.x;
@@ -186,6 +188,26 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 uv = vec2(a.x, a.y);
         return vec4(rain_drops(uv, seed).x, snow_relief(uv, seed), snow_preference(uv, seed),
                     snow_gloss(uv, seed));
+    }
+    if (kind == 27) {
+        const float rate = 100.0f * a.x;
+        const float low = 4.0f * a.y;
+        return vec4(rain_drops_per_m3(rate, low, low + 1.0f) * 1.0e-3f,
+                    rain_extinction_per_m(rate, low, low + 1.0f) * 1.0e3f,
+                    snow_flakes_per_m3(20.0f * a.z, kDrySnow_kg_m2, low, low + 1.0f) * 1.0e-3f,
+                    snow_extinction_per_m(20.0f * a.z, kWetSnow_kg_m2, low, low + 1.0f) * 1.0e3f);
+    }
+    if (kind == 28) {
+        return vec4(drop_phase(2.0f * a.x - 1.0f), flake_phase(2.0f * a.y - 1.0f),
+                    drawn_depth(100.0f * a.z, 0.1f * a.w, 10.0f * b.x),
+                    streak_opacity(1000.0f, 0.005f * b.y, 10.0f * b.z, drop_speed_m_s(5.0f * b.y),
+                                   0.02f * b.w));
+    }
+    if (kind == 29) {
+        const GlowRay ray =
+            glow_ray(0.1f * a.x, 60.0f * a.y - 20.0f, 0.1f + 10.0f * a.z, 100.0f * a.w);
+        return vec4(ray.u, glow_function(ray.u, ray.to_v), glow_function(ray.u, ray.from_v),
+                    ray.scale);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -27,7 +27,7 @@ bool uses_patches(const Frame& frame, const FrameResources& r)
 
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
-                    bool weather)
+                    bool weather, bool falls)
 {
     DepthMaps& maps = *r.depth_maps;
     const float aspect =
@@ -49,7 +49,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_sky_visibility(graph, maps, *r.scene);
         }
     }
-    if (frame.settings.shelter && weather) {
+    if (frame.settings.shelter && (weather || falls)) {
         const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
@@ -160,6 +160,40 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     }
 }
 
+FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
+{
+    return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0)));
+}
+
+FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
+{
+    FallingFacts facts;
+    facts.per_m3 = plan.per_m3;
+    facts.extinction_per_m = plan.extinction_per_m;
+    facts.drawn_reach_m = plan.drawn_reach_m;
+    facts.seen = plan.seen;
+    facts.visibility_m = frame.weather.visibility_m;
+    return facts;
+}
+
+// What floats and falls between the eye and the scene, once for all samples.
+void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const FallingPlan& plan,
+             FrameResources& r, const ConstantsRange& constants, FallingFacts& facts)
+{
+    const FrameSettings& settings = frame.settings;
+    const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
+    if (r.lamp_glow->prepare(frame, c, r.lights->brightest)) {
+        add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
+    }
+    facts = falling_facts(plan, frame);
+    if (plan.drawn_reach_m <= 0.0f) return;
+    r.falling->fill(falling_drops(plan, frame, falling_view(c), r.lights->brightest));
+    facts.drawn = r.falling->count();
+    if (facts.drawn == 0) return;
+    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, constants, settings.shelter,
+                settings.shadows && sun.illuminance != glm::vec3(0.0f));
+}
+
 }  // namespace
 
 FrameGraph build_sky(const Frame& frame, FrameResources& r)
@@ -172,7 +206,7 @@ FrameGraph build_sky(const Frame& frame, FrameResources& r)
 }
 
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
-                       const std::vector<AovGroup>& aov_groups)
+                       const std::vector<AovGroup>& aov_groups, FallingFacts& falling)
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
@@ -187,7 +221,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
-    add_depth_maps(graph, frame, sun, r, weather.any);
+    const FallingPlan plan = plan_of(frame, sun, r);
+    add_depth_maps(graph, frame, sun, r, weather.any, !plan.classes.empty());
     r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
@@ -208,6 +243,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, r);
+        // Other modes of fog know nothing of what falls.
+        c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
+        c.drawn_reach_m = plan.drawn_reach_m;
         c.place = r.place->constants();
         if (i == 0) {
             see_models(variant, *r.scene, c);
@@ -243,6 +281,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_reflections(graph, *r.targets, *r.sky, constants);
         }
     }
+    constants.offset = 0;
+    add_air(graph, frame, sun, plan, r, constants, falling);
     if (settings.bloom > 0.0f) add_glare(graph, *r.targets, settings.samples);
     add_resolve(graph, *r.targets, *r.sky, constants, settings);
     return graph;

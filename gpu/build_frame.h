@@ -3,6 +3,8 @@
 
 #include "gpu/frame/frame_constants.h"
 #include "gpu/outputs/aov.h"
+#include "gpu/passes/falling/falling.h"
+#include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
@@ -22,6 +24,8 @@ struct FrameResources {
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     LightTable* lights = nullptr;
+    LampGlow* lamp_glow = nullptr;
+    FallingTable* falling = nullptr;
     PatchLights* patches = nullptr;
     GpuPlace* place = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
@@ -36,7 +40,7 @@ FrameGraph build_sky(const Frame& frame, FrameResources& resources);
 
 /// The passes of one frame in order. Also writes the constants of every sample.
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& resources,
-                       const std::vector<AovGroup>& aov_groups);
+                       const std::vector<AovGroup>& aov_groups, FallingFacts& falling);
 
 }  // namespace petrichor::gpu
 

@@ -87,6 +87,8 @@ struct Renderer::Impl {
           depth_maps(device, shared_arena),
           lamp_shadows(device),
           sky(device, shared_arena),
+          lamp_glow(device),
+          falling(device),
           patches(device),
           pictures(device),
           metering(device),
@@ -179,6 +181,8 @@ struct Renderer::Impl {
     DepthMaps depth_maps;
     LampShadows lamp_shadows;
     SkyMaps sky;
+    LampGlow lamp_glow;
+    FallingTable falling;
     PatchLights patches;
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
@@ -277,6 +281,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.lamp_shadows = &lamp_shadows;
     resources.sky = &sky;
     resources.lights = &light_table;
+    resources.lamp_glow = &lamp_glow;
+    resources.falling = &falling;
     resources.patches = &patches;
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
@@ -292,10 +298,10 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         patches.relight(frame, sun, scene_sun, scene->lights());
         first_passes.push_back({"patch_light", patches.relight_ms()});
     }
-    FrameGraph graph = build_frame(frame, sun, resources, aov_groups);
+    RenderResult result;
+    FrameGraph graph = build_frame(frame, sun, resources, aov_groups, result.falling);
     graph_text = before.describe() + graph.describe();
 
-    RenderResult result;
     result.passes = std::move(first_passes);
     for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
         result.passes.push_back(pass);

@@ -32,6 +32,7 @@ struct RenderResult {
     std::vector<std::uint8_t> display;  ///< RGBA8 sRGB, exposed and tone mapped
     float exposure = 1.0f;              ///< the scale that display used
     std::vector<AovImage> aovs;
+    FallingFacts falling;
     std::vector<PassTime> passes;
 };
 

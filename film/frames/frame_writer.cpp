@@ -69,6 +69,7 @@ WrittenFrame write_frame(const fs::path& folder, const WrittenKinds& kinds, Fram
     hasher.add_numbers(std::span<const std::uint16_t>(result.beauty));
     facts.beauty_hash = hasher.text();
     facts.exposure = result.exposure;
+    facts.falling = result.falling;
     const Metadata metadata{
         {"software", "petrichor " PETRICHOR_VERSION},
         {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},

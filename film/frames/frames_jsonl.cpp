@@ -119,6 +119,17 @@ Json weather_json(const FrameFacts& facts)
     return json;
 }
 
+// Of those seen, what is not drawn is part of the air's extinction.
+Json falling_json(const gpu::FallingFacts& falling)
+{
+    return {{"drawn", falling.drawn},
+            {"extinguished", std::round(std::max(falling.seen - falling.drawn, 0.0))},
+            {"per_m3", shortest(falling.per_m3)},
+            {"extinction_per_m", shortest(falling.extinction_per_m)},
+            {"drawn_reach_m", shortest(falling.drawn_reach_m)},
+            {"visibility_m", shortest(falling.visibility_m)}};
+}
+
 // Holds the folder itself locked, so that no lock file is left behind.
 class FolderLock {
 public:
@@ -181,6 +192,7 @@ std::string frame_line(const FrameFacts& facts)
     if (facts.input.sky.moon_lux > 0.0f) json["moon"] = moon_json(facts.input.sky);
     json["sky"] = sky_json(facts.input.sky);
     json["weather"] = weather_json(facts);
+    if (facts.falling.per_m3 > 0.0f) json["falling"] = falling_json(facts.falling);
     for (const auto& [name, sum] : facts.ground) json["ground"][name] = sum;
     json["lamps"] = shortest(facts.input.scene_light_scale);
     json["aovs"] = settings.aovs;

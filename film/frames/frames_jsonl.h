@@ -43,6 +43,7 @@ struct FrameFacts {
     float exposure = 1.0f;    ///< scale from scene light to the PNG
     ExposureFacts exposure_by;  ///< what decided it
     gpu::Frame input;
+    gpu::FallingFacts falling;  ///< written where something falls
     std::map<std::string, double> ground;  ///< sums over the scene's patches, SI; empty: none
     std::map<std::string, FileMark> files;  ///< by name
 };

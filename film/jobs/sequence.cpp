@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
+constexpr double kShutter_s = 0.004;
 constexpr int kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = 64 << 20;
 
@@ -71,6 +72,16 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
         hasher.add(value);
     }
     hasher.add(sky.analytic_sun);
+}
+
+void add_falling(Hasher& hasher, const gpu::Falling& falling)
+{
+    hasher.add(falling.air_m.x);
+    hasher.add(falling.air_m.y);
+    hasher.add(falling.shutter_s);
+    hasher.add(falling.density);
+    hasher.add(falling.budget);
+    hasher.add(falling.seed);
 }
 
 void add_light(Hasher& hasher, const scene::Light& light)
@@ -203,12 +214,17 @@ const Part& named_part(const std::vector<Part>& parts, const std::string& name, 
 }
 
 // From directions about true north to the scene's axes.
-glm::vec2 turned(const glm::vec2& v, double north_rad)
+glm::dvec2 turned(const glm::dvec2& v, double north_rad)
 {
     if (north_rad == 0.0) return v;
     const double c = std::cos(north_rad), s = std::sin(north_rad);
-    const double x = static_cast<double>(v.x), z = static_cast<double>(v.y);
-    return {narrow(x * c - z * s), narrow(x * s + z * c)};
+    return {v.x * c - v.y * s, v.x * s + v.y * c};
+}
+
+// What falls, as far as the picture shows that.
+bool something_falls(const shared::WeatherMoment& w)
+{
+    return w.rain_kg_m2_s > 0.0f || w.snowfall_kg_m2_s > 0.0f;
 }
 
 }  // namespace
@@ -231,6 +247,13 @@ Sequence make_sequence(Scenario scenario)
     }
     if (output.duration_s) sequence.duration_s = *output.duration_s;
     if (!(sequence.duration_s > 0.0)) sequence.duration_s = output.frames / output.fps;
+    for (SequenceVariant& variant : sequence.variants) {
+        const auto wind = [at = variant.weather.at](double clock_s) {
+            return glm::dvec2(at(clock_s).values.wind_m_s);
+        };
+        variant.air =
+            AirTravel(wind, output.start_s, sequence.duration_s, output.frames / output.fps);
+    }
     sequence.views = s.views;
     if (sequence.views.empty()) sequence.views.push_back({"", s.camera});
     return sequence;
@@ -278,7 +301,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.look = look_at(here.look, time_s);
 
     const double north_rad = scenario.scene.north_degrees * kPi / 180.0;
-    out.weather.wind_m_s = turned(out.weather.wind_m_s, north_rad);
+    out.weather.wind_m_s = glm::vec2(turned(glm::dvec2(out.weather.wind_m_s), north_rad));
     const weather::SunAngles sun =
         sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s);
     result.moment.sun = sun;
@@ -313,6 +336,13 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.fog.start_m = narrow(value_at(fog.start_m, time_s, 0.0));
     out.fog.end_m = narrow(value_at(fog.end_m, time_s, 100.0));
     out.fog.height_m = narrow(value_at(fog.height_m, time_s, 120.0));
+
+    out.falling.shutter_s = narrow(value_at(camera.shutter_s, time_s, kShutter_s));
+    out.falling.density = narrow(scenario.render.falling_density);
+    out.falling.budget = scenario.render.falling_budget;
+    out.falling.seed = scenario.output.seed;
+    if (scenario.render.falling && something_falls(out.weather))
+        out.falling.air_m = turned(variant.air.at(time_s), north_rad);
 
     const double lamps = lamp_scale(here.lights, sun.elevation_rad);
     out.scene_light_scale = narrow(lamps);
@@ -363,6 +393,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     add_camera(hasher, frame.camera);
     add_sky(hasher, frame.sky);
     add_fog(hasher, frame.fog);
+    add_falling(hasher, frame.falling);
     hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
     hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
     for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
@@ -414,6 +445,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
+    parts["falling"] = part([&](Hasher& hasher) { add_falling(hasher, frame.falling); });
     parts["weather"] = part(
         [&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1))); });
     parts["places"] = part([&](Hasher& hasher) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "film/frames/frames_jsonl.h"
+#include "film/jobs/air_travel.h"
 #include "film/jobs/weather_source.h"
 #include "film/scenario/scenario.h"
 #include "gpu/renderer.h"
@@ -38,6 +39,7 @@ struct SequenceVariant {
     Conditions conditions;
     WeatherSource weather;
     std::string environment = {};  ///< fingerprint of its sky's picture; "": none
+    AirTravel air = {};            ///< of the weather's wind, about true north
 };
 
 /// A scene and a scenario that together say what every frame shows.

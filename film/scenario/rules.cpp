@@ -122,6 +122,11 @@ const std::vector<Rule>& rules()
         {{"camera", "exposure_bias", "0.0", "stops brighter (+) or darker (-), -10 to 10", true},
          [](Scenario& s, const TomlValue& v) { s.camera.exposure_bias = v.keyed(-10.0, 10.0); }},
 
+        {{"camera", "shutter_s", "0.004",
+          "how long the shutter is open: rain is seen as streaks as long as its way in this time, 1e-5 "
+          "to 1",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.camera.shutter_s = v.keyed(1e-5, 1.0); }},
         {{"camera", "white_balance_k", "5000.0",
           "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it is",
           true},
@@ -327,6 +332,13 @@ const std::vector<Rule>& rules()
         {{"render", "lamp_shadows", "4",
           "so many lamps throw shadows, 0 to 16: those that give most light at the camera"},
          [](Scenario& s, const TomlValue& v) { s.render.lamp_shadows = v.integer(0, 16); }},
+        {{"render", "falling_budget", "20000",
+          "about so many drops and flakes are drawn one by one, those that hide most, 0 to 1000000; "
+          "the others dim what lies behind them"},
+         [](Scenario& s, const TomlValue& v) { s.render.falling_budget = v.integer(0, 1000000); }},
+        {{"render", "falling_density", "1.0",
+          "multiplies how many there are in the air, 0 to 10; 1: as the weather says"},
+         [](Scenario& s, const TomlValue& v) { s.render.falling_density = v.number(0.0, 10.0); }},
         {{"render", "tone_map", "\"filmic\"",
           "of the PNG: filmic, agx, aces, neutral (Khronos), linear (plain sRGB); true is filmic, "
           "false linear. The EXR is never tone mapped"},

@@ -51,6 +51,7 @@ struct ScenarioCamera {
     double ev100_high = 18.0;
     KeyedNumber white_balance_k;   ///< not given: as it is
     KeyedNumber bloom;
+    KeyedNumber shutter_s;
     double exposure_smoothing_s = 0.25;  ///< of the film: half width of Auto's window
 };
 
@@ -142,6 +143,8 @@ struct ScenarioRender : gpu::FrameSwitches {
     int lamp_shadows = 4;
     gpu::ToneMap tone_map = gpu::ToneMap::Filmic;
     WeatherTextures weather_textures;  ///< relative to the scenario
+    int falling_budget = 20000;
+    double falling_density = 1.0;
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"

@@ -82,7 +82,7 @@ VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, Use use)
     if (!attachment.image) return info;
     info.imageView = attachment.view ? attachment.view : attachment.image->view.get();
     info.imageLayout = needs_of(use).layout;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.loadOp = attachment.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
 }

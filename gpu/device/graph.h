@@ -53,10 +53,11 @@ struct DispatchListPass {
     std::function<void(DispatchContext&)> record;
 };
 
-/// An image that is drawn into; cleared to zero first.
+/// An image that is drawn into; cleared to zero first, or drawn over.
 struct Attachment {
     GpuImage* image = nullptr;          ///< null: what a shader writes there goes nowhere
     VkImageView view = VK_NULL_HANDLE;  ///< one layer of it; null: the whole image
+    bool keep = false;                  ///< what it holds stays below what is drawn
 
     Attachment() = default;
     explicit Attachment(GpuImage& i, VkImageView v = VK_NULL_HANDLE) : image(&i), view(v) {}

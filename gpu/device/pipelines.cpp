@@ -342,7 +342,7 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
     for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
     key += "|" + std::to_string(desc.depth) + "|" + std::to_string(desc.color_write) +
-           std::to_string(desc.depth_equal);
+           std::to_string(desc.depth_equal) + std::to_string(desc.over);
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
@@ -391,8 +391,9 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
 
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = VK_TRUE;
-    depth.depthWriteEnable = !desc.depth_equal;
+    const bool has_depth = desc.depth != VK_FORMAT_UNDEFINED;
+    depth.depthTestEnable = has_depth;
+    depth.depthWriteEnable = has_depth && !desc.depth_equal;
     // Reversed depth: 1 near, 0 far.
     depth.depthCompareOp = desc.depth_equal ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
 
@@ -400,6 +401,12 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     for (std::size_t i = 0; i < attachments.size(); ++i) {
         const bool kept = desc.colors[i] != VK_FORMAT_UNDEFINED;
         attachments[i].colorWriteMask = desc.color_write && kept ? 0xfu : 0u;
+        if (!desc.over) continue;
+        attachments[i].blendEnable = VK_TRUE;
+        attachments[i].srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachments[i].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        attachments[i].srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        attachments[i].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     }
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;

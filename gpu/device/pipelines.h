@@ -71,6 +71,7 @@ struct GraphicsDesc {
     std::uint32_t stride = 0;
     std::vector<VertexAttribute> attributes;
     bool color_write = true;   ///< false: fills depth only
+    bool over = false;         ///< colour is premultiplied and laid over what is there; its alpha stays
     bool depth_equal = false;  ///< draws where depth is already its own; does not write it
 };
 

@@ -79,6 +79,15 @@ struct Fog {
     float height_m = 120.0f;  ///< scale height of the layer over the scene's lowest point; 0: endless
 };
 
+/// How rain and snow are drawn on their way down. What falls, and how fast, the weather says.
+struct Falling {
+    glm::dvec2 air_m{0.0};     ///< how far the air has gone since the film began, world x and z
+    float shutter_s = 0.004f;  ///< > 0: a drop is drawn as long as its way in this time
+    float density = 1.0f;      ///< times as many as the weather says, >= 0
+    int budget = 20000;        ///< so many are drawn, about; the rest dims what lies behind
+    std::uint32_t seed = 1;
+};
+
 /// How a frame is taken.
 struct FrameSettings : FrameSwitches {
     int width = 640;
@@ -119,10 +128,21 @@ struct PlaceWeather {
     std::vector<float> levels_m;    ///< of the water over each pit, by label; at least one
 };
 
+/// What of the rain and snow of a frame is in its picture.
+struct FallingFacts {
+    std::uint32_t drawn = 0;       ///< one by one
+    double seen = 0.0;             ///< how many there are between the camera and the visibility
+    float per_m3 = 0.0f;
+    float extinction_per_m = 0.0f; ///< of all of them, a part of the air's
+    float drawn_reach_m = 0.0f;    ///< how far the drawn ones are, in the mean by what they hide
+    float visibility_m = 0.0f;
+};
+
 struct Frame {
     Camera camera;
     Sky sky;
     Fog fog;
+    Falling falling;
     shared::WeatherMoment weather;    ///< all of it: what is seen, and the SI values beside it
     shared::WeatherLook look;         ///< how weather is drawn
     /// Where pixels find their weather; null: `weather` is everywhere, under the shelter map.

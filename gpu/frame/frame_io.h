@@ -10,6 +10,7 @@
 #define SHADOW_CASCADES 3
 #define LIGHT_TILE 16         // pixels a side of a light list
 #define LIGHT_COARSE 8        // light tiles a side of a coarse tile
+#define GLOW_BLOCK 4          // pixels a side for which the glow of lamps is computed once
 #define SKY_DIRECTIONS 16     // depth maps over the upper hemisphere, for skylight's shadow
 #define SKY_PREFILTER_MIPS 6  // roughness 0, 0.2 .. 1
 
@@ -67,6 +68,8 @@ struct FrameConstants {
     float fog_end_m;
     float fog_height_m;
     float fog_base_m;     // world height
+    float drawn_per_m;    // extinction of the drops and flakes that are drawn one by one ..
+    float drawn_reach_m;  // .. and how far they are, in the mean
     vec3 white_gains;     // of the cones
     float bloom;
     float emissive_scale;

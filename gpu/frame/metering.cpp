@@ -48,6 +48,7 @@ Frame metering_frame(const Frame& frame)
     s.height = scaled(s.height);
     s.samples = 1;
     s.aovs.clear();
+    s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.
     s.exposure = 1e12f;
     s.exposure_bias_stops = 0.0f;

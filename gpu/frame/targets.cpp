@@ -115,8 +115,14 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
     targets.patch_light = target("patch_light", VK_FORMAT_R32G32B32A32_UINT, storage);
-    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, storage);
+    targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
+    const int block = GLOW_BLOCK;
+    targets.lamp_glow = arena.image({.name = "lamp_glow",
+                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                     .width = divide_up(width, block),
+                                     .height = divide_up(height, block),
+                                     .usage = storage | VK_IMAGE_USAGE_SAMPLED_BIT});
     for (int w = width, h = height; targets.glare.empty() || std::min(w, h) > 4;) {
         w = divide_up(w, 2);
         h = divide_up(h, 2);

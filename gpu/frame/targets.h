@@ -47,6 +47,7 @@ struct FrameTargets {
     std::unique_ptr<GpuImage> patch_light;   ///< of the first sample: see lighting.comp
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
+    std::unique_ptr<GpuImage> lamp_glow;  ///< of blocks of pixels; alpha: how far they are
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;

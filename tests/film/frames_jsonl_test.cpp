@@ -51,6 +51,18 @@ TEST(FramesJsonl, NumbersAreShortAndThereIsNoClock)
     EXPECT_EQ(line, frame_line(facts_of(1, "a")));
 }
 
+TEST(FramesJsonl, SayWhatFallsAndWhatOfItIsDrawn)
+{
+    FrameFacts facts = facts_of(1, "a");
+    EXPECT_THAT(frame_line(facts), testing::Not(testing::HasSubstr("falling\":{")));
+    facts.falling = {.drawn = 300, .seen = 5000.2, .per_m3 = 12.5f, .extinction_per_m = 0.001f,
+                     .drawn_reach_m = 3.5f, .visibility_m = 800.0f};
+    EXPECT_THAT(frame_line(facts),
+                testing::HasSubstr("\"falling\":{\"drawn\":300,\"extinguished\":4700.0,"
+                                   "\"per_m3\":12.5,\"extinction_per_m\":0.001,"
+                                   "\"drawn_reach_m\":3.5,\"visibility_m\":800.0}"));
+}
+
 TEST(FramesJsonl, SayHowAFrameIsExposed)
 {
     FrameFacts facts = facts_of(1, "a");

@@ -95,6 +95,9 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
          {"[output]\nwidth = 641\n", "[output]\nseed = 2\n", "[output]\nsamples = 9\n",
           "[sun]\nelevation_degrees = 3\n", "[sky]\ncloud_cover = 0.41\n",
           "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n", "[camera]\nnear_m = 0.2\n",
+          "[camera]\nshutter_s = 0.01\n", "[render]\nfalling = false\n",
+          "[render]\nfalling_budget = 10\n", "[render]\nfalling_density = 2\n",
+          "[render]\nlamp_glow = false\n",
           "[output]\naovs = [\"depth\"]\n", "[scene]\nmax_texture = 512\n",
           "[materials.\"x\"]\nporosity = 0.5\n", "[sun]\nsource = \"scene\"\n"}) {
         EXPECT_NE(print(other, 5), base) << other;

@@ -17,7 +17,8 @@ namespace {
 std::vector<Case> cases()
 {
     std::vector<Case> all;
-    for (const auto& part : {surface_cases(), weather_cases(), light_cases(), sky_cases()}) {
+    for (const auto& part : {surface_cases(), weather_cases(), falling_cases(), light_cases(),
+                             sky_cases()}) {
         all.insert(all.end(), part.begin(), part.end());
     }
     return all;

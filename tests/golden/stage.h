@@ -63,6 +63,7 @@ inline void PrintTo(const Case& c, std::ostream* out)
 
 std::vector<Case> surface_cases();
 std::vector<Case> weather_cases();
+std::vector<Case> falling_cases();
 std::vector<Case> light_cases();
 std::vector<Case> sky_cases();
 

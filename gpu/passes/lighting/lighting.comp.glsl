@@ -16,6 +16,7 @@
 #include "gpu/upload/material_io.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falling.h"
 
 layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
 layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
@@ -576,8 +577,11 @@ void main()
             const float path =
                 fog_path(distance_m, frame.camera_m.y - frame.fog_base_m,
                          position.y - frame.fog_base_m, frame.fog_height_m);
-            const float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
-                                        frame.fog_end_m);
+            float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
+                                  frame.fog_end_m);
+            // Drops that are drawn one by one are no haze.
+            kept = min(kept * exp(drawn_depth(distance_m, frame.drawn_per_m, frame.drawn_reach_m)),
+                       1.0);
             const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
             const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);

@@ -46,9 +46,9 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
 
 namespace {
 
-// Numbers of the lights that own a shadow, brightest first.
-std::vector<std::size_t> with_shadows(const std::vector<const Light*>& lights, int shadows,
-                                      const glm::vec3& eye_m)
+// Numbers of the lamps that give most light at the eye, brightest first.
+std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int most,
+                                   const glm::vec3& eye_m)
 {
     std::vector<std::pair<float, std::size_t>> ranked;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -63,7 +63,7 @@ std::vector<std::size_t> with_shadows(const std::vector<const Light*>& lights, i
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::size_t> chosen;
     for (const auto& [strength, i] : ranked) {
-        if (static_cast<int>(chosen.size()) < shadows) chosen.push_back(i);
+        if (static_cast<int>(chosen.size()) < most) chosen.push_back(i);
     }
     return chosen;
 }
@@ -94,7 +94,9 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                             std::cos(light->inner_cone_rad));
         texels.emplace_back(light->half_v_m, -1.0f);
     }
-    const auto chosen = with_shadows(ordered, shadows, eye_m);
+    for (const std::size_t i : brightest(ordered, kBrightestLamps, eye_m))
+        table.brightest.push_back(*ordered[i]);
+    const auto chosen = brightest(ordered, shadows, eye_m);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         texels[LIGHT_TEXELS * chosen[k] + 3].w = static_cast<float>(k);
         table.shadowed.push_back(*ordered[chosen[k]]);

@@ -19,9 +19,13 @@ struct LightTable {
     std::uint32_t directional = 0;
     bool rectangles = false;         ///< some are
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
+    std::vector<Light> brightest;    ///< at most kBrightestLamps, as the eye sees them
 
     std::uint32_t words() const { return (count + 31) / 32; }
 };
+
+/// So many lamps light what floats in the air.
+inline constexpr int kBrightestLamps = 16;
 
 /// Distance at which a light of unlimited range is taken to have faded away, metres.
 float light_radius_m(const Light& light);

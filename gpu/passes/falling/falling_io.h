@@ -1,0 +1,44 @@
+// Interface of the falling pass.
+#ifndef PETRICHOR_GPU_PASSES_FALLING_FALLING_IO_H
+#define PETRICHOR_GPU_PASSES_FALLING_FALLING_IO_H
+
+#include "base/interop.h"
+
+#define FALLING_FRAME 0
+#define FALLING_SKY_LIGHT 1
+#define FALLING_DROPS 2
+#define FALLING_DEPTH 3
+#define FALLING_SHELTER 4
+#define FALLING_SHADOW 5
+
+#define FALLING_SPEC_SHELTER 0
+#define FALLING_SPEC_SUN 1
+
+#define FALLING_TEXELS 4  // a drop in its table
+
+SHARED_BEGIN
+
+// One drop or flake in the picture.
+struct FallingDrop {
+    vec2 from_px;     // its way while the shutter is open
+    vec2 to_px;
+    float view_m;     // distance along the view axis
+    float half_px;    // half its width as drawn
+    float opacity;    // of the middle of its way; may pass 1
+    float flake;      // 0 a drop; a flake: 1 + where its outline begins, 0..1
+    vec3 position_m;  // world
+    float speed_m_s;
+    vec3 lamps;       // radiance that lamps give it
+    float diameter_m;
+};
+
+// Aggregates are ragged; the larger in the picture, the more of that is seen, unless it is blurred by
+// their way.
+SHARED_FN float flake_raggedness(float half_way_px, float half_px)
+{
+    return clamp(0.05f * half_px - 0.03f, 0.0f, 0.2f) * half_px / (half_px + half_way_px);
+}
+
+SHARED_END
+
+#endif
