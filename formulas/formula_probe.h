@@ -14,13 +14,15 @@
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falls_here.h"
+#include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 27;
+SHARED_CONST int kProbeKinds = 29;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -44,6 +46,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     m.occlusion = b.y;
     m.emission_scale = 1.0f;
     m.normal_mix = 0.0f;
+    m.metallic = c.z;
     if (kind == 0) {
         const WaterCover w =
             water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
@@ -171,6 +174,16 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 uv = vec2(a.x, a.y);
         return vec4(rain_drops(uv, seed).x, snow_relief(uv, seed), snow_preference(uv, seed),
                     snow_gloss(uv, seed));
+    }
+    if (kind == 27) {
+        const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);
+        return vec4(facing_share(probe_direction(a.z, a.w), from), film_share(b.x),
+                    flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
+    }
+    if (kind == 28) {
+        return vec4(ground_relief(vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f)),
+                    level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
+                    frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
