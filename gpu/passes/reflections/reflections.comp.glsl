@@ -76,6 +76,7 @@ Hit trace(vec3 origin, vec3 direction)
     const int steps = clamp(int(pixels / 3.0), 4, kSteps);
     float before = 0.0;
     float before_m = 1.0 / ray.from.z;
+    float hidden = -1.0;  // where the ray went behind what is seen
     // Off the pixel that it starts from.
     const float first = min(1.5 / pixels, 0.5);
     for (int i = 1; i <= steps; ++i) {
@@ -102,8 +103,18 @@ Hit trace(vec3 origin, vec3 direction)
             hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
             return hit;
         }
+        if (ray_m <= seen_m) {
+            hidden = -1.0;
+        } else if (hidden < 0.0) {
+            hidden = s;
+        }
         before = s;
         before_m = ray_m;
+    }
+    if (hidden >= 0.0) {
+        // It never came out again: what hides it is likelier what it meets than the sky.
+        hit.pixel = mix(ray.from, ray.to, hidden).xy;
+        hit.confidence = 0.8;
     }
     return hit;
 }

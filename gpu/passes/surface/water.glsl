@@ -14,13 +14,14 @@ struct StandingWater {
 };
 
 // level: of the weather here, in cracks and puddles; by the material's influence, and its constant.
-// A material that brings a height map says where water goes. Others have a relief of the world's own
-// that holds it where they are level; their slopes shed it.
+// A material that brings a height map says where water goes, and its hollows hold some on slopes of up
+// to 30 degrees. Others have a relief of the world's own that holds it where they are level.
 StandingWater water_on(SurfaceInput at, vec2 level)
 {
     const bool mapped = has(TEXTURE_HEIGHT);
     const vec2 weather = level * material.water_accumulation.yw;
-    const float levelness = mapped ? 1.0 : level_ground(at.normal.y);
+    const float levelness =
+        mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
     const vec2 flood = weather * levelness + material.water_accumulation.xz;
     float height = material.default_height;
     if (mapped) {
