@@ -12,11 +12,13 @@
 #include "formulas/light/brdf.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
-#include "formulas/light/layers.h"
 #include "formulas/light/lamp_glow.h"
+#include "formulas/light/layers.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
+#include "formulas/weather/falls_here.h"
+#include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
@@ -47,6 +49,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     m.occlusion = b.y;
     m.emission_scale = 1.0f;
     m.normal_mix = 0.0f;
+    m.metallic = c.z;
     if (kind == 0) {
         const WaterCover w =
             water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
@@ -120,6 +123,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         WeatherMoment moment;
         moment.film_albedo = c.w;
         moment.film_smoothness = 0.5f * c.w;
+        moment.rain = 0.4f * a.x;
+        moment.water_to_snow = a.y;
         WeatherLook look;
         look.snow_color = vec3(0.92f, 0.94f, 0.97f);
         look.snow_specular = vec3(0.02f);
@@ -208,6 +213,16 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
             glow_ray(0.1f * a.x, 60.0f * a.y - 20.0f, 0.1f + 10.0f * a.z, 100.0f * a.w);
         return vec4(ray.u, glow_function(ray.u, ray.to_v), glow_function(ray.u, ray.from_v),
                     ray.scale);
+    }
+    if (kind == 30) {
+        const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);
+        return vec4(facing_share(probe_direction(a.z, a.w), from), film_share(b.x),
+                    flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
+    }
+    if (kind == 31) {
+        return vec4(ground_relief(vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f)),
+                    level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
+                    frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

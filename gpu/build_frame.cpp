@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "gpu/build_frame.h"
+#include "gpu/frame/falls.h"
 #include "gpu/lighting/models_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/glare/glare.h"
@@ -40,8 +41,10 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_shadow(graph, maps, *r.scene);
         }
     }
-    if (frame.settings.image_based_light && frame.settings.ambient_occlusion &&
-        !uses_patches(frame, r)) {
+    // They shadow skylight, and keep rain and snow off.
+    const bool skylight = frame.settings.image_based_light && frame.settings.ambient_occlusion &&
+                          !uses_patches(frame, r);
+    if (skylight || (frame.settings.shelter && weather)) {
         const auto views = sky_views(frame.camera, r.scene->bounds());
         if (!maps.sky_valid || views != maps.sky_views) {
             maps.sky_views = views;
@@ -49,7 +52,8 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_sky_visibility(graph, maps, *r.scene);
         }
     }
-    if (frame.settings.shelter && (weather || falls)) {
+    const bool lies = weather && frame.weather.rain + frame.weather.snowfall > 0.0f;
+    if (frame.settings.shelter && (lies || falls)) {
         const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
@@ -142,11 +146,17 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     c.shadow_texel_m = maps.shadow_views[0].texel_m;
     c.cascade_end_m = glm::vec4(cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
     c.shelter_from_world = maps.shelter_view.map_from_world;
-    if (!maps.shelter_valid) c.flags &= ~FRAME_SHELTER;
+    if (!maps.sky_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
         c.sky_from_world[i] = maps.sky_views[i].map_from_world;
         c.sky_direction[i] =
             glm::vec4(sky_direction(static_cast<int>(i)), maps.sky_views[i].texel_m);
+    }
+    std::array<glm::vec3, SKY_DIRECTIONS> sky;
+    for (int i = 0; i < SKY_DIRECTIONS; ++i) sky[static_cast<std::size_t>(i)] = sky_direction(i);
+    for (const Fall& fall : falls(frame.weather, sky)) {
+        c.falls[c.fall_count++] =
+            glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
     }
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};

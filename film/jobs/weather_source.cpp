@@ -12,6 +12,7 @@
 #include "film/data/folders.h"
 #include "film/scenario/weather_script.h"
 #include "film/toml/toml_value.h"
+#include "film/weather/artist_ice.h"
 #include "film/weather/inputs.h"
 #include "film/weather/times.h"
 #include "film/weather/weather_input.h"
@@ -35,8 +36,17 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
     const auto weather = std::make_shared<const weather::ArtistTimeline>(script.solve());
     const auto shared = std::make_shared<const WeatherScript>(std::move(script));
     source.script = shared;
-    source.at = [shared, weather](double time_s) {
-        return weather::artist_moment(*weather, shared->timeline, shared->sky, time_s);
+    const auto ice = std::make_shared<const ArtistIceTimeline>(*weather);
+    source.at = [shared, weather, ice](double time_s) {
+        weather::Moment moment =
+            weather::artist_moment(*weather, shared->timeline, shared->sky, time_s);
+        const ArtistIce frozen = ice->at(time_s);
+        shared::WeatherMoment& m = moment.values;
+        const auto narrow = [](double value) { return static_cast<float>(value); };
+        m.flood_cracks = std::min(m.flood_cracks + narrow(frozen.cracks), 1.0f);
+        m.flood_puddles = std::min(m.flood_puddles + narrow(frozen.puddles), 1.0f);
+        m.snow_amount = std::max(m.snow_amount - narrow(frozen.not_snow) * m.water_to_snow, 0.0f);
+        return moment;
     };
     return source;
 }

@@ -41,6 +41,7 @@ struct WeatheredMaterial {
     float occlusion;
     float emission_scale;  // V: what is left of emission and translucency
     float normal_mix;      // weight of the cover normal (water, snow) against the base normal
+    float metallic;        // 1: of a metal, which has no albedo and keeps its F0 below water
 };
 
 // Metallic to specular workflow, as weather wants it.
@@ -53,11 +54,20 @@ SHARED_FN WeatheredMaterial dry_material(DryMaterial dry)
     m.occlusion = dry.occlusion;
     m.emission_scale = 1.0f;
     m.normal_mix = 0.0f;
+    m.metallic = dry.metallic;
     return m;
 }
 
-// Pores that fill darken the albedo to a fifth at most, and a film smooths what is above them: the
-// form of Lagarde 2013 (Water drop 3b) with the numbers of Lux.
+// Albedo of a matt, porous ground below water: light that it sends out is turned back at the surface of
+// the water, to the ground again (Angstrom 1925; Lekner & Dorf 1988). Diffuse light meets
+// water, n = 1.33, with a reflectance of 0.0659 from above and 0.4719 from below.
+SHARED_FN vec3 wet_albedo(vec3 dry)
+{
+    return dry * (0.9341f * 0.5281f) / (vec3(1.0f) - 0.4719f * dry);
+}
+
+// A film darkens what is porous, and smooths it: the smoothness in the form of Lagarde 2013 (Water
+// drop 3b) with the numbers of Lux. Metals keep their reflectance below water.
 //
 // film           thin wetness for (albedo, smoothness), slope factor included
 // water          ax
@@ -67,7 +77,7 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
                                         vec4 water_color, float porosity)
 {
     const float specular_mean = 0.33f * (dry.specular.x + dry.specular.y + dry.specular.z);
-    const float metalness = saturate(1000.0f * specular_mean - 500.0f);
+    const float metalness = max(dry.metallic, saturate(1000.0f * specular_mean - 500.0f));
     const float pore_factor = mix(1.0f, 0.2f, saturate((1.0f - metalness) * porosity));
 
     const float t1 = max(water, film.x);
@@ -76,14 +86,14 @@ SHARED_FN WeatheredMaterial apply_water(WeatheredMaterial dry, vec2 film, float 
     const float opacity = water_color.w * water;
 
     WeatheredMaterial wet = dry;
-    wet.albedo = dry.albedo * mix(1.0f, pore_factor, t1);
+    wet.albedo = mix(dry.albedo, wet_albedo(dry.albedo), saturate((1.0f - metalness) * porosity) * t1);
     wet.albedo = mix(wet.albedo, vec3(water_color.x, water_color.y, water_color.z), opacity);
     wet.occlusion = mix(dry.occlusion, 1.0f, opacity);
     wet.emission_scale = dry.emission_scale * (1.0f - opacity);
     wet.normal_mix = t3;
     const float smoothed = mix(dry.smoothness, mix(0.85f, 0.60f, pore_factor), t2);
     wet.smoothness = mix(smoothed, 0.9f, t2);
-    wet.specular = mix(dry.specular, vec3(0.02f), t2);
+    wet.specular = mix(dry.specular, vec3(0.02f), t2 * (1.0f - metalness));
     return wet;
 }
 
@@ -102,14 +112,25 @@ SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec
     return snowy;
 }
 
-// Hoar frost: a thin, rough, whitish crust of crystals. cover 0..1.
+// Hoar frost: white crystals, matt as a whole. cover 0..1.
 SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
 {
     WeatheredMaterial frosty = under;
-    frosty.albedo = mix(under.albedo, vec3(0.78f, 0.81f, 0.85f), 0.7f * cover);
+    frosty.albedo = mix(under.albedo, vec3(0.87f, 0.88f, 0.89f), 0.85f * cover);
     frosty.specular = mix(under.specular, vec3(0.018f), cover);
     frosty.smoothness = mix(under.smoothness, 0.35f, cover);
     return frosty;
+}
+
+// Standing water as far as it is frozen: bubbles and cracks make it milky, and its surface is not
+// quite smooth. F0 of ice, n = 1.31.
+SHARED_FN WeatheredMaterial apply_ice(WeatheredMaterial under, float ice)
+{
+    WeatheredMaterial icy = under;
+    icy.albedo = mix(under.albedo, vec3(0.52f, 0.57f, 0.61f), 0.4f * ice);
+    icy.specular = mix(under.specular, vec3(0.018f), ice);
+    icy.smoothness = mix(under.smoothness, 0.84f, ice);
+    return icy;
 }
 
 // Share of a flat water surface that closes over the relief below: a film follows the bumps, water
@@ -125,12 +146,18 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
 {
     WeatheredMaterial m = dry_material(dry);
     m = apply_frost(m, state.frost);
-    m = apply_water(m, vec2(moment.film_albedo, moment.film_smoothness) * state.film, state.water,
-                    dry.water_color, dry.porosity);
+    // While it pours the film is thick enough to close over what is rough.
+    const float pouring = saturate(2.0f * moment.rain) * step(1.0e-4f, moment.film_smoothness);
+    // Around what stands the ground is soaked: a damp rim.
+    const float soaked = smooth_edge(0.0f, 0.12f, state.water);
+    m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
+                            mix(moment.film_smoothness, 0.9f, pouring) * state.film),
+                    state.water, dry.water_color, dry.porosity);
     m = apply_snow(m, state.snow, look.snow_color, look.snow_specular, state.snow_smoothness,
                    dry.snow_opacity);
     const float closed = closed_water(state);
     m.smoothness = mix(m.smoothness, 0.94f, closed);
+    m = apply_ice(m, closed * moment.water_to_snow);
     m.normal_mix = saturate(max(max(m.normal_mix, closed), state.snow));
     return m;
 }

@@ -48,6 +48,19 @@ SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, fl
     return cover;
 }
 
+// Ground so level that water stays on it: up to 1.5 degrees, none from 6 degrees on.
+SHARED_FN float level_ground(float normal_up)
+{
+    return smooth_edge(0.994522f, 0.999657f, normal_up);
+}
+
+// How far the surface of standing water is level rather than that of the ground: a film follows it, as
+// does what clings to steep ground.
+SHARED_FN float level_share(float normal_up, float water)
+{
+    return smooth_edge(0.04f, 0.3f, water) * smooth_edge(0.6f, 0.85f, normal_up);
+}
+
 // ---- snow --------------------------------------------------------------------------------------
 
 struct SnowCover {
@@ -83,6 +96,16 @@ SHARED_FN SnowCover snow_cover(float amount, float height_factor, float normal_u
 SHARED_FN float snow_height_factor(float world_y_m, float start_m, float blend_m)
 {
     return sqrt(saturate((world_y_m - start_m) / max(blend_m, 1.0e-3f)));
+}
+
+// ---- frost -------------------------------------------------------------------------------------
+
+// Hoar grows first and thickest on edges and rough places, which stand out into the cold air.
+// amount 0..1; crystals: noise, 0..1 around 0.5; edge: 0 smooth and flat .. 1 an edge.
+SHARED_FN float frost_cover(float amount, float crystals, float edge)
+{
+    const float grown = amount * (0.62f + 0.9f * edge);
+    return smooth_edge(0.75f - grown, 1.2f - grown, crystals) * saturate(4.0f * amount);
 }
 
 // Melting snow wets the ground around it: raises the standing-water cover.

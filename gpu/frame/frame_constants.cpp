@@ -80,7 +80,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sun_illuminance = sun.illuminance;
     c.weather = w;
     c.look = frame.look;
-    if (frame.place) {
+    if (frame.place && frame.place->shape->grid.levels > 0) {
         // Patches hold the film itself: what all of it does to a surface (Lux: 0.85 and 0.5).
         c.weather.film_albedo = 0.85f;
         c.weather.film_smoothness = 0.5f;
@@ -128,6 +128,7 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
     const shared::WeatherMoment& w = frame.weather;
     VisibleWeather visible;
     visible.snow = scene_has_constant_weather || w.snow_amount > 0.0f;
+    visible.frost = w.frost > 0.0f;
     visible.water = scene_has_constant_weather || w.flood_cracks > 0.0f || w.flood_puddles > 0.0f;
     visible.any = visible.snow || visible.water || w.rain > 0.0f || w.film_albedo > 0.0f ||
                   w.film_smoothness > 0.0f || w.frost > 0.0f;
@@ -138,6 +139,7 @@ VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weath
         const glm::vec4& shown = place.states[i];
         visible.water = visible.water || shown.y > 0.0f || shown.z > 0.0f;
         visible.snow = visible.snow || shown.w > 0.0f;
+        visible.frost = visible.frost || place.states[i + 1].x > 0.0f;
     }
     // Hollows may hold water where no patch does.
     visible.water = visible.water || !place.shape->labels.empty();

@@ -12,6 +12,7 @@ struct VisibleWeather {
     bool any = false;    ///< anything at all, wet air and frost included
     bool water = false;  ///< standing water
     bool snow = false;
+    bool frost = false;
     bool place = false;  ///< pixels find it in their patches
 };
 

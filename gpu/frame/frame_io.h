@@ -22,6 +22,8 @@ struct FrameConstants {
     mat4 shelter_from_world;
     mat4 sky_from_world[SKY_DIRECTIONS];
     vec4 sky_direction[SKY_DIRECTIONS];  // towards the sky, unit
+    // Where rain and snow come from: number of the direction, share of the rain, of the snow, -.
+    vec4 falls[SKY_DIRECTIONS];
 
     vec3 camera_m;
     float time_s;
@@ -77,6 +79,7 @@ struct FrameConstants {
     float exposure_bias;  // linear factor
     float samples;
     float sun_angular_cos;   // cosine of the sun's angular radius
+    uint fall_count;         // of falls; 0: no shelter is known
     float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send

@@ -153,6 +153,12 @@ TEST_F(Presets, RainThenSnowPassesThroughTheWholeYear)
     EXPECT_GT(at(timeline, 36).snow * at(timeline, 36).water_to_snow, 0.85);
     EXPECT_LT(at(timeline, 46).snow, 0.05);
     EXPECT_GT(at(timeline, 44).wetness, 0.4);
+    // Snow does not vanish between two frames.
+    for (int t = 36; t < 48; ++t) {
+        const double gone = at(timeline, t).snow * at(timeline, t).water_to_snow -
+                            at(timeline, t + 1).snow * at(timeline, t + 1).water_to_snow;
+        EXPECT_LT(gone, 0.15) << t;
+    }
 }
 
 }  // namespace

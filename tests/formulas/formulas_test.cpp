@@ -11,6 +11,8 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/falls_here.h"
+#include "formulas/weather/ground_relief.h"
 #include "formulas/weather/surface_weather.h"
 
 namespace petrichor::shared {
@@ -193,9 +195,9 @@ TEST(SnowCover, GrowsWithAmountAndFlatness)
 
 TEST(ApplyWater, DarkensPorousNotSmooth)
 {
-    WeatheredMaterial dry{glm::vec3(0.4f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f};
+    WeatheredMaterial dry{glm::vec3(0.4f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f, 0.0f};
     const WeatheredMaterial porous = apply_water(dry, glm::vec2(1.0f), 0.0f, glm::vec4(0.0f), 1.0f);
-    EXPECT_NEAR(porous.albedo.x, 0.4f * 0.2f, 1e-6f);
+    EXPECT_NEAR(porous.albedo.x, 0.2432f, 1e-4f);
     const WeatheredMaterial dense = apply_water(dry, glm::vec2(1.0f), 0.0f, glm::vec4(0.0f), 0.0f);
     EXPECT_EQ(dense.albedo.x, 0.4f);
     const WeatheredMaterial flooded =
@@ -208,6 +210,91 @@ TEST(ApplyWater, DarkensPorousNotSmooth)
     const WeatheredMaterial same = apply_water(dry, glm::vec2(0.0f), 0.0f, glm::vec4(0.0f), 1.0f);
     EXPECT_EQ(same.albedo, dry.albedo);
     EXPECT_EQ(same.smoothness, dry.smoothness);
+}
+
+TEST(ApplyWater, DarkensAsAFilmOverAMattGroundDoes)
+{
+    // Lekner & Dorf 1988, n = 1.33.
+    const glm::vec2 known[] = {{0.1f, 0.0518f}, {0.2f, 0.1089f}, {0.3f, 0.1724f}, {0.4f, 0.2432f},
+                               {0.5f, 0.3228f}, {0.6f, 0.4128f}, {0.8f, 0.6339f}};
+    for (const glm::vec2& k : known) {
+        const WeatheredMaterial dry{glm::vec3(k.x), glm::vec3(0.04f), 0.1f, 1.0f, 1.0f, 0.0f, 0.0f};
+        const auto wet = apply_water(dry, glm::vec2(1.0f), 0.0f, glm::vec4(0.0f), 1.0f);
+        EXPECT_NEAR(wet.albedo.x, k.y, 1e-4f) << k.x;
+    }
+}
+
+TEST(ApplyWater, AMetalKeepsItsReflectanceBelowWater)
+{
+    for (const float metallic : {0.0f, 1.0f}) {
+        // Dark iron: its F0 alone does not tell that it is a metal.
+        const glm::vec3 f0 = metallic > 0.0f ? glm::vec3(0.45f, 0.44f, 0.42f) : glm::vec3(0.04f);
+        const WeatheredMaterial dry{glm::vec3(0.0f), f0, 0.2f, 1.0f, 1.0f, 0.0f, metallic};
+        const auto wet = apply_water(dry, glm::vec2(1.0f), 1.0f, glm::vec4(0.0f), 1.0f);
+        EXPECT_NEAR(wet.specular.x, metallic > 0.0f ? f0.x : 0.02f, 1e-6f);
+        EXPECT_NEAR(wet.smoothness, 0.9f, 1e-6f) << "the film is as smooth on both";
+    }
+}
+
+TEST(FallsHere, SharesAreWholeInTheOpenAndNoneWhereNothingFalls)
+{
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    EXPECT_EQ(facing_share(up, glm::normalize(glm::vec3(0.5f, 1.0f, 0.2f))), 1.0f);
+    // scene-weather 2: k = .91505, roof of 30 degrees windward 1.3236 R, lee .4085, wall .9151.
+    const glm::vec3 from = glm::normalize(glm::vec3(0.91505f, 1.0f, 0.0f));
+    EXPECT_NEAR(facing_share({0.5f, 0.866025f, 0.0f}, from), 1.3236f, 1e-3f);
+    EXPECT_NEAR(facing_share({-0.5f, 0.866025f, 0.0f}, from), 0.4085f, 1e-3f);
+    EXPECT_NEAR(facing_share({1.0f, 0.0f, 0.0f}, from), 0.9151f, 1e-3f);
+    EXPECT_EQ(facing_share({-1.0f, 0.0f, 0.0f}, from), 0.0f);
+    for (const auto share : {film_share, flood_share}) {
+        EXPECT_EQ(share(0.0f), 0.0f);
+        EXPECT_NEAR(share(1.0f), 1.0f, 1e-4f);
+        EXPECT_GT(share(0.3f), 0.3f) << "wet sooner than in proportion";
+    }
+    EXPECT_NEAR(cover_of_share(0.6f, 1.0f), 0.6f, 1e-6f);
+    EXPECT_EQ(cover_of_share(0.6f, 0.0f), 0.0f);
+    // Half the snow: the cover of half the depth, by 1 - exp(-depth).
+    EXPECT_NEAR(cover_of_share(0.75f, 0.5f), 0.5f, 1e-6f);
+}
+
+TEST(LevelGround, HoldsWaterAndSlopesShedIt)
+{
+    const auto up = [](float degrees) { return std::cos(degrees * 0.017453293f); };
+    EXPECT_EQ(level_ground(up(0.0f)), 1.0f);
+    EXPECT_GT(level_ground(up(1.4f)), 0.99f);
+    EXPECT_EQ(level_ground(up(6.1f)), 0.0f);
+    EXPECT_EQ(level_share(up(10.0f), 1.0f), 1.0f) << "a stone below the water does not tilt it";
+    EXPECT_EQ(level_share(up(60.0f), 1.0f), 0.0f);
+    EXPECT_EQ(level_share(1.0f, 0.0f), 0.0f);
+}
+
+TEST(GroundRelief, SpreadsOverItsRangeAndLeavesAThirdToWater)
+{
+    int low = 0, below = 0;
+    const int side = 160;
+    for (int i = 0; i < side * side; ++i) {
+        const float h = ground_relief(
+            {0.37f * static_cast<float>(i % side) - 21.0f, 0.37f * static_cast<float>(i / side)});
+        EXPECT_GE(h, 0.0f);
+        EXPECT_LE(h, 1.0f);
+        low += 0.25f + kGroundRelief * h < 1.0f ? 1 : 0;
+        below += h < 0.5f ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<float>(below) / (side * side), 0.5f, 0.08f);
+    const float wet = static_cast<float>(low) / (side * side);
+    EXPECT_GT(wet, 0.1f);
+    EXPECT_LT(wet, 0.4f);
+}
+
+TEST(FrostCover, IsThickestOnEdgesAndNoneWithoutFrost)
+{
+    for (const float crystals : {0.0f, 0.5f, 1.0f}) {
+        EXPECT_EQ(frost_cover(0.0f, crystals, 1.0f), 0.0f);
+        EXPECT_GE(frost_cover(0.5f, crystals, 1.0f), frost_cover(0.5f, crystals, 0.0f));
+        EXPECT_GE(frost_cover(0.8f, crystals, 0.3f), frost_cover(0.4f, crystals, 0.3f));
+    }
+    EXPECT_EQ(frost_cover(1.0f, 0.5f, 1.0f), 1.0f);
+    EXPECT_LT(frost_cover(1.0f, 0.1f, 0.0f), 0.3f) << "bare between the crystals of a smooth plate";
 }
 
 DryMaterial dry_stone()
@@ -229,8 +316,8 @@ TEST(ApplyWeather, WaterDarkensThenTints)
     SurfaceState flooded{};
     flooded.water = 1.0f;
     const WeatheredMaterial wet = apply_weather(dry, flooded, {}, {});
-    EXPECT_NEAR(wet.albedo.x, 0.5f * 0.4f * 0.2f + 0.5f * 0.3f, 1e-6f);
-    EXPECT_NEAR(wet.albedo.z, 0.5f * 0.4f * 0.2f + 0.5f * 0.1f, 1e-6f);
+    EXPECT_NEAR(wet.albedo.x, 0.5f * 0.2432f + 0.5f * 0.3f, 1e-4f);
+    EXPECT_NEAR(wet.albedo.z, 0.5f * 0.2432f + 0.5f * 0.1f, 1e-4f);
     EXPECT_NEAR(wet.emission_scale, 0.5f, 1e-6f);
     EXPECT_NEAR(wet.occlusion, 1.0f, 1e-6f);
 }
@@ -246,7 +333,7 @@ TEST(ApplyWeather, DryStaysDry)
     EXPECT_EQ(same.emission_scale, 1.0f);
 }
 
-// A film does not take a metal's reflectance; standing water does, for it is the water that mirrors.
+// Neither a film nor standing water takes a metal's reflectance: it is seen through them.
 TEST(ApplyWeather, AWetMetalKeepsItsReflectance)
 {
     DryMaterial metal = dry_stone();
@@ -260,7 +347,7 @@ TEST(ApplyWeather, AWetMetalKeepsItsReflectance)
     const WeatheredMaterial wet = apply_weather(metal, state, rain, {});
     EXPECT_EQ(wet.specular, metal.base_color);
     state.water = 1.0f;
-    EXPECT_NEAR(apply_weather(metal, state, rain, {}).specular.x, 0.02f, 1e-6f);
+    EXPECT_EQ(apply_weather(metal, state, rain, {}).specular, metal.base_color);
 }
 
 // Snow swallows emission by its opacity, over what murky water has left of it.
@@ -278,7 +365,7 @@ TEST(ApplyWeather, SnowAndMurkDimWhatGlows)
 
 TEST(ApplySnow, CoversWhatIsUnder)
 {
-    const WeatheredMaterial under{glm::vec3(0.1f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f};
+    const WeatheredMaterial under{glm::vec3(0.1f), glm::vec3(0.04f), 0.3f, 0.5f, 1.0f, 0.0f, 0.0f};
     const WeatheredMaterial full =
         apply_snow(under, 1.0f, glm::vec3(0.9f), glm::vec3(0.02f), 0.4f, 0.5f);
     EXPECT_EQ(full.albedo, glm::vec3(0.9f));

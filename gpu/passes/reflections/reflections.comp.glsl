@@ -17,61 +17,104 @@ layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
 layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 
-const int kSteps = 18;
-const int kRefinements = 4;
+const int kSteps = 48;
+const int kRefinements = 5;
 
 struct Hit {
     vec2 pixel;
     float confidence;  // 0: nothing met
 };
 
-// Pixel and view depth of a world position.
-vec3 project(vec3 p)
-{
-    const vec4 clip = frame.world_to_clip * vec4(p, 1.0);
-    return vec3((clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size), clip.w);
-}
-
 float scene_depth_m(vec2 pixel)
 {
-    const float d = texelFetch(depth_map, ivec2(pixel), 0).r;
+    const float d = texelFetch(depth_map, clamp(ivec2(pixel), ivec2(0), frame.size - 1), 0).r;
     return d > 0.0 ? linear_depth(frame, d) : 1.0e9;
 }
 
-Hit trace(vec3 origin, vec3 direction, float view_m, float start)
+// A ray on the screen, from its origin to where it leaves the picture or vanishes far away: along it
+// pixels and 1 / depth go evenly.
+struct ScreenRay {
+    vec3 from;  // pixel, 1 / view depth
+    vec3 to;
+};
+
+vec3 on_screen(vec4 clip)
+{
+    return vec3((clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size), 1.0 / clip.w);
+}
+
+ScreenRay screen_ray(vec3 origin, vec3 direction)
+{
+    const vec4 begin = frame.world_to_clip * vec4(origin, 1.0);
+    const vec4 along = frame.world_to_clip * vec4(direction, 0.0);
+    ScreenRay ray;
+    ray.from = on_screen(begin);
+    if (along.w > 1.0e-4) {
+        // A point at infinity.
+        ray.to = vec3((along.xy / along.w * 0.5 + 0.5) * vec2(frame.size), 0.0);
+    } else {
+        const float t = (frame.near_m * 2.0 - begin.w) / min(along.w, -1.0e-4);
+        ray.to = on_screen(begin + along * clamp(t, 0.0, 1.0e4));
+    }
+    const vec2 delta = ray.to.xy - ray.from.xy;
+    const vec2 limit = mix(vec2(0.5), vec2(frame.size) - 0.5, greaterThan(delta, vec2(0.0)));
+    const vec2 reach = (limit - ray.from.xy) / mix(delta, vec2(1.0e-6), lessThan(abs(delta), vec2(1.0e-6)));
+    const float kept = clamp(min(reach.x, reach.y), 0.0, 1.0);
+    ray.to = mix(ray.from, ray.to, kept);
+    return ray;
+}
+
+// Walks the ray through the depth of the picture. Steps are a few pixels, so that nothing wider is
+// missed; what the ray passes behind is let be.
+Hit trace(vec3 origin, vec3 direction)
 {
     Hit hit;
     hit.confidence = 0.0;
-    // Steps grow with distance: about as long as the ray's error on the screen.
+    const ScreenRay ray = screen_ray(origin, direction);
+    const float pixels = length(ray.to.xy - ray.from.xy);
+    if (pixels < 1.0) return hit;
+    const int steps = clamp(int(pixels / 3.0), 4, kSteps);
     float before = 0.0;
-    float t = view_m * 0.02 * (0.5 + start);
-    for (int i = 0; i < kSteps; ++i) {
-        const vec3 at = project(origin + direction * t);
-        if (at.z <= frame.near_m || any(lessThan(at.xy, vec2(0.0))) ||
-            any(greaterThanEqual(at.xy, vec2(frame.size)))) {
-            return hit;
-        }
-        const float behind = at.z - scene_depth_m(at.xy);
-        // What the ray has passed within this step counts as met; what lies deeper was never near it.
-        if (behind > 0.0 && behind < 1.1 * (t - before) + 0.02 * view_m) {
+    float before_m = 1.0 / ray.from.z;
+    float hidden = -1.0;  // where the ray went behind what is seen
+    // Off the pixel that it starts from.
+    const float first = min(1.5 / pixels, 0.5);
+    for (int i = 1; i <= steps; ++i) {
+        const float s = mix(first, 1.0, float(i) / float(steps));
+        const vec3 at = mix(ray.from, ray.to, s);
+        const float ray_m = 1.0 / max(at.z, 1.0e-7);
+        const float seen_m = scene_depth_m(at.xy);
+        // Thicker than a step goes deep, nothing is known to be.
+        const float low_m = min(before_m, ray_m) * 0.985 - 0.03;
+        if (ray_m > seen_m && seen_m > low_m) {
             float low = before;
-            float high = t;
+            float high = s;
             for (int k = 0; k < kRefinements; ++k) {
                 const float middle = 0.5 * (low + high);
-                const vec3 m = project(origin + direction * middle);
-                if (m.z > scene_depth_m(m.xy)) {
+                const vec3 m = mix(ray.from, ray.to, middle);
+                if (1.0 / max(m.z, 1.0e-7) > scene_depth_m(m.xy)) {
                     high = middle;
                 } else {
                     low = middle;
                 }
             }
-            hit.pixel = project(origin + direction * high).xy;
+            hit.pixel = mix(ray.from, ray.to, high).xy;
             const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
-            hit.confidence = clamp(min(edge.x, edge.y) * 12.0, 0.0, 1.0);
+            hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
             return hit;
         }
-        before = t;
-        t *= 1.4;
+        if (ray_m <= seen_m) {
+            hidden = -1.0;
+        } else if (hidden < 0.0) {
+            hidden = s;
+        }
+        before = s;
+        before_m = ray_m;
+    }
+    if (hidden >= 0.0) {
+        // It never came out again: what hides it is likelier what it meets than the sky.
+        hit.pixel = mix(ray.from, ray.to, hidden).xy;
+        hit.confidence = 0.8;
     }
     return hit;
 }
@@ -106,8 +149,7 @@ void main()
         hit.confidence = 0.0;
         if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0) {
             // Water stands above the relief that the depth map knows.
-            hit = trace(position + n * (0.002 * view_m + 0.05 * mirror.a), ray, view_m,
-                        dither(texel, frame.sample_index + 7u));
+            hit = trace(position + n * (0.001 * view_m + 0.015 * mirror.a), ray);
         }
         const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
         const vec3 sky = textureLod(specular_map, reflected, lod).rgb;

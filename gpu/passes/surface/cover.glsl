@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_COVER_GLSL
 #define PETRICHOR_SURFACE_COVER_GLSL
 
+#include "gpu/passes/surface/frost.glsl"
 #include "gpu/passes/surface/local_weather.glsl"
 #include "gpu/passes/surface/snow.glsl"
 #include "gpu/passes/surface/water.glsl"
@@ -45,11 +46,11 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     snow.melt = 0.0;
     if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, smoothed.y);
 
-    const vec2 flood = flood_level(here.flood);
-    WaterCover water;
+    StandingWater water;
     water.anywhere = 0.0;
     water.deep = 0.0;
-    if (WATER != 0u) water = water_on(at, flood);
+    water.runs = 0.0;
+    if (WATER != 0u) water = water_on(at, here.flood);
     if (here.pond_m > 0.0) {
         // A pond drowns what stands in it; its edge is as wide as a drop is high.
         water.anywhere = max(water.anywhere, smooth_edge(0.0, 0.002, here.pond_m));
@@ -58,8 +59,11 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     // A patch knows which way it faces; the frame's film asks the slope.
     c.film = here.film *
              (here.placed ? 1.0 : saturate(smoothed.y + 1.0 - material.water_slope_damp));
-    c.frost = here.frost * (here.placed ? 1.0 : saturate(at.normal.y * 0.6 + 0.5)) *
-              (1.0 - water.anywhere);
+    water.runs *= c.film;
+    if (FROST != 0u) {
+        const float facing = here.placed ? 1.0 : saturate(at.normal.y * 0.6 + 0.5);
+        c.frost = frost_on(at, mapped, here.frost * facing) * (1.0 - water.anywhere);
+    }
 
     const float left_m = frame.look.detail_distance_m - length(at.position - frame.camera_m);
     const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
@@ -71,7 +75,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         fade > 0.001) {
         ripple = ripple_normal(at, water, open);
     }
-    if ((WATER & WATER_FLOWS) != 0u && flood.y > 0.0 && water.anywhere > 0.0 && fade > 0.001) {
+    if ((WATER & WATER_FLOWS) != 0u && max(water.anywhere, water.runs) > 0.0 && fade > 0.001) {
         flow = flow_wave(at, water, here.still);
     }
     const vec3 rings = vec3(ripple.x, 0.0, ripple.y);
@@ -82,7 +86,10 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
                    (1.0 - saturate(2.0 * snow.snow)) *
                    saturate(1.0 - here.frozen + material.water_accumulation.z) *
                    fade;
-    c.normal = normalize(bent.xyz * fade + at.normal * max(mix(1.0, bent.w, fade), 0.05));
+    // Water that stands is level, whatever the ground below; what runs follows it.
+    const vec3 still = normalize(
+        mix(at.normal, vec3(0.0, 1.0, 0.0), level_share(at.normal.y, water.anywhere)));
+    c.normal = normalize(bent.xyz * fade + still * max(mix(1.0, bent.w, fade), 0.05));
 
     c.water = water.anywhere;
     c.snow = snow.snow;

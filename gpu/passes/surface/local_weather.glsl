@@ -2,6 +2,7 @@
 #ifndef PETRICHOR_SURFACE_LOCAL_WEATHER_GLSL
 #define PETRICHOR_SURFACE_LOCAL_WEATHER_GLSL
 
+#include "formulas/noise/noise.h"
 #include "gpu/passes/surface/shelter.glsl"
 #include "gpu/frame/place.glsl"
 
@@ -20,12 +21,14 @@ struct LocalWeather {
 LocalWeather weather_everywhere(SurfaceInput at)
 {
     LocalWeather here;
-    here.open = exposure_to_sky(at);
-    // Thin wetness creeps further than rain falls.
-    here.film = sqrt(here.open);
-    here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * here.open;
-    here.snow = frame.weather.snow_amount * here.open;
-    here.frost = frame.weather.frost * here.open;
+    const Exposure open = exposure_to_sky(at);
+    here.open = min(open.rain, 1.0);
+    here.film = film_share(open.rain);
+    here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) *
+                 flood_share(open.rain);
+    here.snow = cover_of_share(frame.weather.snow_amount, open.snow);
+    // Hoar is of the air: it grows where heat is lost to the sky, most of which is overhead.
+    here.frost = frame.weather.frost * min(open.snow, 1.0);
     here.frozen = frame.weather.water_to_snow;
     here.still = frame.weather.freeze_exp;
     here.pond_m = 0.0;
@@ -43,7 +46,11 @@ LocalWeather local_weather(SurfaceInput at)
     const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
     const uint patch_number = place_patch(at.position, at.normal, turn - 0.5);
-    if (patch_number == kNoPatch) return weather_everywhere(at);
+    if (patch_number == kNoPatch) {
+        LocalWeather everywhere = weather_everywhere(at);
+        everywhere.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+        return everywhere;
+    }
     const vec4 first_texel = place_state(patch_number, 0);
     const vec4 second_texel = place_state(patch_number, 1);
     LocalWeather here;

@@ -2,33 +2,38 @@
 #ifndef PETRICHOR_SURFACE_SHELTER_GLSL
 #define PETRICHOR_SURFACE_SHELTER_GLSL
 
-#include "formulas/noise/noise.h"
+#include "formulas/weather/falls_here.h"
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
 
-// 1 open sky .. 0 under a roof.
-float exposure_to_sky(SurfaceInput at)
+struct Exposure {
+    float rain;  // share of that on open flat ground
+    float snow;
+};
+
+// By the depth maps of the sky, along the few directions that rain and snow come from.
+Exposure exposure_to_sky(SurfaceInput at)
 {
-    if ((frame.flags & FRAME_SHELTER) == 0u) return 1.0;
-    const float spread = frame.shelter_spread_m;
-    // Off the surface by the spread, so that no tap of a wall ends up inside it.
-    const vec3 lifted = at.position + vec3(at.normal.x, 0.3 * at.normal.y, at.normal.z) * spread;
-    const vec4 map = frame.shelter_from_world * vec4(lifted, 1.0);
-    const float inside = step(abs(map.x - 0.5), 0.5) * step(abs(map.y - 0.5), 0.5);
-    // Splashes and drift soften the edge.
-    const float turn = dither(at.pixel, frame.sample_index) * 6.2831853;
-    const vec2 axis = vec2(cos(turn), sin(turn));
-    float open = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        const float radius = (float(i) + 0.5) * 0.25 * spread;
-        const float angle = 2.3999632 * float(i);
-        const vec2 d = vec2(cos(angle), sin(angle)) * radius;
-        const vec2 offset = vec2(axis.x * d.x - axis.y * d.y, axis.y * d.x + axis.x * d.y);
-        const vec3 p = lifted + vec3(offset.x, 0.0, offset.y);
-        const vec4 tap = frame.shelter_from_world * vec4(p, 1.0);
-        open += textureLod(shelter_map, tap.xyz, 0.0);
+    Exposure open;
+    open.rain = 1.0;
+    open.snow = 1.0;
+    if ((frame.flags & FRAME_SHELTER) == 0u) return open;
+    open.rain = 0.0;
+    open.snow = 0.0;
+    for (uint k = 0u; k < frame.fall_count; ++k) {
+        const vec4 fall = frame.falls[k];
+        const int i = int(fall.x);
+        const vec4 from = frame.sky_direction[i];
+        const vec3 lifted = at.position + at.normal * (from.w * 1.2) + from.xyz * (from.w * 0.8);
+        const vec4 map = frame.sky_from_world[i] * vec4(lifted, 1.0);
+        const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
+        const float seen =
+            inside ? textureGrad(shelter_map, vec4(map.xy, fall.x, map.z), vec2(0.0), vec2(0.0)) : 1.0;
+        const vec2 share = fall.yz * (seen * facing_share(at.normal, from.xyz));
+        open.rain += share.x;
+        open.snow += share.y;
     }
-    return mix(1.0, open * 0.25, inside);
+    return open;
 }
 
 #endif

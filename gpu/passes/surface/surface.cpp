@@ -32,7 +32,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
-                      {SURFACE_SHELTER, sampled(*depth_maps.shelter, depth_maps.compare)}};
+                      {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     graph.add(DrawPass{
         .name = "surface",
@@ -98,6 +98,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
                         {SURFACE_SPEC_SNOW, weather.snow},
+                        {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);

@@ -10,13 +10,14 @@ layout(constant_id = SURFACE_SPEC_HOLES) const uint HOLES = 1u;
 layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 511u;
 layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 7u;
 layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
+layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(set = 0, binding = SURFACE_RIPPLE) uniform sampler2D ripple_map;
 layout(set = 0, binding = SURFACE_FLOW) uniform sampler2D flow_map;
 layout(set = 0, binding = SURFACE_SNOW) uniform sampler2D snow_map;
-layout(set = 0, binding = SURFACE_SHELTER) uniform sampler2DShadow shelter_map;
+layout(set = 0, binding = SURFACE_SHELTER) uniform sampler2DArrayShadow shelter_map;
 layout(set = 0, binding = SURFACE_PLACE_TABLE) uniform usamplerBuffer place_table;
 layout(set = 0, binding = SURFACE_PLACE_STATES) uniform samplerBuffer place_states;
 layout(set = 0, binding = SURFACE_PLACE_LABELS) uniform usamplerBuffer place_labels;

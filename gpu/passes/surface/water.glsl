@@ -2,31 +2,48 @@
 #ifndef PETRICHOR_SURFACE_WATER_GLSL
 #define PETRICHOR_SURFACE_WATER_GLSL
 
+#include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "gpu/passes/surface/textures.glsl"
 
-// (cracks, puddles): the level of the weather here by the material's influence, and its constant.
-vec2 flood_level(vec2 level)
-{
-    return level * material.water_accumulation.yw + material.water_accumulation.xz;
-}
+struct StandingWater {
+    float anywhere;  // as WaterCover
+    float deep;
+    float runs;  // 0..1: what falls on a slope and leaves it
+};
 
-WaterCover water_on(SurfaceInput at, vec2 flood)
+// level: of the weather here, in cracks and puddles; by the material's influence, and its constant.
+// A material that brings a height map says where water goes, and its hollows hold some on slopes of up
+// to 30 degrees. Others have a relief of the world's own that holds it where they are level.
+StandingWater water_on(SurfaceInput at, vec2 level)
 {
+    const bool mapped = has(TEXTURE_HEIGHT);
+    const vec2 weather = level * material.water_accumulation.yw;
+    const float levelness =
+        mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
+    const vec2 flood = weather * levelness + material.water_accumulation.xz;
     float height = material.default_height;
-    if (has(TEXTURE_HEIGHT)) {
+    if (mapped) {
         height = number_at(height_texture, TEXTURE_HEIGHT, at);
+    } else {
+        height += kGroundRelief * ground_relief(at.position.xz);
     }
     float puddle_mask = at.weather.g;
     if (has(TEXTURE_PUDDLE_MASK)) {
         puddle_mask *= number_at(puddle_mask_texture, TEXTURE_PUDDLE_MASK, at);
     }
-    return water_cover(flood, height, puddle_mask, at.normal.y, material.water_slope_damp);
+    const WaterCover cover =
+        water_cover(flood, height, puddle_mask, at.normal.y, material.water_slope_damp);
+    StandingWater water;
+    water.anywhere = cover.anywhere;
+    water.deep = cover.deep;
+    water.runs = saturate(weather.y) * (1.0 - levelness);
+    return water;
 }
 
 // Rings of drops. Normals of the water are laid out in world x and z.
-vec3 ripple_normal(SurfaceInput at, WaterCover water, float open)
+vec3 ripple_normal(SurfaceInput at, StandingWater water, float open)
 {
     const vec2 xy = texel_from_above(ripple_map, at, frame.look.ripple_tiling, vec2(0.0)).xy;
     return mix(vec3(0.0, 0.0, 1.0), unpack_normal(xy, frame.look.ripple_strength),
@@ -50,7 +67,7 @@ vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 
 // Waves of water that runs down, and of wind on flat ground. The map is laid along the surface: from
 // above on flat ground, from the sides on walls, blended between.
-Wave flow_wave(SurfaceInput at, WaterCover water, float still)
+Wave flow_wave(SurfaceInput at, StandingWater water, float still)
 {
     const vec3 n = at.normal;
     // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
@@ -83,7 +100,7 @@ Wave flow_wave(SurfaceInput at, WaterCover water, float still)
     const float slope = 1.0 - saturate(n.y) * saturate(n.y);
     // On flat ground only the wind moves the water, a little.
     const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
-    const float strength = max(slope, breeze * saturate(n.y)) * water.anywhere;
+    const float strength = max(slope, breeze * saturate(n.y)) * max(water.anywhere, water.runs);
     wave.lean = (wave.lean - n * dot(n, wave.lean)) * strength;
     wave.up = mix(1.0, wave.up, strength);
     return wave;

@@ -1,0 +1,39 @@
+// What reaches a place of what falls from the sky, and what it leaves there.
+//
+// One text for C++ and GLSL. A share is that of the rain or snow on open flat ground.
+#ifndef PETRICHOR_FORMULAS_WEATHER_FALLS_HERE_H
+#define PETRICHOR_FORMULAS_WEATHER_FALLS_HERE_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+// Flux on a plane with normal n of what falls towards -from, over that on the ground: more on roofs and
+// walls that face it, none on those that look away. Near the horizon held in bounds.
+SHARED_FN float facing_share(vec3 n, vec3 from)
+{
+    return clamp(dot(n, from) / max(from.y, 0.3f), 0.0f, 1.5f);
+}
+
+// Of the film: a few tenths of a millimetre fill it, so that a place that gets a tenth of the rain is
+// wet soon after an open one.
+SHARED_FN float film_share(float share)
+{
+    return 1.0f - exp(-10.0f * share);
+}
+
+// Of the level in cracks and puddles: what falls beside them runs in. 1 in the open.
+SHARED_FN float flood_share(float share)
+{
+    return min((1.0f - exp(-4.0f * share)) * 1.0186574f, 1.0f);
+}
+
+// Of a cover that approaches 1 exponentially as more falls: the one that a share of it leaves.
+SHARED_FN float cover_of_share(float cover, float share)
+{
+    return 1.0f - pow(1.0f - min(cover, 0.999f), share);
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,65 @@
+// Water of the artist model that freezes where it stands: it stays as ice, and comes back.
+#include <gtest/gtest.h>
+
+#include "film/weather/artist_ice.h"
+
+namespace petrichor::film {
+namespace {
+
+using weather::ArtistState;
+using weather::ArtistTimeline;
+
+// A wet day, a frost from 4 s on, a thaw from 20 s on; nothing falls.
+ArtistTimeline frost_and_thaw(double rainfall = 0.0)
+{
+    weather::Timeline script;
+    script.temperature_c = {{weather::to_time_us(0.0), 3.0},   {weather::to_time_us(4.0), -1.0},
+                            {weather::to_time_us(8.0), -12.0}, {weather::to_time_us(20.0), -12.0},
+                            {weather::to_time_us(21.0), 8.0},  {weather::to_time_us(40.0), 8.0}};
+    script.rainfall = {{weather::to_time_us(0.0), rainfall}};
+    ArtistState wet;
+    wet.water_to_snow = 0.0;
+    wet.wetness = 0.8;
+    wet.cracks = 0.7;
+    wet.puddles = 0.5;
+    weather::ArtistParams params;
+    params.evaporation_rate_puddles = 0.0;
+    params.evaporation_rate_cracks = 0.0;
+    return {script, params, wet};
+}
+
+TEST(ArtistIce, PuddlesFreezeWhereTheyStandAndTheThawGivesThemBack)
+{
+    const ArtistTimeline weather = frost_and_thaw();
+    const ArtistIceTimeline ice(weather);
+    EXPECT_EQ(ice.at(0.0).puddles, 0.0);
+    for (double t = 0.0; t <= 40.0; t += 0.37) {
+        const ArtistState s = weather.state_at(weather::to_time_us(t));
+        EXPECT_NEAR(s.puddles + ice.at(t).puddles, 0.5, 0.01) << t;
+        EXPECT_NEAR(s.cracks + ice.at(t).cracks, 0.7, 0.01) << t;
+    }
+    EXPECT_LT(weather.state_at(weather::to_time_us(15.0)).puddles, 0.01) << "the model's are gone";
+}
+
+TEST(ArtistIce, FrozenWaterIsNoSnow)
+{
+    const ArtistTimeline weather = frost_and_thaw();
+    const ArtistIceTimeline ice(weather);
+    for (double t = 0.0; t <= 40.0; t += 0.37) {
+        const double snow = weather.state_at(weather::to_time_us(t)).snow;
+        EXPECT_NEAR(snow - ice.at(t).not_snow, 0.0, 0.02) << t;
+    }
+    EXPECT_GT(weather.state_at(weather::to_time_us(15.0)).snow, 0.1) << "the model's own";
+}
+
+TEST(ArtistIce, SnowThatFallsStays)
+{
+    const ArtistTimeline weather = frost_and_thaw(0.2);
+    const ArtistIceTimeline ice(weather);
+    const double snow = weather.state_at(weather::to_time_us(19.0)).snow;
+    // 0.2 of 0.1 a second for some ten seconds.
+    EXPECT_NEAR(snow - ice.at(19.0).not_snow, 0.24, 0.08);
+}
+
+}  // namespace
+}  // namespace petrichor::film
