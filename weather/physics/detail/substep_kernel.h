@@ -150,6 +150,9 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
             runoff += melted_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
                                      interface_c);
         }
+        const MaskOf<Real> wet_base = covered & (c.film > zero) & !salted;
+        if (any(wet_base & (interface_c < zero)))
+            freeze_below(c, wet_base, ground.conductance_w_m2_k, dt, interface_c);
         if (part.cleared > 0.0) c.total_drainage += clear_snow(c, part.cleared);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
