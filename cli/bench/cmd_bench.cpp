@@ -65,6 +65,12 @@ void add_skill(CLI::App& bench)
         "skill", "Score the weather model against every measured winter, road and sky it finds.");
     command->add_option("--data", o->data, "a folder; all below it is looked at (.)");
     command->add_option("--html", o->html, "write the table as a page");
+    command
+        ->add_option("--set", o->settings,
+                     "a constant of the model to try, NAME=X; road.X is surface.X of the roads "
+                     "alone; may be repeated")
+        ->type_name("NAME=X")
+        ->allow_extra_args(false);
     command->add_flag("--json", o->json, "report for programs");
     command
         ->add_option("--rival", *rivals,

@@ -27,10 +27,11 @@ SimulationTable simulate(const std::vector<Input>& inputs, const SimulateOptions
     if (!options.terrain.file.empty()) return simulate_grid(inputs, options);
     if (options.model == "artist" || (options.model == "auto" && !weather_file)) {
         if (!options.observed.empty() || options.physical.members > 0 ||
-            options.physical.sensitivity || !options.height_map.empty()) {
+            options.physical.sensitivity || !options.height_map.empty() ||
+            !options.horizon.empty() || !options.events.empty()) {
             throw Error(
-                "simulate: --observed, --ensemble, --sensitivity and --height-map are for the "
-                "physical model",
+                "simulate: --observed, --ensemble, --sensitivity, --height-map, --horizon and "
+                "--events are for the physical model",
                 "Give a weather file with --model physical, or leave them out.");
         }
         return simulate_artist(inputs, options);

@@ -234,6 +234,8 @@ weather::PhysicalParams physical_params(const PhysicalRun& run)
     params.phase.law = phase_named(run.phase);
     params.step_s = run.step_s;
     params.sky_view = run.site.sky_view.value_or(params.sky_view);
+    params.horizon = run.horizon;
+    params.events = run.events;
     params.canopy_vai = run.site.canopy_vai.value_or(params.canopy_vai);
     if (!run.physics.empty()) apply_physics_toml(run.physics, run.physics_file, params);
     for (const std::string& setting : run.settings) apply_physics_setting(setting, params);

@@ -24,6 +24,8 @@ struct PhysicalRun {
     std::optional<weather::Surface> road;       ///< of a METRo station, instead of the preset
     weather::MetroObservation road_observed{};  ///< the run begins at its last temperature
     double road_depth_m = 0.4;                  ///< of its sub-surface thermometer
+    weather::Horizon horizon{};                 ///< empty: open
+    std::vector<weather::RoadEvent> events{};   ///< salt and ploughs
     std::string layers;                         ///< asphalt:0.2,gravel:0.4, or empty
     std::optional<double> initial_surface_c, initial_ground_c;  ///< measured start
     double initial_depth_m = 0.4;                               ///< of the ground's temperature

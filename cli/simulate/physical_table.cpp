@@ -6,6 +6,7 @@
 #include "cli/report/plot_axes.h"
 #include "weather/models/physical/mapping.h"
 #include "weather/physics/air.h"
+#include "weather/physics/brine.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/friction.h"
 
@@ -70,6 +71,9 @@ constexpr const char* kColumns[] = {
     "wheel_friction",
     "glaze_mm",
     "road_condition",
+    "black_ice",
+    "salt_g_m2",
+    "freezing_point_c",
 };
 
 // Files say -14.9; kelvin and back must not make it -14.899999999999977.
@@ -165,6 +169,9 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
         weather::wheel_friction(c),
         weather::glaze_mm(c),
         static_cast<double>(weather::road_condition(c)),
+        weather::black_ice(c) ? 1.0 : 0.0,
+        1e3 * c.salt,
+        weather::freezing_point_c(c.salt, c.film + c.crack + c.puddle),
     };
 }
 

@@ -21,7 +21,11 @@ void refuse_what_is_for_one_cell(const SimulateOptions& options)
     for (const auto& [given, name] : {std::pair{!options.observed.empty(), "--observed"},
                                       {options.physical.members > 0, "--ensemble"},
                                       {options.physical.sensitivity, "--sensitivity"},
-                                      {!options.height_map.empty(), "--height-map"}}) {
+                                      {!options.height_map.empty(), "--height-map"},
+                                      {!options.horizon.empty(), "--horizon"},
+                                      {!options.events.empty(), "--events"},
+                                      {!options.road.empty(), "--road"},
+                                      {!options.initial.empty(), "--initial"}}) {
         if (given)
             throw Error(std::string("grid: ") + name + " cannot be used with --grid",
                         "Leave it out, or run one cell without --grid.");

@@ -119,6 +119,10 @@ void add_physics(CLI::App& command, SimulateOptions& o)
         "a METRo station: its layers, road or bridge, place; INPUT may be METRo's forecast");
     add(command, group, "--road-observed", "OBS.xml", o.road_observed,
         "what it measured: the run begins at its last temperature");
+    add(command, group, "--horizon", "FILE", o.horizon,
+        "what hides the sun: lines of azimuth and elevation, degrees (--road brings its own)");
+    add(command, group, "--events", "FILE.csv", o.events,
+        "salt, brine and ploughs: time,salt|brine|plough,amount (g/m2, g/m2, share)");
     add(command, group, "--initial", "WORDS", o.initial,
         "measured start: surface=-0.9,ground=-0.7@0.4 (C, at a depth in m)");
     add(command, group, "--layers", "WORDS", o.physical.layers,

@@ -35,6 +35,7 @@ struct SimulateOptions {
     std::string height_map;
     double height_range_m = 0.02;
     std::string road, road_observed;  ///< station and observation of METRo
+    std::string horizon, events;      ///< files, or empty
     std::string initial;              ///< "surface=-0.9,ground=-0.7@0.4", C and m
     std::string physics;              ///< a TOML file of constants
     std::optional<double> albedo, conductivity, traffic_heat, slush_rate, deep_temp_c,

@@ -9,6 +9,8 @@
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
 #include "film/weather/times.h"
+#include "weather/readers/horizon_text.h"
+#include "weather/readers/road_events_text.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {
@@ -119,6 +121,26 @@ void read_road(const std::string& file, PhysicalRun& run)
     run.road = weather::surface_preset(station.bridge ? "bridge" : "road");
     run.road->layers = station.layers;
     run.road_depth_m = station.subsurface_depth_m;
+    run.horizon = station.horizon_rad;
+}
+
+// Salt and ploughs; an event outside the run would be dropped without a word.
+void read_events(const std::string& file, PhysicalInput& input)
+{
+    PhysicalRun& run = input.run;
+    const auto& times = input.read.table.time_us;
+    run.events =
+        weather::read_road_events(read_input_file(file), file, run.clock_offset_s);
+    if (run.events.empty())
+        throw Error("road events: " + file + " has none",
+                    "Write lines time,salt|brine|plough,amount.");
+    for (const weather::RoadEvent& e : run.events) {
+        if (e.time_us >= times.front() && e.time_us <= times.back()) continue;
+        throw Error("road events: " + file + ": " + weather::iso_from_us(e.time_us) +
+                        " is outside the weather, " + weather::iso_from_us(times.front()) + " to " +
+                        weather::iso_from_us(times.back()),
+                    "Give events of the run alone; times without a zone are by the file's clock.");
+    }
 }
 
 // The forecast from the last measured temperature of the road on.
@@ -207,6 +229,15 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
                         "Give a file with observations.");
     }
     read_constants(options, run);
+    if (!options.horizon.empty())
+        run.horizon = weather::read_horizon(read_input_file(options.horizon), options.horizon);
+    if (!run.horizon.empty()) {
+        char line[100];
+        std::snprintf(line, sizeof line, "the horizon leaves %.1f %% of the sky",
+                      100.0 * weather::horizon_sky_view(run.horizon));
+        input.notes.emplace_back(line);
+    }
+    if (!options.events.empty()) read_events(options.events, input);
     if (!options.initial.empty()) read_initial(options.initial, run);
     if (!options.height_map.empty()) {
         const Relief relief = read_relief(options.height_map, options.height_range_m);

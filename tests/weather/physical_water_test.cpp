@@ -63,9 +63,9 @@ TEST(Water, SunDriesTheFilmFirst)
 }
 
 // After a shower of 5 mm under a June sun: the film is gone first, then the puddles, the cracks
-// last. A road in use is dry within two hours (half an hour to two hours is what drivers report;
-// Harwood et al. 1988 fit such times to test sections), pavement with hollows shows dark seams
-// long after its film is gone.
+// last. A road in use is dry within two hours; pavement with hollows shows dark seams long after its
+// film is gone. (Drying of test sections: Harwood, Blackburn, Kibler & Kulakowski 1988, Transp. Res.
+// Rec. 1172, 32.)
 TEST(Water, FilmDriesFirstAndCracksLast)
 {
     ForcingTable t;
@@ -100,6 +100,27 @@ TEST(Water, FilmDriesFirstAndCracksLast)
     EXPECT_GT(puddle, film);
     EXPECT_GT(crack, puddle);
     EXPECT_LE(gone_h("road", [](const CellState& c) { return c.film; }), 2.0);
+}
+
+// The pore stage: what is left of the film falls by the same share in equal times.
+TEST(Water, ThePoreStageFallsAsAnExponential)
+{
+    PhysicalParams p;
+    p.surface.cracks = uniform_hypsometry(1e-3);
+    p.surface.puddles = uniform_hypsometry(1e-3);
+    p.surface.film_capacity_kg_m2 = 1.0;
+    p.step_s = p.substep_s = 300;
+    p.deep_temp_k = 290.15;
+    const PhysicalTimeline run(steady(290, 60, 3, 200, 3.0 / 3600, 30), p);
+    const auto film = [&](double hours) {
+        return run.state_at(static_cast<std::int64_t>(hours * 3600e6)).film;
+    };
+    double begin = 0;
+    while (film(begin) > 0.5 || begin < 3.1) begin += 0.1;
+    const double first = film(begin + 0.5) / film(begin);
+    EXPECT_LT(first, 0.95);
+    for (int i = 1; i < 4; ++i)
+        EXPECT_NEAR(film(begin + 0.5 * (i + 1)) / film(begin + 0.5 * i), first, 0.04) << i;
 }
 
 // A full film evaporates as open water does (Penman), given the same net radiation.

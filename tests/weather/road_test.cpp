@@ -112,10 +112,47 @@ TEST(Friction, FallsWithWhatLiesThere)
     c.film = 0.5;
     EXPECT_LT(wheel_friction(c), 0.10);  // wet ice
     c.step_rain = 1.0;
+    c.flux_melt = -20.0;
     EXPECT_EQ(road_condition(c), RoadCondition::IcingRain);
     c = {};
     c.snow_ice[0] = 5.0;
     EXPECT_NEAR(wheel_friction(c), 0.25, 0.01);
+}
+
+// Each pure state lies in its interval of Wallman & Astrom 2001.
+TEST(Friction, PureStatesLieInTheirPublishedIntervals)
+{
+    const auto within = [](const CellState& c, double low, double high) {
+        EXPECT_GE(wheel_friction(c), low - 1e-3);
+        EXPECT_LE(wheel_friction(c), high);
+    };
+    CellState c{};
+    within(c, 0.8, 1.0);
+    c.film = 2;
+    within(c, 0.7, 0.8);
+    c = {};
+    c.film_ice = 1;
+    within(c, 0.15, 0.30);
+    c.film = 2;
+    within(c, 0.05, 0.10);
+    c = {};
+    c.snow_ice[0] = 10;
+    within(c, 0.20, 0.30);
+    c.snow_liquid[0] = 6;
+    within(c, 0.20, 0.50);
+}
+
+TEST(Friction, BlackIceIsIceThatIsNotSeen)
+{
+    CellState c{};
+    c.surface_temp_c = -1;
+    EXPECT_FALSE(black_ice(c));
+    c.film_ice = 0.05;
+    EXPECT_TRUE(black_ice(c));
+    EXPECT_EQ(road_condition(c), RoadCondition::Dry);  // of METRo, below 0.2 mm
+    EXPECT_LT(wheel_friction(c), 0.45);
+    c.snow_ice[0] = 1;
+    EXPECT_FALSE(black_ice(c));
 }
 
 constexpr const char* kStation =

@@ -13,7 +13,7 @@ namespace petrichor::weather {
 
 namespace {
 
-constexpr const char* kHeader = "petrichor-cell-2";
+constexpr const char* kHeader = "petrichor-cell-3";
 
 std::uint64_t fnv(std::uint64_t hash, const CellState& state)
 {
@@ -117,7 +117,7 @@ CellState load_state(std::string_view text)
     };
     std::size_t at = std::strlen(kHeader);
     if (text.substr(0, at) != kHeader)
-        throw refuse("the text does not begin with petrichor-cell-2");
+        throw refuse("the text does not begin with petrichor-cell-3");
     double numbers[kCellNumbers + 1];
     for (double& number : numbers) {
         if (at + 17 > text.size() || text[at] != ' ') throw refuse("the text is cut short");

@@ -28,6 +28,7 @@ struct CellVars {
     Real film, crack, puddle;              ///< liquid
     Real film_ice, crack_ice, puddle_ice;  ///< frozen
     Real canopy_snow;                      ///< on branches above the cell
+    Real salt;                             ///< de-icing salt, dissolved or dry
     Real infiltration_mm_h;                ///< what wet ground would take up now
     Real frozen_fraction;                  ///< last known, for the renderer's water-to-snow
 
@@ -35,6 +36,7 @@ struct CellVars {
     // negative.
     Real total_precip, total_evaporation, total_sublimation, total_drainage, total_infiltration;
     Real total_melt;
+    Real total_salt_lost;  ///< with water that left, and thrown off by wheels
 
     // Means of the last step: W/m2, and kg/m2 of the step.
     Real flux_shortwave, flux_longwave, flux_sensible, flux_latent, flux_ground, flux_melt,

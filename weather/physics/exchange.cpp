@@ -1,5 +1,7 @@
 #include "weather/physics/exchange.h"
 
+#include <cmath>
+
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/formulas.h"
 
@@ -20,7 +22,14 @@ double bulk_richardson(double wind_height_m, double air_temp_k, double surface_t
 
 double stability_factor(double richardson, double neutral, double wind_height_m, double roughness_m)
 {
-    return detail::stability_factor_of(richardson, neutral, std::sqrt(wind_height_m / roughness_m));
+    return detail::stability_factor_of(richardson,
+                                       75.0 * neutral * std::sqrt(wind_height_m / roughness_m));
+}
+
+double convection_coefficient(double wind_height_m, double roughness_m, double heat_roughness_m)
+{
+    return detail::convection_of(detail::logarithm(wind_height_m / roughness_m),
+                                 detail::logarithm(roughness_m / heat_roughness_m));
 }
 
 }  // namespace petrichor::weather

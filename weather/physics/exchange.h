@@ -14,7 +14,7 @@ struct ExchangeParams {
     Stability stability = Stability::LouisCapped;
     double max_richardson = 0.1;  ///< cap in stable air, >= 0
     double min_wind_m_s = 0.1;    ///< wind is raised to this; > 0
-    double max_unstable = 2.0;    ///< most that unstable air adds to the exchange, as a factor >= 1
+    double max_unstable = 50.0;   ///< most that unstable air adds to the exchange, as a factor >= 1
 };
 
 /// Exchange coefficient of heat in neutral air: k^2 / (ln(zU/z0) ln(zT/z0h)), z0h = z0/10.
@@ -27,6 +27,11 @@ double bulk_richardson(double wind_height_m, double air_temp_k, double surface_t
 /// Louis 1979 factor on the neutral coefficient: 1 at Ri = 0, below 1 in stable air, continuous.
 double stability_factor(double richardson, double neutral, double wind_height_m,
                         double roughness_m);
+
+/// C of the unstable branch 1 + 15 |Ri| / (1 + C sqrt|Ri|) that the model uses, Mascart, Noilhan &
+/// Giordani 1995: as Louis' 75 CHn sqrt(zU/z0), and right too where heat has a roughness of its own.
+/// In calm air the exchange becomes that of free convection.
+double convection_coefficient(double wind_height_m, double roughness_m, double heat_roughness_m);
 
 }  // namespace petrichor::weather
 

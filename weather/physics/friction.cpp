@@ -14,7 +14,8 @@ constexpr double kDry = 0.82, kWet = 0.70, kSlush = 0.35, kPacked = 0.25, kIce =
 // e-folding covers, kg/m2.
 constexpr double kWaterCover = 0.1, kIceCover = 0.05, kSnowCover = 0.5;
 constexpr double kTrace_kg_m2 = 0.01;
-constexpr double kThin_kg_m2 = 0.1;  // what dew and frost make in a night
+constexpr double kMetroLayer_kg_m2 = 0.2;
+constexpr double kBlackIce_mm = 0.01;
 
 double share(double cover, double scale)
 {
@@ -57,22 +58,27 @@ double glaze_mm(const CellState& c)
     return (c.film_ice + c.crack_ice) * (1000.0 / kIceDensity);
 }
 
+bool black_ice(const CellState& c)
+{
+    return glaze_mm(c) >= kBlackIce_mm && !(snow_of(c) > 0.0) && c.surface_temp_c <= 0.0;
+}
+
 RoadCondition road_condition(const CellState& c)
 {
     const double snow = snow_of(c);
     const double frozen = snow + c.film_ice;
     const double water = c.film + snow_water_of(c);
-    const bool settles = c.flux_latent < 0.0 && !(c.step_rain > 0.0) && !(c.step_snow > 0.0);
-    if (c.step_rain > kTrace_kg_m2 && c.film_ice > kTrace_kg_m2 && c.surface_temp_c <= 0.0)
-        return RoadCondition::IcingRain;
-    if (frozen > kTrace_kg_m2 && water > kTrace_kg_m2)
-        return c.flux_melt > 0.0 ? RoadCondition::MeltingSnow : RoadCondition::WaterAndSnow;
-    if (frozen > kTrace_kg_m2) {
-        return settles && !(snow > 0.0) && frozen < kThin_kg_m2 ? RoadCondition::Frost
-                                                                : RoadCondition::IceOrSnow;
-    }
-    if (water > kTrace_kg_m2)
-        return settles && water < kThin_kg_m2 ? RoadCondition::Dew : RoadCondition::Wet;
+    const bool rains = c.step_rain > kTrace_kg_m2, snows = c.step_snow > kTrace_kg_m2;
+    if (rains && c.flux_melt < 0.0 && c.surface_temp_c <= 0.0) return RoadCondition::IcingRain;
+    if (snows && (c.surface_temp_c > 0.0 || c.flux_melt > 0.0)) return RoadCondition::MeltingSnow;
+    if (frozen >= kMetroLayer_kg_m2 && water >= kMetroLayer_kg_m2)
+        return RoadCondition::WaterAndSnow;
+    if (water >= kMetroLayer_kg_m2) return RoadCondition::Wet;
+    if (frozen >= kMetroLayer_kg_m2) return RoadCondition::IceOrSnow;
+    const bool settles = c.flux_latent < 0.0;
+    if (settles && !rains && c.surface_temp_c > 0.0) return RoadCondition::Dew;
+    if ((settles && !snows && c.surface_temp_c <= 0.0) || c.flux_melt < 0.0)
+        return RoadCondition::Frost;
     return RoadCondition::Dry;
 }
 

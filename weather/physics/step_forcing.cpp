@@ -5,6 +5,7 @@
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/lanes.h"
+#include "weather/physics/horizon.h"
 #include "weather/physics/solar.h"
 
 namespace petrichor::weather::detail {
@@ -72,7 +73,7 @@ double rate_over(const ForcingTable& table, Field field, const StepRows& at)
 
 // `first`: the last row at or before the beginning.
 StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin,
-                      std::int64_t length, SunUse use)
+                      std::int64_t length, SunUse use, std::span<const double> horizon)
 {
     const auto& t = table.time_us;
     const std::int64_t end = begin + length;
@@ -114,6 +115,10 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
         step.sun_north = sun.north;
         step.sun_up = sun.up;
         step.diffuse = diffuse_fraction(step.shortwave.at(0.5), sun.up, sun.extraterrestrial_w_m2);
+        if (!horizon.empty()) {
+            step.beam = beam_share(horizon, begin, length, table.site.latitude_deg,
+                                   table.site.longitude_deg);
+        }
     }
     if (table.has(Field::NetShortwave)) {
         step.shortwave = {rate_over(table, Field::NetShortwave, at), 0.0};
@@ -156,9 +161,9 @@ StationMoment moment_of(const StepForcing& step, double x, double until)
 }
 
 StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length,
-                              SunUse sun)
+                              SunUse sun, std::span<const double> horizon)
 {
-    return step_from(table, row_before(table, begin), begin, length, sun);
+    return step_from(table, row_before(table, begin), begin, length, sun, horizon);
 }
 
 std::int64_t StepPlan::length_of(std::size_t step) const
@@ -180,12 +185,13 @@ StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us)
 }
 
 StepWalk::StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step,
-                   SunUse sun)
+                   SunUse sun, std::span<const double> horizon)
     : table_(&table),
       plan_(&plan),
       step_(first_step),
       row_(row_before(table, plan.begin_of(first_step))),
-      sun_(sun)
+      sun_(sun),
+      horizon_(horizon)
 {
 }
 
@@ -193,15 +199,16 @@ StepForcing StepWalk::next()
 {
     const std::int64_t begin = plan_->begin_of(step_);
     while (row_ + 1 < table_->rows() && table_->time_us[row_ + 1] <= begin) ++row_;
-    return step_from(*table_, row_, begin, plan_->length_of(step_++), sun_);
+    return step_from(*table_, row_, begin, plan_->length_of(step_++), sun_, horizon_);
 }
 
-std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us)
+std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us,
+                                            std::span<const double> horizon)
 {
     const StepPlan plan = make_step_plan(table, step_us);
     std::vector<StepForcing> steps;
     steps.reserve(plan.count);
-    StepWalk walk(table, plan, 0, SunUse::Direction);
+    StepWalk walk(table, plan, 0, SunUse::Direction, horizon);
     for (std::size_t i = 0; i < plan.count; ++i) steps.push_back(walk.next());
     return steps;
 }

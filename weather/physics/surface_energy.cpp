@@ -21,10 +21,12 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.q_air =
         specific_humidity(vapour_pressure_pa(f.air_temp_k, f.rel_humidity_pct), f.pressure_pa);
     p.pressure = f.pressure_pa;
-    p.neutral = neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m);
-    p.exchange = air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) * p.neutral * wind;
+    p.exchange =
+        air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) *
+        neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m) * wind;
     p.richardson_k = detail::richardson_per_k_of(1.0 / (f.air_temp_k * wind * wind), skin.wind_height_m);
-    p.root_z = std::sqrt(skin.wind_height_m / skin.roughness_m);
+    p.convection =
+        convection_coefficient(skin.wind_height_m, skin.roughness_m, 0.1 * skin.roughness_m);
     p.wet.beta = skin.wet_fraction;
     p.most_vapour = 1e30;
     p.icy = skin.icy;

@@ -41,6 +41,7 @@ Surface road_in_use()
     s.albedo_wet = 0.08;
     s.emissivity = 0.92;
     s.roughness_m = 0.001;
+    s.heat_roughness_share = 0.5;
     s.film_capacity_kg_m2 = 0.2;
     s.cracks = uniform_hypsometry(0.2);
     s.puddles = uniform_hypsometry(0.2);
@@ -176,6 +177,10 @@ void check_surface(const Surface& s)
     }
     require(s.snow_clearing_1_h >= 0.0 && s.snow_clearing_1_h < 1e3, s, "snow_clearing_1_h",
             s.snow_clearing_1_h, "0 or more");
+    require(s.heat_roughness_share >= 1e-4 && s.heat_roughness_share <= 10.0, s,
+            "heat_roughness_share", s.heat_roughness_share, "in 1e-4..10");
+    require(s.salt_loss_1_h >= 0.0 && s.salt_loss_1_h < 1e3, s, "salt_loss_1_h", s.salt_loss_1_h,
+            "0 or more");
     require(s.traffic_heat_w_m2 >= 0.0 && s.traffic_heat_w_m2 <= 1e3, s, "traffic_heat_w_m2",
             s.traffic_heat_w_m2, "in 0..1000");
     require(s.traffic_wind_m_s >= 0.0 && s.traffic_wind_m_s < 50.0, s, "traffic_wind_m_s",

@@ -18,6 +18,7 @@ struct Surface {
     double albedo_wet = 0.08;
     double emissivity = 0.95;
     double roughness_m = 0.005;        ///< aerodynamic, z0
+    double heat_roughness_share = 0.1;  ///< z0h / z0, of heat and vapour
     double film_capacity_kg_m2 = 0.4;  ///< held by pores and texture before it runs, > 0
     double film_rate_1_s = 0.003;      ///< drainage above the capacity, > 0
     /// The same under snow and in slush, > 0. METRo takes 0.0003; then the film under melting snow
@@ -36,6 +37,7 @@ struct Surface {
     /// Snow that wheels and ploughs throw off the road; METRo takes 1.08 (0.0003 1/s).
     double snow_clearing_1_h = 0.0;
     double traffic_heat_w_m2 = 0.0;  ///< of tyres, engines and what lies below; METRo takes 10
+    double salt_loss_1_h = 0.0;      ///< salt that wheels throw off, wet or dry; 0 without traffic
 };
 
 /// Presets: asphalt, concrete, paving_stones, cobblestone, brick, soil, sand, gravel, grass,

@@ -14,6 +14,7 @@
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
 #include "cli/simulate/physical_table.h"
+#include "cli/simulate/physics_keys.h"
 #include "weather/physics/constants.h"
 
 namespace petrichor::cli {
@@ -21,10 +22,17 @@ namespace {
 
 constexpr std::size_t kMostRivalBytes = 64u << 20;
 
-weather::PhysicalParams meadow()
+weather::PhysicalParams params_of(const SkillOptions& options, const char* surface)
 {
     weather::PhysicalParams params;
-    params.surface = weather::surface_preset("grass");
+    params.surface = weather::surface_preset(surface);
+    const bool paved = std::string_view(surface) != "grass";
+    for (const std::string& setting : options.settings) {
+        // road.X is surface.X of the roads alone.
+        const bool for_roads = setting.rfind("road.", 0) == 0;
+        if (for_roads && paved) apply_physics_setting("surface." + setting.substr(5), params);
+        if (!for_roads) apply_physics_setting(setting, params);
+    }
     return params;
 }
 
@@ -78,7 +86,8 @@ double score_in(const std::vector<SkillRow>& rows, const std::string& quantity)
 
 void add_winter(const WinterSet& set, const SkillOptions& options, Board& board)
 {
-    const auto ours = winter_rows(set.winter, model_hours(set.winter, meadow()));
+    const weather::PhysicalParams meadow = params_of(options, "grass");
+    const auto ours = winter_rows(set.winter, model_hours(set.winter, meadow));
     const auto plain = winter_rows(set.winter, degree_day_hours(set.winter));
     std::vector<std::vector<SkillRow>> rivals;
     for (const SkillRival& rival : options.rivals)
@@ -92,7 +101,7 @@ void add_winter(const WinterSet& set, const SkillOptions& options, Board& board)
     if (!set.raw.has(weather::Field::Longwave)) return;
     Winter dark = set.winter;
     dark.table = without_longwave(set.raw);
-    for (SkillRow row : winter_rows(dark, model_hours(dark, meadow()))) {
+    for (SkillRow row : winter_rows(dark, model_hours(dark, meadow))) {
         if (row.quantity != "snow depth") continue;
         row.quantity = "snow depth without longwave";
         put(row, kNoScore);
@@ -189,8 +198,10 @@ Board skill_board(const SkillOptions& options)
         add_rows(longwave_rows(station.name, station.raw), board);
     for (const RoadCase& road : sets.roads) {
         try {
-            add_rows(road_rows(road, {}), board);
-            add_rows(measured_road_rows(road, {}), board);
+            const weather::PhysicalParams params =
+                params_of(options, road.station.bridge ? "bridge" : "road");
+            add_rows(road_rows(road, params), board);
+            add_rows(measured_road_rows(road, params), board);
         } catch (const Error& e) {
             board.notes.push_back(road.name + ": " + e.what());
         }

@@ -20,6 +20,7 @@ struct SkillOptions {
     std::string html = {};   ///< a page to write, or empty
     bool json = false;
     std::vector<SkillRival> rivals{};  ///< run once a winter
+    std::vector<std::string> settings{};  ///< NAME=NUMBER: constants of the model to try
 };
 
 /// What a score is stated to be (stated.cpp).

@@ -5,6 +5,7 @@
 
 #include "weather/models/physical/observed_start.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/friction.h"
 
 namespace petrichor::cli {
 namespace {
@@ -64,19 +65,12 @@ SkillRow row_of(const RoadCase& road, const char* quantity, const ErrorSum& sum,
 
 }  // namespace
 
-weather::Surface road_surface(const weather::MetroStation& station)
-{
-    weather::Surface surface = weather::surface_preset(station.bridge ? "bridge" : "road");
-    surface.layers = station.layers;
-    return surface;
-}
-
 std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params)
 {
     const std::size_t last = last_measured(road.observed);
     if (last == road.observed.surface_c.size() || road.roadcast.time_us.empty()) return {};
     weather::PhysicalParams p = params;
-    p.surface = road_surface(road.station);
+    p.surface.layers = road.station.layers;
     p.step_s = p.substep_s = kStep_s;
     const std::int64_t begin_us =
         std::min(road.observed.table.time_us[last], road.roadcast.time_us.front());
@@ -84,14 +78,21 @@ std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalPar
     const weather::CellState start =
         weather::observed_start(table, p, temperatures(road, last + 1));
     const weather::PhysicalTimeline run(table, p, start, table.time_us.front());
-    ErrorSum ours, air;
+    ErrorSum ours, air, conditions;
     for (std::size_t i = 0; i < road.roadcast.time_us.size(); ++i) {
         const double metro_c = road.roadcast.surface_c[i];
-        ours.add(run.state_at(road.roadcast.time_us[i]).surface_temp_c - metro_c);
+        const weather::CellState cell = run.state_at(road.roadcast.time_us[i]);
+        ours.add(cell.surface_temp_c - metro_c);
         air.add(road.roadcast.air_c[i] - metro_c);
+        const int metro = road.roadcast.condition[i];
+        if (metro > 0)
+            conditions.add(static_cast<int>(weather::road_condition(cell)) == metro ? 0.0 : 1.0);
     }
+    SkillRow other = row_of(road, "other condition than METRo", conditions, true);
+    other.unit = "share";
+    other.measure = "of hours";
     return {row_of(road, "road beside METRo", ours, true),
-            row_of(road, "air beside METRo", air, true)};
+            row_of(road, "air beside METRo", air, true), other};
 }
 
 std::vector<SkillRow> measured_road_rows(const RoadCase& road,
@@ -102,7 +103,7 @@ std::vector<SkillRow> measured_road_rows(const RoadCase& road,
     while (first < times.size() && std::isnan(road.observed.surface_c[first])) ++first;
     if (first == times.size() || times.back() - times[first] < kThreeHours_us) return {};
     weather::PhysicalParams p = params;
-    p.surface = road_surface(road.station);
+    p.surface.layers = road.station.layers;
     p.step_s = p.substep_s = kStep_s;
     ForcingTable table = road.observed.table;
     table.site = road.station.site;

@@ -18,11 +18,9 @@ struct RoadCase {
     weather::MetroRoadcast roadcast;
 };
 
-/// The preset road or bridge with the station's own layers.
-weather::Surface road_surface(const weather::MetroStation& station);
-
 /// Mean absolute difference to METRo's road temperature, under the air and radiation that METRo
-/// used, from the measured start; and beside it that of the air. Snow on the road counts.
+/// used, from the measured start; and beside it that of the air. Snow on the road counts. `params`
+/// are of a road or a bridge; its layers are the station's.
 std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params);
 
 /// Root mean square error against the measured road over the hours before the forecast, from their

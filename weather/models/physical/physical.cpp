@@ -35,6 +35,8 @@ void check_params(const PhysicalParams& p)
     require(p.sky_view >= 0.0 && p.sky_view <= 1.0, "sky_view", p.sky_view, "in 0..1");
     require(p.precip_factor >= 0.0 && p.precip_factor <= 100.0, "precip_factor", p.precip_factor,
             "in 0..100");
+    check_horizon(p.horizon);
+    check_events(p.events);
     require(p.canopy_vai >= 0.0 && p.canopy_vai <= 20.0, "canopy_vai", p.canopy_vai, "in 0..20");
     require(std::isnan(p.deep_temp_k) || (p.deep_temp_k > 200.0 && p.deep_temp_k < 330.0),
             "deep_temp_k", p.deep_temp_k, "in 200..330");
@@ -105,23 +107,41 @@ struct PhysicalTimeline::Impl {
     std::size_t first_step = 0;          // where the checkpoints begin
     std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
 
-    detail::StepWalk walk_from(std::size_t step) const { return {*table, plan, step, sun_use()}; }
+    detail::StepWalk walk_from(std::size_t step) const { return {*table, plan, step, sun_use(), params.horizon}; }
     detail::SunUse sun_use() const
     {
-        return params.sky_view < 1.0 ? detail::SunUse::Direction : detail::SunUse::FlatOpenGround;
+        return params.sky_view < 1.0 || !params.horizon.empty() ? detail::SunUse::Direction
+                                                                : detail::SunUse::FlatOpenGround;
     }
-    // Takes steps from .. to, which `walk` gives.
+    // Takes steps from .. to, which `walk` gives, with the events in them.
     void advance(CellState& cell, detail::StepWalk& walk, std::size_t from, std::size_t to) const
     {
         std::array<detail::StepForcing, kCheckpointEvery> steps;
         const std::size_t last = plan.count - 1;
+        auto event = from < to ? first_event_after(plan.begin_of(from)) : params.events.end();
         for (std::size_t i = from; i < to;) {
-            const std::size_t end = i == last ? to : std::min({to, last, i + steps.size()});
+            std::size_t end = i == last ? to : std::min({to, last, i + steps.size()});
+            if (event != params.events.end()) end = std::min(end, step_before(event->time_us) + 1);
             for (std::size_t j = i; j < end; ++j) steps[j - i] = walk.next();
             advance_cell(cell, place, steps.data(), end - i, constants,
                          i == last ? tail_constants : step_constants);
             i = end;
+            const std::int64_t now_us = i < plan.count ? plan.begin_of(i) : plan.end_us;
+            for (; event != params.events.end() && event->time_us <= now_us; ++event)
+                apply_event(cell, *event);
         }
+    }
+    std::vector<RoadEvent>::const_iterator first_event_after(std::int64_t time_us) const
+    {
+        return std::upper_bound(params.events.begin(), params.events.end(), time_us,
+                                [](std::int64_t t, const RoadEvent& e) { return t < e.time_us; });
+    }
+    // The step at whose end an event happens: that which a time falls into, its end included.
+    std::size_t step_before(std::int64_t time_us) const
+    {
+        return std::min(
+            static_cast<std::size_t>((time_us - plan.begin_us - 1) / plan.length_us),
+            plan.count - 1);
     }
     // Index of the step that holds a time within the run.
     std::size_t step_of(std::int64_t time_us) const
@@ -146,13 +166,19 @@ struct PhysicalTimeline::Impl {
             throw Error("physical model: the forcing table is not complete",
                         "Call fill_forcing on the table first.");
         }
+        if (!wanted.horizon.empty() &&
+            (std::isnan(source->site.latitude_deg) || std::isnan(source->site.longitude_deg))) {
+            throw Error("physical model: a horizon without a place: where the sun stands is not known",
+                        "Give latitude and longitude.");
+        }
         table = std::move(source);
         params = wanted;
         const double deep = std::isnan(params.deep_temp_k)
                                 ? kZeroCelsiusK + detail::yearly_wave(*table).mean_c
                                 : params.deep_temp_k;
         constants = detail::make_cell_constants(params, table->site, deep);
-        place = detail::station_place(params.sky_view, params.precip_factor);
+        place = detail::station_place(params.sky_view * horizon_sky_view(params.horizon),
+                                      params.precip_factor);
         plan = detail::make_step_plan(*table,
                                       static_cast<std::int64_t>(std::llround(params.step_s * 1e6)));
         const auto seconds = [&](std::size_t step) {
@@ -165,6 +191,9 @@ struct PhysicalTimeline::Impl {
     void run(CellState cell, std::size_t from)
     {
         first_step = from;
+        // What is done at the very beginning belongs to no step.
+        for (auto e = params.events.begin(); from == 0 && e != params.events.end(); ++e)
+            if (e->time_us == plan.begin_us) apply_event(cell, *e);
         checkpoints.reserve((plan.count - from) / kCheckpointEvery + 1);
         auto walk = walk_from(from);
         for (std::size_t i = from; i < plan.count; i += kCheckpointEvery) {
@@ -178,9 +207,13 @@ struct PhysicalTimeline::Impl {
     {
         const std::int64_t begin_us = plan.begin_of(i);
         const auto piece =
-            detail::make_step_forcing(*table, begin_us, time_us - begin_us, sun_use());
+            detail::make_step_forcing(*table, begin_us, time_us - begin_us, sun_use(),
+                                      params.horizon);
         advance_cell(cell, place, &piece, 1, constants,
                      detail::make_step_constants(constants, piece.dt_s, params.substep_s));
+        for (auto e = first_event_after(begin_us);
+             e != params.events.end() && e->time_us <= time_us; ++e)
+            apply_event(cell, *e);
     }
 };
 

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "weather/forcing/forcing.h"
+#include "weather/models/physical/road_events.h"
 #include "weather/physics/cell_state.h"
 #include "weather/physics/exchange.h"
+#include "weather/physics/horizon.h"
 #include "weather/physics/phase.h"
 #include "weather/physics/snow.h"
 #include "weather/physics/surfaces.h"
@@ -36,6 +38,10 @@ struct PhysicalParams {
     /// slowly in the frost (canopy_interception_kg_m2; forests 1 to 4). The sky they hide is
     /// `sky_view`.
     double canopy_vai = 0.0;
+    /// Of one cell: takes the sun's beam while it is behind it, and its share of the sky (times
+    /// `sky_view`). For weather measured in the open; grids have horizons of their own.
+    Horizon horizon{};
+    std::vector<RoadEvent> events{};  ///< of one cell, by time; salt, ploughs
 };
 /// Throws Error that names the field when a value cannot be used.
 void check_params(const PhysicalParams& params);

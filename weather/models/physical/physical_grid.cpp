@@ -40,8 +40,9 @@ CellState get_cell(const CellBlock& block, std::size_t lane)
 detail::CellPlace<double> place_of(const GridCell& cell, double station_m,
                                    const PhysicalParams& model)
 {
-    auto place = detail::station_place(model.sky_view * cell.sky_view,
-                                       model.precip_factor * cell.precip_factor);
+    auto place = detail::station_place(
+        model.sky_view * cell.sky_view * horizon_sky_view(model.horizon),
+        model.precip_factor * cell.precip_factor);
     place.height_difference_m = cell.elevation_m - station_m;
     if (place.height_difference_m != 0.0) {
         place.pressure_factor =
@@ -105,6 +106,10 @@ PhysicalGrid::PhysicalGrid(const ForcingTable& table, const GridParams& params,
         throw Error("grid: the forcing table is not complete",
                     "Call fill_forcing on the table first.");
     }
+    if (!params.model.events.empty()) {
+        throw Error("grid: road events are of one cell, not of ensembles and landscapes",
+                    "Leave the events out.");
+    }
     for (const GridCell& cell : cells) {
         const double numbers[] = {cell.elevation_m,      cell.slope_rad,           cell.aspect_rad,
                                   cell.precip_factor,    cell.air_offset_k,        cell.wind_factor,
@@ -121,11 +126,17 @@ PhysicalGrid::PhysicalGrid(const ForcingTable& table, const GridParams& params,
                             std::to_string(params.surfaces.size()) + ".");
         }
     }
+    if (!params.model.horizon.empty() &&
+        (std::isnan(table.site.latitude_deg) || std::isnan(table.site.longitude_deg))) {
+        throw Error("grid: a horizon without a place: where the sun stands is not known",
+                    "Give latitude and longitude.");
+    }
     Impl& m = *impl_;
     m.model = params.model;
     m.threads = params.threads;
     m.steps = detail::make_step_forcings(
-        table, static_cast<std::int64_t>(std::llround(params.model.step_s * 1e6)));
+        table, static_cast<std::int64_t>(std::llround(params.model.step_s * 1e6)),
+        params.model.horizon);
     const double station = std::isnan(table.site.elevation_m) ? 0.0 : table.site.elevation_m;
     const double deep = std::isnan(m.model.deep_temp_k)
                             ? kZeroCelsiusK + detail::yearly_wave(table).mean_c

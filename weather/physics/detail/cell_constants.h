@@ -27,8 +27,9 @@ struct CellConstants {
     // surface
     double albedo_dry, albedo_wet, emissivity, snow_emissivity;
     double log_roughness, log_snow_roughness, log_wind_height, log_temp_height_10;
-    double neutral_bare;  // exchange coefficient without snow
-    double root_z_bare, root_z_snow, inverse_cover_depth, least_wind;
+    double heat_roughness = 0.0;  // ln(10 z0h / z0) of the bare surface; of snow 0
+    double neutral_bare;          // exchange coefficient without snow
+    double convection_bare, convection_snow, inverse_cover_depth, least_wind;
     // water
     double film_capacity, inverse_film_capacity, crack_capacity, puddle_capacity;
     bool permeable = false;
@@ -47,6 +48,7 @@ struct PartConstants {
     HortonStep horton, horton_turn;  // over the substep, and over a turn of it
     double sprayed = 0.0;            // share of the film that traffic takes
     double cleared = 0.0;            // and of the snow that wheels and ploughs take
+    double salt_kept = 1.0;          // share of the salt that wheels leave
 };
 // Factors that depend on the length of the step.
 struct StepConstants {

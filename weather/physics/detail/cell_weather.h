@@ -50,7 +50,7 @@ PETRICHOR_INLINE void weather_of(const StepForcing& step, const CellPlace<Real>&
             larger(place.normal_east * step.sun_east + place.normal_north * step.sun_north +
                        place.normal_up * step.sun_up,
                    Real(0.0));
-        light += (facing / step.sun_up - place.sky_view) * (1.0 - step.diffuse);
+        light += (facing / step.sun_up * step.beam - place.sky_view) * (1.0 - step.diffuse);
     }
     w.light = light * place.shortwave_factor;
 }

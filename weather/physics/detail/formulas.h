@@ -77,20 +77,30 @@ PETRICHOR_INLINE Real richardson_per_k_of(const Real& per_air_wind2, double wind
     return per_air_wind2 * (kGravity_m_s2 * wind_height_m);
 }
 
-// Louis 1979. `root_z_over_z0` is sqrt(zU / z0). Both branches in one square root and one
-// division:
+// Louis 1979. Both branches in one square root and one division:
 //   stable    1 / (1 + 15 Ri sqrt(1 + 5 Ri))
-//   unstable  1 + 15 |Ri| / (1 + 75 CHn sqrt(|Ri| zU/z0))
+//   unstable  1 + 15 |Ri| / (1 + C sqrt(|Ri|))
+// `convection` is C: 75 CHn sqrt(zU/z0) with Louis; convection_of else.
 template <class Real>
-PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& neutral,
-                                          const Real& root_z_over_z0)
+PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& convection)
 {
     const auto is_stable = richardson >= 0.0;
     const Real size = larger(richardson, richardson * -1.0);
     const Real steep = size * 15.0;
     const Real root = square_root(select(is_stable, size * 5.0 + 1.0, size));
-    const Real under = select(is_stable, steep, neutral * 75.0 * root_z_over_z0) * root + 1.0;
+    const Real under = select(is_stable, steep, convection) * root + 1.0;
     return select(is_stable, Real(1.0), under + steep) / under;
+}
+// C where the roughness of heat is not that of momentum, from the logarithms of zU / z0 and z0 / z0h:
+// Mascart, Noilhan & Giordani 1995 (Boundary-Layer Meteorol. 72, 331).
+inline double convection_of(double log_wind, double log_share)
+{
+    const double m = log_share;
+    const double star = 3.2165 + m * (4.3431 + m * (0.5360 - m * 0.0781));
+    const double power_h = 0.5802 + m * (-0.1571 + m * (0.0327 - m * 0.0026));
+    const double drag = kVonKarman * kVonKarman / (log_wind * log_wind);
+    const double log_heat = log_wind + m;
+    return 15.0 * star * drag * exponential(power_h * log_heat) * (log_wind / log_heat);
 }
 
 // Pahaut 1976; snow_conductivity_of: Yen 1981.

@@ -261,6 +261,19 @@ PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, d
     return flow;
 }
 
+// Water below a pack freezes with the cold of the ground, as far as that goes: the base warms by
+// what it gives.
+template <class Real, class Mask>
+PETRICHOR_INLINE void freeze_below(CellVars<Real>& c, const Mask& wet_base, double conductance,
+                                   double dt, Real& base_c)
+{
+    const Real cold = select(wet_base, larger(base_c * -1.0, Real(0.0)), Real(0.0));
+    const Real frozen = smaller(c.film, cold * (conductance * dt / kLatentFusion));
+    c.film = c.film - frozen;
+    c.film_ice += frozen;
+    base_c = base_c + frozen * (kLatentFusion / (conductance * dt));
+}
+
 // Cuts the pack into layers of 0.1 and 0.2 m from the top where `cut` says so; masses and heat go
 // with the thickness.
 //   inverse  1 / thickness of the layers as they are; anything finite for a layer that is not there

@@ -3,6 +3,7 @@
 #define PETRICHOR_WEATHER_PHYSICS_DETAIL_STEP_FORCING_H
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "weather/forcing/forcing.h"
@@ -36,6 +37,7 @@ struct StepForcing {
     bool phase_known = false;
     double sun_east = 0.0, sun_north = 0.0, sun_up = 0.0;  // at the middle
     double diffuse = 1.0;                                  // share of shortwave
+    double beam = 1.0;  // share of the beam on flat ground that gets past the horizon
 };
 
 /// The moment x of a step, 0..1, the middle of a substep that lasts until `until`.
@@ -46,8 +48,10 @@ StationMoment moment_of(const StepForcing& step, double x, double until);
 enum class SunUse { Direction, FlatOpenGround };
 
 /// One step [begin, begin + length] of a filled table.
+///   horizon  what hides the beam, or nothing; used with SunUse::Direction
 StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin_us,
-                              std::int64_t length_us, SunUse sun);
+                              std::int64_t length_us, SunUse sun,
+                              std::span<const double> horizon = {});
 
 /// The steps of a table: whole ones from the first row; the last one may be shorter.
 struct StepPlan {
@@ -65,7 +69,8 @@ StepPlan make_step_plan(const ForcingTable& table, std::int64_t step_us);
 /// Makes the steps of a plan one after the other: 272 bytes each are quicker made again than kept.
 class StepWalk {
 public:
-    StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun);
+    StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t first_step, SunUse sun,
+             std::span<const double> horizon = {});
     StepForcing next();
 
 private:
@@ -73,10 +78,12 @@ private:
     const StepPlan* plan_;
     std::size_t step_, row_;
     SunUse sun_;
+    std::span<const double> horizon_;
 };
 
 /// All steps, for many cells.
-std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us);
+std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us,
+                                            std::span<const double> horizon = {});
 
 }  // namespace petrichor::weather::detail
 

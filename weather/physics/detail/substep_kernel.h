@@ -4,6 +4,7 @@
 #define PETRICHOR_WEATHER_PHYSICS_DETAIL_SUBSTEP_KERNEL_H
 
 #include "weather/physics/cell_state.h"
+#include "weather/physics/detail/brine_kernel.h"
 #include "weather/physics/detail/cell_constants.h"
 #include "weather/physics/detail/cell_weather.h"
 #include "weather/physics/detail/ground_kernel.h"
@@ -76,15 +77,16 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     p.air_c = w.air_c;
     p.q_air = w.q_air;
     p.pressure = w.pressure;
-    p.neutral = Real(k.neutral_bare);
+    Real neutral = k.neutral_bare;
     if (any_snow) {
         const Real log_z0 = cover * (k.log_snow_roughness - k.log_roughness) + k.log_roughness;
-        p.neutral = neutral_exchange_of<Real>(k.log_wind_height - log_z0,
-                                              k.log_temp_height_10 - log_z0);
+        neutral = neutral_exchange_of<Real>(
+            k.log_wind_height - log_z0,
+            k.log_temp_height_10 - (log_z0 + (1.0 - cover) * k.heat_roughness));
     }
-    p.exchange = w.density * p.neutral * w.wind;
+    p.exchange = w.density * neutral * w.wind;
     p.richardson_k = richardson_per_k_of(w.per_air_wind2, k.wind_height_m);
-    p.root_z = cover * (k.root_z_snow - k.root_z_bare) + k.root_z_bare;
+    p.convection = cover * (k.convection_snow - k.convection_bare) + k.convection_bare;
     p.icy = icy;
     p.latent_heat = select(icy, Real(kLatentSublimation), Real(kLatentVaporisation));
     p.rain_heat = rain * kWaterHeatCapacity;
@@ -107,10 +109,27 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     stores.water = select(covered, zero, liquid + rain_mass);
     stores.may_melt = covered | (ice > zero);
     stores.may_freeze = stores.water > zero;
-    const PhaseChange<Real> change = change_phase(p, k.exchange, stores, later, dt, root);
+    // Salted ground has no point at which it melts: brine and ice share a range of temperatures.
+    const auto salted = c.salt > zero;
+    const bool any_salt = any(salted);
+    const MaskOf<Real> salted_bare = salted & !covered, salted_snow = salted & covered;
+    if (any_salt) {
+        stores.may_melt = stores.may_melt & (covered | !salted);
+        stores.may_freeze = stores.may_freeze & !salted;
+    }
+    PhaseChange<Real> change = change_phase(p, k.exchange, stores, later, dt, root);
+    if (any_salt) {
+        const BrineStores<Real> brine{c.salt, stores.water, stores.water + ice};
+        change_brine(p, brine, salted_bare, dt, root, change);
+    }
     const auto f = fluxes_at(p, root);
     const Real surface_c = root.surface_c;
     c.surface_temp_c = end_temperature(stores, change, surface_c, later, f.slope);
+    if (any_salt) {
+        // Brine goes on holding: what it changed is not undone at the end.
+        c.surface_temp_c =
+            select(salted_bare, surface_c + later / f.slope, c.surface_temp_c);
+    }
     const Real residual = f.balance - change.melt_flux;
 
     // ---- new temperatures below
@@ -126,6 +145,14 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
                                   select(covered, larger(melt_mass, zero), zero),
                                   select(covered, rain_mass, zero), snow <= zero, k);
         runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
+        if (any_salt) {
+            const BrineStores<Real> brine{c.salt, liquid, liquid + pack};
+            runoff += melted_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
+                                     interface_c);
+        }
+        const MaskOf<Real> wet_base = covered & (c.film > zero) & !salted;
+        if (any(wet_base & (interface_c < zero)))
+            freeze_below(c, wet_base, ground.conductance_w_m2_k, dt, interface_c);
         if (part.cleared > 0.0) c.total_drainage += clear_snow(c, part.cleared);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
@@ -135,8 +162,11 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     c.total_melt += larger(melt_mass, zero);
     const bool holds_slush = any_snow && part.film_in_snow.rate_1_s != part.film.rate_1_s;
     const Real slush = holds_slush ? select(covered, slush_limit(c), zero) : zero;
+    const Real gone_before = c.total_drainage + c.total_infiltration;
     move_water(c, to_film, select(covered, zero, vapour_mass), select(covered, zero, melt_mass),
                bare_icy, slush, root.wet.shares, k, part);
+    if (any_salt)
+        carry_salt(c, (c.total_drainage + c.total_infiltration) - gone_before, part.salt_kept);
 
     c.flux_shortwave += absorbed_sw * share;
     c.flux_longwave += (f.net_radiation - given) * share;

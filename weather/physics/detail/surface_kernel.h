@@ -56,9 +56,8 @@ struct SurfacePoint {
     Real q_air;
     Real pressure;
     Real exchange;      // rho * CHn * U, kg m-2 s-1
-    Real neutral;       // CHn
     Real richardson_k;  // g zU / (Ta U^2), 1/K
-    Real root_z;        // sqrt(zU/z0)
+    Real convection;    // of stability_factor_of
     Wetness wet;
     Real most_vapour;  // kg m-2 s-1 that can leave: the store over the step
     Mask icy;
@@ -139,7 +138,7 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
     Real ri = p.richardson_k * (p.air_c - surface_c);
     if (params.stability == Stability::LouisCapped) ri = smaller(ri, Real(params.max_richardson));
     return p.exchange *
-           smaller(stability_factor_of(ri, p.neutral, p.root_z), Real(params.max_unstable));
+           smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
 }
 
 constexpr double kLongestStep_k = 20.0;

@@ -72,6 +72,19 @@ CellPlace<double> station_place(double sky_view, double precip_factor)
     return place;
 }
 
+double climate_mean_c(double latitude_deg, double elevation_m)
+{
+    const double sine = sine_cosine(latitude_deg * (kPi / 180.0)).sin;
+    const double height_m = std::isnan(elevation_m) ? 0.0 : elevation_m;
+    return 14.9 - 28.0 * (1.5 * sine * sine - 0.5) - kLapseRate_k_m * height_m;
+}
+
+double climate_amplitude_k(double latitude_deg)
+{
+    const double sine = sine_cosine(latitude_deg * (kPi / 180.0)).sin;
+    return 16.0 * sine * sine;
+}
+
 YearlyWave yearly_wave(const ForcingTable& table)
 {
     // Least squares for mean and amplitude of T = mean + amplitude cos(year - phase); the warmest
@@ -105,7 +118,17 @@ YearlyWave yearly_wave(const ForcingTable& table)
         wave.mean_c = t1 / n - wave.amplitude_k * c1 / n;
     } else {
         // Days or weeks say little about the year: do not invent permafrost from a cold spell.
-        wave.mean_c = std::max(wave.mean_c, 2.0);
+        const double file_c = wave.mean_c;
+        if (std::isnan(table.site.latitude_deg)) {
+            wave.mean_c = std::max(file_c, 2.0);
+        } else {
+            // Two weak witnesses: the mean of the latitude, and the file less the season of the
+            // latitude.
+            const double season_k = climate_amplitude_k(table.site.latitude_deg) * c1 / n;
+            wave.mean_c = 0.5 * (climate_mean_c(table.site.latitude_deg, table.site.elevation_m) +
+                                 (file_c - season_k));
+            wave.recent_k = file_c - wave.mean_c;
+        }
     }
     return wave;
 }
@@ -130,7 +153,8 @@ CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::i
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
         const double z = (depth + 0.5 * kGroundThickness_m[i]) / damping;
         c.ground_temp_c[i] =
-            k.deep_temp_c + wave.amplitude_k * exponential(-z) * sine_cosine(now - z).cos;
+            k.deep_temp_c +
+            exponential(-z) * (wave.amplitude_k * sine_cosine(now - z).cos + wave.recent_k);
         depth += kGroundThickness_m[i];
     }
     c.infiltration_mm_h = k.surface.infiltration.first_mm_h;
@@ -156,11 +180,14 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.log_snow_roughness = logarithm(params.snow.roughness_m);
     k.log_wind_height = logarithm(site.wind_height_m);
     k.log_temp_height_10 = logarithm(site.temp_height_m * 10.0);  // z0h = z0 / 10
+    k.heat_roughness = logarithm(s.heat_roughness_share * 10.0);
     k.neutral_bare =
         neutral_exchange_of(k.log_wind_height - k.log_roughness,
-                            k.log_temp_height_10 - k.log_roughness);
-    k.root_z_bare = std::sqrt(site.wind_height_m / s.roughness_m);
-    k.root_z_snow = std::sqrt(site.wind_height_m / params.snow.roughness_m);
+                            k.log_temp_height_10 - (k.log_roughness + k.heat_roughness));
+    k.convection_bare = convection_of(k.log_wind_height - k.log_roughness,
+                                      -logarithm(s.heat_roughness_share));
+    k.convection_snow =
+        convection_of(k.log_wind_height - k.log_snow_roughness, logarithm(10.0));  // z0h = z0 / 10
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;
     k.least_wind = std::max(params.exchange.min_wind_m_s, s.traffic_wind_m_s);
     k.film_capacity = s.film_capacity_kg_m2;
@@ -194,6 +221,7 @@ PartConstants make_part_constants(const CellConstants& k, double dt_s)
     part.horton = make_horton_step(horton, hours);
     part.horton_turn = make_horton_step(horton, hours / kFillingTurns);
     part.sprayed = 1.0 - exponential(-surface.traffic_loss_1_h * hours);
+    part.salt_kept = exponential(-surface.salt_loss_1_h * hours);
     part.cleared = 1.0 - exponential(-surface.snow_clearing_1_h * hours);
     return part;
 }

@@ -39,11 +39,20 @@ bool machine_has_wide_registers();
 
 /// The place of a station on flat, open ground.
 CellPlace<double> station_place(double sky_view = 1.0, double precip_factor = 1.0);
-/// The year behind a series of any length: air temperature as a mean and a cosine.
+/// The year behind a series of any length: air temperature as a mean and a cosine. Of a series of
+/// less than 120 days the mean is half that of its latitude and height (climate_mean_c), half its own
+/// less the season of its latitude (climate_amplitude_k), where the latitude is known.
 struct YearlyWave {
     double mean_c = 8.0, amplitude_k = 0.0;
+    double recent_k = 0.0;  // of a short series: its own mean over mean_c
     bool south = false;
 };
+/// Yearly mean of the air by latitude and height: zonal means at sea level as North, Cahalan &
+/// Coakley 1981 (Rev. Geophys. 19, 91) expand them, 14.9 - 28 P2(sin latitude), less 6.5 K a km.
+double climate_mean_c(double latitude_deg, double elevation_m);
+/// How far the warmest day's mean is over that of the year: 16 K sin^2(latitude), chosen (8 K at 45
+/// degrees, 12 at 60: the west of continents; inland it is up to twice that).
+double climate_amplitude_k(double latitude_deg);
 YearlyWave yearly_wave(const ForcingTable& table);
 /// Ground as the yearly wave leaves it at a time of the table (at its beginning), dry, no snow.
 CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);

@@ -31,10 +31,12 @@ public:
     void add_model(const PhysicalParams& params)
     {
         const auto& [surface, snow, exchange, phase, step_s, substep_s, deep_temp_k, sky_view,
-                     precip_factor, canopy_vai] = params;
+                     precip_factor, canopy_vai, horizon, events] = params;
         static_cast<void>(surface);
         add(snow, exchange, phase, step_s, substep_s, deep_temp_k, sky_view, precip_factor,
-            canopy_vai);
+            canopy_vai, horizon);
+        add(std::uint64_t{events.size()});
+        for (const auto& [time_us, kind, amount] : events) add(time_us, kind, amount);
     }
 
 private:
@@ -69,12 +71,14 @@ private:
     void put(const Surface& surface)
     {
         // A name changes nothing.
-        const auto& [name, albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2,
-                     film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration, layers,
+        const auto& [name, albedo_dry, albedo_wet, emissivity, roughness_m, heat_roughness_share,
+                     film_capacity_kg_m2, film_rate_1_s, slush_rate_1_s, cracks, puddles, infiltration, layers,
                      open_below, conductivity_w_m_k, heat_capacity_j_m3_k, traffic_loss_1_h,
-                     traffic_wind_m_s, snow_clearing_1_h, traffic_heat_w_m2] = surface;
+                     traffic_wind_m_s, snow_clearing_1_h, traffic_heat_w_m2,
+                     salt_loss_1_h] = surface;
         static_cast<void>(name);
-        add(albedo_dry, albedo_wet, emissivity, roughness_m, film_capacity_kg_m2, film_rate_1_s,
+        add(albedo_dry, albedo_wet, emissivity, roughness_m, heat_roughness_share,
+            salt_loss_1_h, film_capacity_kg_m2, film_rate_1_s,
             slush_rate_1_s, cracks, puddles, infiltration, open_below, conductivity_w_m_k,
             heat_capacity_j_m3_k, traffic_loss_1_h, traffic_wind_m_s, snow_clearing_1_h,
             traffic_heat_w_m2);
