@@ -10,11 +10,13 @@
 #include "cli/rooms.h"
 #include "cli/signals.h"
 #include "cli/texture/build/build.h"
+#include "cli/texture/build/build_scene.h"
 #include "cli/texture/build/plan_build.h"
 #include "cli/texture/build/recipe_file.h"
 #include "cli/texture/build/watch.h"
 #include "cli/texture/cmd_texture.h"
 #include "film/data/folders.h"
+#include "texproc/gltf/rewrite.h"
 
 namespace petrichor::cli {
 
@@ -27,7 +29,7 @@ struct Arguments {
     std::string out;
     BuildChoice choice;
     BuildOptions options;
-    bool list = false, watch = false;
+    bool list = false, watch = false, fallback = false;
 };
 
 void list_engines()
@@ -133,6 +135,18 @@ void run(Arguments& a)
         list_engines();
         return;
     }
+    for (const std::string& input : a.inputs) {
+        if (!texproc::is_gltf_name(input)) continue;
+        if (a.inputs.size() > 1 || a.watch) {
+            throw Error("texture build: a scene (" + input + ") is built alone, once",
+                        "Leave --watch and the other inputs out.");
+        }
+        build_scene({input, a.out, a.choice, a.fallback, a.options.dry_run, a.options.threads});
+        return;
+    }
+    if (a.fallback) {
+        throw Error("texture build: --fallback is for scenes (.glb, .gltf)", "Leave it out.");
+    }
     if (a.out.empty() && !a.options.dry_run) {
         throw Error("texture build: no output folder", "Give -o FOLDER.");
     }
@@ -166,7 +180,12 @@ constexpr const char* kFooter =
     "outputs by content. OUT/manifest.json says what every file is, with hashes and measured "
     "error.\n"
     "\n"
+    "A scene (.glb, .gltf): every material's textures are prefiltered with the normals that belong to\n"
+    "them and written as KTX2 with all levels (UASTC, KHR_texture_basisu); the rest stays byte for\n"
+    "byte. Images that two materials use with different normals become two.\n"
+    "\n"
     "Examples:\n"
+    "  petrichor texture build scene.glb -o better.glb\n"
     "  petrichor texture build textures/ --engine unity-hdrp -o Assets/Textures\n"
     "  petrichor texture build wall.toml -o out --watch\n"
     "\n"
@@ -196,9 +215,9 @@ void add_texture_build(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
     CLI::App* app =
-        texture.add_subcommand("build", "a recipe or a folder of maps into engine-ready files");
-    app->add_option("inputs", a->inputs, "recipes (.toml) and folders of maps");
-    app->add_option("-o,--out", a->out, "the folder to write into");
+        texture.add_subcommand("build", "a recipe, a folder of maps or a scene into engine-ready files");
+    app->add_option("inputs", a->inputs, "recipes (.toml) and folders of maps, or one scene (.glb, .gltf)");
+    app->add_option("-o,--out", a->out, "the folder to write into; of a scene the new scene");
     app->add_option("--engine", a->choice.engines,
                     "outputs of this engine (see --list), in place of the recipe's");
     app->add_option("--rule", a->choice.rule, "prefilter: overlap, median, ..., or none");
@@ -213,6 +232,8 @@ void add_texture_build(CLI::App& texture)
     app->add_flag("--dry-run", a->options.dry_run, "print what would be made");
     app->add_flag("--force", a->options.force, "make what is up to date as well");
     app->add_flag("--watch", a->watch, "go on, and build again when a map or a recipe changes");
+    app->add_flag("--fallback", a->fallback,
+                  "scenes: keep the old images beside, for readers without KTX2");
     app->add_flag("--list", a->list, "show the engines and their outputs");
     app->footer(kFooter);
     app->callback([a] { run(*a); });

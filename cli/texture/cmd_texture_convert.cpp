@@ -166,8 +166,8 @@ void add_texture_convert(CLI::App& texture)
     app->add_option("-o,--out", a->out, "the extension decides")->required();
     app->add_option(
         "--format", a->format,
-        "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; default: "
-        "the numbers of the image");
+        "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; ktx2 alone: "
+        "uastc uastca; default: the numbers of the image");
     app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
     app->add_flag("--linear", a->linear, "it is data (default)");
     app->add_flag("--mips", a->mips, "all levels down to 1 x 1 (dds, ktx2, exr)");

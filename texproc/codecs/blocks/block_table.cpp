@@ -82,6 +82,13 @@ void decode_7(const std::byte* from, BlockSign, BlockBytes& to)
     put_texels(texels, to);
 }
 
+void decode_u(const std::byte* from, BlockSign, BlockBytes& to)
+{
+    Rgba8Block texels;
+    decode_uastc(from, texels);
+    put_texels(texels, to);
+}
+
 void encode_1(const BlockTexels& texels, const BlockOptions& options, std::byte* to)
 {
     encode_kernel().bc1(texels, options, options.punch_through ? Bc1Use::Holes : Bc1Use::Opaque,
@@ -110,6 +117,11 @@ void encode_7(const BlockTexels& texels, const BlockOptions& options, std::byte*
     encode_kernel().bc7(texels, options, to);
 }
 
+void encode_u(const BlockTexels& texels, const BlockOptions& options, std::byte* to)
+{
+    encode_kernel().uastc(texels, options, to);
+}
+
 }  // namespace
 
 const std::vector<BlockRow>& block_table()
@@ -134,6 +146,8 @@ const std::vector<BlockRow>& block_table()
           {"bc6h-signed", 3, true, 96, 0, 144, 0, "", {0}}}},
         {Block::Bc7, "BC7", 16, 4, false, false, decode_7, encode_7, 134,
          {{"bc7", 4, false, 98, 99, 145, 146, "", {0}}}},
+        {Block::Uastc, "UASTC", 16, 4, false, false, decode_u, encode_u, 166,
+         {{"uastc", 3, false, 0, 0, 0, 0, "", {0}}, {"uastca", 4, false, 0, 0, 0, 0, "", {3}}}},
     };
     return table;
 }

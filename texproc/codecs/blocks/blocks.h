@@ -21,6 +21,7 @@ enum class Block {
     Bc5,   ///< two BC4 blocks
     Bc6h,  ///< RGB half floats; read only
     Bc7,   ///< RGB or RGBA, eight modes
+    Uastc,  ///< RGB or RGBA, 19 modes: Basis Universal's, from which every other format is made
 };
 
 /// Bytes of one block.

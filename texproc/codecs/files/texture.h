@@ -25,7 +25,7 @@ struct TextureFormat {
 };
 
 /// By name: r8 rg8 rgb8 rgba8, r16 ..., r16f ..., r32f ..., bc1, bc1a (alpha 0 or 1), bc3, bc4,
-/// bc5, bc7; bc2, bc6h and signed ones can be read only. Throws Error that lists the names.
+/// bc5, bc7, uastc (ktx2 only), uastca (with alpha); bc2, bc6h and signed ones can be read only. Throws Error that lists the names.
 TextureFormat texture_format(const std::string& name);
 std::string name_of(const TextureFormat& format);
 std::vector<std::string> texture_format_names();  ///< those that can be written
@@ -84,6 +84,11 @@ void write_mip_chain(const std::filesystem::path& path, const std::vector<RawIma
 /// implied); without a format: 8 bits for dds and ktx2, half for exr.
 void write_mip_chain(const std::filesystem::path& path, const std::vector<Image>& levels,
                      const TextureWriteOptions& options = {});
+
+/// The bytes of a file: "dds" or "ktx2", whose levels zstd compresses from 1 to 22. Throws Error
+/// when the container does not have the format.
+std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::string& container,
+                                     int zstd = 0);
 
 /// True when write_mip_chain() knows the extension.
 bool holds_mip_chain(const std::filesystem::path& path);

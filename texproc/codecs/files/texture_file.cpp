@@ -125,6 +125,15 @@ void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
     write_mip_chain(path, raw, labelled);
 }
 
+std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::string& container,
+                                     int zstd)
+{
+    if (container == "ktx2") return detail::ktx2_file(texture, zstd);
+    std::vector<std::byte> bytes = detail::dds_header(texture, texture.levels.size());
+    for (const auto& level : texture.levels) bytes.insert(bytes.end(), level.begin(), level.end());
+    return bytes;
+}
+
 MipTexture read_texture(const fs::path& path, const ReadOptions& options)
 {
     return decode_texture(file_bytes(path, options.max_bytes), path.string(), options);

@@ -45,6 +45,7 @@ std::array<std::uint8_t, 16> decode_bc4(const std::byte* block);
 std::array<float, 16> decode_bc4_exact(const std::byte* block);  ///< 0..1
 std::array<float, 16> decode_bc4_signed(const std::byte* block);
 void decode_bc7(const std::byte* block, Rgba8Block& to);
+void decode_uastc(const std::byte* block, Rgba8Block& to);
 /// Half-float bits.
 std::array<std::array<std::uint16_t, 3>, 16> decode_bc6h(const std::byte* block, bool is_signed);
 

@@ -26,6 +26,7 @@ struct EncodeKernel {
     void (*bc1)(const BlockTexels&, const BlockOptions&, Bc1Use, std::byte* to);
     void (*bc4)(const std::uint8_t* values, BlockQuality, std::byte* to);
     void (*bc7)(const BlockTexels&, const BlockOptions&, std::byte* to);
+    void (*uastc)(const BlockTexels&, const BlockOptions&, std::byte* to);
 };
 
 extern const EncodeKernel kEncodeKernelBase;

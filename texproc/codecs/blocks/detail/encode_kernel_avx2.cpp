@@ -2,6 +2,6 @@
 
 namespace petrichor::texproc::detail {
 
-const EncodeKernel kEncodeKernelAvx2{encode_bc1, encode_bc4, encode_bc7};
+const EncodeKernel kEncodeKernelAvx2{encode_bc1, encode_bc4, encode_bc7, encode_uastc};
 
 }  // namespace petrichor::texproc::detail

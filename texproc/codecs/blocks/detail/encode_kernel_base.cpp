@@ -2,6 +2,6 @@
 
 namespace petrichor::texproc::detail {
 
-const EncodeKernel kEncodeKernelBase{encode_bc1, encode_bc4, encode_bc7};
+const EncodeKernel kEncodeKernelBase{encode_bc1, encode_bc4, encode_bc7, encode_uastc};
 
 }  // namespace petrichor::texproc::detail

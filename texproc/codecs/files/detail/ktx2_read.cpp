@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 
 #include "texproc/codecs/files/detail/ktx2.h"
@@ -39,6 +40,18 @@ std::vector<std::byte> inflated(Bytes stored, std::size_t size, std::uint32_t sc
     return level;
 }
 
+// The format of a file for which Vulkan has no name, by its descriptor.
+std::optional<LabelledFormat> from_descriptor(Bytes bytes)
+{
+    const Bytes dfd = part(bytes, read_u32(bytes, 48), read_u32(bytes, 52), "the descriptor");
+    if (dfd.size() < 44) throw std::runtime_error("its data format descriptor is damaged");
+    const BlockRow& row = row_of(Block::Uastc);
+    if (std::to_integer<int>(dfd[12]) != row.color_model) return std::nullopt;
+    const bool opaque = (std::to_integer<int>(dfd[31]) & 15) == 0;
+    return LabelledFormat{format_of(row, row.labels[opaque ? 0 : 1]),
+                          std::to_integer<int>(dfd[14]) == 2, false};
+}
+
 }  // namespace
 
 MipTexture parse_ktx2(std::span<const std::byte> bytes, const ReadOptions& limits)
@@ -52,15 +65,15 @@ MipTexture parse_ktx2(std::span<const std::byte> bytes, const ReadOptions& limit
     const std::uint32_t depth = read_u32(bytes, 28), layers = read_u32(bytes, 32);
     const std::uint32_t faces = read_u32(bytes, 36), scheme = read_u32(bytes, 44);
     const std::uint32_t levels = std::max(1u, read_u32(bytes, 40));
-    if (scheme == 1 || vulkan == 0) {
+    if (scheme == 1) {
         throw std::runtime_error(
-            "it is supercompressed with Basis Universal, which is not supported");
+            "it is supercompressed with Basis Universal's ETC1S, which is not supported");
     }
     if (scheme > 3) {
         throw std::runtime_error("its supercompression " + std::to_string(scheme) +
                                  " is not supported");
     }
-    const auto label = from_vulkan(vulkan);
+    const auto label = vulkan ? from_vulkan(vulkan) : from_descriptor(bytes);
     if (!label) {
         throw std::runtime_error("its texel format (Vulkan " + std::to_string(vulkan) +
                                  ") is not supported");

@@ -46,6 +46,12 @@ std::vector<Sample> plain_samples(const TextureFormat& format, bool srgb)
     return samples;
 }
 
+// Vulkan has no name for it; its samples name sets of channels, not one.
+bool is_basis(const TextureFormat& format)
+{
+    return format.block == Block::Uastc;
+}
+
 std::vector<Sample> block_samples(const TextureFormat& format, bool srgb)
 {
     const BlockLabel* label = label_of(format);
@@ -53,7 +59,7 @@ std::vector<Sample> block_samples(const TextureFormat& format, bool srgb)
     const int bits = static_cast<int>(8 * block_bytes(*format.block) / label->parts.size());
     std::vector<Sample> samples;
     for (const int channel : label->parts) {
-        const bool linear = channel == kAlphaChannel && srgb;
+        const bool linear = channel == kAlphaChannel && srgb && !is_basis(format);
         samples.push_back({static_cast<int>(samples.size()) * bits, bits,
                            channel | (linear ? kLinear : 0), 0, 0xffffffffu});
     }
@@ -83,7 +89,8 @@ std::vector<std::byte> descriptor(const MipTexture& texture)
     put_little(dfd, 2, 2);  // version 1.3
     put_little(dfd, block_size, 2);
     put_little(dfd, static_cast<std::uint64_t>(color_model(format)), 1);
-    put_little(dfd, 1, 1);  // Rec.709 primaries
+    // Rec.709 primaries; KHR_texture_basisu wants none for data.
+    put_little(dfd, is_basis(format) && !texture.srgb ? 0 : 1, 1);
     put_little(dfd, texture.srgb ? 2 : 1, 1);
     put_little(dfd, 0, 1);                          // straight alpha
     put_little(dfd, format.block ? 0x0303 : 0, 4);  // texel block 4 x 4 or 1 x 1
@@ -130,7 +137,7 @@ std::vector<std::byte> compressed(std::span<const std::byte> level, int quality)
 Ktx2Parts ktx2_parts(const MipTexture& texture, const LevelBytes& levels, int zstd)
 {
     const std::uint32_t vulkan = vulkan_code(texture.format, texture.srgb);
-    if (vulkan == 0) {
+    if (vulkan == 0 && !is_basis(texture.format)) {
         throw Error("ktx2: there is no " + std::string(texture.srgb ? "sRGB " : "") +
                         name_of(texture.format),
                     "Use 8 bits, bc1, bc3 or bc7 for sRGB, or leave --srgb out.");

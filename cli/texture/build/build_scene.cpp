@@ -1,0 +1,111 @@
+#include "cli/texture/build/build_scene.h"
+
+#include <cstdio>
+#include <iostream>
+
+#include "base/error.h"
+#include "cli/signals.h"
+#include "texproc/gltf/rewrite.h"
+#include "texproc/prefilter/rules.h"
+
+namespace petrichor::cli {
+
+namespace {
+
+const char* text_of(texproc::ImageMeaning meaning)
+{
+    switch (meaning) {
+        case texproc::ImageMeaning::Color: return "colour";
+        case texproc::ImageMeaning::Normal: return "normals";
+        case texproc::ImageMeaning::Surface: return "roughness";
+        case texproc::ImageMeaning::Data: break;
+    }
+    return "data";
+}
+
+void check(const SceneBuild& build)
+{
+    for (const std::string& engine : build.choice.engines) {
+        if (engine == "gltf") continue;
+        throw Error("texture build: a scene is written for glTF, not for " + engine,
+                    "Leave --engine out, or build the folder of its textures for that engine.");
+    }
+    if (!build.choice.format.empty() && build.choice.format != "ktx2") {
+        throw Error("texture build: a scene holds its levels in ktx2, not in " +
+                        build.choice.format,
+                    "Leave --format out.");
+    }
+    if (build.out.empty() && !build.dry_run) {
+        throw Error("texture build: no output scene",
+                    "Give -o better" + build.in.extension().string() + ".");
+    }
+}
+
+void list_plan(const SceneBuild& build)
+{
+    const texproc::GltfFile file = texproc::read_gltf_file(build.in);
+    const texproc::ImagePlan plan = texproc::plan_images(file, !build.fallback);
+    for (const texproc::ImageRecipe& recipe : plan.recipes) {
+        std::printf("image %zu as %s%s\n", recipe.image, text_of(recipe.meaning),
+                    recipe.normal >= 0
+                        ? (", with the normals of image " + std::to_string(recipe.normal)).c_str()
+                        : "");
+    }
+    for (const std::string& note : plan.notes) std::cout << "note: " << note << "\n";
+}
+
+double percent(double now, double before)
+{
+    return before > 0.0 ? 100.0 * (now / before - 1.0) : 0.0;
+}
+
+void report(const texproc::GltfBuildReport& made)
+{
+    std::uint64_t before = 0, after = 0;
+    for (const auto& image : made.images) {
+        std::printf("%-36s %-9s %5d x %-5d %2d levels  %8.1f -> %8.1f KiB%s\n",
+                    image.name.c_str(), text_of(image.meaning), image.width, image.height,
+                    image.levels, static_cast<double>(image.bytes_before) / 1024.0,
+                    static_cast<double>(image.bytes) / 1024.0,
+                    image.resampled ? "  resampled to whole blocks" : "");
+        before += image.bytes_before;
+        after += image.bytes;
+    }
+    if (!made.materials.empty())
+        std::cout << "pictures of lit floors against the truth, plain mips -> as written:\n";
+    for (const auto& material : made.materials) {
+        const auto& [shipped, plain] = material.picture;
+        std::printf("%-36s RMSE %.4f -> %.4f (%+.1f %%)  flicker %.4f -> %.4f (%+.1f %%)\n",
+                    material.name.c_str(), plain.rmse, shipped.rmse,
+                    percent(shipped.rmse, plain.rmse), plain.flicker, shipped.flicker,
+                    percent(shipped.flicker, plain.flicker));
+    }
+    for (const std::string& note : made.notes) std::cout << "note: " << note << "\n";
+    std::printf("%zu images, %.1f -> %.1f MiB; wrote %s\n", made.images.size(),
+                static_cast<double>(before) / 1048576.0, static_cast<double>(after) / 1048576.0,
+                made.files.back().string().c_str());
+}
+
+}  // namespace
+
+void build_scene(const SceneBuild& build)
+{
+    check(build);
+    if (build.dry_run) {
+        list_plan(build);
+        return;
+    }
+    texproc::GltfBuildOptions options;
+    options.images.size = build.choice.size;
+    options.images.threads = build.threads;
+    options.fallback = build.fallback;
+    options.score = !build.choice.no_score;
+    options.stop = [] { return interrupted(); };
+    if (!build.choice.rule.empty()) options.images.prefilter.rule = build.choice.rule;
+    if (!build.choice.quality.empty())
+        options.images.prefilter.quick = build.choice.quality == "quick";
+    if (options.images.prefilter.rule != "none") texproc::rule_named(options.images.prefilter.rule);
+    report(texproc::build_gltf(build.in, build.out, options));
+}
+
+}  // namespace petrichor::cli

@@ -1,0 +1,382 @@
+#include "texproc/gltf/rewrite.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "base/interrupted.h"
+#include "base/words.h"
+
+namespace petrichor::texproc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBasis = "KHR_texture_basisu";
+constexpr const char* kWebp = "EXT_texture_webp";
+
+std::string extension_of(const fs::path& path)
+{
+    std::string text = path.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+const JsonText& list(const JsonText& json, const char* key)
+{
+    static const JsonText none = JsonText::array();
+    const JsonText* found = json.find(key);
+    return found && found->kind() == JsonText::Kind::Array ? *found : none;
+}
+
+// How often "bufferView": view stands anywhere.
+int uses_of_view(const JsonText& value, std::size_t view)
+{
+    const JsonText* own = value.find("bufferView");
+    int uses = own && own->as_index() == view ? 1 : 0;
+    for (std::size_t i = 0; i < value.size(); ++i) uses += uses_of_view(value.at(i), view);
+    return uses;
+}
+
+std::string name_of(const JsonText& object, const std::string& kind, std::size_t number)
+{
+    const JsonText* name = object.find("name");
+    const std::string text = name ? printable(name->as_string().value_or("")) : "";
+    return kind + " " + std::to_string(number) + (text.empty() ? "" : " (" + text + ")");
+}
+
+void add_word(JsonText& root, const char* key, const char* word)
+{
+    for (std::size_t i = 0; i < list(root, key).size(); ++i) {
+        if (list(root, key).at(i).as_string() == word) return;
+    }
+    if (!root.find(key)) root.set(key, JsonText::array());
+    root.edit(key).append(JsonText::string(word));
+}
+
+void remove_word(JsonText& root, const char* key, const char* word)
+{
+    const JsonText& words = list(root, key);
+    JsonText kept = JsonText::array();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words.at(i).as_string() != word) kept.append(words.at(i));
+    }
+    if (kept.size() == words.size()) return;
+    if (kept.size()) {
+        root.set(key, std::move(kept));
+    } else {
+        root.erase(key);
+    }
+}
+
+// Factors stay where they are read or moved by something else.
+GltfBuildOptions settled(GltfBuildOptions options, const GltfFile& file)
+{
+    const JsonText& used = list(file.json, "extensionsUsed");
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used.at(i).as_string() == "KHR_animation_pointer") options.images.bake_roughness = false;
+    }
+    if (options.fallback) options.images.bake_roughness = false;
+    return options;
+}
+
+class Rewriter {
+public:
+    Rewriter(const fs::path& input, const fs::path& output, const GltfBuildOptions& options)
+        : output_(output),
+          file_(read_gltf_file(input)),
+          source_(file_),
+          options_(settled(options, source_)),
+          plan_(plan_images(source_, options_.images.bake_roughness)),
+          maker_(source_, plan_, options_.images)
+    {
+        report_.notes = plan_.notes;
+    }
+
+    GltfBuildReport run()
+    {
+        make_images();
+        score();
+        place_textures();
+        place_images();
+        settle_materials();
+        settle_extensions();
+        write();
+        return std::move(report_);
+    }
+
+private:
+    void make_images();
+    void score();
+    void place_textures();
+    void place_images();
+    void settle_materials();
+    void settle_extensions();
+    void write();
+    JsonText& slot_json(const TextureSlot& slot);
+    void put_image(std::size_t entry, std::size_t recipe);
+    std::string new_uri(std::size_t recipe);
+    bool may_replace(std::size_t image) const;
+
+    fs::path output_;
+    GltfFile file_;          // as it will be
+    const GltfFile source_;  // as it was
+    const GltfBuildOptions options_;
+    ImagePlan plan_;
+    ImageMaker maker_;
+    GltfBuildReport report_;
+    std::vector<std::vector<std::byte>> made_;             // files, by recipe
+    std::map<std::size_t, MipTexture> kept_;               // recipes that are to be scored
+    std::map<std::size_t, std::vector<std::size_t>> textures_;  // by recipe: that show it
+    std::set<std::size_t> replaced_textures_;              // that no longer show their old image
+    std::map<std::size_t, std::size_t> images_;            // recipe -> entry of images
+    std::vector<std::pair<fs::path, std::size_t>> beside_;  // files of a .gltf: name, recipe
+};
+
+void Rewriter::make_images()
+{
+    for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
+        if (options_.stop && options_.stop()) throw Interrupted("texture build: stopped");
+        const ImageRecipe& recipe = plan_.recipes[r];
+        MipTexture made = maker_.make(r);
+        made_.push_back(texture_bytes(made, "ktx2", options_.zstd));
+        report_.images.push_back({name_of(source_.json.find("images")->at(recipe.image), "image",
+                                          recipe.image),
+                                  recipe.meaning, made.width, made.height,
+                                  static_cast<int>(made.levels.size()),
+                                  image_bytes(source_, recipe.image).size(), made_.back().size(),
+                                  maker_.is_resampled(r)});
+        const bool pair = recipe.meaning == ImageMeaning::Normal ||
+                          (recipe.meaning == ImageMeaning::Surface && recipe.normal >= 0);
+        if (options_.score && pair) kept_.emplace(r, std::move(made));
+    }
+}
+
+// Each pair of a surface and its normals once, under the name of the first material that has it.
+void Rewriter::score()
+{
+    if (!options_.score) return;
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const TextureSlot& surface : plan_.slots) {
+        const ImageRecipe& recipe = plan_.recipes[surface.recipe];
+        if (recipe.meaning != ImageMeaning::Surface || recipe.normal < 0) continue;
+        std::optional<std::size_t> normals;
+        bool darkened = false;
+        for (const TextureSlot& slot : plan_.slots) {
+            if (slot.material != surface.material) continue;
+            const ImageRecipe& other = plan_.recipes[slot.recipe];
+            if (slot.keys.back() == "normalTexture") normals = slot.recipe;
+            if (slot.keys.back() == "baseColorTexture") darkened = other.normal >= 0;
+        }
+        if (!normals || !seen.insert({surface.recipe, *normals}).second) continue;
+        const auto error = maker_.picture_error(surface.recipe, kept_.at(surface.recipe),
+                                                kept_.at(*normals), darkened);
+        if (!error) continue;
+        const JsonText& material = source_.json.find("materials")->at(surface.material);
+        report_.materials.push_back({name_of(material, "material", surface.material), *error});
+    }
+}
+
+JsonText& Rewriter::slot_json(const TextureSlot& slot)
+{
+    JsonText* json = &file_.json.edit("materials").edit(slot.material);
+    for (const std::string& key : slot.keys) json = &json->edit(key);
+    return *json;
+}
+
+// Textures that show one image keep their place; other uses get textures of their own.
+void Rewriter::place_textures()
+{
+    std::map<std::size_t, std::size_t> first;                               // texture -> recipe
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> others;  // and recipe -> texture
+    const auto& kept = plan_.kept_textures;
+    for (const TextureSlot& slot : plan_.slots) {
+        const bool stays = std::find(kept.begin(), kept.end(), slot.texture) != kept.end();
+        if (!stays && first.emplace(slot.texture, slot.recipe).first->second == slot.recipe) {
+            if (replaced_textures_.insert(slot.texture).second)
+                textures_[slot.recipe].push_back(slot.texture);
+            continue;
+        }
+        const auto [at, fresh] = others.emplace(std::pair{slot.texture, slot.recipe}, 0);
+        if (fresh) {
+            JsonText& textures = file_.json.edit("textures");
+            at->second = textures.size();
+            textures.append(source_.json.find("textures")->at(slot.texture));
+            textures_[slot.recipe].push_back(at->second);
+        }
+        slot_json(slot).set("index", JsonText::number(at->second));
+    }
+}
+
+// True when nothing but textures that get new images shows an image.
+bool Rewriter::may_replace(std::size_t image) const
+{
+    if (options_.fallback) return false;
+    const JsonText* extensions = source_.json.find("extensions");
+    if (extensions && extensions->find("EXT_lights_image_based")) return false;
+    const JsonText& textures = list(source_.json, "textures");
+    for (std::size_t t = 0; t < textures.size(); ++t) {
+        if (replaced_textures_.count(t)) continue;
+        const JsonText* source = textures.at(t).find("source");
+        if (source && source->as_index() == image) return false;
+        const JsonText* own = textures.at(t).find("extensions");
+        for (std::size_t e = 0; own && e < own->size(); ++e) {
+            const JsonText* other = own->at(e).find("source");
+            if (other && other->as_index() == image) return false;
+        }
+    }
+    return true;
+}
+
+std::string Rewriter::new_uri(std::size_t recipe)
+{
+    const std::size_t image = plan_.recipes[recipe].image;
+    const JsonText* uri = source_.json.find("images")->at(image).find("uri");
+    const auto old = uri ? resource_path(uri->as_string().value_or("data:")) : std::nullopt;
+    const fs::path base = old ? old->parent_path() / old->stem()
+                              : fs::path(output_.stem().string() + "_" + std::to_string(image));
+    const auto taken = [&](const fs::path& name) {
+        return std::any_of(beside_.begin(), beside_.end(),
+                           [&](const auto& other) { return other.first == name; });
+    };
+    fs::path name = base.string() + ".ktx2";
+    for (int k = 2; taken(name); ++k) name = base.string() + "_" + std::to_string(k) + ".ktx2";
+    beside_.emplace_back(name, recipe);
+    return to_uri(name);
+}
+
+void Rewriter::put_image(std::size_t entry, std::size_t recipe)
+{
+    JsonText& image = file_.json.edit("images").edit(entry);
+    if (!file_.binary) {
+        image.erase("bufferView");
+        image.set("uri", JsonText::string(new_uri(recipe)));
+    } else {
+        std::optional<std::size_t> reuse;
+        if (const JsonText* view = image.find("bufferView")) reuse = view->as_index();
+        image.erase("uri");
+        image.set("bufferView", JsonText::number(add_to_bin(file_, made_[recipe], reuse)));
+    }
+    image.set("mimeType", JsonText::string("image/ktx2"));
+}
+
+void Rewriter::place_images()
+{
+    // Entries that the new images take over, and the bytes that nobody needs then.
+    std::vector<std::size_t> gone;
+    std::set<std::size_t> taken;
+    for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
+        const std::size_t image = plan_.recipes[r].image;
+        if (!may_replace(image) || !taken.insert(image).second) continue;
+        images_[r] = image;
+        const JsonText* view = source_.json.find("images")->at(image).find("bufferView");
+        if (!view || !view->as_index() || !file_.binary) continue;
+        const std::size_t number = *view->as_index();
+        const JsonText& json = source_.json.find("bufferViews")->at(number);
+        const bool own = uses_of_view(source_.json, number) == 1 && !json.find("extensions") &&
+                         json.find("buffer")->as_index() == std::size_t{0};
+        if (own) {
+            gone.push_back(number);
+        } else {
+            file_.json.edit("images").edit(image).erase("bufferView");  // a new view, not this
+        }
+    }
+    if (file_.binary) remove_from_bin(file_, gone);
+    for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
+        if (!images_.count(r)) {
+            JsonText entry = JsonText::object();
+            const JsonText& old = source_.json.find("images")->at(plan_.recipes[r].image);
+            if (const JsonText* name = old.find("name")) entry.set("name", *name);
+            images_[r] = file_.json.find("images")->size();
+            file_.json.edit("images").append(std::move(entry));
+        }
+        put_image(images_[r], r);
+    }
+    for (const auto& [recipe, textures] : textures_) {
+        for (const std::size_t t : textures) {
+            JsonText& texture = file_.json.edit("textures").edit(t);
+            if (!options_.fallback) texture.erase("source");
+            JsonText& extensions = texture.edit("extensions");
+            if (!options_.fallback) extensions.erase(kWebp);
+            extensions.edit(kBasis).set("source", JsonText::number(images_.at(recipe)));
+        }
+    }
+}
+
+void Rewriter::settle_materials()
+{
+    for (const std::size_t m : plan_.baked_materials)
+        file_.json.edit("materials").edit(m).edit("pbrMetallicRoughness").erase("roughnessFactor");
+}
+
+void Rewriter::settle_extensions()
+{
+    if (plan_.recipes.empty()) return;
+    add_word(file_.json, "extensionsUsed", kBasis);
+    if (!options_.fallback) add_word(file_.json, "extensionsRequired", kBasis);
+    const JsonText& textures = list(file_.json, "textures");
+    for (std::size_t t = 0; t < textures.size(); ++t) {
+        const JsonText* extensions = textures.at(t).find("extensions");
+        if (extensions && extensions->find(kWebp)) return;
+    }
+    remove_word(file_.json, "extensionsUsed", kWebp);
+    remove_word(file_.json, "extensionsRequired", kWebp);
+}
+
+// The scene last: it names the others.
+void Rewriter::write()
+{
+    const fs::path to = output_.parent_path(), from = source_.path.parent_path();
+    const auto put = [&](const fs::path& name, std::span<const std::byte> bytes) {
+        const fs::path path = to / name;
+        if (path.has_parent_path()) fs::create_directories(path.parent_path());
+        write_bytes(path, bytes);
+        report_.files.push_back(path);
+    };
+    for (const auto& [name, recipe] : beside_) put(name, made_[recipe]);
+    for (const char* key : {"buffers", "images"}) {
+        const JsonText& all = list(file_.json, key);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const JsonText* uri = all.at(i).find("uri");
+            const std::string text = uri ? uri->as_string().value_or("") : "";
+            const std::optional<fs::path> name = resource_path(text);
+            const bool made = name && std::any_of(beside_.begin(), beside_.end(),
+                                                  [&](const auto& b) { return b.first == *name; });
+            std::error_code missing;
+            if (text.empty() || !name || made || fs::equivalent(to / *name, from / *name, missing))
+                continue;
+            put(*name, resource_bytes(source_, text));
+        }
+    }
+    put(output_.filename(), to_bytes(file_));
+}
+
+}  // namespace
+
+bool is_gltf_name(const fs::path& path)
+{
+    const std::string extension = extension_of(path);
+    return extension == ".glb" || extension == ".gltf";
+}
+
+GltfBuildReport build_gltf(const fs::path& input, const fs::path& output,
+                           const GltfBuildOptions& options)
+{
+    if (extension_of(input) != extension_of(output)) {
+        throw Error("texture build: the output " + output.string() + " is not a " +
+                        extension_of(input) + " as the input is",
+                    "Name an output that ends in " + extension_of(input) + ".");
+    }
+    std::error_code missing;
+    if (fs::equivalent(input, output, missing)) {
+        throw Error("texture build: " + output.string() + " is the input",
+                    "Write to another file; the input stays as it is.");
+    }
+    return Rewriter(input, output, options).run();
+}
+
+}  // namespace petrichor::texproc
