@@ -1,6 +1,8 @@
 // Water of the artist model that freezes where it stands: it stays as ice, and comes back.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "film/weather/artist_ice.h"
 
 namespace petrichor::film {
@@ -13,10 +15,13 @@ using weather::ArtistTimeline;
 ArtistTimeline frost_and_thaw(double rainfall = 0.0)
 {
     weather::Timeline script;
-    script.temperature_c = {{weather::to_time_us(0.0), 3.0},   {weather::to_time_us(4.0), -1.0},
-                            {weather::to_time_us(8.0), -12.0}, {weather::to_time_us(20.0), -12.0},
-                            {weather::to_time_us(21.0), 8.0},  {weather::to_time_us(40.0), 8.0}};
-    script.rainfall = {{weather::to_time_us(0.0), rainfall}};
+    for (const auto& [time_s, celsius] : {std::pair{0.0, 3.0}, {4.0, -1.0}, {8.0, -12.0},
+                                          {20.0, -12.0}, {21.0, 8.0}, {40.0, 8.0}}) {
+        script.temperature_c.times.push_back(weather::to_time_us(time_s));
+        script.temperature_c.values.push_back(celsius);
+    }
+    script.temperature_c.interpolation = weather::Interpolation::Linear;
+    script.rainfall = weather::constant_channel(rainfall);
     ArtistState wet;
     wet.water_to_snow = 0.0;
     wet.wetness = 0.8;
