@@ -191,8 +191,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 29) {
         const GlowRay ray =
             glow_ray(0.1f * a.x, 60.0f * a.y - 20.0f, 0.1f + 10.0f * a.z, 100.0f * a.w);
-        return vec4(ray.u, glow_function(ray.u, ray.to_v), glow_function(ray.u, ray.from_v),
-                    ray.scale);
+        return vec4(ray.u, glow_tail(ray.u, ray.begin_v), glow_tail(ray.u, ray.end_v),
+                    ray.begin + ray.end);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);
