@@ -211,8 +211,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 29) {
         const GlowRay ray =
             glow_ray(0.1f * a.x, 60.0f * a.y - 20.0f, 0.1f + 10.0f * a.z, 100.0f * a.w);
-        return vec4(ray.u, glow_function(ray.u, ray.to_v), glow_function(ray.u, ray.from_v),
-                    ray.scale);
+        return vec4(ray.u, glow_tail(ray.u, ray.begin_v), glow_tail(ray.u, ray.end_v),
+                    ray.begin + ray.end);
     }
     if (kind == 30) {
         const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);

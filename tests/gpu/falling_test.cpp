@@ -212,9 +212,9 @@ TEST_F(FallingTest, AirGlowsAroundALampAsTheClosedFormSays)
         const float end = 60.0f * std::sqrt(1.0f + aside * aside);
         const shared::GlowRay ray =
             shared::glow_ray(per_m, 20.0f * std::cos(angle), 20.0f * std::sin(angle), end);
-        const float expected = 1000.0f * ray.scale *
-                               (shared::glow_function(ray.u, ray.to_v) -
-                                shared::glow_function(ray.u, ray.from_v));
+        const float expected =
+            1000.0f * (ray.begin * shared::glow_tail(ray.u, ray.begin_v) -
+                       ray.end * shared::glow_tail(ray.u, ray.end_v));
         const float got = pixel(with, x, 72).g - pixel(bare, x, 72).g;
         EXPECT_NEAR(got, expected, 0.06f * expected) << x;
     }

@@ -48,12 +48,13 @@ void main()
         const float along = dot(to_lamp, view);
         const float aside = max(length(to_lamp - view * along), 0.05);
         const GlowRay ray = glow_ray(lamp.per_m, along, aside, end_m);
-        const float scattered =
-            max(read_function(ray.u, ray.to_v) - read_function(ray.u, ray.from_v), 0.0);
+        const float scattered = max(ray.begin * read_function(ray.u, ray.begin_v) -
+                                        ray.end * read_function(ray.u, ray.end_v),
+                                    0.0);
         const vec3 passes = frame.camera_m + view * clamp(along, 0.0, end_m);
         const vec3 way = passes - lamp.position_m;
         const vec3 onward = way / max(length(way), 1.0e-4);
-        sum += lamp.color * (ray.scale * scattered * towards(lamp, onward));
+        sum += lamp.color * (scattered * towards(lamp, onward));
     }
     imageStore(target, block, vec4(min(sum, vec3(60000.0)), min(axial_m, 1.0e5)));
 }

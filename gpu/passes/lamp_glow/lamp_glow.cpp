@@ -25,7 +25,7 @@ std::vector<std::byte> function_texels()
         const float v = 1.5707963f * static_cast<float>(y) / (kTableSize - 1);
         for (int x = 0; x < kTableSize; ++x) {
             const float t = static_cast<float>(x) / (kTableSize - 1);
-            values.push_back(shared::glow_function(shared::kGlowMost * t * t, v));
+            values.push_back(shared::glow_tail(shared::kGlowMost * t * t, v));
         }
     }
     std::vector<std::byte> bytes(values.size() * sizeof(float));

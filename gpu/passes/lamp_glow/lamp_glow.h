@@ -24,7 +24,7 @@ public:
 private:
     MemoryArena arena_;
     std::unique_ptr<GpuBuffer> lamps_;
-    std::unique_ptr<GpuImage> function_;  ///< F of formulas/light/lamp_glow.h
+    std::unique_ptr<GpuImage> function_;  ///< T of formulas/light/lamp_glow.h
     SamplerHandle linear_;
 };
 
