@@ -202,14 +202,14 @@ TextureUse TextureCollector::use(const JsonObject& parent, std::string_view key)
 
 namespace {
 
-// A KTX2 file whose texels are Basis Universal (ETC1S, UASTC): Vulkan has no name for its format.
-bool is_basis(std::span<const std::byte> bytes)
+// A KTX2 file in the packed form of Basis Universal, ETC1S: supercompression 1. UASTC is read.
+bool is_etc1s(std::span<const std::byte> bytes)
 {
     static constexpr unsigned char kKtx2[6] = {0xab, 'K', 'T', 'X', ' ', '2'};
     if (bytes.size() < 48 || std::memcmp(bytes.data(), kKtx2, sizeof kKtx2) != 0) return false;
-    std::uint32_t vulkan_format = 0;
-    std::memcpy(&vulkan_format, bytes.data() + 12, 4);
-    return vulkan_format == 0;
+    std::uint32_t scheme = 0;
+    std::memcpy(&scheme, bytes.data() + 44, 4);
+    return scheme == 1;
 }
 
 }  // namespace
@@ -236,7 +236,7 @@ TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& in
         if (const auto ktx2 = source_of("KHR_texture_basisu")) {
             if (const auto made = image(*ktx2, out, plain.has_value())) return *made;
             info.warn("index",
-                      "KTX2 with Basis Universal is not read; the texture's plain image stands in");
+                      "KTX2 with ETC1S is not read; the texture's plain image stands in");
         }
     }
     if (!chosen) chosen = plain;
@@ -283,11 +283,11 @@ std::optional<TextureIndex> TextureCollector::image(std::uint32_t index, Encoded
     if (out.bytes.empty()) {
         image_json.fail("", "the image has no bytes", "Put the image in place, or export again.");
     }
-    if (is_basis(out.bytes)) {
+    if (is_etc1s(out.bytes)) {
         if (has_other) return std::nullopt;
-        image_json.fail("", "is KTX2 with Basis Universal (ETC1S or UASTC), which is not read",
-                        "Export the scene with PNG, JPEG or WebP textures, or with KTX2 or DDS in "
-                        "a block format (BC1 to BC7).");
+        image_json.fail("", "is KTX2 with ETC1S of Basis Universal, which is not read",
+                        "Export the scene with PNG, JPEG or WebP textures, or with KTX2 in UASTC "
+                        "or a block format (BC1 to BC7).");
     }
     const auto made = static_cast<TextureIndex>(scene_.textures.size());
     scene_.textures.push_back(std::move(out));

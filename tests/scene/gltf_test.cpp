@@ -265,7 +265,8 @@ TEST(Gltf, PrefersTheImageThatEveryoneReads)
     EXPECT_THAT(loaded().warnings, ElementsAre(HasSubstr("without an image")));
 }
 
-// Files that bring their own levels win over the plain copy; Basis Universal does not.
+// Files that bring their own levels win over the plain copy; the packed form of Basis Universal,
+// ETC1S, does not.
 TEST(Gltf, TakesPreparedTexturesFirst)
 {
     json document = scene_json();
@@ -275,6 +276,8 @@ TEST(Gltf, TakesPreparedTexturesFirst)
     ktx2 += std::string("\x91\0\0\0", 4) + std::string(64, '\0');  // BC7
     std::string basis = ktx2;
     basis[12] = '\0';
+    const std::string uastc = basis;
+    basis[44] = '\1';
     std::string stored = ktx2;
     const auto reader = [&](const std::string& uri) {
         return to_bytes(uri == "stone.ktx2" ? stored : "bytes of " + uri);
@@ -286,16 +289,18 @@ TEST(Gltf, TakesPreparedTexturesFirst)
     document["extensionsRequired"] = {"KHR_texture_basisu"};
     EXPECT_EQ(name(), "stone.ktx2");
     EXPECT_THAT(loaded().warnings, testing::IsEmpty());
+    stored = uastc;
+    EXPECT_EQ(name(), "stone.ktx2");
     stored = basis;
     EXPECT_EQ(name(), "image 0 (bricks)");
-    EXPECT_THAT(loaded().warnings, ElementsAre(HasSubstr("Basis Universal is not read")));
+    EXPECT_THAT(loaded().warnings, ElementsAre(HasSubstr("ETC1S is not read")));
     document["textures"][0].erase("source");
     try {
         loaded();
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("images[2]"));
-        EXPECT_THAT(error.what(), HasSubstr("Basis Universal"));
+        EXPECT_THAT(error.what(), HasSubstr("ETC1S"));
         EXPECT_THAT(error.fix(), HasSubstr("BC7"));
     }
     document["textures"][0] =
