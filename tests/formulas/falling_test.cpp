@@ -154,7 +154,9 @@ TEST(Streaks, LeaveTheRestToTheAir)
         const float closed = drawn_depth(x, drawn, mean_m);
         EXPECT_LE(closed, all * x * 1.001f) << "never more than there is";
         EXPECT_NEAR(closed, exact, 0.25 * static_cast<double>(all * mean_m)) << x;
-        if (x > 100.0f || x < 0.2f) EXPECT_NEAR(closed, exact, 0.06 * exact) << x;
+        if (x > 100.0f || x < 0.2f) {
+            EXPECT_NEAR(closed, exact, 0.06 * exact) << x;
+        }
     }
     EXPECT_EQ(drawn_depth(10.0f, 0.0f, 0.0f), 0.0f);
 }
