@@ -50,7 +50,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
         }
     }
     if (frame.settings.shelter && (weather || !plan.classes.empty())) {
-        const DepthView view = rain_view(frame.camera, plan.mean_fall_m_s, r.scene->bounds());
+        const DepthView view = rain_view(frame.camera, plan.shelter_fall_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
             maps.shelter_valid = true;

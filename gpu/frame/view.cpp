@@ -190,7 +190,7 @@ DepthView rain_view(const Camera& camera, const glm::vec3& fall_m_s, const Bound
     const Axes axes = axes_of(camera);
     // Steps of a sixteenth keep the map while the wind wavers.
     glm::vec2 slope = glm::vec2(fall_m_s.x, fall_m_s.z) / std::max(-fall_m_s.y, 0.1f);
-    slope *= 1.5f / std::max(glm::length(slope), 1.5f);
+    slope *= 0.6f / std::max(glm::length(slope), 0.6f);
     slope = glm::round(slope * 16.0f) / 16.0f;
     const Window window = window_of(axes, scene);
     return orthographic_view(glm::normalize(glm::vec3(slope.x, -1.0f, slope.y)), window.centre_m,

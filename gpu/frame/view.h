@@ -27,7 +27,7 @@ glm::vec3 sky_direction(int index);
 /// The views from all over the sky, around the camera.
 std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene);
 
-/// The view along what falls with a velocity, around the camera; at most 56 degrees from the
+/// The view along what falls with a velocity, around the camera; at most 31 degrees from the
 /// vertical.
 DepthView rain_view(const Camera& camera, const glm::vec3& fall_m_s, const Bounds& scene);
 

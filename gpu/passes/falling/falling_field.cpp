@@ -397,7 +397,8 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view)
     const float share = shared::wind_share_at(kSeenAt_m, kRoughness_m);
     plan.air_m_s = glm::vec3(w.wind_m_s.x * share, 0.0f, w.wind_m_s.y * share);
     const bool only_snow = w.snowfall_kg_m2_s > 0.0f && w.rain_kg_m2_s <= 0.0f;
-    plan.mean_fall_m_s = plan.air_m_s - glm::vec3(0.0f, only_snow ? kFlakes_m_s : kDrops_m_s, 0.0f);
+    plan.shelter_fall_m_s =
+        0.5f * plan.air_m_s - glm::vec3(0.0f, only_snow ? kFlakes_m_s : kDrops_m_s, 0.0f);
     if (!frame.settings.falling || falling.density <= 0.0f) return plan;
 
     add_rain(plan, std::min(w.rain_kg_m2_s * 3600.0f, kMostRain_mm_h));

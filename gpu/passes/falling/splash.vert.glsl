@@ -19,7 +19,7 @@ layout(location = 2) flat out float opacity;
 
 const vec2 kCorners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1),
                                 vec2(-1, 1));
-const float kOpacity = 0.45;  // of a young crown: sheets and beads with air between them; by eye
+const float kOpacity = 0.6;   // of a young crown: sheets and beads with air between them; by eye
 
 // Where what passes a point hits; w 0: nothing.
 vec4 hit(vec3 above)
@@ -49,7 +49,8 @@ void main()
     const float view_m = dot(from_eye, frame.forward);
     const float age = place.w / kSplashLife_s;
     const float wide_m = crown_radius_m(diameter, drop_speed_m_s(diameter * 1000.0), place.w);
-    const float high_m = 1.1 * wide_m * (1.0 - 0.5 * age);
+    // Beads fly higher than the rim.
+    const float high_m = 2.2 * wide_m * (1.0 - 0.3 * age);
     const float pixel_m = frame.pixel_angle * max(view_m, 0.1);
     // Not narrower than a pixel and a half; what is wider than it is, is fainter.
     const vec2 size_m = max(vec2(wide_m, high_m), vec2(0.75, 1.5) * pixel_m);
