@@ -6,6 +6,7 @@
 #include "gpu/frame/falls.h"
 #include "gpu/lighting/models_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
+#include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
@@ -28,7 +29,7 @@ bool uses_patches(const Frame& frame, const FrameResources& r)
 
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
-                    bool weather, bool falls)
+                    bool weather, const FallingPlan& plan)
 {
     DepthMaps& maps = *r.depth_maps;
     const float aspect =
@@ -52,9 +53,9 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
             add_sky_visibility(graph, maps, *r.scene);
         }
     }
-    const bool lies = weather && frame.weather.rain + frame.weather.snowfall > 0.0f;
-    if (frame.settings.shelter && (lies || falls)) {
-        const DepthView view = rain_view(frame.camera, frame.weather.wind_m_s, r.scene->bounds());
+    // Roofs keep drops off that are drawn one by one; what lies goes by the maps of the sky.
+    if (frame.settings.shelter && !plan.classes.empty()) {
+        const DepthView view = rain_view(frame.camera, plan.shelter_fall_m_s, r.scene->bounds());
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
             maps.shelter_valid = true;
@@ -197,10 +198,12 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
     }
     facts = falling_facts(plan, frame);
     if (plan.drawn_reach_m <= 0.0f) return;
-    r.falling->fill(falling_drops(plan, frame, falling_view(c), r.lights->brightest));
+    const FallingView view = falling_view(c);
+    r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
+    r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
     facts.drawn = r.falling->count();
-    if (facts.drawn == 0) return;
-    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, constants, settings.shelter,
+    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, *r.splashes, constants,
+                settings.shelter && r.depth_maps->shelter_valid,
                 settings.shadows && sun.illuminance != glm::vec3(0.0f));
 }
 
@@ -232,7 +235,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_flow(graph, *r.surface_maps, time_s);
     }
     const FallingPlan plan = plan_of(frame, sun, r);
-    add_depth_maps(graph, frame, sun, r, weather.any, !plan.classes.empty());
+    add_depth_maps(graph, frame, sun, r, weather.any, plan);
     r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 

@@ -26,6 +26,7 @@ struct FrameResources {
     LightTable* lights = nullptr;
     LampGlow* lamp_glow = nullptr;
     FallingTable* falling = nullptr;
+    FallingTable* splashes = nullptr;
     PatchLights* patches = nullptr;
     GpuPlace* place = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky

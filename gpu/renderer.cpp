@@ -89,6 +89,7 @@ struct Renderer::Impl {
           sky(device, shared_arena),
           lamp_glow(device),
           falling(device),
+          splashes(device),
           patches(device),
           pictures(device),
           metering(device),
@@ -183,6 +184,7 @@ struct Renderer::Impl {
     SkyMaps sky;
     LampGlow lamp_glow;
     FallingTable falling;
+    FallingTable splashes;
     PatchLights patches;
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
@@ -283,6 +285,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.lights = &light_table;
     resources.lamp_glow = &lamp_glow;
     resources.falling = &falling;
+    resources.splashes = &splashes;
     resources.patches = &patches;
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;

@@ -185,15 +185,16 @@ std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Boun
     return views;
 }
 
-DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene)
+DepthView rain_view(const Camera& camera, const glm::vec3& fall_m_s, const Bounds& scene)
 {
     const Axes axes = axes_of(camera);
-    // Drops fall at about 6.5 m/s. Steps of half a metre a second keep the map while the wind
-    // wavers.
-    const glm::vec2 wind = glm::clamp(glm::round(wind_m_s * 2.0f) * 0.5f, -6.0f, 6.0f);
-    const glm::vec3 fall = glm::normalize(glm::vec3(wind.x, -6.5f, wind.y));
+    // Steps of a sixteenth keep the map while the wind wavers.
+    glm::vec2 slope = glm::vec2(fall_m_s.x, fall_m_s.z) / std::max(-fall_m_s.y, 0.1f);
+    slope *= 0.6f / std::max(glm::length(slope), 0.6f);
+    slope = glm::round(slope * 16.0f) / 16.0f;
     const Window window = window_of(axes, scene);
-    return orthographic_view(fall, window.centre_m, window.radius_m, scene, kShelterMapSize);
+    return orthographic_view(glm::normalize(glm::vec3(slope.x, -1.0f, slope.y)), window.centre_m,
+                             window.radius_m, scene, kShelterMapSize);
 }
 
 }  // namespace petrichor::gpu

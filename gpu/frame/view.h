@@ -27,8 +27,9 @@ glm::vec3 sky_direction(int index);
 /// The views from all over the sky, around the camera.
 std::array<DepthView, SKY_DIRECTIONS> sky_views(const Camera& camera, const Bounds& scene);
 
-/// The view along the falling rain, around the camera; wind tilts it.
-DepthView rain_view(const Camera& camera, const glm::vec2& wind_m_s, const Bounds& scene);
+/// The view along what falls with a velocity, around the camera; at most 31 degrees from the
+/// vertical.
+DepthView rain_view(const Camera& camera, const glm::vec3& fall_m_s, const Bounds& scene);
 
 }  // namespace petrichor::gpu
 

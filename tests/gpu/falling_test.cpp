@@ -185,6 +185,33 @@ TEST_F(FallingTest, LampsLightTheRainAroundThem)
     EXPECT_GT(near, 3.0 * far);
 }
 
+// Where rain hits level ground near the camera it throws up crowns; not below a roof, not on snow's way.
+TEST_F(FallingTest, DropsSplashWhereTheyHit)
+{
+    Scene scene = wall(30.0f);
+    renderer->load(scene, {});
+    Frame frame = downpour();
+    frame.camera = look({0, 0, 0}, {0, -0.8f, -1.8f}, 0.65f);
+    frame.weather.wind_m_s = {0.0f, 0.0f};
+    frame.falling.budget = 1;  // hardly a drop in the air
+    const RenderResult with = renderer->render(frame);
+    const int splashed = changed_pixels(with, without(*renderer, frame));
+    EXPECT_GT(splashed, 100);
+    frame.falling.density = 0.1f;
+    EXPECT_LT(changed_pixels(renderer->render(frame), without(*renderer, frame)), splashed / 4);
+    frame.falling.density = 1.0f;
+    frame.weather.snowfall_kg_m2_s = frame.weather.rain_kg_m2_s;
+    frame.weather.air_temperature_k = 260.0f;
+    frame.weather.rain_kg_m2_s = 0.0f;
+    EXPECT_LT(changed_pixels(renderer->render(frame), without(*renderer, frame)), splashed / 10);
+    scene.meshes[0].primitives.push_back(quad({-40, 4, 20}, {80, 0, 0}, {0, 0, -60}));
+    renderer->load(scene, {});
+    frame = downpour();
+    frame.camera = look({0, 0, 0}, {0, -0.8f, -1.8f}, 0.65f);
+    frame.weather.wind_m_s = {0.0f, 0.0f};
+    EXPECT_EQ(changed_pixels(renderer->render(frame), without(*renderer, frame)), 0);
+}
+
 // The glow of a lamp beside the picture of it, by the closed form.
 TEST_F(FallingTest, AirGlowsAroundALampAsTheClosedFormSays)
 {

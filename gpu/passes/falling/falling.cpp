@@ -8,26 +8,27 @@
 namespace petrichor::gpu {
 
 static_assert(sizeof(shared::FallingDrop) == FALLING_TEXELS * sizeof(glm::vec4));
+static_assert(sizeof(shared::FallingSplash) == SPLASH_TEXELS * sizeof(glm::vec4));
 
-void FallingTable::fill(const std::vector<shared::FallingDrop>& drops)
+void FallingTable::fill_bytes(std::span<const std::byte> bytes)
 {
-    count_ = static_cast<std::uint32_t>(drops.size());
-    if (!buffer_ || drops.size() > room_) {
-        room_ = std::max<std::size_t>(drops.size() + drops.size() / 4, 1024);
+    if (!buffer_ || bytes.size() > room_) {
+        room_ = std::max<std::size_t>(bytes.size() + bytes.size() / 4, 65536) / 16 * 16;
         buffer_ = nullptr;
         arena_ = std::make_unique<MemoryArena>(*device_);
         buffer_ = arena_->buffer({.name = "falling_drops",
-                                  .size = room_ * sizeof(shared::FallingDrop),
+                                  .size = room_,
                                   .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                                   .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
                                   .host = true});
     }
-    if (!drops.empty())
-        std::memcpy(buffer_->mapped, drops.data(), drops.size() * sizeof(shared::FallingDrop));
+    if (!bytes.empty()) std::memcpy(buffer_->mapped, bytes.data(), bytes.size());
 }
 
-void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
-                 FallingTable& table, const ConstantsRange& constants, bool shelter, bool sun)
+namespace {
+
+void add_sprites(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
+                 const FallingTable& table, const ConstantsRange& constants, GraphicsDesc desc)
 {
     Attachment picture(*targets.accumulated);
     picture.keep = true;
@@ -44,11 +45,7 @@ void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyM
                      {FALLING_SHELTER, sampled(*maps.shelter, targets.nearest)},
                      {FALLING_SHADOW, sampled(*maps.shadow, maps.compare)}},
         .record =
-            [shelter, sun, count = table.count()](PassContext& pass) {
-                GraphicsDesc desc;
-                desc.vertex = "falling.vert";
-                desc.fragment = "falling.frag";
-                desc.specialization = {{FALLING_SPEC_SHELTER, shelter}, {FALLING_SPEC_SUN, sun}};
+            [desc = std::move(desc), count = table.count()](PassContext& pass) mutable {
                 desc.sets = {pass.set_types()};
                 desc.colors = pass.color_formats();
                 desc.depth = VK_FORMAT_UNDEFINED;
@@ -60,6 +57,25 @@ void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyM
                 vkCmdDraw(pass.commands(), count * 6, 1, 0, 0);
             },
     });
+}
+
+}  // namespace
+
+void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
+                 const FallingTable& drops, const FallingTable& splashes,
+                 const ConstantsRange& constants, bool shelter, bool sun)
+{
+    GraphicsDesc desc;
+    if (splashes.count() > 0 && shelter) {
+        desc.vertex = "splash.vert";
+        desc.fragment = "splash.frag";
+        add_sprites(graph, targets, maps, sky, splashes, constants, desc);
+    }
+    if (drops.count() == 0) return;
+    desc.vertex = "falling.vert";
+    desc.fragment = "falling.frag";
+    desc.specialization = {{FALLING_SPEC_SHELTER, shelter}, {FALLING_SPEC_SUN, sun}};
+    add_sprites(graph, targets, maps, sky, drops, constants, desc);
 }
 
 }  // namespace petrichor::gpu

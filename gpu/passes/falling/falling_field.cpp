@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "formulas/light/brdf.h"
-#include "formulas/noise/noise.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/visibility.h"
+#include "gpu/passes/falling/falling_numbers.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -25,6 +24,9 @@ constexpr float kLongest_px = 200.0f;  // of a streak that begins outside of the
 // Drops are seen near the ground: the wind at 2 m over a suburb.
 constexpr float kSeenAt_m = 2.0f;
 constexpr float kRoughness_m = 0.5f;
+
+constexpr float kDrops_m_s = 6.5f;  // of 2 mm
+constexpr float kFlakes_m_s = 1.1f;
 
 struct Size {
     float low_mm, high_mm, cell_m;
@@ -140,42 +142,6 @@ float least_opacity(const FallingPlan& plan, const FallingView& view, const Fall
 
 // ---- cells ------------------------------------------------------------------------------------
 
-class Numbers {
-public:
-    explicit Numbers(std::uint32_t seed) : state_(seed) {}
-    float next() { return static_cast<float>(bits() >> 8) * (1.0f / 16777216.0f); }
-    std::uint32_t bits()
-    {
-        state_ += 0x9e3779b9u;
-        return shared::hash_u(state_);
-    }
-
-private:
-    std::uint32_t state_;
-};
-
-std::uint32_t mixed(std::uint32_t h, std::int64_t value)
-{
-    const auto bits = static_cast<std::uint64_t>(value);
-    h = shared::hash_u(h ^ static_cast<std::uint32_t>(bits));
-    return shared::hash_u(h + static_cast<std::uint32_t>(bits >> 32) * 0x85ebca6bu);
-}
-
-// How many a cell holds: Poisson's law by its inverse, so that a heavier fall keeps those that are
-// there.
-int poisson(double mean, double u)
-{
-    double term = std::exp(-mean);
-    double sum = term;
-    int count = 0;
-    while (u >= sum && count < 2000) {
-        ++count;
-        term *= mean / count;
-        sum += term;
-    }
-    return count;
-}
-
 // A pyramid from the eye to a distance, in coordinates that move with the air.
 struct Pyramid {
     std::array<glm::dvec3, 5> points;  // eye, then the corners of its base
@@ -213,32 +179,6 @@ bool slab_bounds(const Pyramid& pyramid, int axis, double from, double to, glm::
 }
 
 // ---- one drop ---------------------------------------------------------------------------------
-
-glm::vec3 light_of(const std::vector<Light>& lamps, const glm::vec3& p, const glm::vec3& eye_m,
-                   bool flake)
-{
-    glm::vec3 sum(0.0f);
-    const glm::vec3 to_eye = glm::normalize(eye_m - p);
-    for (const Light& lamp : lamps) {
-        const glm::vec3 way = p - lamp.position_m;
-        const float distance = std::max(glm::length(way), 0.05f);
-        const glm::vec3 onward = way / distance;
-        float strength = lamp.intensity * shared::light_attenuation(distance, lamp.range_m);
-        if (lamp.kind == LightKind::Spot) {
-            strength *= shared::spot_attenuation(glm::dot(lamp.direction, onward),
-                                                 std::cos(lamp.inner_cone_rad),
-                                                 std::cos(lamp.outer_cone_rad));
-        } else if (lamp.kind == LightKind::Rectangle) {
-            const float facing = glm::dot(lamp.direction, onward);
-            strength *= 4.0f * glm::length(lamp.half_u_m) * glm::length(lamp.half_v_m) *
-                        (lamp.both_sides ? std::abs(facing) : std::max(facing, 0.0f));
-        }
-        const float cosine = glm::dot(onward, to_eye);
-        sum += lamp.color *
-               (strength * (flake ? shared::flake_phase(cosine) : shared::drop_phase(cosine)));
-    }
-    return glm::min(sum, glm::vec3(60000.0f));
-}
 
 // To and fro about its way, and how fast: drops a little, flakes as eddies turn them.
 struct Sway {
@@ -454,9 +394,12 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view)
     const shared::WeatherMoment& w = frame.weather;
     const Falling& falling = frame.falling;
     FallingPlan plan;
-    if (!frame.settings.falling || falling.density <= 0.0f) return plan;
     const float share = shared::wind_share_at(kSeenAt_m, kRoughness_m);
     plan.air_m_s = glm::vec3(w.wind_m_s.x * share, 0.0f, w.wind_m_s.y * share);
+    const bool only_snow = w.snowfall_kg_m2_s > 0.0f && w.rain_kg_m2_s <= 0.0f;
+    plan.shelter_fall_m_s =
+        0.5f * plan.air_m_s - glm::vec3(0.0f, only_snow ? kFlakes_m_s : kDrops_m_s, 0.0f);
+    if (!frame.settings.falling || falling.density <= 0.0f) return plan;
 
     add_rain(plan, std::min(w.rain_kg_m2_s * 3600.0f, kMostRain_mm_h));
     const float air_per_m =

@@ -34,6 +34,9 @@ struct FallingClass {
 struct FallingPlan {
     std::vector<FallingClass> classes;
     glm::vec3 air_m_s{0.0f};       ///< where drops go besides falling
+    /// Along which roofs keep it off: of drops of middle size, else of flakes, in half the wind, as
+    /// eddies bring them into the lee of houses (ours).
+    glm::vec3 shelter_fall_m_s{0.0f, -6.5f, 0.0f};
     float least_opacity = 1.0f;    ///< fainter ones are not drawn
     float per_m3 = 0.0f;           ///< of all classes
     float extinction_per_m = 0.0f; ///< of all classes

@@ -15,8 +15,12 @@
 #define FALLING_SPEC_SUN 1
 
 #define FALLING_TEXELS 4  // a drop in its table
+#define SPLASH_TEXELS 2
 
 SHARED_BEGIN
+
+SHARED_CONST float kSplashLife_s = 0.015f;
+SHARED_CONST float kSplashReach_m = 14.0f;
 
 // One drop or flake in the picture.
 struct FallingDrop {
@@ -29,6 +33,14 @@ struct FallingDrop {
     vec3 position_m;  // world
     float speed_m_s;
     vec3 lamps;       // radiance that lamps give it
+    float diameter_m;
+};
+
+// A drop that has hit something.
+struct FallingSplash {
+    vec3 above_m;  // a point on the way that it fell
+    float age_s;
+    vec3 lamps;    // radiance that lamps give it
     float diameter_m;
 };
 

@@ -1,0 +1,19 @@
+#ifndef PETRICHOR_GPU_PASSES_FALLING_SPLASHES_H
+#define PETRICHOR_GPU_PASSES_FALLING_SPLASHES_H
+
+#include <vector>
+
+#include "gpu/passes/falling/falling_field.h"
+
+namespace petrichor::gpu {
+
+/// Drops that have just hit something near the camera, where the ground would be below a level
+/// that far under it; the shader moves them along the fall to what they hit. Stateless as
+/// falling_drops: a cell of the ground and a hundredth of two seconds have their own.
+std::vector<shared::FallingSplash> falling_splashes(const FallingPlan& plan, const Frame& frame,
+                                                    const FallingView& view,
+                                                    const std::vector<Light>& lamps);
+
+}  // namespace petrichor::gpu
+
+#endif
