@@ -20,15 +20,19 @@ using glm::vec3;
 constexpr int kCells = 64;         // a side, of the look from above
 constexpr double kFilled = 0.8;    // of them, of a scene with ground
 constexpr int kGrain = 512;        // texels a side
-constexpr int kStones = 40;        // across a tile
+constexpr int kStones = 110;       // across a tile
 constexpr float kTile_m = 2.4f;
 constexpr float kAlbedo = 0.27f;
 constexpr int kSegments = 96;
 
 float grain(vec2 uv)
 {
-    return 0.65f * shared::tileable_fbm(uv, kStones, 5, 401u) +
-           0.35f * shared::tileable_fbm(uv, 5, 3, 411u);
+    return shared::tileable_fbm(uv, kStones, 2, 401u);
+}
+
+float stains(vec2 uv)
+{
+    return shared::tileable_fbm(uv, 7, 4, 411u);
 }
 
 // Marks the cells that a triangle covers when seen from above.
@@ -85,11 +89,12 @@ void add_grain(scene::Scene& scene, scene::Material& material)
     std::vector<std::uint8_t> normal;
     for (int y = 0; y < kGrain; ++y) {
         for (int x = 0; x < kGrain; ++x) {
-            const float albedo = kAlbedo * (0.55f + 0.9f * at(x, y));
+            const vec2 uv(static_cast<float>(x) / kGrain, static_cast<float>(y) / kGrain);
+            const float albedo = kAlbedo * (0.55f + 0.5f * at(x, y) + 0.4f * stains(uv));
             const vec3 tint(1.0f, 0.975f, 0.94f);
             for (int c = 0; c < 3; ++c)
                 color.push_back(byte_of(shared::srgb_from_linear(albedo * tint[c])));
-            const float steep = 9.0f;
+            const float steep = 0.8f;
             const vec3 n = glm::normalize(vec3(steep * (at(x - 1, y) - at(x + 1, y)) * 0.5f,
                                                steep * (at(x, y + 1) - at(x, y - 1)) * 0.5f, 1.0f));
             for (int c = 0; c < 3; ++c) normal.push_back(byte_of(0.5f + 0.5f * n[c]));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "film/jobs/camera.h"
 
 namespace petrichor::film {
@@ -62,7 +64,7 @@ TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
         EXPECT_GT(glm::cross(b - a, c - a).y, 0.0f) << "faces up";
         EXPECT_LT(a.y, 2.0f);
         EXPECT_GT(a.y, 1.99f) << "and touches what stands on it";
-        reach = std::max(reach, glm::length(a));
+        reach = std::max({reach, glm::length(a), glm::length(b), glm::length(c)});
     }
     EXPECT_GT(reach, 100.0f * glm::length(before.high - before.low));
     EXPECT_EQ(alone.materials.back().name, "default ground");
