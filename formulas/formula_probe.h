@@ -19,13 +19,14 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 33;
+SHARED_CONST int kProbeKinds = 34;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -223,6 +224,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(ground_relief(vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f)),
                     level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
+    }
+    if (kind == 33) {
+        const vec3 reach = parallax_reach(probe_direction(a.x, a.y), probe_direction(a.z, a.w), b.x);
+        const vec2 p = pixels_along(reach, vec3(b.y, 0.1f, 0.0f), vec3(0.0f, 0.2f, 0.1f + b.z));
+        return vec4(p.x, p.y, secant_depth(b.w, c.x, b.w + c.y, c.z), reach.x + reach.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -223,9 +223,14 @@ void add_weather_rows(std::vector<Row>& t)
         "puddle_mask_channel", "puddleMaskTexture", "channel of the puddle mask that is read"));
     t.push_back(channel<&M::weather, &W::snow_mask, &TextureUse::channel>(
         "snow_mask_channel", "snowMaskTexture", "channel of the snow mask that is read"));
-    t.push_back(not_shaded(number<&M::weather, &W::height_scale_m>(
+    t.push_back(number<&M::weather, &W::height_scale_m>(
         "height_scale_m", 0, 10, place("heightScale"),
-        "height 1 of the height map above height 0, metres")));
+        "height 1 of the height map above height 0, metres; seen by parallax"));
+    t.push_back(choice<&M::weather, &W::parallax>(
+        "parallax", {"none", "simple", "occlusion"}, place("parallax"),
+        "the height map's relief as seen: none, by two look-ups, by a ray through it"));
+    t.push_back(number<&M::weather, &W::parallax_steps>(
+        "parallax_steps", 4, 64, place("parallaxSteps"), "of the ray of parallax = \"occlusion\""));
     t.push_back(number<&M::weather, &W::default_height>(
         "default_height", 0, 1, place("defaultHeight"),
         "height where the material has no height map: 0 low .. 1 high; low places fill first"));

@@ -43,12 +43,21 @@ enum class Wetness {
     Full,     ///< ... with both
 };
 
+/// How the height map moves what is seen (Lux 2.02): heights below 1 lie below the geometry.
+enum class Parallax {
+    None,
+    Simple,     ///< two look-ups
+    Occlusion,  ///< a ray is walked through the relief
+};
+
 /// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
     Wetness wetness = Wetness::Full;
     TextureUse height;  ///< 0 low .. 1 high
     float height_scale_m = 0.02f;
+    Parallax parallax = Parallax::None;
+    float parallax_steps = 20.0f;
     float default_height = 0.25f;
     TextureUse puddle_mask;  ///< 1 puddles may stand, 0 never
     TextureUse snow_mask;    ///< 1 snow may lie, 0 never
@@ -134,6 +143,9 @@ struct Instance {
     std::string name;
     std::uint32_t mesh = 0;
     glm::mat4 to_world{1.0f};
+    /// What the program put around the scene: seen and shaded, but no part of its bounds, patches and
+    /// hollows.
+    bool backdrop = false;
 };
 
 enum class LightKind { Directional, Point, Spot, Rectangle };
@@ -190,7 +202,7 @@ struct Scene {
     std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
 };
 
-/// World-space bounds of all instances.
+/// World-space bounds of all instances but backdrops.
 struct Bounds {
     glm::vec3 low{0.0f};
     glm::vec3 high{0.0f};

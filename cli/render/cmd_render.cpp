@@ -55,6 +55,7 @@ struct RenderOptions {
     std::optional<int> samples;
     std::optional<std::uint32_t> seed;
     std::string camera;
+    std::string ground;
     std::string device;
     std::vector<std::string> aovs;
     int threads = 0;
@@ -129,9 +130,12 @@ void choose_views(Scenario& scenario, const std::vector<std::string>& names)
 void apply_options(Scenario& scenario, const RenderOptions& options)
 {
     apply_weather(scenario.weather, options);
+    scenario.sun.yields = !options.weather.empty();
     if (!options.variants.empty()) choose_variants(scenario, options.variants);
     for (ScenarioVariant& variant : scenario.variants)
         apply_weather(variant.conditions.weather, options);
+    for (ScenarioVariant& variant : scenario.variants)
+        variant.conditions.sun.yields = !options.weather.empty();
     if (!options.views.empty()) choose_views(scenario, options.views);
     ScenarioOutput& output = scenario.output;
     if (!options.size.empty()) {
@@ -153,6 +157,11 @@ void apply_options(Scenario& scenario, const RenderOptions& options)
     output.png = output.png && !options.no_png;
     output.film = output.film && !options.no_film;
     scenario.scene.allow_outside = options.allow_outside;
+    if (!options.ground.empty()) {
+        scenario.scene.ground = options.ground == "plane"  ? StandsOn::Plane
+                                : options.ground == "none" ? StandsOn::None
+                                                           : StandsOn::Auto;
+    }
     if (!output.exr && !output.png) {
         throw Error("render: neither EXR nor PNG is asked for, so nothing would be written",
                     "Leave out --no-exr or --no-png.");
@@ -388,6 +397,10 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     command->add_option("--samples", o->samples, "samples a pixel")->check(CLI::Range(1, 256));
     command->add_option("--seed", o->seed, "of the sample pattern");
     command->add_option("--camera", o->camera, "a camera of the scene");
+    command
+        ->add_option("--ground", o->ground,
+                     "what the scene stands on: auto (level ground if it brings none), plane, none")
+        ->check(CLI::IsMember({"auto", "plane", "none"}));
     command->add_option("--aov", o->aovs, "more images in the EXR, names joined by commas")
         ->delimiter(',');
     command->add_flag("--list-aovs", o->list_aovs, "name the images that --aov takes, and stop");

@@ -16,6 +16,14 @@ bool wants_places(const ScenarioGround& ground, const WeatherSource& weather)
     return weather.script && ground.patches.value_or(false);
 }
 
+bool wants_hollows(const Sequence& sequence)
+{
+    return sequence.scenario.ground.patches.value_or(true) &&
+           leaves_water_to_geometry(sequence.scene) &&
+           std::any_of(sequence.variants.begin(), sequence.variants.end(),
+                       [](const SequenceVariant& v) { return v.weather.script != nullptr; });
+}
+
 const SequenceVariant& variant_of(const Sequence& sequence, const Job& job)
 {
     return *std::find_if(sequence.variants.begin(), sequence.variants.end(),
@@ -33,7 +41,14 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
                                     [&](const SequenceVariant& v) {
                                         return wants_places(sequence.scenario.ground, v.weather);
                                     });
-    if (first == sequence.variants.end()) return;
+    if (first == sequence.variants.end()) {
+        if (wants_hollows(sequence)) hollows_.emplace(sequence.scene);
+        if (hollows_ && hollows_->any()) {
+            notes.push_back("no material says where water stands: it runs to " +
+                            std::to_string(hollows_->count()) + " hollows of the ground");
+        }
+        return;
+    }
     TransportOptions options;
     options.patches.threads = threads;
     options.patches.stop = stop;
@@ -57,6 +72,7 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
 void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame& frame,
                         FrameFacts& facts)
 {
+    if (hollows_) frame.frame.place = hollows_->at(frame.frame.weather.flood_puddles);
     if (!sites_) return;
     const SequenceVariant& variant = variant_of(sequence, job);
     if (!wants_places(sequence.scenario.ground, variant.weather)) return;

@@ -9,6 +9,7 @@
 #include "film/frames/frames_jsonl.h"
 #include "film/jobs/sequence.h"
 #include "film/weather/artist_places.h"
+#include "film/weather/hollows.h"
 #include "film/weather/patch_weather.h"
 
 namespace petrichor::film {
@@ -28,6 +29,7 @@ public:
 
 private:
     std::optional<SceneSites> sites_;
+    std::optional<Hollows> hollows_;                  // where there are no sites
     std::map<std::string, PlaceWeatherOfFile> runs_;  // by variant
     std::map<std::string, ArtistPlaces> keyed_;       // likewise
     int threads_ = 1;

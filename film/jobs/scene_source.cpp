@@ -1,6 +1,8 @@
 #include "film/jobs/scene_source.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -13,6 +15,7 @@
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/demo_scene.h"
+#include "film/scenes/ground_plane.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 
@@ -42,6 +45,39 @@ LoadedScene load(const Scenario& scenario, int threads)
     return read_scene(scenario.folder / file, scenario.scene.allow_outside);
 }
 
+// A camera below it would see nothing but ground, and a picture of the sky shows some already.
+bool wants_ground(const Scenario& scenario, const scene::Scene& scene, const scene::Bounds& bounds)
+{
+    if (scenario.scene.ground != StandsOn::Auto)
+        return scenario.scene.ground == StandsOn::Plane;
+    if (!scenario.sky.environment.empty() || brings_ground(scene, bounds)) return false;
+    const auto below = [&](double y) { return y < static_cast<double>(bounds.low.y); };
+    for (const CameraKey& key : scenario.camera.keys) {
+        if (key.position_m && below(key.position_m->y)) return false;
+    }
+    return !(scenario.camera.keys.empty() &&
+             std::any_of(scene.cameras.begin(), scene.cameras.end(), [&](const scene::Camera& c) {
+                 return below(static_cast<double>(c.to_world[3].y));
+             }));
+}
+
+// A tree of two kilometres was drawn in other units than metres.
+void say_odd_size(const Scenario& scenario, const scene::Bounds& bounds, bool ground,
+                  std::vector<std::string>& warnings)
+{
+    const glm::vec3 size = bounds.high - bounds.low;
+    const float largest = std::max({size.x, size.y, size.z});
+    const bool huge = ground && size.y > 250.0f;
+    const bool tiny = largest > 0.0f && largest < 0.01f;
+    if (!huge && !tiny) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "it is %.4g m high and %.4g m wide: its units may not be metres, and weather lies on "
+                  "it at that size; scale it where it was exported",
+                  static_cast<double>(size.y), static_cast<double>(std::max(size.x, size.z)));
+    warnings.push_back(scenario.scene.file + ": " + text);
+}
+
 }  // namespace
 
 void load_sequence_scene(Sequence& sequence, int threads)
@@ -60,6 +96,9 @@ void load_sequence_scene(Sequence& sequence, int threads)
     }
     sequence.triangles = triangles;
     sequence.bounds = content_bounds(loaded.scene);
+    const bool ground = wants_ground(scenario, loaded.scene, sequence.bounds);
+    if (ground) add_ground(loaded.scene, sequence.bounds);
+    say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
@@ -68,6 +107,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     Hasher content;
     content.add(loaded.fingerprint);
     content.add(applied.textures);
+    content.add(ground);
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -30,6 +30,7 @@ weather::SunAngles sun_at(const ScenarioSun& sun, const scene::Scene& scene,
         }
     }
     if (moment.sun) direction = *moment.sun;
+    if (sun.yields && moment.sun && !moment.utc_us) return direction;
     if (sun.time_of_day_hours.given()) {
         direction = weather::sun_angles_by_solar_time(
             sun.day_of_year, value_at(sun.time_of_day_hours, time_s), sun.latitude_degrees);

@@ -45,6 +45,14 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
         const auto narrow = [](double value) { return static_cast<float>(value); };
         m.flood_cracks = std::min(m.flood_cracks + narrow(frozen.cracks), 1.0f);
         m.flood_puddles = std::min(m.flood_puddles + narrow(frozen.puddles), 1.0f);
+        if (!shared->sun_elevation_deg.empty()) {
+            const auto degrees = [&](const weather::Channel& channel, double otherwise) {
+                return channel.empty() ? otherwise : weather::value_at(channel, time_s * 1e6);
+            };
+            const double radians = 3.14159265358979323846 / 180.0;
+            moment.sun = weather::SunAngles{degrees(shared->sun_elevation_deg, 0.0) * radians,
+                                            degrees(shared->sun_azimuth_deg, 140.0) * radians};
+        }
         m.snow_amount = std::max(m.snow_amount - narrow(frozen.not_snow) * m.water_to_snow, 0.0f);
         return moment;
     };

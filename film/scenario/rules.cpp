@@ -59,6 +59,12 @@ const std::vector<Rule>& rules()
         {{"scene", "max_texture", "4096",
           "larger textures are reduced to this many texels a side, 16 to 16384"},
          [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
+        {{"scene", "ground", "\"auto\"",
+          "what the scene stands on: plane, level ground out to the horizon (material \"default "
+          "ground\"); none; or auto, a plane where the scene brings no ground"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.ground = static_cast<StandsOn>(v.choice({"auto", "plane", "none"}));
+         }},
         {{"scene", "north_degrees", "0.0",
           "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
          [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},

@@ -16,11 +16,19 @@
 
 namespace petrichor::film {
 
+/// What a scene stands on.
+enum class StandsOn {
+    Auto,   ///< a plane, where the scene brings no ground and no picture of the sky shows one
+    Plane,  ///< always a plane
+    None,   ///< as it is
+};
+
 struct ScenarioScene {
     std::string file;             ///< .glb or .gltf, relative to the scenario; or "demo:street"
     std::uint32_t demo_seed = 1;  ///< for the generated demo scene
     bool allow_outside = false;   ///< links in the scene's folder may lead out of it (command line)
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
+    StandsOn ground = StandsOn::Auto;
     double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
 };
 
@@ -63,6 +71,7 @@ struct ScenarioSun {
     double latitude_degrees = 50.0;
     double day_of_year = 80.0;
     double illuminance_lux = 100000.0;
+    bool yields = false;  ///< to the sun of keys: a preset named on the command line brings its own
 };
 
 struct ScenarioSky {

@@ -34,7 +34,9 @@ std::vector<Quantity> quantities()
 {
     std::vector<Quantity> all{{"temperature_c", -100.0, 60.0},    {"rainfall", 0.0, 1.0},
                               {"cloud_cover", 0.0, 1.0},          {"wind_m_s", 0.0, 80.0},
-                              {"wind_from_deg", -3600.0, 3600.0}, {"visibility_m", 20.0, 2.0e5}};
+                              {"wind_from_deg", -3600.0, 3600.0}, {"visibility_m", 20.0, 2.0e5},
+                              {"sun_elevation_deg", -90.0, 90.0},
+                              {"sun_azimuth_deg", -3600.0, 3600.0}};
     for (const auto& parameter : weather::artist_parameters()) {
         all.push_back({std::string(parameter.name), parameter.low, parameter.high});
     }
@@ -60,6 +62,8 @@ Channel& channel_of(WeatherScript& script, const std::string& name)
     if (name == "wind_m_s") return script.sky.wind_m_s;
     if (name == "wind_from_deg") return script.sky.wind_from_deg;
     if (name == "visibility_m") return script.sky.visibility_m;
+    if (name == "sun_elevation_deg") return script.sun_elevation_deg;
+    if (name == "sun_azimuth_deg") return script.sun_azimuth_deg;
     for (const auto& state : weather::hand_set_states()) {
         if (state.name == name) return script.timeline.states[name];
     }

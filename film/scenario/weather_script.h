@@ -36,6 +36,7 @@ namespace petrichor::film {
 /// A key holds time_s (ascending) and any of: temperature_c (-100..60), rainfall (0..1: rain or
 /// snow), cloud_cover (0 clear .. 1 overcast), wind_m_s (0..80), wind_from_deg (where it comes
 /// from; 0 north, 90 east; may pass 360 to keep turning), visibility_m (20..200000, 2 % contrast),
+/// sun_elevation_deg (-90..90) and sun_azimuth_deg (where [sun] of the scenario does not say),
 /// and any number of [artist]; script_controlled (1 on, 0 off: the state is set by hand) and, for
 /// while it is off, wetness, cracks, puddles, snow, water_to_snow (0..1). In SI, by the inverse of
 /// part C's maps on asphalt: rain_mm_h for rainfall (0..50), film_mm for wetness (0..9.5),
@@ -53,6 +54,8 @@ struct WeatherScript {
     weather::ArtistParams params;
     weather::ArtistState initial;
     weather::SkyChannels sky;
+    /// Where the sun stands; empty: the scenario says. Azimuth clockwise from north.
+    weather::Channel sun_elevation_deg, sun_azimuth_deg;
 
     /// The solved weather, for any time.
     weather::ArtistTimeline solve() const

@@ -151,7 +151,7 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
     // Around what stands the ground is soaked: a damp rim.
     const float soaked = smooth_edge(0.0f, 0.12f, state.water);
     m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
-                            mix(moment.film_smoothness, 0.9f, pouring) * state.film),
+                            mix(moment.film_smoothness, 0.8f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
     m = apply_snow(m, state.snow, look.snow_color, look.snow_specular, state.snow_smoothness,
                    dry.snow_opacity);

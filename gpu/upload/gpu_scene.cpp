@@ -275,6 +275,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                 material.bindings.push_back(sampled(*white_, plain));
             }
         }
+        if ((material.slots & 1u << TEXTURE_HEIGHT) != 0u)
+            material.parallax = static_cast<std::uint32_t>(source.weather.parallax);
         materials_.push_back(std::move(material));
         set_material(i, source);
     }

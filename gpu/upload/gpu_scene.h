@@ -45,6 +45,7 @@ struct GpuMaterial {
     bool blended = false;
     bool glows = false;
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
+    std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has

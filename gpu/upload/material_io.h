@@ -30,6 +30,8 @@
     X(float, diffuse_transmission_factor) \
     X(float, porosity)             \
     X(float, default_height)       \
+    X(float, height_scale_m)       \
+    X(float, parallax_steps)       \
     X(float, water_slope_damp)     \
     X(vec4, water_accumulation)    \
     X(vec4, water_color)           \
@@ -80,6 +82,11 @@
 #define WATER_STANDS 1u
 #define WATER_RIPPLES 2u
 #define WATER_FLOWS 4u
+
+// How its height map moves what is seen (scene::Parallax).
+#define PARALLAX_NONE 0u
+#define PARALLAX_SIMPLE 1u
+#define PARALLAX_OCCLUSION 2u
 
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color

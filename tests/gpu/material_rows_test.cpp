@@ -87,6 +87,11 @@ void make_visible(std::string_view row, Material& m)
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
     if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;
+    if (row == "height_scale_m") m.weather.height_scale_m = 0.1f;
+    if (row.starts_with("parallax") || row == "height_scale_m") {
+        m.weather.height = use_of("height_texture");
+        m.weather.parallax = scene::Parallax::Occlusion;
+    }
     if (row == "height_channel") m.weather.height = use_of("height_texture");
 }
 

@@ -29,7 +29,7 @@ glm::vec4 another_value(const MaterialProperty& property)
     }
     for (int i = 0; i < property.count; ++i) {
         const float low = std::max(property.low[i], -2.0f);
-        const float high = std::min(property.high[i], 2.0f);
+        const float high = std::min(property.high[i], std::max(2.0f, low + 1.0f));
         const float step = 0.0625f * static_cast<float>(i + 1);
         value[i] = low + (high - low) * (0.25f + step);
         if (value[i] == default_value(property)[i]) value[i] = low + (high - low) * 0.125f;

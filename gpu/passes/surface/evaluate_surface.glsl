@@ -12,6 +12,7 @@
 #include "formulas/light/layers.h"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
+#include "gpu/passes/surface/parallax.glsl"
 
 vec3 mapped_normal(SurfaceInput at, vec2 shift)
 {
@@ -48,6 +49,7 @@ void share_footprint(inout SurfaceInput at)
 SurfaceData evaluate_surface(SurfaceInput at)
 {
     share_footprint(at);
+    if (PARALLAX != PARALLAX_NONE) sink(at);
     const TangentFrame f = tangent_frame(at);
     Cover cover = no_cover(at);
     vec3 mapped = vec3(0.0, 0.0, 1.0);

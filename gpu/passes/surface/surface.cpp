@@ -99,6 +99,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                          weather.water ? scene.materials()[draw->material].water : 0u},
                         {SURFACE_SPEC_SNOW, weather.snow},
                         {SURFACE_SPEC_FROST, weather.frost},
+                        {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);

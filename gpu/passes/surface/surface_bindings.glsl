@@ -11,6 +11,7 @@ layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 511u;
 layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 7u;
 layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
+layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };

@@ -9,6 +9,7 @@
 #define SURFACE_SPEC_WATER 3  // WATER_... bits; 0: no water stands on the material in this frame
 #define SURFACE_SPEC_SNOW 4   // 0: no snow lies anywhere in this frame
 #define SURFACE_SPEC_FROST 9  // 0: no frost anywhere in this frame
+#define SURFACE_SPEC_PARALLAX 10  // PARALLAX_... of the material
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.

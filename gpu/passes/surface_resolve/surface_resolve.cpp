@@ -142,6 +142,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                                                    weather.water ? material.water : 0u},
                                                   {SURFACE_SPEC_SNOW, weather.snow},
                                                   {SURFACE_SPEC_FROST, weather.frost},
+                                                  {SURFACE_SPEC_PARALLAX, material.parallax},
                                                   {SURFACE_SPEC_PLACE, weather.place},
                                                   {RESOLVE_SPEC_WEATHER, parts.weather},
                                                   {RESOLVE_SPEC_EMISSION, parts.emission},

@@ -1,0 +1,75 @@
+// Which scenes stand on ground of their own, and what is laid below the others.
+#include "film/scenes/ground_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "film/jobs/camera.h"
+
+namespace petrichor::film {
+namespace {
+
+scene::Primitive box(const glm::vec3& low, const glm::vec3& high)
+{
+    scene::Primitive p;
+    for (int corner = 0; corner < 8; ++corner) {
+        p.positions.emplace_back(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                 corner & 4 ? high.z : low.z);
+        p.normals.emplace_back(0.0f, 1.0f, 0.0f);
+    }
+    p.indices = {0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 1, 3, 0, 3, 2,
+                 4, 6, 7, 4, 7, 5, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    return p;
+}
+
+scene::Scene scene_of(std::vector<scene::Primitive> primitives)
+{
+    scene::Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back({"mesh", std::move(primitives)});
+    scene.instances.push_back({"instance", 0, glm::mat4(1.0f)});
+    return scene;
+}
+
+TEST(GroundPlane, ScenesWithAFloorBringTheirOwn)
+{
+    const auto floor = box({-5, -0.1f, -5}, {5, 0, 5});
+    const auto house = box({-1, 0, -1}, {1, 3, 1});
+    const scene::Scene town = scene_of({floor, house});
+    EXPECT_TRUE(brings_ground(town, content_bounds(town)));
+    const scene::Scene alone = scene_of({house});
+    EXPECT_FALSE(brings_ground(alone, content_bounds(alone)));
+    // Things beside each other with nothing between.
+    const scene::Scene apart =
+        scene_of({box({-5, 0, -5}, {-3, 2, -3}), box({3, 0, 3}, {5, 2, 5})});
+    EXPECT_FALSE(brings_ground(apart, content_bounds(apart)));
+}
+
+TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
+{
+    scene::Scene alone = scene_of({box({-1, 2, -1}, {1, 5, 1})});
+    const scene::Bounds before = content_bounds(alone);
+    add_ground(alone, before);
+    const scene::Bounds after = scene::scene_bounds(alone);
+    EXPECT_EQ(before.low, after.low);
+    EXPECT_EQ(before.high, after.high);
+    ASSERT_TRUE(alone.instances.back().backdrop);
+    const scene::Primitive& disc = alone.meshes.back().primitives[0];
+    float reach = 0.0f;
+    for (std::size_t i = 0; i + 2 < disc.indices.size(); i += 3) {
+        const glm::vec3& a = disc.positions[disc.indices[i]];
+        const glm::vec3& b = disc.positions[disc.indices[i + 1]];
+        const glm::vec3& c = disc.positions[disc.indices[i + 2]];
+        EXPECT_GT(glm::cross(b - a, c - a).y, 0.0f) << "faces up";
+        EXPECT_LT(a.y, 2.0f);
+        EXPECT_GT(a.y, 1.99f) << "and touches what stands on it";
+        reach = std::max({reach, glm::length(a), glm::length(b), glm::length(c)});
+    }
+    EXPECT_GT(reach, 100.0f * glm::length(before.high - before.low));
+    EXPECT_EQ(alone.materials.back().name, "default ground");
+    EXPECT_EQ(alone.textures.size(), 2u);
+}
+
+}  // namespace
+}  // namespace petrichor::film

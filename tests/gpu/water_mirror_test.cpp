@@ -1,0 +1,116 @@
+// Standing water is level and mirrors what a camera below its surface sees the other way up.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+class WaterMirror : public GpuTest {};
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 90;
+
+Camera reflected(Camera camera)
+{
+    // Mirrored at y = 0 twice over: the picture is upside down and turned, and is a camera's again.
+    const glm::vec3 eye(camera.to_world[3]);
+    const glm::vec3 forward = -glm::vec3(camera.to_world[2]);
+    const glm::vec3 below(eye.x, -eye.y, eye.z);
+    return look(below, below + glm::vec3(forward.x, -forward.y, forward.z),
+                camera.vertical_fov_rad);
+}
+
+// A black floor whose normals lean every way, walls of several colours around it.
+Scene court()
+{
+    Primitive floor = quad({-6, 0, 3}, {12, 0, 0}, {0, 0, -12}, 0);
+    const glm::vec3 leaning[] = {{0.2f, 1, 0.1f}, {-0.25f, 1, 0.15f}, {0.1f, 1, -0.3f}, {-0.1f, 1, 0.2f}};
+    for (std::size_t i = 0; i < 4; ++i) floor.normals[i] = glm::normalize(leaning[i]);
+    Material wet = plain_material(glm::vec3(0.0f), 0.9f);
+    wet.weather.water_accumulation = {1.5f, 0.0f, 2.0f, 0.0f};
+    wet.weather.default_height = 0.0f;
+    Scene scene = scene_of({floor, quad({-6, 0, -8}, {5, 0, 0}, {0, 4, 0}, 1),
+                            quad({-1, 0, -9}, {4, 0, 0}, {0, 3, 0}, 2),
+                            quad({3, 0, -7}, {3, 0, 0}, {0, 5, 0}, 3),
+                            quad({-2.2f, 0, -4}, {0.5f, 0, 0}, {0, 2, 0}, 3)},
+                           {wet, plain_material({0.7f, 0.2f, 0.1f}), plain_material({0.6f, 0.6f, 0.5f}),
+                            plain_material({0.1f, 0.3f, 0.6f})});
+    for (std::size_t i = 1; i < 4; ++i) scene.materials[i].weather.sheltered = true;
+    return scene;
+}
+
+TEST_F(WaterMirror, APuddleShowsWhatACameraBelowItsSurfaceSees)
+{
+    renderer->load(court(), {});
+    Frame frame;
+    frame.camera = look({0.4f, 1.2f, 4.5f}, {0.2f, 0.25f, -4.0f}, 0.7f);
+    frame.settings.width = kWidth;
+    frame.settings.height = kHeight;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1.0f;
+    frame.settings.shelter = false;
+    frame.sky.sun_elevation_rad = 0.6f;
+    frame.sky.sun_azimuth_rad = 0.3f;
+    frame.fog.mode = FogMode::Off;
+    frame.weather.film_albedo = 0.85f;
+    frame.settings.aovs = {"water", "position", "cover_normal"};
+    const RenderResult above = renderer->render(frame);
+    const Camera camera = frame.camera;
+    frame.camera = reflected(camera);
+    frame.settings.aovs = {"position"};
+    const RenderResult below = renderer->render(frame);
+
+    const glm::vec3 eye(camera.to_world[3]);
+    double difference = 0.0;
+    double sum = 0.0;
+    int puddle = 0;
+    int right = 0;
+    float least_up = 1.0f;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            if (aov(above, "position", x, y, 1) > 0.01f || aov(above, "water", x, y) < 0.95f) continue;
+            least_up = std::min(least_up, aov(above, "cover_normal", x, y, 1));
+            // Only where the mirror shows a wall that the picture shows too.
+            const glm::vec3 met(aov(below, "position", x, kHeight - 1 - y, 0),
+                                aov(below, "position", x, kHeight - 1 - y, 1),
+                                aov(below, "position", x, kHeight - 1 - y, 2));
+            if (!std::isfinite(met.x) || met.y < 0.05f || met.y > 1.6f) continue;
+            const glm::vec3 at(aov(above, "position", x, y, 0), 0.0f, aov(above, "position", x, y, 2));
+            const float cosine = glm::normalize(eye - at).y;
+            const float fresnel = 0.02f + 0.98f * std::pow(1.0f - cosine, 5.0f);
+            const float seen = luminance(pixel(above, x, y));
+            const float wanted = fresnel * luminance(pixel(below, x, kHeight - 1 - y));
+            ++puddle;
+            right += std::abs(seen - wanted) < 0.25f * wanted ? 1 : 0;
+            difference += static_cast<double>(std::abs(seen - wanted));
+            sum += static_cast<double>(wanted);
+        }
+    }
+    ASSERT_GT(puddle, 1000);
+    EXPECT_GT(least_up, 0.9995f) << "water is level whatever the normals of its ground";
+    RecordProperty("difference", std::to_string(difference / sum));
+    EXPECT_LT(difference / sum, 0.2) << "of " << puddle << " pixels";
+    EXPECT_GT(right, puddle * 8 / 10);
+}
+
+TEST_F(WaterMirror, ShallowWaterOnASlopeFollowsIt)
+{
+    Scene scene = court();
+    scene.meshes[0].primitives[0] = quad({-6, 0, 3}, {12, 0, 0}, {0, 14, -8}, 0);
+    renderer->load(scene, {});
+    Frame frame;
+    frame.camera = look({0, 2.0f, 6.0f}, {0, 1.0f, 0});
+    frame.settings.width = 32;
+    frame.settings.height = 18;
+    frame.settings.samples = 1;
+    frame.settings.shelter = false;
+    frame.settings.aovs = {"cover_normal", "normal"};
+    frame.weather.film_albedo = 0.85f;
+    const RenderResult result = renderer->render(frame);
+    EXPECT_NEAR(aov(result, "cover_normal", 16, 12, 1), aov(result, "normal", 16, 12, 1), 0.03f);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
