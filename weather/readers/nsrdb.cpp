@@ -40,7 +40,8 @@ Table read_names(std::string_view line, std::size_t number, const About& about)
     Table t;
     t.names = split(line, ',', kMostColumns);
     while (!t.names.empty() && trimmed(t.names.back()).empty()) t.names.pop_back();
-    if (t.names.empty() || !(t.times = find_csv_times(t.names, {})).found()) {
+    if (t.names.empty() || !(t.times = find_csv_times(t.names, {})).found() ||
+        t.times.part[CsvTimes::Year] == CsvTimes::kNone) {
         throw Error("weather: NSRDB: line " + std::to_string(number) +
                         " does not name Year, Month, Day, Hour, Minute",
                     "Download the file again as CSV.");
