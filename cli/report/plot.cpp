@@ -322,8 +322,7 @@ Drawing plot_of(const SimulationTable& table)
     drawing.width = kWidth;
     const PlottedEvents events = plotted_events(table.events);
     const std::size_t half = (events.shown.size() + 1) / 2;
-    std::string under = subtitle(table);
-    if (!events.left_out.empty()) under += (under.empty() ? "" : "; ") + events.left_out;
+    const std::string under = subtitle(table);
     const double head =
         kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
     drawing.height = head + kBottom - kPanelGap + 22.0;
@@ -334,11 +333,12 @@ Drawing plot_of(const SimulationTable& table)
     const double gaps = kPanelGap * static_cast<double>(table.panels.size());
     const double room =
         kMostHeight - drawing.height - gaps - 40.0 -
-        18.0 * static_cast<double>(half);
+        18.0 * static_cast<double>(half + 1);
     const double shrink = std::clamp(room / std::max(panels, 1.0), 0.33, 1.0);
     drawing.height += shrink * panels + gaps;
     const double list_top = drawing.height;
     if (half > 0) drawing.height += 14.0 + 18.0 * static_cast<double>(half);
+    if (!events.left_out.empty()) drawing.height += 18.0;
 
     TimeAxis time;
     if (!table.rows.empty()) {
@@ -379,6 +379,9 @@ Drawing plot_of(const SimulationTable& table)
     }
     const double bottom = top - kPanelGap;
     add_events(drawing, table, events.shown, time, bottom + 34, list_top);
+    if (!events.left_out.empty())
+        add_label(drawing, {kLeft, list_top + 10.0 + 18.0 * static_cast<double>(half)},
+                  Anchor::Start, events.left_out);
     return drawing;
 }
 

@@ -146,9 +146,10 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
                                   select(covered, rain_mass, zero), snow <= zero, k);
         runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
         if (any_salt) {
-            const BrineStores<Real> brine{c.salt, liquid, liquid + pack};
-            runoff += melted_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
-                                     interface_c);
+            const BrineStores<Real> brine{c.salt, c.film + c.crack + c.puddle,
+                                          c.film + c.crack + c.puddle + c.film_ice + pack};
+            runoff += changed_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
+                                      interface_c);
         }
         const MaskOf<Real> changes_below =
             covered & !salted &
