@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 
 #include "cli/report/plot_axes.h"
 #include "cli/report/time_axis.h"
@@ -214,7 +215,8 @@ void add_series(Drawing& drawing, const SimulationTable& table, const PlotSeries
     }
 }
 
-void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& panel,
+void add_panel(Drawing& drawing, const SimulationTable& table,
+               const std::vector<SimulationEvent>& events, const PlotPanel& panel,
                const TimeAxis& time, const std::vector<TimeTick>& time_ticks, double top,
                double height)
 {
@@ -233,8 +235,8 @@ void add_panel(Drawing& drawing, const SimulationTable& table, const PlotPanel& 
     for (const TimeTick& tick : time_ticks)
         add_line(drawing, {time.x(tick.time_s), top}, {time.x(tick.time_s), top + height}, kGrid);
     if (low < 0.0 && high > 0.0) add_line(drawing, {kLeft, y(0)}, {right, y(0)}, kMark);
-    for (std::size_t i = 0; i < std::min(table.events.size(), kMostEvents); ++i) {
-        const double x = time.x(table.events[i].time_s);
+    for (const SimulationEvent& event : events) {
+        const double x = time.x(event.time_s);
         add_line(drawing, {x, top}, {x, top + height}, kMark, true);
     }
     for (const PlotSeries& series : panel.series)
@@ -255,16 +257,48 @@ std::string subtitle(const SimulationTable& table)
            (table.typical_year ? "; a typical year: months of different years" : "");
 }
 
+// The events that find room: those of a year, not of its first months. Whole kinds are left out, the
+// most frequent first, and named.
+struct PlottedEvents {
+    std::vector<SimulationEvent> shown;
+    std::string left_out;
+};
+PlottedEvents plotted_events(std::vector<SimulationEvent> events)
+{
+    PlottedEvents out;
+    while (events.size() > kMostEvents) {
+        std::map<std::string, std::size_t> counts;
+        for (const SimulationEvent& e : events) ++counts[e.text];
+        if (counts.size() == 1) {
+            out.left_out += (out.left_out.empty() ? "" : ", ") +
+                            std::to_string(events.size() - kMostEvents) + " more of " +
+                            events.front().text;
+            events.resize(kMostEvents);
+            break;
+        }
+        const auto most = std::max_element(
+            counts.begin(), counts.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+        out.left_out += (out.left_out.empty() ? "" : ", ") + std::to_string(most->second) +
+                        " times " + most->first;
+        std::erase_if(events, [&](const SimulationEvent& e) { return e.text == most->first; });
+    }
+    if (!out.left_out.empty()) out.left_out = "events not marked: " + out.left_out;
+    out.shown = std::move(events);
+    return out;
+}
+
 // The numbered list of events below the panels, in two columns, and their numbers under the time
 // axis.
-void add_events(Drawing& drawing, const SimulationTable& table, const TimeAxis& time,
+void add_events(Drawing& drawing, const SimulationTable& table,
+                const std::vector<SimulationEvent>& events, const TimeAxis& time,
                 double numbers_y, double list_top)
 {
-    const std::size_t count = std::min(table.events.size(), kMostEvents);
+    const std::size_t count = events.size();
     const std::size_t half = (count + 1) / 2;
     double label_x = -1e9;
     for (std::size_t i = 0; i < count; ++i) {
-        const SimulationEvent& event = table.events[i];
+        const SimulationEvent& event = events[i];
         const double x = time.x(event.time_s);
         if (x - label_x >= 14.0) {  // the list below has them all
             label_x = x;
@@ -286,6 +320,8 @@ Drawing plot_of(const SimulationTable& table)
 {
     Drawing drawing;
     drawing.width = kWidth;
+    const PlottedEvents events = plotted_events(table.events);
+    const std::size_t half = (events.shown.size() + 1) / 2;
     const std::string under = subtitle(table);
     const double head =
         kTop + (under.empty() ? 0.0 : 8.0) + 17.0 * static_cast<double>(table.warnings.size());
@@ -297,12 +333,12 @@ Drawing plot_of(const SimulationTable& table)
     const double gaps = kPanelGap * static_cast<double>(table.panels.size());
     const double room =
         kMostHeight - drawing.height - gaps - 40.0 -
-        18.0 * static_cast<double>((std::min(table.events.size(), kMostEvents) + 1) / 2);
+        18.0 * static_cast<double>(half + 1);
     const double shrink = std::clamp(room / std::max(panels, 1.0), 0.33, 1.0);
     drawing.height += shrink * panels + gaps;
     const double list_top = drawing.height;
-    const std::size_t half = (std::min(table.events.size(), kMostEvents) + 1) / 2;
     if (half > 0) drawing.height += 14.0 + 18.0 * static_cast<double>(half);
+    if (!events.left_out.empty()) drawing.height += 18.0;
 
     TimeAxis time;
     if (!table.rows.empty()) {
@@ -331,7 +367,7 @@ Drawing plot_of(const SimulationTable& table)
     double top = head + 18.0;
     for (const PlotPanel& panel : table.panels) {
         const double height = shrink * (panel.forcing ? kForcingHeight : kStateHeight);
-        add_panel(drawing, table, panel, time, ticks, top, height);
+        add_panel(drawing, table, events.shown, panel, time, ticks, top, height);
         for (const TimeTick& tick : ticks) {
             const double side = 0.5 * text_width(tick.label, 12.0);
             add_label(
@@ -342,7 +378,10 @@ Drawing plot_of(const SimulationTable& table)
         top += height + kPanelGap;
     }
     const double bottom = top - kPanelGap;
-    add_events(drawing, table, time, bottom + 34, list_top);
+    add_events(drawing, table, events.shown, time, bottom + 34, list_top);
+    if (!events.left_out.empty())
+        add_label(drawing, {kLeft, list_top + 10.0 + 18.0 * static_cast<double>(half)},
+                  Anchor::Start, events.left_out);
     return drawing;
 }
 

@@ -25,6 +25,8 @@ SimulationTable simulate(const std::vector<Input>& inputs, const SimulateOptions
 {
     const bool weather_file = inputs.front().kind == InputKind::Weather;
     if (!options.terrain.file.empty()) return simulate_grid(inputs, options);
+    if (options.weather_parts > 0)
+        throw Error("simulate: --weather-parts is of a landscape", "Give --grid, or leave it out.");
     if (options.model == "artist" || (options.model == "auto" && !weather_file)) {
         if (!options.observed.empty() || options.physical.members > 0 ||
             options.physical.sensitivity || !options.height_map.empty() ||

@@ -100,7 +100,7 @@ Cells cells_of(const Terrain& terrain)
     return inside;
 }
 
-std::vector<double> regional_row(const weather::PhysicalGrid& grid, const Cells& inside,
+std::vector<double> regional_row(const Landscape& grid, const Cells& inside,
                                  const weather::ForcingTable& table)
 {
     const std::int64_t us = grid.time_us();
@@ -148,7 +148,7 @@ std::vector<double> regional_row(const weather::PhysicalGrid& grid, const Cells&
             residual};
 }
 
-GridMap map_of(const weather::PhysicalGrid& grid, const Cells& inside, std::size_t cells)
+GridMap map_of(const Landscape& grid, const Cells& inside, std::size_t cells)
 {
     GridMap map{grid.time_us(), std::vector<weather::CellState>(cells)};
     for (std::size_t i = 0; i < inside.place.size(); ++i)
@@ -156,7 +156,7 @@ GridMap map_of(const weather::PhysicalGrid& grid, const Cells& inside, std::size
     return map;
 }
 
-std::size_t step_at(std::int64_t us, const weather::PhysicalGrid& grid, std::int64_t begin_us,
+std::size_t step_at(std::int64_t us, const Landscape& grid, std::int64_t begin_us,
                     std::int64_t end_us, std::int64_t step_us)
 {
     if (us < begin_us || us > end_us) {
@@ -176,7 +176,7 @@ struct Plan {
 };
 
 Plan plan_of(const weather::ForcingTable& table, const GridRun& run,
-             const weather::PhysicalGrid& grid)
+             const Landscape& grid)
 {
     const auto step_us = static_cast<std::int64_t>(std::llround(run.model.step_s * 1e6));
     const double steps_a_row = run.model.every_s / run.model.step_s;
@@ -280,12 +280,19 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
         params.surfaces.push_back(weather::surface_preset(surface));
     params.threads = run.model.threads;
     const Cells inside = cells_of(terrain);
-    weather::PhysicalGrid grid(read.table, params, inside.cells);
+    Landscape grid(read.table, run.field, params, inside.cells, inside.place, terrain);
+    const bool keeps = run.on_checkpoint || !run.model.resume.empty();
+    if (keeps && !grid.only())
+        throw Error("grid: a checkpoint under several weathers",
+                    "Leave --weather-parts, or --checkpoint and --resume, out.");
     SimulationTable table = headed_table(read, name, terrain, inside.cells.size());
     table.utc_offset_s = run.model.clock_offset_s;
+    if (run.field.side > 1)
+        table.notes.push_back("weather of " + std::to_string(run.field.tables.size()) +
+                              " parts of the terrain; air temperature is that of its middle");
     const Plan plan = plan_of(read.table, run, grid);
     const auto identity = weather::grid_identity(read.table, params, inside.cells);
-    if (!run.model.resume.empty()) resume(table, grid, identity, run, plan);
+    if (!run.model.resume.empty()) resume(table, *grid.only(), identity, run, plan);
 
     std::size_t next_map = 0;
     while (next_map < plan.map_steps.size() && plan.map_steps[next_map] < grid.step()) ++next_map;
@@ -299,7 +306,7 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
             run.on_map(map_of(grid, inside, terrain.cells()));
         const bool done = now >= plan.last, stopped = !done && run.stop && run.stop();
         if ((done || stopped) && run.on_checkpoint)
-            run.on_checkpoint(save_progress(grid, identity, {run.model.every_s, table.rows}));
+            run.on_checkpoint(save_progress(*grid.only(), identity, {run.model.every_s, table.rows}));
         if (done) break;
         if (stopped) {
             throw Interrupted("interrupted: grid at " + weather::iso_from_us(grid.time_us()) +

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/simulate/landscape.h"
 #include "cli/simulate/physical.h"
 #include "cli/simulate/terrain.h"
 
@@ -19,6 +20,7 @@ struct GridMap {
 };
 
 struct GridRun {
+    WeatherField field{};  ///< weather of the parts of the terrain; none: one for all
     PhysicalRun model;  ///< step, rows (every_s, from_s, to_s), threads, surface
     std::vector<std::int64_t> map_times_us;  ///< when on_map is called, ascending
     std::function<void(const GridMap&)> on_map;

@@ -360,9 +360,9 @@ void compare(const SimulationTable& fine, const Observations& observed, Simulati
             continue;
         }
         char line[200];
-        std::snprintf(line, sizeof line, "observed %s: RMSE %.4g %s, bias %+.3g, %zu values (%s)",
-                      one.column.c_str(), score.rmse, score.unit.c_str(), score.bias, score.count,
-                      score.how.c_str());
+        std::snprintf(line, sizeof line, "observed %s: RMSE %.4g%s%s, bias %+.3g, %zu values (%s)",
+                      one.column.c_str(), score.rmse, score.unit.empty() ? "" : " ",
+                      score.unit.c_str(), score.bias, score.count, score.how.c_str());
         table.notes.emplace_back(line);
         table.scores.push_back(score);
         for (PlotPanel& panel : table.panels) {

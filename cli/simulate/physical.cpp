@@ -269,6 +269,8 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     const Window window = window_of(run, origin, timeline.begin_us(), end_us, run.every_s);
     fill_rows(table, read, params, timeline, window);
     table.panels = physical_panels();
+    if (params.surface.traffic_heat_w_m2 > 0.0 || !params.events.empty())
+        for (PlotPanel& panel : road_panels()) table.panels.push_back(std::move(panel));
     add_physical_events(table);
     Observations observed =
         run.observed.empty()
@@ -310,8 +312,11 @@ std::string fitted_artist_toml(const weather::ReadResult& read, const PhysicalRu
             std::snprintf(line, sizeof line, "%s = %.9g  # default: nothing in the file tells\n",
                           key, value);
         else
-            std::snprintf(line, sizeof line, "%s = %.9g  # residual %.4f RMS a step, %zu steps\n",
-                          key, value, rate.rms_residual, rate.hours);
+            std::snprintf(line, sizeof line, "%s = %.9g  # residual %.4f RMS a step, %zu steps%s\n",
+                          key, value, rate.rms_residual, rate.hours,
+                          rate.rms_residual > 0.1
+                              ? ": one rate cannot follow, as water waits for what fills first"
+                              : "");
         out += line;
     };
     put("accumulation_rate_wetness", fit.params.accumulation_rate_wetness, fit.wetness);

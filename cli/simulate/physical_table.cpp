@@ -218,6 +218,18 @@ std::vector<PlotPanel> physical_panels()
     };
 }
 
+std::vector<PlotPanel> road_panels()
+{
+    return {{.title = "wheel friction, 0..1",
+             .series = {line("wheel_friction", "", "#444c56")},
+             .group = "road"},
+            {.title = "salt, g/m\u00b2",
+             .series = {area("salt_g_m2", "", "#b08900")},
+             .low = 0.0,
+             .high = 0.0,
+             .group = "road"}};
+}
+
 void add_physical_events(SimulationTable& table)
 {
     const auto column = [&](const char* name) { return column_index(table, name); };

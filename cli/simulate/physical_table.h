@@ -25,6 +25,8 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
 
 /// What plots show of it: groups weather, snow, heat, water, masks.
 std::vector<PlotPanel> physical_panels();
+/// What else is of interest on a road in use.
+std::vector<PlotPanel> road_panels();
 
 /// Adds "snow on the ground", "snow gone", "puddles full", "everything frozen", ... in order of
 /// time.

@@ -60,6 +60,11 @@ SimulationTable simulate_grid(const std::vector<Input>& inputs, const SimulateOp
     const Terrain terrain = read_terrain(options.terrain, input.run.site.surface);
     GridRun run;
     run.model = input.run;
+    if (options.weather_parts > 0) {
+        run.field = read_weather_field(options.inputs, input.run.site, terrain,
+                                       static_cast<std::size_t>(options.weather_parts),
+                                       options.grid_point == "nearest");
+    }
     run.map_times_us = map_times_us(options, input);
     run.on_map = [&](const GridMap& map) {
         for (const std::string& path : options.maps) {

@@ -151,7 +151,7 @@ void add_output(CLI::App& command, SimulateOptions& o)
         ".csv, .json, .svg, .png or .html, may be repeated; - is CSV on standard\noutput (default)")
         ->allow_extra_args(false);
     add(command, group, "--plot", "WORDS", o.plot,
-        "panels: auto (default), all, or some of snow,heat,water,masks\n(of the artist model: "
+        "panels: auto (default), all, or some of snow,heat,water,masks,road\n(of the artist model: "
         "snow,water)");
     add(command, group, "--observed", "FILE", o.observed,
         "measured values to plot and score: CSV with date and the names of our\ncolumns, or FSM's");
@@ -187,6 +187,10 @@ void add_grid(CLI::App& command, SimulateOptions& o)
     add(command, group, "--surface-mask", "IMAGE", o.terrain.mask, "surfaces over the terrain");
     add(command, group, "--surfaces", "A,B,..", o.terrain.surfaces,
         "names for the mask, from black to white: grass,rock");
+    add(command, group, "--weather-parts", "N", o.weather_parts,
+        "a NetCDF or GRIB grid over the terrain: N x N parts, each under the weather of its\n"
+        "middle, from there by 6.5 K/km; --latitude and --longitude are the terrain's middle")
+        ->check(CLI::Range(1, 32));
     add(command, group, "--map", "FILE", o.maps,
         "write a map: .exr (a layer a state) or .png (to look at), may be repeated")
         ->allow_extra_args(false);
@@ -228,6 +232,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& o)
         "  petrichor simulate met.txt --latitude 45.3 --longitude 5.77 --elevation-m 1325 \\\n"
         "      --surface grass --observed obs.txt -o winter.html       model and observation\n"
         "  petrichor simulate denver.epw --fit-artist -o rates.toml\n"
+        "  petrichor simulate forecast.xml --road station.xml --events salt.csv -o road.html\n"
         "  petrichor simulate alps.csv --grid dem.asc --at 2006-02-01 --map snow.png -o "
         "region.csv");
 }

@@ -42,6 +42,7 @@ struct SimulateOptions {
         precip_factor;  ///< words for constants that are often set
     bool list_physics = false;
     TerrainOptions terrain;
+    int weather_parts = 0;  ///< of a terrain's side, each with the weather of its middle
     std::vector<std::string> maps, map_times;
     PhysicalRun physical;
 };

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "base/error.h"
+#include "weather/readers/horizon_text.h"
+#include "weather/readers/metro_xml.h"
 #include "weather/readers/read_weather.h"
+#include "weather/readers/road_events_text.h"
 
 namespace petrichor::weather::testing_fuzz {
 
@@ -33,8 +36,33 @@ void check_table(const ForcingTable& table)
 
 }  // namespace
 
+namespace {
+
+template <class Read>
+void expect_an_answer(Read&& read)
+{
+    try {
+        read();
+    } catch (const Error& error) {
+        require(error.what()[0] != '\0' && !error.fix().empty(),
+                "an error says what is wrong and what to do");
+    }
+}
+
+}  // namespace
+
 void read_bytes(std::string_view bytes)
 {
+    expect_an_answer([&] {
+        const Horizon horizon = read_horizon(bytes, "horizon");
+        require(horizon_sky_view(horizon) <= 1.0, "a horizon only hides");
+    });
+    expect_an_answer([&] { check_events(read_road_events(bytes, "events", 3600.0)); });
+    if (looks_like_metro(bytes)) {
+        expect_an_answer([&] { read_metro_station(bytes); });
+        expect_an_answer([&] { read_metro_observation(bytes); });
+        expect_an_answer([&] { read_metro_roadcast(bytes); });
+    }
     try {
         ReadOptions options;
         options.most_bytes = std::size_t{1} << 22;

@@ -468,5 +468,83 @@ TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
     EXPECT_GT(total(read_weather(text, options).table, Field::Precip), 50.0);
 }
 
+// A misspelt column is never dropped without a word: in every sample with a header, each name with
+// a letter too many is an error, is named in the report, or changes nothing that is read.
+TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
+{
+    int changed = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_SAMPLES)) {
+        const std::string file = entry.path().filename().string();
+        const std::string text = text_of(entry.path());
+        std::size_t begin = 0, end = 0;
+        char separator = 0;
+        // The header: the first line of at least four names.
+        for (int line = 0; line < 40 && end != text.npos && !separator; ++line) {
+            begin = line == 0 ? 0 : end + 1;
+            end = text.find('\n', begin);
+            const std::string one = text.substr(begin, end - begin);
+            for (const char c : {',', ';', '|', '\t'}) {
+                const auto fields = split(one, c);
+                const auto names = std::count_if(
+                    fields.begin(), fields.end(), [](std::string_view f) {
+                        return !to_number(f) && std::count_if(f.begin(), f.end(), [](char x) {
+                            return std::isalpha(static_cast<unsigned char>(x)) != 0;
+                        }) >= 2;
+                    });
+                if (names >= 4 && fields.size() >= 4) separator = c;
+            }
+        }
+        if (!separator || file.ends_with(".epw") || file.ends_with(".json")) continue;
+        ReadResult plain;
+        ReadOptions options;
+        options.fill = false;
+        try {
+            plain = read_weather(text, options);
+        } catch (const Error&) {
+            continue;  // no weather by itself
+        }
+        const std::string header = text.substr(begin, end - begin);
+        std::size_t at = 0;
+        while (at < header.size()) {
+            std::size_t stop = std::min(header.find(separator, at), header.size());
+            std::size_t letters = at;
+            while (letters < stop && (std::isalnum(static_cast<unsigned char>(header[letters])) ||
+                                      header[letters] == '_' || header[letters] == '"'))
+                ++letters;
+            const std::string name = header.substr(at, letters - at);
+            if (letters - at >= 3 && name.find('"') == name.npos) {
+                std::string other = text;
+                other.insert(begin + letters, "q");
+                try {
+                    const ReadResult read = read_weather(other, options);
+                    bool same = read.table.time_us == plain.table.time_us;
+                    for (std::size_t c = 0; c < kFieldCount && same; ++c) {
+                        const auto &a = read.table.columns[c], &b = plain.table.columns[c];
+                        same = a.size() == b.size() &&
+                               std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+                                   return x == y || (std::isnan(x) && std::isnan(y));
+                               });
+                    }
+                    if (!same) {
+                        ++changed;
+                        // By its new name, by that of the column whose unit it told, or as the
+                        // clock's zone that nobody tells any more.
+                        const std::string said = lower(to_text(read.report));
+                        const std::size_t unread = said.find("not read:");
+                        EXPECT_TRUE(said.find(lower(name) + "q") != said.npos ||
+                                    said.find("zone") != said.npos ||
+                                    (unread != said.npos &&
+                                     said.find(lower(name), unread) != said.npos))
+                            << file << ": " << name;
+                    }
+                } catch (const Error&) {
+                }
+            }
+            at = stop + 1;
+        }
+    }
+    EXPECT_GT(changed, 20);
+}
+
 }  // namespace
 }  // namespace petrichor::weather

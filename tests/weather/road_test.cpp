@@ -74,6 +74,39 @@ TEST(Road, TrafficWarmsItAndPloughsClearIt)
     EXPECT_LE(std::abs(swept.mass_residual_most), 1e-9);
 }
 
+// Snow that melts as it falls takes its heat and nothing else: the road stays as coupled to the air
+// as it is without it.
+TEST(Road, ADustingThatMeltsLeavesAWarmRoad)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("road");
+    p.deep_temp_k = 280.15;
+    const ForcingTable dry = steady(274.15, 250, 280, 0, 6), dusted = steady(274.15, 250, 280, 0.05, 6);
+    const CellState a = PhysicalTimeline(dry, p).state_at(6 * kHourUs);
+    const CellState b = PhysicalTimeline(dusted, p).state_at(6 * kHourUs);
+    ASSERT_GT(a.surface_temp_c, 5.0);
+    EXPECT_GT(a.flux_sensible, 25.0);
+    EXPECT_NEAR(b.flux_sensible, a.flux_sensible, 0.25 * a.flux_sensible);
+    EXPECT_LT(std::abs(b.surface_temp_c - a.surface_temp_c), 1.5);
+}
+
+// Water under snow freezes when the ground below is cold enough.
+TEST(Road, WaterUnderSnowFreezesWithTheColdOfTheGround)
+{
+    PhysicalParams p;
+    p.surface = surface_preset("road");
+    p.surface.snow_clearing_1_h = p.surface.traffic_heat_w_m2 = 0;
+    p.deep_temp_k = 265.15;
+    ForcingTable t = steady(264.15, 0, 220, 1.0, 24);
+    CellState c = PhysicalTimeline(t, p).state_at(3 * kHourUs);
+    c.film = 0.5;
+    const PhysicalTimeline run(t, p, c, 3 * kHourUs);
+    const CellState later = run.state_at(24 * kHourUs);
+    EXPECT_EQ(later.film, 0.0);
+    EXPECT_NEAR(later.film_ice, c.film_ice + 0.5, 1e-9);
+    EXPECT_LT(std::abs(later.mass_residual_most), 1e-9);
+}
+
 TEST(Road, TheMeasuredStartIsTakenAsItIs)
 {
     PhysicalParams p;

@@ -152,6 +152,25 @@ TEST(Salt, EatsSnowFromBelow)
     EXPECT_LT(std::abs(b.mass_residual_most), 1e-9);
 }
 
+// Brine below snow keeps to its strength as it does without.
+TEST(Salt, FreezesInPartUnderSnowToo)
+{
+    const ForcingTable t = steady(264.15, 0, 210, 0, 0.2, 12);
+    PhysicalParams p = road();
+    p.surface.snow_clearing_1_h = p.surface.traffic_heat_w_m2 = 0;
+    p.deep_temp_k = 264.15;
+    CellState c = after(t, p, 3);
+    c.salt = 0.005;
+    c.film = 0.4;
+    for (double& ground_c : c.ground_temp_c) ground_c = -9.0;
+    const CellState end = PhysicalTimeline(t, p, c, 3 * kHourUs).state_at(12 * kHourUs);
+    ASSERT_GT(diagnostics(end).swe_kg_m2, 1.0);
+    EXPECT_GT(end.film_ice, 0.2);
+    EXPECT_NEAR(end.film, brine_water_kg_m2(end.salt, 10.0, end.ground_temp_c[0]),
+                0.2 * end.film);
+    EXPECT_LT(std::abs(end.mass_residual_most), 1e-9);
+}
+
 TEST(RoadEvents, HappenAtTheEndOfTheirStepInAnyOrderOfAsking)
 {
     const ForcingTable t = steady(268.15, 0, 260, 0, 1.0, 60);

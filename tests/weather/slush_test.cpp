@@ -41,6 +41,8 @@ PhysicalParams road()
     params.surface.slush_rate_1_s = 0.0003;
     params.surface.film_capacity_kg_m2 = 1.0;
     params.deep_temp_k = 268.15;
+    // Ground without heat: water below the snow drains and does not freeze.
+    params.surface.conductivity_w_m_k = 1e-12;
     return params;
 }
 

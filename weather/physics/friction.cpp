@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "weather/physics/brine.h"
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/portable_math.h"
 
@@ -76,8 +77,9 @@ RoadCondition road_condition(const CellState& c)
     if (water >= kMetroLayer_kg_m2) return RoadCondition::Wet;
     if (frozen >= kMetroLayer_kg_m2) return RoadCondition::IceOrSnow;
     const bool settles = c.flux_latent < 0.0;
-    if (settles && !rains && c.surface_temp_c > 0.0) return RoadCondition::Dew;
-    if ((settles && !snows && c.surface_temp_c <= 0.0) || c.flux_melt < 0.0)
+    const bool freezes = c.surface_temp_c <= freezing_point_c(c.salt, c.film + c.crack + c.puddle);
+    if (settles && !rains && !freezes) return RoadCondition::Dew;
+    if ((settles && !snows && freezes) || c.flux_melt < 0.0)
         return RoadCondition::Frost;
     return RoadCondition::Dry;
 }

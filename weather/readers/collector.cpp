@@ -261,6 +261,21 @@ void RowCollector::unknown_column(std::string_view name, const std::vector<std::
         .push_back(std::move(text));
 }
 
+void RowCollector::unread_columns(const std::vector<std::string>& names)
+{
+    constexpr std::size_t kMostNamed = 30;
+    std::string text;
+    std::size_t named = 0;
+    for (const std::string& name : names) {
+        const bool tells = names.size() <= kMostNamed || speaks_of_weather(name);
+        if (!tells || named == kMostNamed || trimmed(name).empty()) continue;
+        text.append(named++ ? ", " : "").append(shown(trimmed(name)));
+    }
+    if (named == 0) return;
+    if (named < names.size()) text += " and " + std::to_string(names.size() - named) + " more";
+    note(ReadNote::Kind::Info, 1, "columns", "not read: " + text);
+}
+
 void RowCollector::check_columns()
 {
     const auto list = [](const std::vector<std::string>& names) {

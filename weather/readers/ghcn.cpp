@@ -27,6 +27,18 @@ struct Day {
 };
 using Days = std::map<std::int64_t, Day>;
 
+// Columns of the access CSV that mean something here; flags of values with them.
+bool is_read(std::string_view name)
+{
+    constexpr std::string_view kFlags = "_ATTRIBUTES";
+    if (name.ends_with(kFlags)) name.remove_suffix(kFlags.size());
+    for (const char* known : {"STATION", "NAME", "DATE", "LATITUDE", "LONGITUDE", "ELEVATION", "TMIN",
+                              "TMAX", "TAVG", "PRCP", "AWND", "SNWD", "SNOW", "MDPR", "DAPR"}) {
+        if (name == known) return true;
+    }
+    return false;
+}
+
 // One value of a day; what is not possible or given twice is noted.
 // `whole_units`: C, mm and m/s instead of their tenths.
 void put(RowCollector& rows, Day& day, std::size_t line, std::string_view element,
@@ -178,6 +190,10 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
         split(*line, ',', f, 256);
         if (lines.number() == 1 && lower(*line).find("station") != std::string::npos) {
             for (const auto n : f) names.emplace_back(n);
+            std::vector<std::string> unread;
+            for (const std::string& n : names)
+                if (!is_read(n)) unread.push_back(n);
+            rows.unread_columns(unread);
             whole_units = whole_units_of(text);
             if (whole_units)
                 rows.note(ReadNote::Kind::Info, 1, "",

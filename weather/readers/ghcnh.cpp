@@ -145,6 +145,13 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             break;
         }
     }
+    // Every value has its codes beside it.
+    auto unread = header.unread();
+    std::erase_if(unread, [](const std::string& name) {
+        return name.ends_with("_code") || name.ends_with("_report_type") ||
+               name.ends_with("_source_station_id");
+    });
+    rows.unread_columns(unread);
     if (dropped)
         rows.note(ReadNote::Kind::Info, 0, "quality",
                   std::to_string(dropped) + " values that failed a check, taken as missing");

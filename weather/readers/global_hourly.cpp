@@ -46,6 +46,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     for (std::size_t i = 0; i < header.size(); ++i) {
         std::string id = header.names()[i];
         if (!is_used_group(id)) continue;
+        static_cast<void>(header.at(id));
         for (char& c : id) c = c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
         groups.push_back({i, id});
     }
@@ -71,6 +72,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             site.latitude_deg = site.longitude_deg = site.elevation_m = kMissing;
         }
     }
+    rows.unread_columns(header.unread());
     const double elevation =
         std::isnan(options.site.elevation_m) ? site.elevation_m : options.site.elevation_m;
     rows.join_same_times();

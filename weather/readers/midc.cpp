@@ -77,24 +77,29 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
     std::vector<Column> columns;
     std::size_t rain = TableHeader::kNone, rain_sum = TableHeader::kNone;
     std::string twins;
+    std::vector<std::string> unread;
     for (std::size_t i = 2; i < header.size(); ++i) {
         const std::string& name = header.names()[i];
         if (name.rfind("precipitation", 0) == 0 && name.find("[mm]") != name.npos) {
             (name.find("accum") == name.npos ? rain : rain_sum) = i;
             continue;
         }
+        bool known = false;
         for (const Word& word : kWords) {
             if (name.rfind(word.begins, 0) != 0 || name.find(word.unit) == name.npos) continue;
             const bool taken = std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
                 return c.word->field == word.field;
             });
+            known = true;
             if (taken)
                 twins.append(twins.empty() ? "" : ", ").append(shown(name));
             else
                 columns.push_back({&word, i});
             break;
         }
+        if (!known) unread.push_back(name);
     }
+    rows.unread_columns(unread);
     if (!twins.empty())
         rows.note(ReadNote::Kind::Info, 1, "columns", "second instruments, not used: " + twins);
     std::optional<double> sum_before;

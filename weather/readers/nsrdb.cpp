@@ -77,6 +77,10 @@ static void read_nsrdb(std::string_view text, RowCollector& rows, const ReadOpti
     const std::string_view header = lines.next().value_or("");
     const Table table = read_names(header, lines.number(), about);
     rows.note(ReadNote::Kind::Info, 0, "precip", "NSRDB has no precipitation");
+    std::vector<std::string> unread;
+    for (std::size_t i = 0; i < table.names.size(); ++i)
+        if (!table.meaning[i] && !table.times.uses(i)) unread.emplace_back(table.names[i]);
+    rows.unread_columns(unread);
 
     const auto year_of = [&](const std::vector<std::string_view>& cells) {
         return to_integer(cells[table.times.part[CsvTimes::Year]]).value_or(0);

@@ -1,6 +1,7 @@
 // Open-Meteo, JSON and CSV. Units are beside the names; hourly sums and radiation belong to the
 // hour before their time; times are local with an offset for the whole file. Names with and without
 // underscores.
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -194,6 +195,10 @@ static void read_open_meteo_csv(std::string_view text, RowCollector& rows, const
     const auto place_names = split(lines.next().value_or(""), ',', 16);
     const auto place = split(lines.next().value_or(""), ',', 16);
     double offset = 0.0;
+    if (std::find(place_names.begin(), place_names.end(), "utc_offset_seconds") ==
+        place_names.end())
+        rows.note(ReadNote::Kind::Warning, 1, "time",
+                  "the clock's zone is not told (utc_offset_seconds), taken as UTC");
     for (std::size_t i = 0; i < place_names.size() && i < place.size(); ++i) {
         const auto value = to_number(place[i]);
         if (place_names[i] == "latitude") rows.site().latitude_deg = value.value_or(kMissing);

@@ -82,6 +82,10 @@ static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOpti
             if (lower(names[i]) == c.name) meaning[i] = &c;
         }
     }
+    std::vector<std::string> unread;
+    for (std::size_t i = 1; i < names.size(); ++i)
+        if (!meaning[i]) unread.emplace_back(names[i]);
+    rows.unread_columns(unread);
     Lines again = lines;
     TypicalYear typical;
     while (const auto line = again.next()) {

@@ -11,12 +11,24 @@ namespace petrichor::weather {
 TableHeader::TableHeader(std::string_view line, char separator)
 {
     for (const auto name : split(line, separator, 1024)) names_.push_back(lower(trimmed(name)));
+    asked_.assign(names_.size(), false);
 }
 
 std::size_t TableHeader::at(std::string_view name) const
 {
     const auto found = std::find(names_.begin(), names_.end(), name);
-    return found == names_.end() ? kNone : static_cast<std::size_t>(found - names_.begin());
+    if (found == names_.end()) return kNone;
+    const auto index = static_cast<std::size_t>(found - names_.begin());
+    asked_[index] = true;
+    return index;
+}
+
+std::vector<std::string> TableHeader::unread() const
+{
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        if (!asked_[i]) out.push_back(names_[i]);
+    return out;
 }
 
 void read_table_rows(Lines& lines, const TableHeader& header, const TableRows& how,
@@ -56,6 +68,7 @@ void read_table_rows(Lines& lines, const TableHeader& header, const TableRows& h
         }
         if (how.also) how.also(cells);
     }
+    rows.unread_columns(header.unread());
 }
 
 double station_pressure_pa(double sea_level_pa, double elevation_m, double air_k)

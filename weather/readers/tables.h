@@ -28,13 +28,17 @@ class TableHeader {
 public:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
     TableHeader(std::string_view line, char separator);
-    std::size_t at(std::string_view name) const;  ///< kNone when there is no such column
+    /// kNone when there is no such column. Who asks for a column reads it: see unread().
+    std::size_t at(std::string_view name) const;
     bool has(std::string_view name) const { return at(name) != kNone; }
     std::size_t size() const { return names_.size(); }
     const std::vector<std::string>& names() const { return names_; }
+    /// The columns that nobody has asked for.
+    std::vector<std::string> unread() const;
 
 private:
     std::vector<std::string> names_;
+    mutable std::vector<bool> asked_;
 };
 
 /// The cell of a column, empty where the row or the header has none.
@@ -43,7 +47,7 @@ inline std::string_view cell_of(const std::vector<std::string_view>& cells, std:
     return at < cells.size() ? cells[at] : std::string_view{};
 }
 
-/// Reads the rows below a header.
+/// Reads the rows below a header, and notes the columns that were not read.
 ///   time_of  when a row is; nothing: a bad row
 ///   value_of the number of a cell, nothing: the file says that there is none
 ///   also     called for every accepted row, for what columns alone cannot say; may be empty

@@ -1,5 +1,7 @@
 // NREL TMY3 CSV: a station line, a line of column names with units, 8760 rows. Time 01:00..24:00
 // local standard, the end of the hour; -9900 is missing; months come from different years.
+#include <algorithm>
+
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
@@ -78,6 +80,16 @@ static void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptio
         if (name == "lprecip depth (mm)") depth_at = i;
         if (name == "lprecip quantity (hr)") hours_at = i;
     }
+    std::vector<std::string> unread;
+    for (std::size_t i = 2; i < names.size(); ++i) {
+        const bool read = i == depth_at || i == hours_at ||
+                          std::find(index.begin(), index.end(), i) != index.end();
+        const std::string name = lower(names[i]);
+        // Each value has its source and its uncertainty beside it.
+        if (!read && !name.ends_with(" source") && name.find("uncert") == std::string::npos)
+            unread.emplace_back(names[i]);
+    }
+    rows.unread_columns(unread);
     std::vector<std::string_view> f;
     Lines again = lines;
     TypicalYear typical;

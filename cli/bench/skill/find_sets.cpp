@@ -73,6 +73,35 @@ std::vector<Pair> pairs_of(const fs::path& met)
     return out;
 }
 
+// A file of GHCN-daily holds its own snow depths. Years with none tell nothing.
+void add_daily(const fs::path& file, SkillSets& sets)
+{
+    const std::string text = text_of(file);
+    if (std::string(weather::recognise_weather(text).name).rfind("GHCN-daily", 0) != 0) return;
+    weather::ReadOptions options;
+    options.fill = false;
+    auto read = weather::read_weather(text, options);
+    WinterSet set;
+    set.raw = read.table;
+    set.winter.observed = observations_of(read.table);
+    const bool seen = std::any_of(
+        set.winter.observed.columns.begin(), set.winter.observed.columns.end(),
+        [](const ObservedColumn& c) { return c.column == "snow_depth_m"; });
+    if (!seen) {
+        sets.notes.push_back(file.string() + ": no snow depth in it");
+        return;
+    }
+    set.winter.observed.daily = true;
+    constexpr std::int64_t kDay_us = 86400LL * weather::kMicrosPerSecond;
+    for (ObservedColumn& column : set.winter.observed.columns)
+        for (std::int64_t& us : column.time_us) us -= (us % kDay_us + kDay_us) % kDay_us;
+    weather::fill_forcing(read.table, read.report);
+    set.winter.name = file.stem().string();
+    set.winter.table = std::move(read.table);
+    set.weather_file = set.observed_file = file.string();
+    sets.winters.push_back(std::move(set));
+}
+
 WinterSet winter_of(const Pair& pair)
 {
     weather::ReadOptions options;
@@ -181,6 +210,8 @@ SkillSets find_skill_sets(const std::string& folder)
                 fs::exists(file.parent_path() / "observation.xml"))
                 sets.roads.push_back(road_of(file.parent_path()));
             if (file.extension() == ".dat") add_station(file, sets);
+            if (file.extension() == ".dly" || file.filename().string().rfind("ghcn", 0) == 0)
+                add_daily(file, sets);
         } catch (const Error& e) {
             sets.notes.push_back(file.string() + ": " + e.what());
         }

@@ -30,6 +30,7 @@ struct SkillSets {
 ///
 ///   met_X.txt or .csv beside obs_X.txt or .csv, X_met_hourly.csv beside X_obs_daily.csv: winters
 ///   station.xml, observation.xml and roadcast_reference.xml in one folder: a road of METRo
+///   *.dly and ghcn* of GHCN-daily with snow depths: winters whose weather is a day's extremes
 ///   *.dat of SURFRAD, and Bondville's champaign_*.dat: stations with longwave
 ///
 /// A file site.toml in the folder of a winter gives its place (table [site]); winters of Col de

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "weather/physics/constants.h"
 
@@ -9,27 +10,51 @@ namespace petrichor::weather {
 
 namespace {
 
-// change = rate * driver, through the origin.
-struct LeastSquares {
-    double xy = 0.0, xx = 0.0, yy = 0.0;
-    std::size_t n = 0;
-    void add(double driver, double change)
+// change = rate * driver, as far as the mask has room: a film that fills within the hour asks for a
+// fast rate, not for what is left of the hour.
+class LeastSquares {
+public:
+    void add(double driver, double change, double room)
     {
-        xy += driver * change;
-        xx += driver * driver;
-        yy += change * change;
-        ++n;
+        if (driver > 0.0) samples_.push_back({driver, change, room});
     }
     FittedRate rate() const
     {
         FittedRate r;
-        r.hours = xx > 0.0 ? n : 0;
+        r.hours = samples_.size();
         if (r.hours == 0) return r;
-        r.per_hour = std::max(xy / xx, 0.0);
-        const double squares = yy - 2.0 * r.per_hour * xy + r.per_hour * r.per_hour * xx;
-        r.rms_residual = std::sqrt(std::max(squares, 0.0) / static_cast<double>(n));
+        double best = squares(0.0);
+        const auto try_rate = [&](double rate) {
+            const double now = squares(rate);
+            if (now >= best) return;
+            best = now;
+            r.per_hour = rate;
+        };
+        // The sum has corners where a sample fills up: a scan, then finer about the best.
+        for (double rate = kLeast_1_h; rate <= kMost_1_h; rate *= kCoarse) try_rate(rate);
+        const double around = r.per_hour;
+        for (int i = -kFine; i <= kFine && around > 0.0; ++i)
+            try_rate(std::min(kMost_1_h, around * (1.0 + (kCoarse - 1.0) * i / kFine)));
+        r.rms_residual = std::sqrt(best / static_cast<double>(r.hours));
         return r;
     }
+
+private:
+    static constexpr double kLeast_1_h = 1e-4, kMost_1_h = 50.0, kCoarse = 1.1;
+    static constexpr int kFine = 50;
+    struct Sample {
+        double driver, change, room;
+    };
+    double squares(double rate) const
+    {
+        double sum = 0.0;
+        for (const Sample& s : samples_) {
+            const double error = std::min(rate * s.driver, s.room) - s.change;
+            sum += error * error;
+        }
+        return sum;
+    }
+    std::vector<Sample> samples_;
 };
 
 }  // namespace
@@ -57,11 +82,13 @@ ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params,
         for (int m = 0; m < 3; ++m) {
             const double change = masks_after[m] - masks_before[m];
             if (!bare || t_c <= 0.0) continue;
-            if (after.rain > 0.0 && masks_before[m] < 0.95) wet[m].add(after.rain * hours, change);
-            if (after.rainfall == 0.0 && masks_before[m] > 0.02) dry[m].add(a * hours, -change);
+            if (after.rain > 0.0 && masks_before[m] < 0.95)
+                wet[m].add(after.rain * hours, change, 1.0 - masks_before[m]);
+            if (after.rainfall == 0.0 && masks_before[m] > 0.02)
+                dry[m].add(a * hours, -change, masks_before[m]);
         }
         if (after.snowfall > 0.0 && before.snow < 0.95)
-            snow.add(after.snowfall * hours, after.snow - before.snow);
+            snow.add(after.snowfall * hours, after.snow - before.snow, 1.0 - before.snow);
     }
     ArtistFit fit;
     fit.wetness = wet[0].rate();

@@ -26,7 +26,7 @@ struct ArtistFit {
 
 /// Least squares over all steps: mask changes of the physical model against the terms of the artist
 /// model (rainfall times rate while it rains and is warm, min(|T|/40, 1) times rate while it
-/// dries). Full and empty masks are left out.
+/// dries), which stop where the mask is full or empty. Full and empty masks are left out.
 ArtistFit fit_artist(const ForcingTable& table, const PhysicalParams& params,
                      const MappingParams& mapping = {});
 

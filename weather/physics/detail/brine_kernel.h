@@ -88,19 +88,26 @@ PETRICHOR_KERNEL void change_brine(const SurfacePoint<Real, Mask, Wetness>& p,
     change.melting = select(salted & (flux > zero), Real(1.0), change.melting);
 }
 
-// Salt under a pack eats it from below, with the heat of the ground. Returns the water that leaves,
-// and lowers the base's temperature by what that takes.
+// Salt under a pack eats it from below, with the heat of the ground; where brine is weaker than the
+// base is cold, it freezes. Returns the water that leaves the pack, and moves the base's temperature
+// by what that takes or gives.
 template <class Real, class Mask>
-PETRICHOR_KERNEL Real melted_by_salt(CellVars<Real>& c, const Mask& salted,
-                                     const BrineStores<Real>& s, double conductance, double dt_s,
-                                     Real& base_c)
+PETRICHOR_KERNEL Real changed_by_salt(CellVars<Real>& c, const Mask& salted,
+                                      const BrineStores<Real>& s, double conductance, double dt_s,
+                                      Real& base_c)
 {
+    const Real zero = 0.0;
     Real flow = 0.0;
-    const Real flux =
-        select(salted, larger(brine_flux(s, base_c, Real(conductance), dt_s), Real(0.0)), Real(0.0));
-    if (!any(flux > 0.0)) return flow;
-    const Real melted = melt_base(c, flux * (dt_s / kLatentFusion), flow);
-    base_c = base_c - melted * (kLatentFusion / (conductance * dt_s));
+    const Real wanted = select(salted, brine_flux(s, base_c, Real(conductance), dt_s), zero) *
+                        (dt_s / kLatentFusion);
+    const Real frozen = smaller(c.film, larger(wanted * -1.0, zero));
+    const Real below = smaller(c.film_ice, larger(wanted, zero));
+    c.film += below - frozen;
+    c.film_ice += frozen - below;
+    Real melted = below;
+    const Real rest = larger(wanted, zero) - below;
+    if (any(rest > zero)) melted += melt_base(c, rest, flow);
+    base_c += (frozen - melted) * (kLatentFusion / (conductance * dt_s));
     c.total_melt += melted;
     return flow;
 }

@@ -261,17 +261,21 @@ PETRICHOR_INLINE Real melted_by_ground(CellVars<Real>& c, const Mask& covered, d
     return flow;
 }
 
-// Water below a pack freezes with the cold of the ground, as far as that goes: the base warms by
-// what it gives.
+// Water below a pack freezes with the cold of the ground, and ice melts with its warmth, as far as
+// those go: the base moves towards 0 C by what it takes or gives. Where a dusting has melted away
+// within the step the base is the surface.
 template <class Real, class Mask>
-PETRICHOR_INLINE void freeze_below(CellVars<Real>& c, const Mask& wet_base, double conductance,
+PETRICHOR_INLINE void change_below(CellVars<Real>& c, const Mask& below, double conductance,
                                    double dt, Real& base_c)
 {
-    const Real cold = select(wet_base, larger(base_c * -1.0, Real(0.0)), Real(0.0));
-    const Real frozen = smaller(c.film, cold * (conductance * dt / kLatentFusion));
-    c.film = c.film - frozen;
-    c.film_ice += frozen;
-    base_c = base_c + frozen * (kLatentFusion / (conductance * dt));
+    const Real zero = 0.0;
+    const Real most = select(below, base_c, zero) * (conductance * dt / kLatentFusion);
+    const Real frozen = smaller(c.film, larger(most * -1.0, zero));
+    const Real melted = smaller(c.film_ice, larger(most, zero));
+    c.film += melted - frozen;
+    c.film_ice += frozen - melted;
+    c.total_melt += melted;
+    base_c += (frozen - melted) * (kLatentFusion / (conductance * dt));
 }
 
 // Cuts the pack into layers of 0.1 and 0.2 m from the top where `cut` says so; masses and heat go

@@ -146,13 +146,16 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
                                   select(covered, rain_mass, zero), snow <= zero, k);
         runoff += melted_by_ground(c, covered, ground.conductance_w_m2_k, dt, interface_c);
         if (any_salt) {
-            const BrineStores<Real> brine{c.salt, liquid, liquid + pack};
-            runoff += melted_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
-                                     interface_c);
+            const BrineStores<Real> brine{c.salt, c.film + c.crack + c.puddle,
+                                          c.film + c.crack + c.puddle + c.film_ice + pack};
+            runoff += changed_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
+                                      interface_c);
         }
-        const MaskOf<Real> wet_base = covered & (c.film > zero) & !salted;
-        if (any(wet_base & (interface_c < zero)))
-            freeze_below(c, wet_base, ground.conductance_w_m2_k, dt, interface_c);
+        const MaskOf<Real> changes_below =
+            covered & !salted &
+            (((c.film > zero) & (interface_c < zero)) | ((c.film_ice > zero) & (interface_c > zero)));
+        if (any(changes_below))
+            change_below(c, changes_below, ground.conductance_w_m2_k, dt, interface_c);
         if (part.cleared > 0.0) c.total_drainage += clear_snow(c, part.cleared);
         to_film = select(covered, runoff, rain_mass);
         c.total_sublimation += select(covered, vapour_mass, zero);
