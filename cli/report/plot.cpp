@@ -257,8 +257,8 @@ std::string subtitle(const SimulationTable& table)
            (table.typical_year ? "; a typical year: months of different years" : "");
 }
 
-// The events that find room: those of a year, not of its first months. Whole kinds are left out, the
-// most frequent first, and named.
+// The events that find room: those of a year, not of its first months. Whole kinds are left out,
+// the most frequent first, and named.
 struct PlottedEvents {
     std::vector<SimulationEvent> shown;
     std::string left_out;
@@ -276,9 +276,9 @@ PlottedEvents plotted_events(std::vector<SimulationEvent> events)
             events.resize(kMostEvents);
             break;
         }
-        const auto most = std::max_element(
-            counts.begin(), counts.end(),
-            [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto most =
+            std::max_element(counts.begin(), counts.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
         out.left_out += (out.left_out.empty() ? "" : ", ") + std::to_string(most->second) +
                         " times " + most->first;
         std::erase_if(events, [&](const SimulationEvent& e) { return e.text == most->first; });
@@ -291,8 +291,8 @@ PlottedEvents plotted_events(std::vector<SimulationEvent> events)
 // The numbered list of events below the panels, in two columns, and their numbers under the time
 // axis.
 void add_events(Drawing& drawing, const SimulationTable& table,
-                const std::vector<SimulationEvent>& events, const TimeAxis& time,
-                double numbers_y, double list_top)
+                const std::vector<SimulationEvent>& events, const TimeAxis& time, double numbers_y,
+                double list_top)
 {
     const std::size_t count = events.size();
     const std::size_t half = (count + 1) / 2;
@@ -332,8 +332,7 @@ Drawing plot_of(const SimulationTable& table)
         panels += panel.forcing ? kForcingHeight : kStateHeight;
     const double gaps = kPanelGap * static_cast<double>(table.panels.size());
     const double room =
-        kMostHeight - drawing.height - gaps - 40.0 -
-        18.0 * static_cast<double>(half + 1);
+        kMostHeight - drawing.height - gaps - 40.0 - 18.0 * static_cast<double>(half + 1);
     const double shrink = std::clamp(room / std::max(panels, 1.0), 0.33, 1.0);
     drawing.height += shrink * panels + gaps;
     const double list_top = drawing.height;

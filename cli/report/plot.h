@@ -9,8 +9,8 @@
 namespace petrichor::cli {
 
 /// A plot of the panels of a table, forcing above, state below, over one time axis (dates where the
-/// table has them) with its events as numbered dashed lines (of more than 40 the most frequent kinds
-/// are left out and named), and its warnings under the title. 960 units wide.
+/// table has them) with its events as numbered dashed lines (of more than 40 the most frequent
+/// kinds are left out and named), and its warnings under the title. 960 units wide.
 Drawing plot_of(const SimulationTable& table);
 /// The same as self-contained SVG.
 std::string svg_plot(const SimulationTable& table);

@@ -175,8 +175,7 @@ struct Plan {
     std::vector<std::size_t> map_steps;
 };
 
-Plan plan_of(const weather::ForcingTable& table, const GridRun& run,
-             const Landscape& grid)
+Plan plan_of(const weather::ForcingTable& table, const GridRun& run, const Landscape& grid)
 {
     const auto step_us = static_cast<std::int64_t>(std::llround(run.model.step_s * 1e6));
     const double steps_a_row = run.model.every_s / run.model.step_s;
@@ -306,7 +305,8 @@ SimulationTable run_grid(const weather::ReadResult& read, const std::string& nam
             run.on_map(map_of(grid, inside, terrain.cells()));
         const bool done = now >= plan.last, stopped = !done && run.stop && run.stop();
         if ((done || stopped) && run.on_checkpoint)
-            run.on_checkpoint(save_progress(*grid.only(), identity, {run.model.every_s, table.rows}));
+            run.on_checkpoint(
+                save_progress(*grid.only(), identity, {run.model.every_s, table.rows}));
         if (done) break;
         if (stopped) {
             throw Interrupted("interrupted: grid at " + weather::iso_from_us(grid.time_us()) +

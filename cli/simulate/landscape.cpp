@@ -26,8 +26,9 @@ bool alike(const weather::ForcingTable& a, const weather::ForcingTable& b)
 
 }  // namespace
 
-WeatherField read_weather_field(const std::vector<std::string>& words, const film::SiteOptions& site,
-                                const Terrain& terrain, std::size_t side, bool nearest)
+WeatherField read_weather_field(const std::vector<std::string>& words,
+                                const film::SiteOptions& site, const Terrain& terrain,
+                                std::size_t side, bool nearest)
 {
     if (side < 1 || side > kMostSide)
         throw Error("grid: --weather-parts must be 1.." + std::to_string(kMostSide) + ", got " +

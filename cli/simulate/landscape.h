@@ -12,7 +12,8 @@
 
 namespace petrichor::cli {
 
-/// Weather at the middle of each of side x side equal parts of a terrain, row by row from the north.
+/// Weather at the middle of each of side x side equal parts of a terrain, row by row from the
+/// north.
 struct WeatherField {
     std::size_t side = 0;  ///< 0: none, one weather for all
     std::vector<weather::ForcingTable> tables;
@@ -23,8 +24,9 @@ struct WeatherField {
 ///   words   the inputs as on the command line
 ///   throws  Error without a place, for inputs that are one place only (all parts alike), for parts
 ///           that differ in their times or whose height is not known, and as reading does
-WeatherField read_weather_field(const std::vector<std::string>& words, const film::SiteOptions& site,
-                                const Terrain& terrain, std::size_t side, bool nearest);
+WeatherField read_weather_field(const std::vector<std::string>& words,
+                                const film::SiteOptions& site, const Terrain& terrain,
+                                std::size_t side, bool nearest);
 
 /// Cells of a terrain under one weather, or under that of their part of it.
 class Landscape {

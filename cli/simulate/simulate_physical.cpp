@@ -129,8 +129,7 @@ void read_events(const std::string& file, PhysicalInput& input)
 {
     PhysicalRun& run = input.run;
     const auto& times = input.read.table.time_us;
-    run.events =
-        weather::read_road_events(read_input_file(file), file, run.clock_offset_s);
+    run.events = weather::read_road_events(read_input_file(file), file, run.clock_offset_s);
     if (run.events.empty())
         throw Error("road events: " + file + " has none",
                     "Write lines time,salt|brine|plough,amount.");

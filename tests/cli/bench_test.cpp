@@ -46,8 +46,8 @@ TEST(BenchWeather, TimesEveryRowWithoutAnyFile)
         names_of(report),
         ElementsAre("degree_day_bare", "cell_year_bare", "road_year_bare", "seek_bare",
                     "degree_day_snow", "cell_year_snow", "road_year_snow", "seek_snow", "read_epw",
-                    "read_metar_year", "artist_exact", "artist_stepped", "grid_bare_1_thread", "grid_bare_all_threads",
-                    "grid_snow_1_thread", "grid_snow_all_threads"));
+                    "read_metar_year", "artist_exact", "artist_stepped", "grid_bare_1_thread",
+                    "grid_bare_all_threads", "grid_snow_1_thread", "grid_snow_all_threads"));
     for (const auto& row : report["rows"]) {
         EXPECT_GE(row["cpu_ms"], 0.0) << row["name"];
         EXPECT_GT(row["wall_ms"], 0.0) << row["name"];
@@ -69,8 +69,8 @@ TEST(BenchWeather, TimesARealFile)
     EXPECT_EQ(report["weather"], "town.epw");
     EXPECT_THAT(names_of(report),
                 ElementsAre("degree_day_file", "cell_year_file", "road_year_file", "seek_file",
-                            "read_epw", "read_metar_year", "read_file", "artist_exact", "artist_stepped",
-                            "grid_file_1_thread", "grid_file_all_threads"));
+                            "read_epw", "read_metar_year", "read_file", "artist_exact",
+                            "artist_stepped", "grid_file_1_thread", "grid_file_all_threads"));
 }
 
 TEST(BenchWeather, SaysWhichFileIsNotThere)

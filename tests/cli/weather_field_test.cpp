@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 class Era5 {
 public:
     Era5(bool with_height, double east_k = -12.0)
-        : path_(fs::temp_directory_path() / ("petrichor-field-" + std::to_string(::getpid()) + ".nc"))
+        : path_(fs::temp_directory_path() /
+                ("petrichor-field-" + std::to_string(::getpid()) + ".nc"))
     {
         int id = -1, time = -1, lat = -1, lon = -1;
         nc_create(path_.c_str(), NC_CLOBBER, &id);
@@ -63,7 +64,8 @@ public:
             return t < 40 ? 0.001 * (1.0 - 0.5 * x * (east_k < 0.0 ? 1.0 : 0.0)) : 0.0;
         });
         if (with_height)
-            field("z", "m**2 s**-2", [](std::size_t, double x) { return 9.80665 * (1000 + 400 * x); });
+            field("z", "m**2 s**-2",
+                  [](std::size_t, double x) { return 9.80665 * (1000 + 400 * x); });
         nc_close(id);
     }
     ~Era5() { fs::remove(path_); }
@@ -107,8 +109,8 @@ TEST(WeatherField, EachPartHasTheWeatherOfItsMiddle)
             const auto& t = field.tables[row * 3 + i];
             EXPECT_NEAR(t[weather::Field::AirTemp][0],
                         273.0 + 12 * step_deg * (1.0 - static_cast<double>(i)), 0.01);
-            EXPECT_NEAR(t.site.elevation_m,
-                        1000 + 400 * step_deg * (static_cast<double>(i) - 1.0), 1);
+            EXPECT_NEAR(t.site.elevation_m, 1000 + 400 * step_deg * (static_cast<double>(i) - 1.0),
+                        1);
         }
         EXPECT_NEAR(field.tables[3 * row].site.latitude_deg,
                     46.0 + 0.29976 * (1.0 - static_cast<double>(row)), 1e-3);
@@ -132,9 +134,7 @@ TEST(WeatherField, TheLandscapeRunsUnderIt)
     run.on_map = [&](const GridMap& map) { last = map; };
     const auto table = run_grid(read, "era5", terrain, run);
     ASSERT_EQ(last.states.size(), 144u);
-    const auto swe = [&](std::size_t i) {
-        return weather::diagnostics(last.states[i]).swe_kg_m2;
-    };
+    const auto swe = [&](std::size_t i) { return weather::diagnostics(last.states[i]).swe_kg_m2; };
     // The west has rain, the east snow, both carried to 1000 m.
     EXPECT_LT(swe(0), 1.0);
     EXPECT_GT(swe(11), 15.0);

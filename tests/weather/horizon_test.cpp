@@ -118,8 +118,8 @@ TEST(Horizon, TextIsReadInAnyOrderAndBadLinesAreNamed)
     EXPECT_NEAR(two[150] / kDegree, 15, 1e-9);
     EXPECT_NEAR(two[20] / kDegree, 20 - 10 * 180.0 / 260.0, 1e-9);
     EXPECT_NEAR(two[330] / kDegree, 15, 1e-9);
-    for (const char* bad : {"0 0\n1 91", "0 0\n400 3", "0 0\n1 x", "0 0\n0 1", "0 0\n1", "0 0",
-                            "0 0\n1 2 3", ""})
+    for (const char* bad :
+         {"0 0\n1 91", "0 0\n400 3", "0 0\n1 x", "0 0\n0 1", "0 0\n1", "0 0", "0 0\n1 2 3", ""})
         EXPECT_THROW(read_horizon(bad, "h.txt"), Error) << bad;
 }
 

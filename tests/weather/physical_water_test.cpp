@@ -63,9 +63,9 @@ TEST(Water, SunDriesTheFilmFirst)
 }
 
 // After a shower of 5 mm under a June sun: the film is gone first, then the puddles, the cracks
-// last. A road in use is dry within two hours; pavement with hollows shows dark seams long after its
-// film is gone. (Drying of test sections: Harwood, Blackburn, Kibler & Kulakowski 1988, Transp. Res.
-// Rec. 1172, 32.)
+// last. A road in use is dry within two hours; pavement with hollows shows dark seams long after
+// its film is gone. (Drying of test sections: Harwood, Blackburn, Kibler & Kulakowski 1988, Transp.
+// Res. Rec. 1172, 32.)
 TEST(Water, FilmDriesFirstAndCracksLast)
 {
     ForcingTable t;

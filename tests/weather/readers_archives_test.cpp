@@ -485,11 +485,12 @@ TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
             const std::string one = text.substr(begin, end - begin);
             for (const char c : {',', ';', '|', '\t'}) {
                 const auto fields = split(one, c);
-                const auto names = std::count_if(
-                    fields.begin(), fields.end(), [](std::string_view f) {
-                        return !to_number(f) && std::count_if(f.begin(), f.end(), [](char x) {
-                            return std::isalpha(static_cast<unsigned char>(x)) != 0;
-                        }) >= 2;
+                const auto names =
+                    std::count_if(fields.begin(), fields.end(), [](std::string_view f) {
+                        return !to_number(f) &&
+                               std::count_if(f.begin(), f.end(), [](char x) {
+                                   return std::isalpha(static_cast<unsigned char>(x)) != 0;
+                               }) >= 2;
                     });
                 if (names >= 4 && fields.size() >= 4) separator = c;
             }
@@ -531,10 +532,10 @@ TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
                         // clock's zone that nobody tells any more.
                         const std::string said = lower(to_text(read.report));
                         const std::size_t unread = said.find("not read:");
-                        EXPECT_TRUE(said.find(lower(name) + "q") != said.npos ||
-                                    said.find("zone") != said.npos ||
-                                    (unread != said.npos &&
-                                     said.find(lower(name), unread) != said.npos))
+                        EXPECT_TRUE(
+                            said.find(lower(name) + "q") != said.npos ||
+                            said.find("zone") != said.npos ||
+                            (unread != said.npos && said.find(lower(name), unread) != said.npos))
                             << file << ": " << name;
                     }
                 } catch (const Error&) {

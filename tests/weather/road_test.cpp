@@ -81,7 +81,8 @@ TEST(Road, ADustingThatMeltsLeavesAWarmRoad)
     PhysicalParams p;
     p.surface = surface_preset("road");
     p.deep_temp_k = 280.15;
-    const ForcingTable dry = steady(274.15, 250, 280, 0, 6), dusted = steady(274.15, 250, 280, 0.05, 6);
+    const ForcingTable dry = steady(274.15, 250, 280, 0, 6),
+                       dusted = steady(274.15, 250, 280, 0.05, 6);
     const CellState a = PhysicalTimeline(dry, p).state_at(6 * kHourUs);
     const CellState b = PhysicalTimeline(dusted, p).state_at(6 * kHourUs);
     ASSERT_GT(a.surface_temp_c, 5.0);

@@ -87,8 +87,7 @@ TEST(Salt, KeepsAWetRoadLiquid)
     EXPECT_GT(brine.salt, 0.02);
     const double liquid = brine.film + brine.crack + brine.puddle;
     const double frozen = brine.film_ice + brine.crack_ice + brine.puddle_ice;
-    EXPECT_NEAR(liquid,
-                brine_water_kg_m2(brine.salt, liquid + frozen, brine.surface_temp_c),
+    EXPECT_NEAR(liquid, brine_water_kg_m2(brine.salt, liquid + frozen, brine.surface_temp_c),
                 0.1 * (liquid + frozen));
     EXPECT_NEAR(brine.film_ice, 0.0, 1e-9);
 }
@@ -166,8 +165,7 @@ TEST(Salt, FreezesInPartUnderSnowToo)
     const CellState end = PhysicalTimeline(t, p, c, 3 * kHourUs).state_at(12 * kHourUs);
     ASSERT_GT(diagnostics(end).swe_kg_m2, 1.0);
     EXPECT_GT(end.film_ice, 0.2);
-    EXPECT_NEAR(end.film, brine_water_kg_m2(end.salt, 10.0, end.ground_temp_c[0]),
-                0.2 * end.film);
+    EXPECT_NEAR(end.film, brine_water_kg_m2(end.salt, 10.0, end.ground_temp_c[0]), 0.2 * end.film);
     EXPECT_LT(std::abs(end.mass_residual_most), 1e-9);
 }
 
@@ -176,7 +174,8 @@ TEST(RoadEvents, HappenAtTheEndOfTheirStepInAnyOrderOfAsking)
     const ForcingTable t = steady(268.15, 0, 260, 0, 1.0, 60);
     PhysicalParams p = road();
     p.surface.snow_clearing_1_h = 0;
-    p.events = {{30 * kHourUs + 5, RoadEvent::Kind::Plough, 0.9}, {40 * kHourUs, RoadEvent::Kind::Salt, 20}};
+    p.events = {{30 * kHourUs + 5, RoadEvent::Kind::Plough, 0.9},
+                {40 * kHourUs, RoadEvent::Kind::Salt, 20}};
     const PhysicalTimeline run(t, p);
     const auto swe = [&](std::int64_t us) { return diagnostics(run.state_at(us)).swe_kg_m2; };
     EXPECT_GT(swe(30 * kHourUs), 25.0);
@@ -204,10 +203,9 @@ TEST(RoadEvents, TextIsReadAndWhatIsWrongIsNamed)
     EXPECT_EQ(events[0].kind, RoadEvent::Kind::Salt);
     EXPECT_EQ(events[0].time_us, events[1].time_us);  // 15:00 an hour ahead of UTC
     EXPECT_EQ(events[2].kind, RoadEvent::Kind::Plough);
-    for (const char* bad :
-         {"2004-01-30T22:00,salt", "x,salt,2", "2004-01-30T22:00,sand,2",
-          "2004-01-30T22:00,plough,1.5", "2004-01-30T22:00,salt,-3", "2004-01-30T22:00,salt,nan",
-          "2004-01-30T22:00,salt,2000"}) {
+    for (const char* bad : {"2004-01-30T22:00,salt", "x,salt,2", "2004-01-30T22:00,sand,2",
+                            "2004-01-30T22:00,plough,1.5", "2004-01-30T22:00,salt,-3",
+                            "2004-01-30T22:00,salt,nan", "2004-01-30T22:00,salt,2000"}) {
         try {
             read_road_events(bad, "e.csv", 0.0);
             FAIL() << bad;

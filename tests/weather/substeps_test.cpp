@@ -150,9 +150,10 @@ TEST(Substeps, HourlyStepsOfADeepPackConverge)
     };
     const double hour = error_of(3600, 600), finer = error_of(3600, 60), half = error_of(1800, 600),
                  ten = error_of(600, 600);
-    std::printf("  SWE %.0f kg/m2: an hour %.3f (substeps of a minute %.3f), half an hour %.3f, "
-                "ten minutes %.3f\n",
-                mean, hour, finer, half, ten);
+    std::printf(
+        "  SWE %.0f kg/m2: an hour %.3f (substeps of a minute %.3f), half an hour %.3f, "
+        "ten minutes %.3f\n",
+        mean, hour, finer, half, ten);
     EXPECT_LE(hour, 0.005 * mean);
     EXPECT_NEAR(finer, hour, 0.1 * hour);
     EXPECT_LE(half, 0.8 * hour);

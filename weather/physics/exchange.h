@@ -29,8 +29,8 @@ double stability_factor(double richardson, double neutral, double wind_height_m,
                         double roughness_m);
 
 /// C of the unstable branch 1 + 15 |Ri| / (1 + C sqrt|Ri|) that the model uses, Mascart, Noilhan &
-/// Giordani 1995: as Louis' 75 CHn sqrt(zU/z0), and right too where heat has a roughness of its own.
-/// In calm air the exchange becomes that of free convection.
+/// Giordani 1995: as Louis' 75 CHn sqrt(zU/z0), and right too where heat has a roughness of its
+/// own. In calm air the exchange becomes that of free convection.
 double convection_coefficient(double wind_height_m, double roughness_m, double heat_roughness_m);
 
 }  // namespace petrichor::weather

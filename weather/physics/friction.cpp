@@ -79,8 +79,7 @@ RoadCondition road_condition(const CellState& c)
     const bool settles = c.flux_latent < 0.0;
     const bool freezes = c.surface_temp_c <= freezing_point_c(c.salt, c.film + c.crack + c.puddle);
     if (settles && !rains && !freezes) return RoadCondition::Dew;
-    if ((settles && !snows && freezes) || c.flux_melt < 0.0)
-        return RoadCondition::Frost;
+    if ((settles && !snows && freezes) || c.flux_melt < 0.0) return RoadCondition::Frost;
     return RoadCondition::Dry;
 }
 

@@ -52,7 +52,8 @@ double horizon_sky_view(std::span<const double> horizon)
 double beam_share(std::span<const double> horizon, std::int64_t begin_us, std::int64_t length_us,
                   double latitude_deg, double longitude_deg)
 {
-    const std::int64_t parts = std::max<std::int64_t>(4, (length_us + kQuarter_us - 1) / kQuarter_us);
+    const std::int64_t parts =
+        std::max<std::int64_t>(4, (length_us + kQuarter_us - 1) / kQuarter_us);
     double up = 0.0, past = 0.0;
     for (std::int64_t i = 0; i < parts; ++i) {
         const std::int64_t at_us = begin_us + length_us * (2 * i + 1) / (2 * parts);

@@ -18,9 +18,9 @@ double horizon_elevation(std::span<const double> horizon, double azimuth_rad);
 /// open.
 double horizon_sky_view(std::span<const double> horizon);
 
-/// Share of the sun's beam on flat ground that gets past the horizon between two times: positions at
-/// least every quarter of an hour, weighted by the sine of the sun's elevation. 1 where the sun does
-/// not rise.
+/// Share of the sun's beam on flat ground that gets past the horizon between two times: positions
+/// at least every quarter of an hour, weighted by the sine of the sun's elevation. 1 where the sun
+/// does not rise.
 double beam_share(std::span<const double> horizon, std::int64_t begin_us, std::int64_t length_us,
                   double latitude_deg, double longitude_deg);
 

@@ -21,9 +21,8 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.q_air =
         specific_humidity(vapour_pressure_pa(f.air_temp_k, f.rel_humidity_pct), f.pressure_pa);
     p.pressure = f.pressure_pa;
-    p.exchange =
-        air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) *
-        neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m) * wind;
+    p.exchange = air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) *
+                 neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m) * wind;
     p.richardson_k = detail::richardson_per_k_of(1.0 / (f.air_temp_k * wind * wind), skin.wind_height_m);
     p.convection =
         convection_coefficient(skin.wind_height_m, skin.roughness_m, 0.1 * skin.roughness_m);

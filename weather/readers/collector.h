@@ -53,8 +53,8 @@ public:
     /// A column that no reader of this format understands. It is a problem where its name speaks of
     /// weather and it is not ignored (ReadOptions::ignore), else a note.
     void unknown_column(std::string_view name, const std::vector<std::string>& ignored);
-    /// Columns of a known format that were not read, for a note: all, or of a long header those whose
-    /// names speak of weather.
+    /// Columns of a known format that were not read, for a note: all, or of a long header those
+    /// whose names speak of weather.
     void unread_columns(const std::vector<std::string>& names);
     ///   throws  Error that names the columns of unknown_column that are a problem
     void check_columns();

@@ -32,8 +32,9 @@ bool is_read(std::string_view name)
 {
     constexpr std::string_view kFlags = "_ATTRIBUTES";
     if (name.ends_with(kFlags)) name.remove_suffix(kFlags.size());
-    for (const char* known : {"STATION", "NAME", "DATE", "LATITUDE", "LONGITUDE", "ELEVATION", "TMIN",
-                              "TMAX", "TAVG", "PRCP", "AWND", "SNWD", "SNOW", "MDPR", "DAPR"}) {
+    for (const char* known :
+         {"STATION", "NAME", "DATE", "LATITUDE", "LONGITUDE", "ELEVATION", "TMIN", "TMAX", "TAVG",
+          "PRCP", "AWND", "SNWD", "SNOW", "MDPR", "DAPR"}) {
         if (name == known) return true;
     }
     return false;

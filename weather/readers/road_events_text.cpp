@@ -36,8 +36,8 @@ std::vector<RoadEvent> read_road_events(std::string_view text, const std::string
         const bool heading = first && lower(trimmed(fields[0])).rfind("time", 0) == 0;
         first = false;
         if (heading) continue;
-        const std::string where = "road events: " + name + " line " +
-                                  std::to_string(lines.number()) + ": ";
+        const std::string where =
+            "road events: " + name + " line " + std::to_string(lines.number()) + ": ";
         if (fields.size() != 3)
             throw Error(where + std::to_string(fields.size()) + " fields, not 3",
                         "Write time,salt|brine|plough,amount, as 2004-01-30T14:00,salt,20.");
@@ -50,7 +50,10 @@ std::vector<RoadEvent> read_road_events(std::string_view text, const std::string
             throw Error(where + "there is no event '" + shown(fields[1]) + "'",
                         "Use salt (g/m2), brine (g/m2 of 23 %) or plough (share of the snow).");
         const auto amount = to_number(trimmed(fields[2]));
-        const RoadEvent event{*us, *kind, amount.value_or(-1.0)};
+        if (!amount)
+            throw Error(where + "'" + shown(fields[2]) + "' is not a number",
+                        "Give salt and brine in g/m2, and a plough the share of the snow.");
+        const RoadEvent event{*us, *kind, *amount};
         try {
             check_events({&event, 1});
         } catch (const Error& e) {
@@ -61,9 +64,8 @@ std::vector<RoadEvent> read_road_events(std::string_view text, const std::string
                         "Give those of the run alone.");
         events.push_back(event);
     }
-    std::stable_sort(events.begin(), events.end(), [](const RoadEvent& a, const RoadEvent& b) {
-        return a.time_us < b.time_us;
-    });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const RoadEvent& a, const RoadEvent& b) { return a.time_us < b.time_us; });
     return events;
 }
 

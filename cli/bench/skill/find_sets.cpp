@@ -84,9 +84,9 @@ void add_daily(const fs::path& file, SkillSets& sets)
     WinterSet set;
     set.raw = read.table;
     set.winter.observed = observations_of(read.table);
-    const bool seen = std::any_of(
-        set.winter.observed.columns.begin(), set.winter.observed.columns.end(),
-        [](const ObservedColumn& c) { return c.column == "snow_depth_m"; });
+    const bool seen =
+        std::any_of(set.winter.observed.columns.begin(), set.winter.observed.columns.end(),
+                    [](const ObservedColumn& c) { return c.column == "snow_depth_m"; });
     if (!seen) {
         sets.notes.push_back(file.string() + ": no snow depth in it");
         return;

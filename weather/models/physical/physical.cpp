@@ -107,7 +107,10 @@ struct PhysicalTimeline::Impl {
     std::size_t first_step = 0;          // where the checkpoints begin
     std::vector<CellState> checkpoints;  // before steps first_step, first_step + 24, ..
 
-    detail::StepWalk walk_from(std::size_t step) const { return {*table, plan, step, sun_use(), params.horizon}; }
+    detail::StepWalk walk_from(std::size_t step) const
+    {
+        return {*table, plan, step, sun_use(), params.horizon};
+    }
     detail::SunUse sun_use() const
     {
         return params.sky_view < 1.0 || !params.horizon.empty() ? detail::SunUse::Direction
@@ -139,9 +142,8 @@ struct PhysicalTimeline::Impl {
     // The step at whose end an event happens: that which a time falls into, its end included.
     std::size_t step_before(std::int64_t time_us) const
     {
-        return std::min(
-            static_cast<std::size_t>((time_us - plan.begin_us - 1) / plan.length_us),
-            plan.count - 1);
+        return std::min(static_cast<std::size_t>((time_us - plan.begin_us - 1) / plan.length_us),
+                        plan.count - 1);
     }
     // Index of the step that holds a time within the run.
     std::size_t step_of(std::int64_t time_us) const
@@ -168,8 +170,9 @@ struct PhysicalTimeline::Impl {
         }
         if (!wanted.horizon.empty() &&
             (std::isnan(source->site.latitude_deg) || std::isnan(source->site.longitude_deg))) {
-            throw Error("physical model: a horizon without a place: where the sun stands is not known",
-                        "Give latitude and longitude.");
+            throw Error(
+                "physical model: a horizon without a place: where the sun stands is not known",
+                "Give latitude and longitude.");
         }
         table = std::move(source);
         params = wanted;
@@ -206,9 +209,8 @@ struct PhysicalTimeline::Impl {
     void advance_partly(CellState& cell, std::size_t i, std::int64_t time_us) const
     {
         const std::int64_t begin_us = plan.begin_of(i);
-        const auto piece =
-            detail::make_step_forcing(*table, begin_us, time_us - begin_us, sun_use(),
-                                      params.horizon);
+        const auto piece = detail::make_step_forcing(*table, begin_us, time_us - begin_us,
+                                                     sun_use(), params.horizon);
         advance_cell(cell, place, &piece, 1, constants,
                      detail::make_step_constants(constants, piece.dt_s, params.substep_s));
         for (auto e = first_event_after(begin_us);

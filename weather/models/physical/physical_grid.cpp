@@ -40,9 +40,9 @@ CellState get_cell(const CellBlock& block, std::size_t lane)
 detail::CellPlace<double> place_of(const GridCell& cell, double station_m,
                                    const PhysicalParams& model)
 {
-    auto place = detail::station_place(
-        model.sky_view * cell.sky_view * horizon_sky_view(model.horizon),
-        model.precip_factor * cell.precip_factor);
+    auto place =
+        detail::station_place(model.sky_view * cell.sky_view * horizon_sky_view(model.horizon),
+                              model.precip_factor * cell.precip_factor);
     place.height_difference_m = cell.elevation_m - station_m;
     if (place.height_difference_m != 0.0) {
         place.pressure_factor =

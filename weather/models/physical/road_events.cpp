@@ -31,7 +31,9 @@ void plough(CellState& c, double share)
 void apply_event(CellState& c, const RoadEvent& event)
 {
     switch (event.kind) {
-        case RoadEvent::Kind::Salt: c.salt += 1e-3 * event.amount; break;
+        case RoadEvent::Kind::Salt:
+            c.salt += 1e-3 * event.amount;
+            break;
         case RoadEvent::Kind::Brine: {
             const double water = 1e-3 * event.amount * (1.0 - kSpreadBrine);
             c.salt += 1e-3 * event.amount * kSpreadBrine;
@@ -39,7 +41,9 @@ void apply_event(CellState& c, const RoadEvent& event)
             c.total_precip += water;
             break;
         }
-        case RoadEvent::Kind::Plough: plough(c, event.amount); break;
+        case RoadEvent::Kind::Plough:
+            plough(c, event.amount);
+            break;
     }
 }
 
@@ -49,9 +53,10 @@ void check_events(std::span<const RoadEvent> events)
         const RoadEvent& e = events[i];
         const double most = e.kind == RoadEvent::Kind::Plough ? 1.0 : kMostSpread_g_m2;
         if (!(e.amount >= 0.0 && e.amount <= most)) {
-            throw Error("road events: an amount of " + std::to_string(e.amount) +
-                            ", accepted are 0.." + (most > 1.0 ? "1000 g/m2" : "1"),
-                        "Give salt and brine in g/m2, and a plough the share of the snow it takes.");
+            throw Error(
+                "road events: an amount of " + std::to_string(e.amount) + ", accepted are 0.." +
+                    (most > 1.0 ? "1000 g/m2" : "1"),
+                "Give salt and brine in g/m2, and a plough the share of the snow it takes.");
         }
         if (i > 0 && e.time_us < events[i - 1].time_us)
             throw Error("road events: times go back", "Sort the events by time.");

@@ -1,7 +1,7 @@
 // Salt on the ground: how much of the water stays liquid below 0 C, and the heat that it takes.
 //
-// Water and ice of a salted cell are in equilibrium: the brine is as strong as its temperature asks.
-// Melting lowers the temperature, which stops it, so the two are found together:
+// Water and ice of a salted cell are in equilibrium: the brine is as strong as its temperature
+// asks. Melting lowers the temperature, which stops it, so the two are found together:
 //
 //   slope (free - T) + Lf / dt (liquid - brine(T)) = 0
 //
@@ -89,8 +89,8 @@ PETRICHOR_KERNEL void change_brine(const SurfacePoint<Real, Mask, Wetness>& p,
 }
 
 // Salt under a pack eats it from below, with the heat of the ground; where brine is weaker than the
-// base is cold, it freezes. Returns the water that leaves the pack, and moves the base's temperature
-// by what that takes or gives.
+// base is cold, it freezes. Returns the water that leaves the pack, and moves the base's
+// temperature by what that takes or gives.
 template <class Real, class Mask>
 PETRICHOR_KERNEL Real changed_by_salt(CellVars<Real>& c, const Mask& salted,
                                       const BrineStores<Real>& s, double conductance, double dt_s,

@@ -91,8 +91,8 @@ PETRICHOR_INLINE Real stability_factor_of(const Real& richardson, const Real& co
     const Real under = select(is_stable, steep, convection) * root + 1.0;
     return select(is_stable, Real(1.0), under + steep) / under;
 }
-// C where the roughness of heat is not that of momentum, from the logarithms of zU / z0 and z0 / z0h:
-// Mascart, Noilhan & Giordani 1995 (Boundary-Layer Meteorol. 72, 331).
+// C where the roughness of heat is not that of momentum, from the logarithms of zU / z0 and z0 /
+// z0h: Mascart, Noilhan & Giordani 1995 (Boundary-Layer Meteorol. 72, 331).
 inline double convection_of(double log_wind, double log_share)
 {
     const double m = log_share;

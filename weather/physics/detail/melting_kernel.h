@@ -67,8 +67,7 @@ PETRICHOR_INLINE PhaseChange<Real> change_phase(const SurfacePoint<Real, Mask, W
         held.surface_c = select(partly, (f0.balance - wanted) / root.slope, zero);
         for (int i = 0; i < 2; ++i) {
             // A dusting that melts at once leaves a warm road, not one in the air of a cold one.
-            held.exchange =
-                select(partly, exchange_at(p, params, held.surface_c), held.exchange);
+            held.exchange = select(partly, exchange_at(p, params, held.surface_c), held.exchange);
             follow(held.vapour, p, held.surface_c);
             const auto g = balance_with(p, humidity_at(held.vapour, held.surface_c), held.wet,
                                         held.surface_c, held.exchange);

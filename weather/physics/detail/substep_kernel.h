@@ -127,8 +127,7 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
     c.surface_temp_c = end_temperature(stores, change, surface_c, later, f.slope);
     if (any_salt) {
         // Brine goes on holding: what it changed is not undone at the end.
-        c.surface_temp_c =
-            select(salted_bare, surface_c + later / f.slope, c.surface_temp_c);
+        c.surface_temp_c = select(salted_bare, surface_c + later / f.slope, c.surface_temp_c);
     }
     const Real residual = f.balance - change.melt_flux;
 
@@ -148,12 +147,12 @@ PETRICHOR_KERNEL Real advance_substep(CellVars<Real>& c, const CellWeather<Real>
         if (any_salt) {
             const BrineStores<Real> brine{c.salt, c.film + c.crack + c.puddle,
                                           c.film + c.crack + c.puddle + c.film_ice + pack};
-            runoff += changed_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt,
-                                      interface_c);
+            runoff +=
+                changed_by_salt(c, salted_snow, brine, ground.conductance_w_m2_k, dt, interface_c);
         }
-        const MaskOf<Real> changes_below =
-            covered & !salted &
-            (((c.film > zero) & (interface_c < zero)) | ((c.film_ice > zero) & (interface_c > zero)));
+        const MaskOf<Real> changes_below = covered & !salted &
+                                           (((c.film > zero) & (interface_c < zero)) |
+                                            ((c.film_ice > zero) & (interface_c > zero)));
         if (any(changes_below))
             change_below(c, changes_below, ground.conductance_w_m2_k, dt, interface_c);
         if (part.cleared > 0.0) c.total_drainage += clear_snow(c, part.cleared);

@@ -137,8 +137,7 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
     if (params.stability == Stability::Neutral) return p.exchange;
     Real ri = p.richardson_k * (p.air_c - surface_c);
     if (params.stability == Stability::LouisCapped) ri = smaller(ri, Real(params.max_richardson));
-    return p.exchange *
-           smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
+    return p.exchange * smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
 }
 
 constexpr double kLongestStep_k = 20.0;

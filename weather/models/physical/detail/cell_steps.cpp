@@ -184,8 +184,8 @@ CellConstants make_cell_constants(const PhysicalParams& params, const Site& site
     k.neutral_bare =
         neutral_exchange_of(k.log_wind_height - k.log_roughness,
                             k.log_temp_height_10 - (k.log_roughness + k.heat_roughness));
-    k.convection_bare = convection_of(k.log_wind_height - k.log_roughness,
-                                      -logarithm(s.heat_roughness_share));
+    k.convection_bare =
+        convection_of(k.log_wind_height - k.log_roughness, -logarithm(s.heat_roughness_share));
     k.convection_snow =
         convection_of(k.log_wind_height - k.log_snow_roughness, logarithm(10.0));  // z0h = z0 / 10
     k.inverse_cover_depth = 1.0 / params.snow.cover_depth_m;

@@ -40,8 +40,8 @@ bool machine_has_wide_registers();
 /// The place of a station on flat, open ground.
 CellPlace<double> station_place(double sky_view = 1.0, double precip_factor = 1.0);
 /// The year behind a series of any length: air temperature as a mean and a cosine. Of a series of
-/// less than 120 days the mean is half that of its latitude and height (climate_mean_c), half its own
-/// less the season of its latitude (climate_amplitude_k), where the latitude is known.
+/// less than 120 days the mean is half that of its latitude and height (climate_mean_c), half its
+/// own less the season of its latitude (climate_amplitude_k), where the latitude is known.
 struct YearlyWave {
     double mean_c = 8.0, amplitude_k = 0.0;
     double recent_k = 0.0;  // of a short series: its own mean over mean_c
