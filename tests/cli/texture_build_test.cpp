@@ -149,10 +149,10 @@ TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
     texproc::write_image(place / "in/wet/soil_diff_2k.png",
                          Image(64, 64, 3, ColorSpace::Linear, 0.3f));
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
-    write_file(place / "out/gltf/Brick01_normal.png", "scribble");
+    write_file(place / "out/gltf/Brick01_normal.ktx2", "scribble");
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
-    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.png"),
-              first.at("gltf/Brick01_normal.png"));
+    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.ktx2"),
+              first.at("gltf/Brick01_normal.ktx2"));
 }
 
 TEST(TextureBuild, BytesDoNotDependOnThreads)

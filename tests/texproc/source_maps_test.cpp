@@ -26,11 +26,11 @@ protected:
                                      0.1f * std::sin(0.1963495f * static_cast<float>(x + y));
             }
         }
-        Image normal = normal_from_height(height);
-        up = to_raw(normal, PixelType::U8);
+        up = to_raw(normal_from_height(height), PixelType::U8);
         write_raw(folder / "up.png", up);
-        flip_green(normal);
-        write_image(folder / "down.png", normal);
+        RawImage down = up;
+        for (std::size_t i = 1; i < down.bytes.size(); i += 3) down.bytes[i] ^= std::byte{255};
+        write_raw(folder / "down.png", down);
         write_image(folder / "height.png", height, {.bits = 16});
         write_image(folder / "small.png", resized(height, 32, 32), {.bits = 16});
     }
@@ -61,7 +61,7 @@ TEST_F(GreenDirectionOfMaterials, TheHeightMapDecidesForEveryEngine)
         for (const Green named : {Green::Auto, Green::Up, Green::Down}) {
             for (const char* normal : {"up.png", "down.png"}) {
                 const SourceMaps read = maps(normal, height, named, Green::Auto);
-                EXPECT_EQ(read.images.at("normal").bytes, up.bytes) << normal << " " << height;
+                EXPECT_TRUE(read.images.at("normal").bytes == up.bytes) << normal << " " << height;
                 EXPECT_THAT(read.green, HasSubstr("the height map"));
             }
         }
