@@ -206,7 +206,7 @@ constexpr const char* kFooter =
     "  file = \"{name}_wet\"\n"
     "  channels = [\"porosity\", \"1 - roughness\"]\n"
     "  format = \"ktx2\"                  # png, tga, tif, exr, dds, ktx2\n"
-    "  compression = \"bc5\"              # bc1, bc3, bc4, bc5, bc7\n"
+    "  compression = \"bc5\"              # bc1, bc3, bc4, bc5, bc7, uastc (ktx2)\n"
     "  size = 1024";
 
 }  // namespace
@@ -227,7 +227,10 @@ void add_texture_build(CLI::App& texture)
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
     app->add_option("--size", a->choice.size, "longest side at most this")
         ->check(CLI::Range(1, 65536));
-    app->add_flag("--no-score", a->choice.no_score, "do not measure the lobe error");
+    app->add_option("--normal-green", a->choice.normal_green,
+                    "which way green points in the normal maps, whatever names and maps say")
+        ->check(CLI::IsMember({"up", "down"}));
+    app->add_flag("--no-score", a->choice.no_score, "do not measure the lobe error and the pictures");
     app->add_option("--threads", a->options.threads, "0: all cores; the bytes do not depend on it");
     app->add_flag("--dry-run", a->options.dry_run, "print what would be made");
     app->add_flag("--force", a->options.force, "make what is up to date as well");

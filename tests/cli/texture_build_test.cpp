@@ -112,8 +112,8 @@ TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
     const Outcome outcome = run(command, place);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto first = contents(place / "out");
-    EXPECT_TRUE(first.count("gltf/Brick01_baseColor.png"));
-    EXPECT_TRUE(first.count("gltf/wet/soil_occlusionRoughnessMetallic.png"));
+    EXPECT_TRUE(first.count("gltf/Brick01_baseColor.ktx2"));
+    EXPECT_TRUE(first.count("gltf/wet/soil_occlusionRoughnessMetallic.ktx2"));
     EXPECT_TRUE(first.count("filament/wet/soil_orm_6.png")) << "one file a level";
     EXPECT_THAT(outcome.out, HasSubstr("2 built"));
 
@@ -149,10 +149,10 @@ TEST(TextureBuild, MakesEveryMaterialOfAFolderOnce)
     texproc::write_image(place / "in/wet/soil_diff_2k.png",
                          Image(64, 64, 3, ColorSpace::Linear, 0.3f));
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
-    write_file(place / "out/gltf/Brick01_normal.png", "scribble");
+    write_file(place / "out/gltf/Brick01_normal.ktx2", "scribble");
     EXPECT_THAT(run(command, place).out, HasSubstr("1 built"));
-    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.png"),
-              first.at("gltf/Brick01_normal.png"));
+    EXPECT_EQ(contents(place / "out").at("gltf/Brick01_normal.ktx2"),
+              first.at("gltf/Brick01_normal.ktx2"));
 }
 
 TEST(TextureBuild, BytesDoNotDependOnThreads)
@@ -232,9 +232,9 @@ TEST(TextureBuild, OneBadMaterialDoesNotStopTheOthers)
     EXPECT_THAT(outcome.err, HasSubstr("soil_arm_2k.png"));
     EXPECT_THAT(outcome.out, HasSubstr("1 built"));
     const auto after = contents(place / "out");
-    EXPECT_EQ(after.at("wet/soil_normal.png"), before.at("wet/soil_normal.png"))
+    EXPECT_EQ(after.at("wet/soil_normal.ktx2"), before.at("wet/soil_normal.ktx2"))
         << "old outputs stay";
-    EXPECT_NE(after.at("Brick01_baseColor.png"), before.at("Brick01_baseColor.png"));
+    EXPECT_NE(after.at("Brick01_baseColor.ktx2"), before.at("Brick01_baseColor.ktx2"));
     EXPECT_EQ(after.size(), before.size()) << "nothing half done is left";
 }
 
@@ -260,7 +260,7 @@ TEST(TextureBuild, WatchBuildsAgainAndEndsWithCtrlC)
     const Workplace place("build_watch");
     write_materials(place / "in");
     // The change is made by the test while the program waits; the second file is the sign to stop.
-    const fs::path sign = place / "out/wet/soil_emissive.png";
+    const fs::path sign = place / "out/wet/soil_emissive.ktx2";
     std::thread change([&] {
         for (int i = 0; i < 1000 && !fs::exists(place / "out/manifest.json"); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -337,8 +337,8 @@ TEST(TextureBuild, MapsOfDifferentSizesAreNamed)
     const Outcome outcome = run({"texture", "build", "in", "--engine", "gltf", "-o", "out"}, place);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("AmbientOcclusion.png is 32 x 64"));
-    EXPECT_TRUE(fs::exists(place / "out/wet/soil_normal.png"));
-    EXPECT_FALSE(fs::exists(place / "out/Brick01_normal.png"));
+    EXPECT_TRUE(fs::exists(place / "out/wet/soil_normal.ktx2"));
+    EXPECT_FALSE(fs::exists(place / "out/Brick01_normal.ktx2"));
 }
 
 // Several engines built one after the other into one folder: the manifest tells of all whose files
@@ -389,11 +389,11 @@ TEST(TextureBuild, WhatCannotBeFilledIsLeftOut)
     std::vector<std::string> dry = command;
     dry.push_back("--dry-run");
     EXPECT_THAT(run(dry, place).out,
-                HasSubstr("left out    Leaf_baseColor.png: there is no albedo"));
+                HasSubstr("left out    Leaf_baseColor.ktx2: there is no albedo"));
     const Outcome made = run(command, place);
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    EXPECT_TRUE(fs::exists(place / "out/Leaf_normal.png"));
-    EXPECT_FALSE(fs::exists(place / "out/Leaf_baseColor.png"));
+    EXPECT_TRUE(fs::exists(place / "out/Leaf_normal.ktx2"));
+    EXPECT_FALSE(fs::exists(place / "out/Leaf_baseColor.ktx2"));
 }
 
 // People learn which images nothing was made of. Weather textures are no materials.
@@ -407,7 +407,7 @@ TEST(TextureBuild, DryRunNamesWhatItPassesOver)
     ASSERT_EQ(dry.exit_code, 0) << dry.err;
     EXPECT_THAT(dry.out, HasSubstr("passed over"));
     EXPECT_THAT(dry.out, HasSubstr("IMG_0042.png"));
-    EXPECT_THAT(dry.out, HasSubstr("Wall_occlusionRoughnessMetallic.png"));
+    EXPECT_THAT(dry.out, HasSubstr("Wall_occlusionRoughnessMetallic.ktx2"));
     EXPECT_THAT(dry.out, testing::Not(HasSubstr("ripple")));
     EXPECT_THAT(dry.out, testing::Not(HasSubstr("snow_water")));
 }

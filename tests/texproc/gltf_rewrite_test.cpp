@@ -17,10 +17,12 @@ using testing::HasSubstr;
 TEST(JsonText, WhatIsNotEditedStaysByteForByte)
 {
     const std::string text =
-        " {\"a\" : 1.50e+0 ,\t\"b\":[ 1,2 , 3.0],\n\"c\":{\"\\u00e9\": null, \"d\" : \"\\\"x\\n\"}}  ";
+        " {\"a\" : 1.50e+0 ,\t\"b\":[ 1,2 , 3.0],\n\"c\":{\"\\u00e9\": null, \"d\" : "
+        "\"\\\"x\\n\"}}  ";
     JsonText json = JsonText::parse(text);
-    EXPECT_EQ(json.dump(), "{\"a\" : 1.50e+0 ,\t\"b\":[ 1,2 , 3.0],\n\"c\":{\"\\u00e9\": null, "
-                           "\"d\" : \"\\\"x\\n\"}}");
+    EXPECT_EQ(json.dump(),
+              "{\"a\" : 1.50e+0 ,\t\"b\":[ 1,2 , 3.0],\n\"c\":{\"\\u00e9\": null, "
+              "\"d\" : \"\\\"x\\n\"}}");
     EXPECT_EQ(json.find("a")->as_number(), 1.5);
     EXPECT_EQ(json.find("c")->find("d")->as_string(), "\"x\n");
     EXPECT_TRUE(json.find("c")->find("\xc3\xa9"));
@@ -69,8 +71,8 @@ protected:
         std::string views;
         const auto add = [&](const std::vector<std::byte>& bytes) {
             file.bin.resize((file.bin.size() + 3) / 4 * 4);
-            views += std::string(views.empty() ? "" : ",") + "{\"buffer\":0,\"byteOffset\":" +
-                     std::to_string(file.bin.size()) +
+            views += std::string(views.empty() ? "" : ",") +
+                     "{\"buffer\":0,\"byteOffset\":" + std::to_string(file.bin.size()) +
                      ",\"byteLength\":" + std::to_string(bytes.size()) + "}";
             file.bin.insert(file.bin.end(), bytes.begin(), bytes.end());
         };
@@ -113,7 +115,8 @@ protected:
     {
         const RawImage image = decode_level(texture, level);
         std::vector<int> to;
-        for (std::size_t i = c; i < image.bytes.size(); i += static_cast<std::size_t>(image.channels))
+        for (std::size_t i = c; i < image.bytes.size();
+             i += static_cast<std::size_t>(image.channels))
             to.push_back(std::to_integer<int>(image.bytes[i]));
         return to;
     }
@@ -156,7 +159,8 @@ TEST_F(GltfRewrite, WhatIsNotATextureStaysByteForByte)
 TEST_F(GltfRewrite, TexturesBecomeKtx2WithAllLevels)
 {
     const GltfFile after = built(scene(kOne));
-    const MipTexture surface = texture(after, basis(after, 0)), normal = texture(after, basis(after, 1));
+    const MipTexture surface = texture(after, basis(after, 0)),
+                     normal = texture(after, basis(after, 1));
     for (const MipTexture* made : {&surface, &normal}) {
         EXPECT_EQ(made->levels.size(), 6u);
         EXPECT_EQ(made->format.block, Block::Uastc);
@@ -218,16 +222,15 @@ TEST_F(GltfRewrite, TransformsDecideWhatBelongsTogether)
 {
     const auto plan = [&](const std::string& extra) {
         return plan_images(
-            read_gltf_file(scene(
-                R"({"normalTexture":{"index":1)" + extra +
-                R"(},"pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}})")),
+            read_gltf_file(
+                scene(R"({"normalTexture":{"index":1)" + extra +
+                      R"(},"pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}})")),
             true);
     };
     EXPECT_EQ(plan("").recipes.at(1).normal, 1);
     EXPECT_EQ(plan("").recipes.at(0).surface, 0);
     for (const char* extra :
-         {R"(,"texCoord":1)",
-          R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})",
+         {R"(,"texCoord":1)", R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}})",
           R"(,"extensions":{"KHR_texture_transform":{"rotation":0.5}})"}) {
         for (const ImageRecipe& recipe : plan(extra).recipes) EXPECT_EQ(recipe.normal, -1) << extra;
         EXPECT_FALSE(plan(extra).notes.empty()) << extra;
@@ -246,7 +249,8 @@ TEST_F(GltfRewrite, AFallbackKeepsTheOldImagesAndFactors)
     EXPECT_EQ(basis(after, 1), 3u) << "the slots in their order: normals first";
     EXPECT_EQ(basis(after, 0), 4u);
     EXPECT_FALSE(after.json.find("extensionsRequired"));
-    EXPECT_TRUE(after.json.find("materials")->at(0).find("pbrMetallicRoughness")->find("roughnessFactor"));
+    EXPECT_TRUE(
+        after.json.find("materials")->at(0).find("pbrMetallicRoughness")->find("roughnessFactor"));
     EXPECT_NEAR(channel(texture(after, 4), 0, 1)[10], 40 + 4 * 10, 3);
 }
 
@@ -276,11 +280,12 @@ TEST_F(GltfRewrite, MeshoptPlacesMoveWithTheirBytes)
     file.json.edit("buffers").append(JsonText::parse(R"({"byteLength":9})"));
     write_bytes(in, to_bytes(file));
     const GltfFile after = built(in);
-    const JsonText& moved = *after.json.find("bufferViews")->at(5).find("extensions")->find(
-        "EXT_meshopt_compression");
+    const JsonText& moved =
+        *after.json.find("bufferViews")->at(5).find("extensions")->find("EXT_meshopt_compression");
     const std::size_t now = index(moved.find("byteOffset"));
     EXPECT_LT(now, at);
-    EXPECT_TRUE(std::equal(mesh.begin(), mesh.end(), after.bin.begin() + static_cast<std::ptrdiff_t>(now)));
+    EXPECT_TRUE(
+        std::equal(mesh.begin(), mesh.end(), after.bin.begin() + static_cast<std::ptrdiff_t>(now)));
     EXPECT_EQ(index(after.json.find("bufferViews")->at(5).find("byteLength")), 9u);
 }
 

@@ -297,6 +297,31 @@ TEST_F(Io, ACutPngIsAnError)
     EXPECT_THROW(read_raw(write_file("huge.png", huge)), Error);
 }
 
+// The library would fill the rest with grey.
+TEST_F(Io, ACutJpegIsAnError)
+{
+    Image image(96, 64, 3, ColorSpace::Linear);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = static_cast<float>((i * 2654435761u) >> 16 & 255) / 255.0f;
+    write_image(folder / "whole.jpg", image);
+    std::ifstream file(folder / "whole.jpg", std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_EQ(read_raw(folder / "whole.jpg").width, 96);
+    std::ofstream(folder / "tail.jpg", std::ios::binary) << whole << "what some tools append";
+    EXPECT_EQ(read_raw(folder / "tail.jpg").bytes, read_raw(folder / "whole.jpg").bytes);
+    for (const double share : {0.3, 0.6, 0.95}) {
+        const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+        std::ofstream(folder / "cut.jpg", std::ios::binary) << whole.substr(0, size);
+        try {
+            read_raw(folder / "cut.jpg");
+            ADD_FAILURE() << share;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("cut short"), std::string::npos)
+                << error.what();
+        }
+    }
+}
+
 TEST_F(Io, EveryPngAndPsdOfTheSharedSetIsRead)
 {
     NEED_ASSETS(assets);

@@ -138,8 +138,8 @@ RawImage texels(int channels, const std::function<int(int, int)>& value)
 
 int largest_error(const RawImage& image)
 {
-    const RawImage back = decode_blocks(encode_blocks(image, Block::Uastc), Block::Uastc,
-                                        image.width, image.height);
+    const RawImage back =
+        decode_blocks(encode_blocks(image, Block::Uastc), Block::Uastc, image.width, image.height);
     int most = 0;
     for (std::size_t p = 0; p < 16; ++p) {
         for (std::size_t c = 0; c < static_cast<std::size_t>(image.channels); ++c) {
@@ -160,8 +160,9 @@ TEST(Uastc, ColoursRampsAndMasksComeBack)
     EXPECT_LE(largest_error(texels(3, [](int t, int c) { return 40 + (c + 3) * t; })), 2);
     EXPECT_LE(largest_error(texels(4, [](int t, int c) { return c < 3 ? 90 : 16 * t; })), 4);
     // A cut-out: a colour under alpha of 0 and 255.
-    EXPECT_LE(largest_error(texels(4, [](int t, int c) { return c < 3 ? 30 * c + 50 : t / 8 * 255; })),
-              1);
+    EXPECT_LE(
+        largest_error(texels(4, [](int t, int c) { return c < 3 ? 30 * c + 50 : t / 8 * 255; })),
+        1);
 }
 
 TEST(Uastc, BytesDoNotDependOnThreadsOrInstructionSet)
@@ -220,9 +221,8 @@ TEST(Uastc, QualityOnARealMaterial)
     NEED_ASSETS(assets);
     const auto psnr = [&](const char* name) {
         const RawImage image = read_raw(assets / "materials/Rock020" / name);
-        const RawImage back =
-            decode_blocks(encode_blocks(image, Block::Uastc), Block::Uastc, image.width,
-                          image.height);
+        const RawImage back = decode_blocks(encode_blocks(image, Block::Uastc), Block::Uastc,
+                                            image.width, image.height);
         double total = 0;
         for (std::size_t p = 0; p < image.bytes.size() / 3; ++p) {
             for (std::size_t c = 0; c < 3; ++c) {

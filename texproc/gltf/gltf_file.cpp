@@ -173,8 +173,7 @@ bool moves(const JsonText& value, const std::vector<Part>& cuts)
 // Only objects whose place changes are written anew.
 void move_places(JsonText& value, const std::vector<Part>& cuts)
 {
-    if (is_place(value))
-        value.set("byteOffset", JsonText::number(moved(part_of(value).at, cuts)));
+    if (is_place(value)) value.set("byteOffset", JsonText::number(moved(part_of(value).at, cuts)));
     for (std::size_t i = 0; i < value.size(); ++i) {
         if (moves(value.at(i), cuts)) move_places(value.edit(i), cuts);
     }
@@ -271,9 +270,9 @@ std::vector<std::byte> resource_bytes(const GltfFile& file, const std::string& u
         !relative || relative->is_absolute() ||
         std::find(relative->begin(), relative->end(), fs::path("..")) != relative->end();
     if (outside) {
-        throw Error("glTF " + file.path.string() + ": " + uri +
-                        " does not lie in the folder of the scene",
-                    "Put the file beside the scene and name it by a relative path.");
+        throw Error(
+            "glTF " + file.path.string() + ": " + uri + " does not lie in the folder of the scene",
+            "Put the file beside the scene and name it by a relative path.");
     }
     return bytes_of(read_file(file.path.parent_path() / *relative, "glTF resource", kMostBytes));
 }
@@ -319,8 +318,9 @@ void remove_from_bin(GltfFile& file, const std::vector<std::size_t>& views)
     keep(file.bin.size());
     file.bin = std::move(bin);
     if (moves(file.json, cuts)) move_places(file.json, cuts);
-    file.json.edit("buffers").edit(std::size_t{0}).set("byteLength",
-                                                      JsonText::number(file.bin.size()));
+    file.json.edit("buffers")
+        .edit(std::size_t{0})
+        .set("byteLength", JsonText::number(file.bin.size()));
 }
 
 std::size_t add_to_bin(GltfFile& file, std::span<const std::byte> bytes,

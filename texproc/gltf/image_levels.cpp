@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "texproc/filter/area.h"
+#include "texproc/filter/resample.h"
 #include "texproc/material/base_share.h"
 
 namespace petrichor::texproc {
@@ -51,33 +52,6 @@ int whole_blocks(int side)
     return side == 3 ? 12 : 4;
 }
 
-// Bilinear, for sides that grow; what lies past an edge is the edge.
-Image enlarged(const Image& image, int width, int height)
-{
-    Image to(width, height, image.channels, image.space);
-    const auto place = [](int at, int size, int from) {
-        const float x = (static_cast<float>(at) + 0.5f) * static_cast<float>(from) /
-                            static_cast<float>(size) - 0.5f;
-        return std::clamp(x, 0.0f, static_cast<float>(from - 1));
-    };
-    for (int y = 0; y < height; ++y) {
-        const float v = place(y, height, image.height);
-        const int y0 = static_cast<int>(v), y1 = std::min(y0 + 1, image.height - 1);
-        const float fy = v - static_cast<float>(y0);
-        for (int x = 0; x < width; ++x) {
-            const float u = place(x, width, image.width);
-            const int x0 = static_cast<int>(u), x1 = std::min(x0 + 1, image.width - 1);
-            const float fx = u - static_cast<float>(x0);
-            for (int c = 0; c < image.channels; ++c) {
-                const float top = image.at(x0, y0, c) * (1 - fx) + image.at(x1, y0, c) * fx;
-                const float low = image.at(x0, y1, c) * (1 - fx) + image.at(x1, y1, c) * fx;
-                to.at(x, y, c) = top * (1 - fy) + low * fy;
-            }
-        }
-    }
-    return to;
-}
-
 Image repeated(const Image& image, int times_x, int times_y)
 {
     Image to(image.width * times_x, image.height * times_y, image.channels, image.space);
@@ -88,14 +62,6 @@ Image repeated(const Image& image, int times_x, int times_y)
         }
     }
     return to;
-}
-
-Image resized(const Image& image, int width, int height, int threads)
-{
-    if (image.width == width && image.height == height) return image;
-    const Image large = enlarged(image, std::max(width, image.width),
-                                 std::max(height, image.height));
-    return area_reduced(large, width, height, threads);
 }
 
 Image in_whole_blocks(Image image, int threads)
@@ -180,9 +146,8 @@ Image ImageMaker::decode(std::size_t image, ColorSpace space, int channels) cons
 bool ImageMaker::is_resampled(std::size_t recipe) const
 {
     const std::size_t image = plan_.recipes[recipe].image;
-    const RawImage shape =
-        image_shape(image_bytes(file_, image), name_of_image(file_, image),
-                    {.max_side = options_.size});
+    const RawImage shape = image_shape(image_bytes(file_, image), name_of_image(file_, image),
+                                       {.max_side = options_.size});
     return whole_blocks(shape.width) != shape.width || whole_blocks(shape.height) != shape.height;
 }
 
@@ -203,9 +168,8 @@ std::vector<Image> ImageMaker::color_levels(const ImageRecipe& recipe) const
     std::vector<Image> levels =
         plain_levels(decode(recipe.image, ColorSpace::Linear, 0), "albedo", mips);
     if (recipe.normal < 0 || options_.prefilter.rule != "picture") return levels;
-    const Image normals =
-        scaled_normals(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3),
-                       recipe.normal_scale);
+    const Image normals = scaled_normals(
+        decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), recipe.normal_scale);
     std::vector<Image> metallic;
     if (recipe.surface >= 0) {
         Image metal = channel_of(
@@ -225,8 +189,8 @@ std::vector<Image> ImageMaker::color_levels(const ImageRecipe& recipe) const
 
 namespace {
 
-// The surface and its normals brought to one size: that of the normals where they are finer by whole
-// levels, so that what the surface cannot show of them counts too.
+// The surface and its normals brought to one size: that of the normals where they are finer by
+// whole levels, so that what the surface cannot show of them counts too.
 template <class Pair>
 Pair to_pair(Image normals, const Image& surface, float scale, float factor, int threads)
 {
@@ -235,7 +199,7 @@ Pair to_pair(Image normals, const Image& surface, float scale, float factor, int
     for (float& value : pair.roughness.pixels) value *= factor;
     pair.skipped = levels_between(normals, surface);
     if (pair.skipped) {
-        pair.roughness = enlarged(pair.roughness, normals.width, normals.height);
+        pair.roughness = resized(pair.roughness, normals.width, normals.height, threads);
     } else {
         normals = resized(normals, surface.width, surface.height, threads);
     }
@@ -245,8 +209,8 @@ Pair to_pair(Image normals, const Image& surface, float scale, float factor, int
 
 PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageRecipe& recipe)
 {
-    PrefilterOptions to = prefilter_options(
-        options.prefilter, {.joint = true, .bits = 8, .threads = options.threads});
+    PrefilterOptions to = prefilter_options(options.prefilter,
+                                            {.joint = true, .bits = 8, .threads = options.threads});
     to.rebuild_z = true;
     if (recipe.normal_scale != 1.0f) to.bits = 0;  // the codes would be those of other normals
     return to;
@@ -271,8 +235,8 @@ std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe) const
     }
     if (recipe.normal < 0 || options_.prefilter.rule == "none") return levels;
     const Pair pair =
-        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3),
-                      surface, recipe.normal_scale, factor, options_.threads);
+        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
+                      recipe.normal_scale, factor, options_.threads);
     const Prefiltered chains =
         prefilter_raw(to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
                       pair_options(options_, recipe));
@@ -287,13 +251,14 @@ std::vector<Image> ImageMaker::normal_levels(const ImageRecipe& recipe) const
     const Image normals = decode(recipe.image, ColorSpace::Data, 3);
     std::vector<Image> levels = plain_levels(normals, "normal", mip_options(recipe));
     // Only rules that re-aim normals need the roughness here.
-    const bool aims = options_.prefilter.rule == "overlap" || options_.prefilter.rule == "student-t";
+    const bool aims =
+        options_.prefilter.rule == "overlap" || options_.prefilter.rule == "student-t";
     if (recipe.surface < 0 || !aims) return levels;
     const Image surface =
         resized(decode(static_cast<std::size_t>(recipe.surface), ColorSpace::Data, 3),
                 normals.width, normals.height, options_.threads);
-    const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale,
-                                    recipe.roughness_factor, options_.threads);
+    const Pair pair = to_pair<Pair>(normals, surface, recipe.normal_scale, recipe.roughness_factor,
+                                    options_.threads);
     const Prefiltered chains =
         prefilter_raw(to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
                       pair_options(options_, recipe));
@@ -307,9 +272,15 @@ MipTexture ImageMaker::make(std::size_t number) const
     const ImageRecipe& recipe = plan_.recipes[number];
     std::vector<Image> levels;
     switch (recipe.meaning) {
-        case ImageMeaning::Color: levels = color_levels(recipe); break;
-        case ImageMeaning::Surface: levels = surface_levels(recipe); break;
-        case ImageMeaning::Normal: levels = normal_levels(recipe); break;
+        case ImageMeaning::Color:
+            levels = color_levels(recipe);
+            break;
+        case ImageMeaning::Surface:
+            levels = surface_levels(recipe);
+            break;
+        case ImageMeaning::Normal:
+            levels = normal_levels(recipe);
+            break;
         case ImageMeaning::Data:
             levels = plain_levels(decode(recipe.image, ColorSpace::Data, 0), "scalar",
                                   mip_options(recipe));
@@ -343,8 +314,8 @@ std::optional<PictureError> ImageMaker::picture_error(std::size_t number,
     if (recipe.normal < 0 || options_.prefilter.rule == "none") return {};
     const Image surface = decode(recipe.image, ColorSpace::Data, 3);
     const Pair pair =
-        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3),
-                      surface, recipe.normal_scale, recipe.roughness_factor, options_.threads);
+        to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
+                      recipe.normal_scale, recipe.roughness_factor, options_.threads);
     // What a viewer reads: levels that one of the two images does not have are left to the maps.
     Prefiltered shipped;
     const auto levels = level_sizes(pair.normals.width, pair.normals.height);
@@ -352,12 +323,12 @@ std::optional<PictureError> ImageMaker::picture_error(std::size_t number,
     shipped.roughness.resize(levels.size());
     const auto fill = [&](const MipTexture& made, std::vector<Image>& to, bool normals) {
         for (std::size_t k = 0; k < made.levels.size(); ++k) {
-            Image level = with_channels(
-                to_image(decode_level(made, static_cast<int>(k), options_.threads),
-                         ColorSpace::Data),
-                3);
-            const auto at = std::find(levels.begin(), levels.end(),
-                                      LevelSize{level.width, level.height});
+            Image level =
+                with_channels(to_image(decode_level(made, static_cast<int>(k), options_.threads),
+                                       ColorSpace::Data),
+                              3);
+            const auto at =
+                std::find(levels.begin(), levels.end(), LevelSize{level.width, level.height});
             if (at == levels.end()) continue;
             Image& place = to[static_cast<std::size_t>(at - levels.begin())];
             if (normals) {
@@ -377,8 +348,8 @@ std::optional<PictureError> ImageMaker::picture_error(std::size_t number,
     pictures.samples = 8;
     pictures.threads = options_.threads;
     const PictureBench bench(to_raw(pair.normals, PixelType::U16),
-                             to_raw(pair.roughness, PixelType::U16),
-                             pair_options(options_, recipe), pictures);
+                             to_raw(pair.roughness, PixelType::U16), pair_options(options_, recipe),
+                             pictures);
     const auto mean = [](const std::vector<PictureScore>& scores) {
         PictureScore sum;
         for (const PictureScore& score : scores) {

@@ -15,16 +15,17 @@ namespace petrichor::texproc {
 
 struct ImageMakingOptions {
     PrefilterChoice prefilter;
-    bool bake_roughness = true;  ///< factors go into the images; else the images are divided by them
+    bool bake_roughness =
+        true;  ///< factors go into the images; else the images are divided by them
     std::string format = "uastc";  ///< or a name of texture_format(): "bc7"
     BlockQuality quality = BlockQuality::Normal;
     int size = 0;     ///< no side longer than this; 0: as the source
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };
 
-/// Makes the images of a plan: level 0 as the source has it, smaller ones filtered by what they hold,
-/// roughness and base colour with the normals that belong to them. Sides are multiples of four,
-/// which KHR_texture_basisu asks for: others are resampled to the next smaller one.
+/// Makes the images of a plan: level 0 as the source has it, smaller ones filtered by what they
+/// hold, roughness and base colour with the normals that belong to them. Sides are multiples of
+/// four, which KHR_texture_basisu asks for: others are resampled to the next smaller one.
 class ImageMaker {
 public:
     /// Both references must outlive this.

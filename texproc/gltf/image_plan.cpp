@@ -90,8 +90,7 @@ Placement placement_of(const GltfFile& file, const JsonText& info)
     Placement to;
     to.texcoord = index_of(info, "texCoord").value_or(0);
     const JsonText* extensions = info.find("extensions");
-    const JsonText* transform =
-        extensions ? extensions->find("KHR_texture_transform") : nullptr;
+    const JsonText* transform = extensions ? extensions->find("KHR_texture_transform") : nullptr;
     if (transform) {
         to.texcoord = index_of(*transform, "texCoord").value_or(to.texcoord);
         const auto pair = [&](const char* key, std::size_t at) {
@@ -158,8 +157,7 @@ private:
         const auto at = std::find(plan_.recipes.begin(), plan_.recipes.end(), recipe);
         if (at == plan_.recipes.end()) plan_.recipes.push_back(recipe);
         return static_cast<std::size_t>(
-            std::find(plan_.recipes.begin(), plan_.recipes.end(), recipe) -
-            plan_.recipes.begin());
+            std::find(plan_.recipes.begin(), plan_.recipes.end(), recipe) - plan_.recipes.begin());
     }
     // The image of a slot of this material, if it is to be made anew.
     int image(const Found* slot) const
@@ -277,8 +275,7 @@ int source_image(const GltfFile& file, std::size_t texture)
     const JsonText& images = list(file.json, "images");
     if (texture >= textures.size()) {
         throw Error("glTF " + file.path.string() + ": a material names texture " +
-                        std::to_string(texture) + ", there are " +
-                        std::to_string(textures.size()),
+                        std::to_string(texture) + ", there are " + std::to_string(textures.size()),
                     "Export the scene again.");
     }
     const JsonText& json = textures.at(texture);

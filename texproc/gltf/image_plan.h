@@ -45,7 +45,7 @@ struct TextureSlot {
 struct ImagePlan {
     std::vector<ImageRecipe> recipes;
     std::vector<TextureSlot> slots;
-    std::vector<std::size_t> kept_textures;   ///< that something unknown uses as well
+    std::vector<std::size_t> kept_textures;    ///< that something unknown uses as well
     std::vector<std::size_t> baked_materials;  ///< whose roughness factor goes into the image
     std::vector<std::string> notes;            ///< what is left as it was, and why
 };

@@ -93,8 +93,12 @@ private:
         value.changed_ = false;
         value.text_ = text_;
         switch (peek()) {
-            case '{': read_object(value, depth); break;
-            case '[': read_array(value, depth); break;
+            case '{':
+                read_object(value, depth);
+                break;
+            case '[':
+                read_array(value, depth);
+                break;
             case '"':
                 value.kind_ = JsonText::Kind::String;
                 string();
@@ -107,12 +111,13 @@ private:
                 value.kind_ = JsonText::Kind::Bool;
                 take_word("false");
                 break;
-            case 'n': take_word("null"); break;
+            case 'n':
+                take_word("null");
+                break;
             default:
                 value.kind_ = JsonText::Kind::Number;
-                while (at_ < rest_.size() &&
-                       std::string_view("+-.eE0123456789").find(rest_[at_]) !=
-                           std::string_view::npos)
+                while (at_ < rest_.size() && std::string_view("+-.eE0123456789").find(rest_[at_]) !=
+                                                 std::string_view::npos)
                     ++at_;
                 if (at_ == start) fail("a value is missing");
         }
@@ -154,8 +159,8 @@ private:
     {
         std::uint32_t code = 0;
         for (int i = 0; i < 4; ++i, ++at_) {
-            const std::size_t digit = std::string_view("0123456789abcdef")
-                                          .find(static_cast<char>(peek() | 0x20));
+            const std::size_t digit =
+                std::string_view("0123456789abcdef").find(static_cast<char>(peek() | 0x20));
             if (digit == std::string_view::npos || peek() == '\0') fail("a broken \\u");
             code = code << 4 | static_cast<std::uint32_t>(digit);
         }
@@ -177,11 +182,21 @@ private:
             const char e = peek();
             ++at_;
             switch (e) {
-                case 'b': to += '\b'; break;
-                case 'f': to += '\f'; break;
-                case 'n': to += '\n'; break;
-                case 'r': to += '\r'; break;
-                case 't': to += '\t'; break;
+                case 'b':
+                    to += '\b';
+                    break;
+                case 'f':
+                    to += '\f';
+                    break;
+                case 'n':
+                    to += '\n';
+                    break;
+                case 'r':
+                    to += '\r';
+                    break;
+                case 't':
+                    to += '\t';
+                    break;
                 case 'u': {
                     std::uint32_t code = four_digits();
                     if (code >= 0xd800 && code < 0xdc00 && rest_.substr(at_, 2) == "\\u") {
@@ -193,8 +208,11 @@ private:
                 }
                 case '"':
                 case '\\':
-                case '/': to += e; break;
-                default: fail("an unknown escape");
+                case '/':
+                    to += e;
+                    break;
+                default:
+                    fail("an unknown escape");
             }
         }
         take('"');
@@ -255,12 +273,17 @@ void JsonText::write(std::string& to) const
         return;
     }
     switch (kind_) {
-        case Kind::Null: to += "null"; return;
+        case Kind::Null:
+            to += "null";
+            return;
         case Kind::Bool:
         case Kind::Number:
-        case Kind::String: to += made_; return;
+        case Kind::String:
+            to += made_;
+            return;
         case Kind::Object:
-        case Kind::Array: break;
+        case Kind::Array:
+            break;
     }
     to += kind_ == Kind::Object ? '{' : '[';
     for (std::size_t i = 0; i < items_.size(); ++i) {

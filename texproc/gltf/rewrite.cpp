@@ -78,7 +78,8 @@ GltfBuildOptions settled(GltfBuildOptions options, const GltfFile& file)
 {
     const JsonText& used = list(file.json, "extensionsUsed");
     for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used.at(i).as_string() == "KHR_animation_pointer") options.images.bake_roughness = false;
+        if (used.at(i).as_string() == "KHR_animation_pointer")
+            options.images.bake_roughness = false;
     }
     if (options.fallback) options.images.bake_roughness = false;
     return options;
@@ -129,11 +130,11 @@ private:
     ImagePlan plan_;
     ImageMaker maker_;
     GltfBuildReport report_;
-    std::vector<std::vector<std::byte>> made_;             // files, by recipe
-    std::map<std::size_t, MipTexture> kept_;               // recipes that are to be scored
+    std::vector<std::vector<std::byte>> made_;                  // files, by recipe
+    std::map<std::size_t, MipTexture> kept_;                    // recipes that are to be scored
     std::map<std::size_t, std::vector<std::size_t>> textures_;  // by recipe: that show it
-    std::set<std::size_t> replaced_textures_;              // that no longer show their old image
-    std::map<std::size_t, std::size_t> images_;            // recipe -> entry of images
+    std::set<std::size_t> replaced_textures_;               // that no longer show their old image
+    std::map<std::size_t, std::size_t> images_;             // recipe -> entry of images
     std::vector<std::pair<fs::path, std::size_t>> beside_;  // files of a .gltf: name, recipe
 };
 
@@ -144,12 +145,11 @@ void Rewriter::make_images()
         const ImageRecipe& recipe = plan_.recipes[r];
         MipTexture made = maker_.make(r);
         made_.push_back(texture_bytes(made, "ktx2", options_.zstd));
-        report_.images.push_back({name_of(source_.json.find("images")->at(recipe.image), "image",
-                                          recipe.image),
-                                  recipe.meaning, made.width, made.height,
-                                  static_cast<int>(made.levels.size()),
-                                  image_bytes(source_, recipe.image).size(), made_.back().size(),
-                                  maker_.is_resampled(r)});
+        report_.images.push_back(
+            {name_of(source_.json.find("images")->at(recipe.image), "image", recipe.image),
+             recipe.meaning, made.width, made.height, static_cast<int>(made.levels.size()),
+             image_bytes(source_, recipe.image).size(), made_.back().size(),
+             maker_.is_resampled(r)});
         const bool pair = recipe.meaning == ImageMeaning::Normal ||
                           (recipe.meaning == ImageMeaning::Surface && recipe.normal >= 0);
         if (options_.score && pair) kept_.emplace(r, std::move(made));
@@ -191,7 +191,7 @@ JsonText& Rewriter::slot_json(const TextureSlot& slot)
 // Textures that show one image keep their place; other uses get textures of their own.
 void Rewriter::place_textures()
 {
-    std::map<std::size_t, std::size_t> first;                               // texture -> recipe
+    std::map<std::size_t, std::size_t> first;                           // texture -> recipe
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> others;  // and recipe -> texture
     const auto& kept = plan_.kept_textures;
     for (const TextureSlot& slot : plan_.slots) {

@@ -39,9 +39,9 @@ struct GltfBuildReport {
 };
 
 /// Writes a scene again with the textures of its materials as KTX2 in UASTC with all their levels
-/// (KHR_texture_basisu), prefiltered by the rule; everything else byte for byte: meshes, animations,
-/// unknown extensions, Draco and meshopt data. A .glb gives a .glb, a .gltf a .gltf with its images
-/// and its other files beside. Same bytes at any thread count.
+/// (KHR_texture_basisu), prefiltered by the rule; everything else byte for byte: meshes,
+/// animations, unknown extensions, Draco and meshopt data. A .glb gives a .glb, a .gltf a .gltf
+/// with its images and its other files beside. Same bytes at any thread count.
 ///
 ///   throws  Error for a scene or an image that cannot be read, another extension than the input's,
 ///           and an output that is the input

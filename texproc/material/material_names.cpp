@@ -38,7 +38,11 @@ const std::vector<Phrase>& phrases()
                        {"diff"},
                        {"diffuse"},
                        {"alb"},
-                       {"base", "map"}});
+                       {"base", "map"},
+                       {"basemap"},
+                       {"albedo", "map"},
+                       {"diffuse", "map"},
+                       {"color", "map"}});
         add("normal", {{"normal"},
                        {"normals"},
                        {"nor"},
@@ -56,15 +60,16 @@ const std::vector<Phrase>& phrases()
         }
         list.push_back({{"normal", "open", "gl"}, {{"normal", ""}}, Green::Up});
         list.push_back({{"normal", "direct", "x"}, {{"normal", ""}}, Green::Down});
-        add("roughness", {{"roughness"}, {"rough"}, {"rgh"}});
+        add("roughness", {{"roughness"}, {"rough"}, {"rgh"}, {"roughness", "map"}});
         add("smoothness", {{"smoothness"}, {"smooth"}, {"gloss"}, {"glossiness"}});
-        add("height", {{"height"}, {"displacement"}, {"disp"}, {"bump"}, {"height", "map"}});
+        add("height",
+            {{"height"}, {"displacement"}, {"disp"}, {"bump"}, {"height", "map"}, {"bump", "map"}});
         add("occlusion",
             {{"ao"}, {"occlusion"}, {"occ"}, {"ambient", "occlusion"}, {"ambientocclusion"}});
         add("metallic", {{"metallic"}, {"metalness"}, {"metal"}});
-        add("specular", {{"specular"}, {"spec"}});
-        add("emission", {{"emission"}, {"emissive"}, {"emit"}});
-        add("opacity", {{"opacity"}, {"alpha"}, {"transparency"}});
+        add("specular", {{"specular"}, {"spec"}, {"refl"}, {"reflection"}, {"specular", "color"}});
+        add("emission", {{"emission"}, {"emissive"}, {"emit"}, {"emissive", "color"}});
+        add("opacity", {{"opacity"}, {"alpha"}, {"transparency"}, {"alphamasked"}});
         add("porosity", {{"porosity"}});
         add("cavity", {{"cavity"}});
         add("puddle", {{"puddle"}, {"puddles"}});
@@ -80,6 +85,25 @@ const std::vector<Phrase>& phrases()
         list.push_back({{"metallic", "smoothness"}, {{"metallic", "r"}, {"smoothness", "a"}}});
         list.push_back({{"specular", "smoothness"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
         list.push_back({{"lux", "spec"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
+        for (const char* base : {"albedo", "base"}) {
+            list.push_back({{base, "transparency"}, {{"albedo", "rgb"}, {"opacity", "a"}}});
+            list.push_back({{base, "opacity"}, {{"albedo", "rgb"}, {"opacity", "a"}}});
+            list.push_back({{base, "smoothness"}, {{"albedo", "rgb"}, {"smoothness", "a"}}});
+        }
+        list.push_back({{"base", "color", "opacity"}, {{"albedo", "rgb"}, {"opacity", "a"}}});
+        list.push_back({{"occlusion", "roughness", "metallic"}, orm});
+        list.push_back({{"occlusion", "rough", "metal"}, orm});
+        list.push_back({{"occlusion", "roughness", "metalness"}, orm});
+        list.push_back({{"ao", "roughness", "metallic"}, orm});
+        list.push_back({{"ao", "rough", "metal"}, orm});
+        list.push_back({{"roughness", "metallic"}, {{"roughness", "g"}, {"metallic", "b"}}});
+        list.push_back({{"metallic", "roughness"}, {{"roughness", "g"}, {"metallic", "b"}}});
+        list.push_back({{"metal", "rough"}, {{"roughness", "g"}, {"metallic", "b"}}});
+        list.push_back({{"metal", "roughness"}, {{"roughness", "g"}, {"metallic", "b"}}});
+        list.push_back({{"ordp"}, {{"occlusion", "r"}, {"roughness", "g"}, {"height", "b"}}});
+        list.push_back({{"specular", "glossiness"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
+        list.push_back({{"spec", "gloss"}, {{"specular", "rgb"}, {"smoothness", "a"}}});
+        list.push_back({{"mixed", "ao"}, {{"occlusion", ""}}});
         list.push_back({{"alb", "ht"}, {{"albedo", "rgb"}, {"height", "a"}}});
         list.push_back({{"nrm", "rgh"}, {{"normal", "rgb"}, {"roughness", "a"}}});
         return list;
@@ -130,6 +154,47 @@ bool is_mark(const std::string& word)
     if (formats.count(word)) return true;
     const std::size_t digits = word.find_first_not_of("0123456789");
     return digits == word.size() - 1 && digits > 0 && word[digits] == 'k';
+}
+
+// "2k", "8192", "hires": how large a map is.
+bool is_resolution(const std::string& word)
+{
+    static const std::set<std::string> sizes{"256",  "512",  "1024",  "2048",
+                                             "4096", "8192", "16384", "hires"};
+    if (sizes.count(word)) return true;
+    const std::size_t digits = word.find_first_not_of("0123456789");
+    return digits != std::string::npos && digits > 0 && digits + 1 == word.size() &&
+           word[digits] == 'k';
+}
+
+// How many words say what the file holds. What libraries add behind is none of it: Poliigon's
+// workflow behind the resolution ("GLOSS_2K_SPECULAR").
+std::size_t told_words(const std::vector<Word>& words)
+{
+    if (words.size() < 3 || !is_resolution(words[words.size() - 2].text)) return words.size();
+    const std::string& last = words.back().text;
+    return last == "metalness" || last == "specular" ? words.size() - 1 : words.size();
+}
+
+// "NRM16", "DISP16": the depth belongs to the file, not to the word.
+std::string without_depth(const std::string& word)
+{
+    for (const char* depth : {"16", "32", "8"}) {
+        if (word.size() > 2 && word.ends_with(depth) &&
+            word.find_first_of("0123456789") == word.size() - std::string(depth).size())
+            return word.substr(0, word.size() - std::string(depth).size());
+    }
+    return word;
+}
+
+// Pictures of a material, and of light.
+bool is_no_map(const std::vector<Word>& words)
+{
+    static const std::set<std::string> others{
+        "preview", "previews", "thumb",  "thumbnail", "matcap", "render",   "sphere",
+        "hdri",    "swatch",   "sample", "icon",      "popup",  "billboard"};
+    return std::any_of(words.begin(), words.end(),
+                       [&](const Word& word) { return others.count(word.text) != 0; });
 }
 
 std::string trimmed(const std::string& text)
@@ -187,20 +252,47 @@ struct Group {
 };
 
 // Unreal's names, T_Wall_BC: the last word is a letter or two, which elsewhere may mean anything.
+bool is_of_unreal(const std::vector<Word>& words)
+{
+    return words.size() >= 3 && words.front().text == "t";
+}
+
 NamedMaps named_as_in_unreal(const std::string& stem)
 {
     static const std::map<std::string, std::string> kRoles{
-        {"d", "albedo"},    {"bc", "albedo"},   {"c", "albedo"}, {"n", "normal"},
-        {"r", "roughness"}, {"m", "metallic"},  {"h", "height"}, {"s", "specular"},
-        {"e", "emission"},  {"o", "occlusion"}, {"a", "opacity"}};
-    const std::vector<Word> words = words_of(stem);
-    if (words.size() < 3 || words.front().text != "t") return {};
+        {"d", "albedo"},   {"bc", "albedo"},   {"b", "albedo"},    {"c", "albedo"},
+        {"n", "normal"},   {"r", "roughness"}, {"m", "metallic"},  {"h", "height"},
+        {"s", "specular"}, {"e", "emission"},  {"o", "occlusion"}, {"a", "opacity"}};
+    std::vector<Word> words = words_of(stem);
+    if (!is_of_unreal(words)) return {};
     const auto role = kRoles.find(words.back().text);
     if (role == kRoles.end()) return {};
     NamedMaps named;
     named.material = trimmed(stem.substr(words[1].begin, words.back().begin - words[1].begin));
     named.short_name = without_marks(named.material);
     named.roles[role->second] = "";
+    return named;
+}
+
+// "Wall [Albedo] [Smoothness]": what stands in the channels, colour before alpha.
+NamedMaps named_in_brackets(const std::string& stem)
+{
+    const std::size_t open = stem.find('[');
+    if (open == std::string::npos || stem.back() != ']') return {};
+    std::vector<std::string> roles;
+    for (std::size_t at = open; at != std::string::npos; at = stem.find('[', at + 1)) {
+        const std::size_t close = stem.find(']', at);
+        if (close == std::string::npos) return {};
+        const NamedMaps one = maps_named("x_" + stem.substr(at + 1, close - at - 1));
+        if (one.roles.size() != 1) return {};
+        roles.push_back(one.roles.begin()->first);
+    }
+    if (roles.size() > 2) return {};
+    NamedMaps named;
+    named.material = trimmed(stem.substr(0, open));
+    named.short_name = without_marks(named.material);
+    named.roles[roles[0]] = roles.size() > 1 ? "rgb" : "";
+    if (roles.size() > 1) named.roles[roles[1]] = "a";
     return named;
 }
 
@@ -259,9 +351,11 @@ const std::vector<std::string>& map_roles()
     return roles;
 }
 
-NamedMaps maps_named(const std::string& stem)
+namespace {
+
+// The longest phrase among the words, and where; of equals the one that ends last.
+std::pair<const Phrase*, std::size_t> best_phrase(const std::vector<Word>& words)
 {
-    const std::vector<Word> words = words_of(stem);
     const Phrase* best = nullptr;
     std::size_t best_at = 0;
     for (const Phrase& phrase : phrases()) {
@@ -273,7 +367,6 @@ NamedMaps maps_named(const std::string& stem)
             if (!here) continue;
             const std::size_t longest = best ? best->words.size() : 0;
             const std::size_t end = at + phrase.words.size();
-            // The longest phrase; of equals the one that ends last.
             if (phrase.words.size() > longest ||
                 (phrase.words.size() == longest && end > best_at + longest)) {
                 best = &phrase;
@@ -281,10 +374,34 @@ NamedMaps maps_named(const std::string& stem)
             }
         }
     }
-    if (!best) return named_as_in_unreal(stem);
+    return {best, best_at};
+}
+
+}  // namespace
+
+NamedMaps maps_named(const std::string& stem)
+{
+    std::vector<Word> words = words_of(stem);
+    if (is_no_map(words)) return {};
+    if (NamedMaps unreal = named_as_in_unreal(stem); !unreal.roles.empty()) return unreal;
+    if (NamedMaps lux = named_in_brackets(stem); !lux.roles.empty()) return lux;
+    for (Word& word : words) word.text = without_depth(word.text);
+    // "vdbobcm_2K_Specular" is a map, "GLOSS_2K_SPECULAR" says how Poliigon's gloss is meant.
+    std::vector<Word> told = words;
+    told.resize(told_words(words));
+    auto [best, best_at] = best_phrase(told);
+    if (best) {
+        words = std::move(told);
+    } else {
+        std::tie(best, best_at) = best_phrase(words);
+    }
+    if (!best) return {};
     NamedMaps named;
-    const std::string before = trimmed(stem.substr(0, words[best_at].begin));
-    const std::string after = trimmed(stem.substr(words[best_at + best->words.size() - 1].end));
+    const std::size_t from = is_of_unreal(words) && best_at > 0 ? words[1].begin : 0;
+    const std::string before =
+        trimmed(stem.substr(from, words[best_at].begin - std::min(from, words[best_at].begin)));
+    const std::size_t behind = words[best_at + best->words.size() - 1].end;
+    const std::string after = trimmed(stem.substr(behind, words.back().end - behind));
     named.material = before + (before.empty() || after.empty() ? "" : "_") + after;
     named.short_name = without_marks(named.material);
     if (words_of(named.short_name).size() == 1 && is_mark(words_of(named.short_name)[0].text)) {

@@ -9,6 +9,7 @@
 #include "texproc/codecs/files/io.h"
 #include "texproc/filter/bake.h"
 #include "texproc/filter/normal.h"
+#include "texproc/filter/resample.h"
 #include "texproc/material/chains.h"
 #include "texproc/material/pack.h"
 
@@ -87,6 +88,10 @@ bool is_wanted(const PlannedMaterial& plan, const std::string& role)
     }
     if (role == "roughness" || role == "smoothness" || role == "metallic") return baked("porosity");
     if (role == "normal") return baked("height");
+    // It tells which way green points, the same for every engine.
+    if (role == "height" && plan.recipe->green == Green::Auto &&
+        plan.files.inputs.count("normal") && is_wanted(plan, "normal"))
+        return true;
     if (role == "height") {
         return baked("puddle") || baked("crack") || baked("cavity") || baked("occlusion") ||
                baked("normal");
@@ -138,6 +143,47 @@ Image as_rgb(Image normal)
     return normal.channels > 3 ? from_layout(normal, NormalLayout::Rgb) : std::move(normal);
 }
 
+struct ChosenGreen {
+    Green green;
+    std::string how;
+};
+
+// The recipe's word first, then the height map, whose slopes cannot be wrong, then the name of the
+// file, then the map alone. What says little is passed over: up is what most tools write.
+ChosenGreen green_of(const PlannedMaterial& plan, const SourceMaps& maps, const RawImage& normal)
+{
+    constexpr double kSure = 0.25;
+    const auto plain = [](Green green) {
+        return ChosenGreen{green, green == Green::Down ? "down, turned" : "up"};
+    };
+    const Green told = plan.recipe->green, named = plan.files.green;
+    if (told != Green::Auto) return plain(told);
+    const Image rgb = as_rgb(to_image(normal, ColorSpace::Data));
+    const auto found_by = [](const GreenDirection& found, const std::string& by) {
+        const bool down = found.down && found.confidence > kSure;
+        return ChosenGreen{down ? Green::Down : Green::Up,
+                           std::string(down ? "down, turned" : "up") + ", found from " + by + " (" +
+                               percent(found.confidence) + " " + (found.down ? "down" : "up") +
+                               ")"};
+    };
+    if (const RawImage* height = maps.find("height")) {
+        Image heights = maps.data("height");
+        if (height->width != normal.width || height->height != normal.height)
+            heights = resized(heights, normal.width, normal.height);
+        const GreenDirection found = detect_green(rgb, heights);
+        if (found.confidence > kSure) {
+            ChosenGreen chosen = found_by(found, "the height map");
+            if (named != Green::Auto && named != chosen.green) {
+                chosen.how +=
+                    std::string("; its name says ") + (named == Green::Down ? "down" : "up");
+            }
+            return chosen;
+        }
+    }
+    if (named != Green::Auto) return plain(named);
+    return found_by(detect_green(rgb), "the map");
+}
+
 void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
 {
     const auto at = maps.images.find("normal");
@@ -153,21 +199,8 @@ void orient_normal(const PlannedMaterial& plan, SourceMaps& maps)
                         std::to_string(normal.channels) + " channels, 3 are needed",
                     "Give a three-channel normal map, or name its layout in [normal].");
     }
-    Green green = plan.recipe->green == Green::Auto ? plan.files.green : plan.recipe->green;
-    maps.green = green == Green::Down ? "down, turned" : "up";
-    if (green == Green::Auto) {
-        const RawImage* height = maps.find("height");
-        const bool same =
-            height && height->width == normal.width && height->height == normal.height;
-        const Image rgb = as_rgb(to_image(normal, ColorSpace::Data));
-        const GreenDirection found =
-            same ? detect_green(rgb, maps.data("height")) : detect_green(rgb);
-        // A map that says little is left as it is: up is what most tools write.
-        const bool down = found.down && found.confidence > 0.25;
-        green = down ? Green::Down : Green::Up;
-        maps.green = std::string(down ? "down, turned" : "up") + ", found from the map (" +
-                     percent(found.confidence) + " " + (found.down ? "down" : "up") + ")";
-    }
+    const auto [green, how] = green_of(plan, maps, normal);
+    maps.green = how;
     if (green == Green::Down) turn_green(normal);
 }
 

@@ -15,10 +15,14 @@ namespace {
 const char* text_of(texproc::ImageMeaning meaning)
 {
     switch (meaning) {
-        case texproc::ImageMeaning::Color: return "colour";
-        case texproc::ImageMeaning::Normal: return "normals";
-        case texproc::ImageMeaning::Surface: return "roughness";
-        case texproc::ImageMeaning::Data: break;
+        case texproc::ImageMeaning::Color:
+            return "colour";
+        case texproc::ImageMeaning::Normal:
+            return "normals";
+        case texproc::ImageMeaning::Surface:
+            return "roughness";
+        case texproc::ImageMeaning::Data:
+            break;
     }
     return "data";
 }
@@ -31,9 +35,9 @@ void check(const SceneBuild& build)
                     "Leave --engine out, or build the folder of its textures for that engine.");
     }
     if (!build.choice.format.empty() && build.choice.format != "ktx2") {
-        throw Error("texture build: a scene holds its levels in ktx2, not in " +
-                        build.choice.format,
-                    "Leave --format out.");
+        throw Error(
+            "texture build: a scene holds its levels in ktx2, not in " + build.choice.format,
+            "Leave --format out.");
     }
     if (build.out.empty() && !build.dry_run) {
         throw Error("texture build: no output scene",
@@ -63,9 +67,9 @@ void report(const texproc::GltfBuildReport& made)
 {
     std::uint64_t before = 0, after = 0;
     for (const auto& image : made.images) {
-        std::printf("%-36s %-9s %5d x %-5d %2d levels  %8.1f -> %8.1f KiB%s\n",
-                    image.name.c_str(), text_of(image.meaning), image.width, image.height,
-                    image.levels, static_cast<double>(image.bytes_before) / 1024.0,
+        std::printf("%-36s %-9s %5d x %-5d %2d levels  %8.1f -> %8.1f KiB%s\n", image.name.c_str(),
+                    text_of(image.meaning), image.width, image.height, image.levels,
+                    static_cast<double>(image.bytes_before) / 1024.0,
                     static_cast<double>(image.bytes) / 1024.0,
                     image.resampled ? "  resampled to whole blocks" : "");
         before += image.bytes_before;

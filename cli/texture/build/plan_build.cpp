@@ -26,11 +26,15 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
     }
     if (!choice.quality.empty()) recipe.prefilter.quick = choice.quality == "quick";
     if (choice.no_score) recipe.score = false;
+    if (choice.normal_green == "up") recipe.green = texproc::Green::Up;
+    if (choice.normal_green == "down") recipe.green = texproc::Green::Down;
     for (texproc::OutputRule& output : recipe.outputs) {
         if (choice.size > 0) output.size = choice.size;
         if (choice.format.empty()) continue;
         output.format = choice.format;
-        if (choice.format != "dds" && choice.format != "ktx2") output.compression = "none";
+        const bool holds = choice.format == "ktx2" ||
+                           (choice.format == "dds" && output.compression != "uastc");
+        if (!holds) output.compression = "none";
         if (choice.format == "exr") output.bits = std::max(output.bits, 16);
         if (choice.format == "tga") output.bits = 8;
     }

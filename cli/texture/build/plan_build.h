@@ -13,6 +13,7 @@ namespace petrichor::cli {
 struct BuildChoice {
     std::vector<std::string> engines;
     std::string rule, quality, format;  ///< empty: as the recipe says
+    std::string normal_green;           ///< up, down; empty: as the recipe says
     int size = 0;
     bool no_score = false;
 };

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kFormats{"png", "tga", "tif", "exr", "dds", "ktx2"};
-const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7"};
+const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7", "uastc"};
 const std::vector<std::string> kFilters{"box", "kaiser", "lanczos3", "mitchell"};
 const std::vector<std::string> kEdges{"wrap", "clamp", "mirror"};
 
@@ -75,6 +75,9 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
     if (out.compression != "none" && !container) {
         wrong("asks for " + out.compression + " in a " + out.format + " file",
               "Use format = \"dds\" or \"ktx2\", or leave compression out.");
+    }
+    if (out.compression == "uastc" && out.format != "ktx2") {
+        wrong("asks for uastc in a " + out.format + " file", "Use format = \"ktx2\".");
     }
     if (out.compression != "none" && out.bits != 8) {
         wrong("asks for " + out.compression + " with " + std::to_string(out.bits) + " bits",

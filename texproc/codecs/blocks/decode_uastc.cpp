@@ -75,8 +75,8 @@ void decode_uastc(const std::byte* block, Rgba8Block& to)
         const bool anchor = anchors[static_cast<std::size_t>(subset)] == t;
         int weight[2] = {};
         for (int p = 0; p < mode.planes; ++p)
-            weight[p] = uastc_weight(bits.take(mode.weight_bits - (anchor ? 1 : 0)),
-                                     mode.weight_bits);
+            weight[p] =
+                uastc_weight(bits.take(mode.weight_bits - (anchor ? 1 : 0)), mode.weight_bits);
         const int* of = &ends[static_cast<std::size_t>(2 * mode.channels * subset)];
         int value[4] = {0, 0, 0, 255};
         for (int c = 0; c < mode.channels; ++c) {

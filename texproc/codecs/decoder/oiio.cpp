@@ -84,11 +84,40 @@ void read_by_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const He
     }
 }
 
+// True when the scans of a JPEG end with its end marker. Without it the library fills what is
+// missing with grey and says nothing.
+bool jpeg_is_whole(std::span<const std::byte> file)
+{
+    const auto byte = [&](std::size_t at) { return std::to_integer<int>(file[at]); };
+    std::size_t at = 2;
+    while (at + 4 <= file.size()) {
+        if (byte(at) != 0xff) return false;
+        const int marker = byte(at + 1);
+        if (marker == 0xff) {  // padding
+            ++at;
+            continue;
+        }
+        if (marker == 0xd9) return true;
+        at += 2 + static_cast<std::size_t>(byte(at + 2) << 8 | byte(at + 3));
+        if (marker != 0xda) continue;
+        // Coded data: up to the next marker that is neither a stuffed byte nor a restart.
+        while (at + 1 < file.size()) {
+            const int next = byte(at + 1);
+            const bool restart = next >= 0xd0 && next <= 0xd7;
+            if (byte(at) == 0xff && next != 0 && next != 0xff && !restart) break;
+            ++at;
+        }
+    }
+    return at + 2 <= file.size() && byte(at) == 0xff && byte(at + 1) == 0xd9;
+}
+
 }  // namespace
 
 void read_with_oiio(std::span<const std::byte> file, const std::string& format,
                     const Accept& accept)
 {
+    if ((format == "jpeg" || format == "jpg") && !jpeg_is_whole(file))
+        throw std::runtime_error("it is cut short: its end marker is missing");
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(file.data()), file.size());
     OIIO::Filesystem::IOProxy* proxy = &memory;
     OIIO::ImageSpec wish;

@@ -24,8 +24,8 @@ struct TextureFormat {
     bool operator==(const TextureFormat&) const = default;
 };
 
-/// By name: r8 rg8 rgb8 rgba8, r16 ..., r16f ..., r32f ..., bc1, bc1a (alpha 0 or 1), bc3, bc4,
-/// bc5, bc7, uastc (ktx2 only), uastca (with alpha); bc2, bc6h and signed ones can be read only. Throws Error that lists the names.
+/// By name: r8 rg8 rgb8 rgba8, r16 .., r16f .., r32f .., bc1, bc1a (alpha 0 or 1), bc3, bc4, bc5,
+/// bc7, uastc, uastca (both ktx2); bc2, bc6h, signed: read only. Throws Error that lists the names.
 TextureFormat texture_format(const std::string& name);
 std::string name_of(const TextureFormat& format);
 std::vector<std::string> texture_format_names();  ///< those that can be written
