@@ -7,9 +7,9 @@
 
 namespace petrichor::gpu {
 
-/// Drops that have just hit something near the camera, where the ground would be below a level
-/// that far under it; the shader moves them along the fall to what they hit. Stateless as
-/// falling_drops: a cell of the ground and a hundredth of two seconds have their own.
+/// Drops that have just hit something near the camera, as points at about the height of the ground;
+/// the shader moves them along the fall to what they hit. Stateless as falling_drops: each cell of
+/// the ground and fiftieth of a second has its own.
 std::vector<shared::FallingSplash> falling_splashes(const FallingPlan& plan, const Frame& frame,
                                                     const FallingView& view,
                                                     const std::vector<Light>& lamps);
