@@ -250,7 +250,8 @@ void report_weather(const Sequence& sequence)
     const bool own_sun = sun.time_of_day_hours.given() || sun.elevation_degrees.given() ||
                          sun.azimuth_degrees.given();
     for (const SequenceVariant& variant : sequence.variants) {
-        if (!own_sun || !variant.weather.at(0.0).sun) continue;
+        const weather::Moment first = variant.weather.at(0.0);
+        if (!own_sun || !first.sun || (sun.yields && !first.utc_us)) continue;
         std::cerr << "info sun: [sun] of the scenario is used, not the place and clock of "
                   << variant.weather.name
                   << "; leave its angles and hours out to follow the file\n";

@@ -146,12 +146,12 @@ SHARED_FN WeatheredMaterial apply_weather(DryMaterial dry, SurfaceState state, W
 {
     WeatheredMaterial m = dry_material(dry);
     m = apply_frost(m, state.frost);
-    // While it pours the film is thick enough to close over what is rough.
+    // While it pours the film is thicker, and what is rough shines; it does not mirror yet.
     const float pouring = saturate(2.0f * moment.rain) * step(1.0e-4f, moment.film_smoothness);
     // Around what stands the ground is soaked: a damp rim.
     const float soaked = smooth_edge(0.0f, 0.12f, state.water);
     m = apply_water(m, vec2(max(moment.film_albedo * state.film, soaked),
-                            mix(moment.film_smoothness, 0.8f, pouring) * state.film),
+                            mix(moment.film_smoothness, 0.65f, pouring) * state.film),
                     state.water, dry.water_color, dry.porosity);
     m = apply_snow(m, state.snow, look.snow_color, look.snow_specular, state.snow_smoothness,
                    dry.snow_opacity);

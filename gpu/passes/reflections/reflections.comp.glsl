@@ -156,6 +156,8 @@ void main()
         // A ray that met nothing saw the sky if the place sees much of it.
         const float open = clamp(shape.w * 1.3 - 0.05, 0.0, 1.0);
         vec3 mirrored = sky * mix(frame.bounce * 0.7, 1.0, open);
+        // Few samples cannot tell what a wide lobe meets.
+        hit.confidence *= 1.0 - smoothstep(0.16, 0.3, roughness);
         if (hit.confidence > 0.0) {
             const vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
             mirrored = mix(mirrored, seen, hit.confidence);
