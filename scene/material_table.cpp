@@ -121,13 +121,6 @@ Row or_also(Row r, float value)
     return r;
 }
 
-Row not_shaded(Row r)
-{
-    r.shaded = false;
-    r.keyed = false;
-    return r;
-}
-
 // glTF 2.0 and its KHR extensions. Ranges are those of their specifications.
 void add_gltf_rows(std::vector<Row>& t)
 {

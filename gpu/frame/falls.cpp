@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/weather/falling.h"
+
 namespace petrichor::gpu {
 namespace {
 
-// Street level below roofs: a choice of ours for towns; open country has more.
-constexpr float kWindBetweenHouses = 0.4f;
+// Where people see it fall, in a suburb (Wieringa 1992), as of the drops that are drawn.
+constexpr float kSeenAt_m = 2.0f;
+constexpr float kRoughness_m = 0.5f;
 constexpr float kSnowSpeed_m_s = 1.0f;
 constexpr float kEddies = 0.5f;           // share of the snow
 constexpr float kEddyCosine = 0.8660254f; // within 30 degrees of the vertical
@@ -17,11 +20,6 @@ constexpr float kLeastShare = 0.02f;
 
 using Shares = std::array<float, SKY_DIRECTIONS>;
 using Directions = std::array<glm::vec3, SKY_DIRECTIONS>;
-
-float fall_speed_m_s(float diameter_mm)
-{
-    return std::max(9.65f - 10.3f * std::exp(-0.6f * diameter_mm), 0.2f);
-}
 
 // Spreads `weight` over the directions around `from`.
 void add(Shares& shares, const Directions& sky, const glm::vec3& from, float weight)
@@ -56,14 +54,14 @@ Shares without_least(Shares shares)
 
 std::vector<Fall> falls(const shared::WeatherMoment& weather, const Directions& sky)
 {
-    const glm::vec2 wind = kWindBetweenHouses * weather.wind_m_s;
+    const glm::vec2 wind = shared::wind_share_at(kSeenAt_m, kRoughness_m) * weather.wind_m_s;
     const float rain_mm_h = std::max(weather.rain_kg_m2_s * 3600.0f, 1.0f);
     const float median_mm = 1.10f * std::pow(rain_mm_h, 0.19f);
     Shares rain{};
     Shares snow{};
     // Ulbrich & Atlas: the sizes below which 10, 25, 50, 75 and 90 % of the water fall.
     for (const float size : {0.53f, 0.73f, 1.0f, 1.34f, 1.71f}) {
-        const float speed = fall_speed_m_s(size * median_mm);
+        const float speed = shared::drop_speed_m_s(size * median_mm);
         for (const int side : {-1, 0, 1}) {
             const float turn = static_cast<float>(side) * 0.34906585f;
             const glm::vec2 gust(wind.x * std::cos(turn) - wind.y * std::sin(turn),

@@ -98,8 +98,6 @@ TEST(MaterialOverrides, KeysAreCheckedAsValuesAre)
     EXPECT_THAT(message_of(table + "water_accumulation = [[0, [0, 1, 3, 1]], [1, [0, 1, 0, 1]]]\n"),
                 HasSubstr("a number from 0 to 2"));
     EXPECT_THAT(message_of(table + "water_accumulation = [0, 1, 3, 1]\n"), HasSubstr("[2]"));
-    EXPECT_THAT(message_of(table + "height_scale_m = [[0, 0], [1, 1]]\n"),
-                HasSubstr("without keys"));
     EXPECT_THAT(message_of(table + "double_sided = [[0, true]]\n"), HasSubstr("true or false"));
 }
 
