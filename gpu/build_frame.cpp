@@ -136,7 +136,8 @@ void see_models(LightingVariant& variant, const GpuScene& scene, const shared::F
     if (models[LIGHTING_MODEL_LAYERED]) models[LIGHTING_MODEL_STANDARD] = false;
 }
 
-void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResources& r)
+void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeather& weather,
+                const FrameResources& r)
 {
     const DepthMaps& maps = *r.depth_maps;
     for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
@@ -156,6 +157,8 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const FrameResour
     std::array<glm::vec3, SKY_DIRECTIONS> sky;
     for (int i = 0; i < SKY_DIRECTIONS; ++i) sky[static_cast<std::size_t>(i)] = sky_direction(i);
     for (const Fall& fall : falls(frame.weather, sky)) {
+        // Each is a look-up at every pixel: those of the snow only where snow or frost may lie.
+        if (fall.rain <= 0.0f && !weather.snow && !weather.frost) continue;
         c.falls[c.fall_count++] =
             glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
     }
@@ -255,7 +258,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
-        fill_views(c, frame, r);
+        fill_views(c, frame, weather, r);
         // Other modes of fog know nothing of what falls.
         c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
         c.drawn_reach_m = plan.drawn_reach_m;

@@ -255,6 +255,7 @@ void FrameGraph::add(DispatchListPass list)
     pass.name = list.name;
     touch(pass, list.bindings);
     if (list.arguments) touch(pass, {nullptr, list.arguments, Use::IndirectRead});
+    pass.pipelines = list.pipelines;
     pass.record = [list = std::move(list)](VkCommandBuffer commands, PipelineCache& pipelines,
                                            DescriptorArena& descriptors) {
         DispatchContext context(pipelines, descriptors, commands, list);

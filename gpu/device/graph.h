@@ -50,6 +50,7 @@ struct DispatchListPass {
     std::string name;
     Bindings bindings;
     GpuBuffer* arguments = nullptr;  ///< group counts of indirect dispatches, if there are any
+    std::vector<ComputeDesc> pipelines;  ///< that it will bind, as far as they are known before
     std::function<void(DispatchContext&)> record;
 };
 

@@ -17,8 +17,9 @@ layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
 layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 
-const int kSteps = 48;
+const int kSteps = 32;
 const int kRefinements = 5;
+const float kWide = 0.3;  // lobes from here on take the sky
 
 struct Hit {
     vec2 pixel;
@@ -147,7 +148,7 @@ void main()
 
         Hit hit;
         hit.confidence = 0.0;
-        if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0) {
+        if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0 && roughness < kWide) {
             // Water stands above the relief that the depth map knows.
             hit = trace(position + n * (0.001 * view_m + 0.015 * mirror.a), ray);
         }
@@ -157,7 +158,7 @@ void main()
         const float open = clamp(shape.w * 1.3 - 0.05, 0.0, 1.0);
         vec3 mirrored = sky * mix(frame.bounce * 0.7, 1.0, open);
         // Few samples cannot tell what a wide lobe meets.
-        hit.confidence *= 1.0 - smoothstep(0.16, 0.3, roughness);
+        hit.confidence *= 1.0 - smoothstep(0.16, kWide, roughness);
         if (hit.confidence > 0.0) {
             const vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
             mirrored = mix(mirrored, seen, hit.confidence);

@@ -11,6 +11,8 @@ namespace petrichor::gpu {
 
 namespace {
 
+constexpr const char* kResolveShader = "surface_resolve.comp";
+
 glm::uvec4 bits_of(const glm::vec4& v)
 {
     return std::bit_cast<glm::uvec4>(v);
@@ -129,30 +131,38 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    graph.add(DispatchListPass{.name = "surface",
-                               .bindings = std::move(bindings),
-                               .arguments = tables.groups.get(),
-                               .record = [=, &scene](DispatchContext& list) {
-                                   for (std::uint32_t m = 0; m < materials; ++m) {
-                                       const GpuMaterial& material = scene.materials()[m];
-                                       list.bind("surface_resolve.comp",
-                                                 {{SURFACE_SPEC_HOLES, 0},
-                                                  {SURFACE_SPEC_SLOTS, material.slots},
-                                                  {SURFACE_SPEC_WATER,
-                                                   weather.water ? material.water : 0u},
-                                                  {SURFACE_SPEC_SNOW, weather.snow},
-                                                  {SURFACE_SPEC_FROST, weather.frost},
-                                                  {SURFACE_SPEC_PARALLAX, material.parallax},
-                                                  {SURFACE_SPEC_PLACE, weather.place},
-                                                  {RESOLVE_SPEC_WEATHER, parts.weather},
-                                                  {RESOLVE_SPEC_EMISSION, parts.emission},
-                                                  {RESOLVE_SPEC_BAKED, parts.baked}},
-                                                 types_of(material.bindings));
-                                       list.bind_set1(material.bindings);
-                                       list.push(shared::SurfaceResolveParams{m});
-                                       list.dispatch_indirect(m);
-                                   }
-                               }});
+    const auto variant = [parts, weather](const GpuMaterial& material) {
+        return std::vector<Specialization>{
+            {SURFACE_SPEC_HOLES, 0},
+            {SURFACE_SPEC_SLOTS, material.slots},
+            {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
+            {SURFACE_SPEC_SNOW, weather.snow},
+            {SURFACE_SPEC_FROST, weather.frost},
+            {SURFACE_SPEC_PARALLAX, material.parallax},
+            {SURFACE_SPEC_PLACE, weather.place},
+            {RESOLVE_SPEC_WEATHER, parts.weather},
+            {RESOLVE_SPEC_EMISSION, parts.emission},
+            {RESOLVE_SPEC_BAKED, parts.baked}};
+    };
+    DispatchListPass pass{.name = "surface",
+                          .bindings = std::move(bindings),
+                          .arguments = tables.groups.get(),
+                          .pipelines = {},
+                          .record = {}};
+    for (const GpuMaterial& material : scene.materials()) {
+        pass.pipelines.push_back({kResolveShader, variant(material),
+                                  {types_of(pass.bindings), types_of(material.bindings)}});
+    }
+    pass.record = [=, &scene](DispatchContext& list) {
+        for (std::uint32_t m = 0; m < materials; ++m) {
+            const GpuMaterial& material = scene.materials()[m];
+            list.bind(kResolveShader, variant(material), types_of(material.bindings));
+            list.bind_set1(material.bindings);
+            list.push(shared::SurfaceResolveParams{m});
+            list.dispatch_indirect(m);
+        }
+    };
+    graph.add(std::move(pass));
 }
 
 }  // namespace petrichor::gpu
