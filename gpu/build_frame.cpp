@@ -157,8 +157,12 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     std::array<glm::vec3, SKY_DIRECTIONS> sky;
     for (int i = 0; i < SKY_DIRECTIONS; ++i) sky[static_cast<std::size_t>(i)] = sky_direction(i);
     for (const Fall& fall : falls(frame.weather, sky)) {
-        // Each is a look-up at every pixel: those of the snow only where snow or frost may lie.
-        if (fall.rain <= 0.0f && !weather.snow && !weather.frost) continue;
+        // Each is a look-up at every pixel: only those of what may lie there.
+        const shared::WeatherMoment& w = frame.weather;
+        const bool wet = weather.water || w.rain + w.film_albedo + w.film_smoothness > 0.0f;
+        const bool rains = wet && fall.rain > 0.0f;
+        const bool snows = (weather.snow || weather.frost) && fall.snow > 0.0f;
+        if (!rains && !snows) continue;
         c.falls[c.fall_count++] =
             glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
     }

@@ -16,8 +16,7 @@ constexpr float kEddies = 0.5f;           // share of the snow
 constexpr float kEddyCosine = 0.8660254f; // within 30 degrees of the vertical
 // Width of the sky that a direction stands for, about 12 degrees.
 constexpr float kConcentration = 22.0f;
-constexpr float kLeastRain = 0.05f;
-constexpr float kLeastSnow = 0.02f;  // eddies bring little of it from many
+constexpr float kLeastShare = 0.06f;
 
 using Shares = std::array<float, SKY_DIRECTIONS>;
 using Directions = std::array<glm::vec3, SKY_DIRECTIONS>;
@@ -40,11 +39,11 @@ glm::vec3 where_from(const glm::vec2& wind_m_s, float speed_m_s)
 }
 
 // What is too little to be looked up falls along the others.
-Shares without_least(Shares shares, float least)
+Shares without_least(Shares shares)
 {
     float sum = 0.0f;
     for (float& share : shares) {
-        share = std::max(share - least, 0.0f);
+        share = std::max(share - kLeastShare, 0.0f);
         sum += share;
     }
     for (float& share : shares) share /= sum;
@@ -70,14 +69,15 @@ std::vector<Fall> falls(const shared::WeatherMoment& weather, const Directions& 
             add(rain, sky, where_from(gust, speed), 0.2f * (side == 0 ? 0.5f : 0.25f));
         }
     }
-    add(snow, sky, where_from(wind, kSnowSpeed_m_s), 1.0f - kEddies);
+    add(snow, sky, where_from(wind, kSnowSpeed_m_s), 1.0f);
+    rain = without_least(rain);
+    snow = without_least(snow);
     float steep = 0.0f;
     for (const glm::vec3& direction : sky) steep += direction.y > kEddyCosine ? 1.0f : 0.0f;
     for (std::size_t i = 0; i < sky.size(); ++i) {
+        snow[i] *= 1.0f - kEddies;
         if (sky[i].y > kEddyCosine) snow[i] += kEddies / steep;
     }
-    rain = without_least(rain, kLeastRain);
-    snow = without_least(snow, kLeastSnow);
     std::vector<Fall> result;
     for (std::size_t i = 0; i < sky.size(); ++i) {
         if (rain[i] + snow[i] > 0.0f) {
