@@ -67,7 +67,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         site.name = shown(cell_of(f, header.at("name")));
         if (site.latitude_deg == 0.0 && site.longitude_deg == 0.0) {
             rows.note(ReadNote::Kind::Warning, 2, "place",
-                      "0 N 0 E at " + std::to_string(static_cast<int>(site.elevation_m)) +
+                      "0 N 0 E at " + shown(cell_of(f, header.at("elevation"))) +
                           " m is no place of a station: give latitude, longitude and elevation");
             site.latitude_deg = site.longitude_deg = site.elevation_m = kMissing;
         }

@@ -285,7 +285,8 @@ MetroRoadcast read_metro_roadcast(std::string_view text)
         out.rain_mm_h.push_back(value("qp-ra"));
         out.snow_mm_h.push_back(value("qp-sn"));
         const double condition = value("rc");
-        out.condition.push_back(std::isnan(condition) ? 0 : static_cast<int>(condition));
+        const bool known = condition >= 0.0 && condition <= 99.0;
+        out.condition.push_back(known ? static_cast<int>(condition) : 0);
     }
     return out;
 }
