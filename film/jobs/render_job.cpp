@@ -250,14 +250,14 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         transport.cache = user_cache();
         patches = prepare_patch_scene(sequence.scene, transport, report.notes);
     } else if (sequence.scenario.render.image_based_light) {
-        report.notes.push_back(
-            sequence.scenario.render.indirect == IndirectLight::Ambient
-                ? "light between surfaces: ambient ([render] indirect)"
-                : "light between surfaces: ambient; the scene has " +
-                      std::to_string(sequence.triangles) +
-                      " triangles, and patches of more than " +
-                      std::to_string(kMostAutoTriangles) +
-                      " take minutes and memory ([render] indirect = \"patches\")");
+        std::string why = "([render] indirect)";
+        if (sequence.scenario.render.indirect != IndirectLight::Ambient) {
+            why = sequence.triangles > kMostAutoTriangles
+                      ? "as patches of " + std::to_string(sequence.triangles) +
+                            " triangles take minutes and memory ([render] indirect = \"patches\")"
+                      : "as ground below a model is no patch ([render] indirect = \"patches\")";
+        }
+        report.notes.push_back("light between surfaces: ambient " + why);
     }
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
