@@ -143,8 +143,8 @@ struct Instance {
     std::string name;
     std::uint32_t mesh = 0;
     glm::mat4 to_world{1.0f};
-    /// What the program put around the scene: seen and shaded, but no part of its bounds, patches and
-    /// hollows.
+    /// What the program put around the scene: seen and shaded, but no part of its bounds and hollows;
+    /// patches only near the scene.
     bool backdrop = false;
 };
 

@@ -252,10 +252,8 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     } else if (sequence.scenario.render.image_based_light) {
         std::string why = "([render] indirect)";
         if (sequence.scenario.render.indirect != IndirectLight::Ambient) {
-            why = sequence.triangles > kMostAutoTriangles
-                      ? "as patches of " + std::to_string(sequence.triangles) +
-                            " triangles take minutes and memory ([render] indirect = \"patches\")"
-                      : "as ground below a model is no patch ([render] indirect = \"patches\")";
+            why = "as patches of " + std::to_string(sequence.triangles) +
+                  " triangles take minutes and memory ([render] indirect = \"patches\")";
         }
         report.notes.push_back("light between surfaces: ambient " + why);
     }

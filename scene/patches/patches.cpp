@@ -16,6 +16,7 @@ namespace {
 constexpr float kCell_m = 0.35f;
 constexpr float kCellsAcross = 48.0f;
 constexpr float kCoarsestAcross = 20.0f;
+constexpr int kBackdropLevels = 3;  // coarser ones for open ground around a scene
 constexpr float kSmallest_m = 1e-4f;
 
 void check(const PatchOptions& options)
@@ -50,12 +51,12 @@ float first_cell_m(const Triangles& triangles, const PatchOptions& options)
     const float longest = longest_side_m(triangles);
     if (cell == 0.0f) {
         cell = kCell_m;
-        while (cell * kCellsAcross > longest && cell > kSmallest_m) cell *= 0.5f;
+        // A model that stands on ground of ours meets it all along its foot.
+        const float across = triangles.backdrop() ? 0.5f * kCellsAcross : kCellsAcross;
+        while (cell * across > longest && cell > kSmallest_m) cell *= 0.5f;
     }
     // Numbers of cells fit their bits.
-    const glm::vec3 far = glm::max(glm::abs(triangles.low()), glm::abs(triangles.high()));
-    const float most = std::max({far.x, far.y, far.z});
-    while (2.0f * most / cell > static_cast<float>(shared::kPatchCellBias) * 0.99f) cell *= 2.0f;
+    while (2.0f * triangles.farthest_m() / cell > static_cast<float>(shared::kPatchCellBias) * 0.99f) cell *= 2.0f;
     return cell;
 }
 
@@ -69,6 +70,9 @@ CellPlan plan_of(float regular_cell_m, const Triangles& triangles, const PatchOp
     while (plan.levels < shared::kPatchLevels &&
            plan.cell_m * static_cast<float>(1 << (plan.levels - 1)) < coarsest)
         ++plan.levels;
+    plan.content_levels = plan.levels;
+    if (triangles.backdrop())
+        plan.levels = std::min(plan.levels + kBackdropLevels, shared::kPatchLevels);
     return plan;
 }
 

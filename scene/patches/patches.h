@@ -33,7 +33,7 @@ using PatchProgress = std::function<void(std::string_view, float)>;
 
 struct PatchOptions {
     /// Edge of the finest regular cell, metres; patches that a wall parts get half of it. 0: 0.35,
-    /// halved until the scene is 48 cells wide, and coarser when there would be more patches than
+    /// halved until the scene is 48 cells wide (24 on ground of ours), and coarser when there would be more patches than
     /// max_patches.
     float cell_m = 0.0f;
     int rays = 128;  ///< links a patch, 16..1024

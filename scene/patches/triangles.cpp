@@ -46,7 +46,6 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
 {
     std::size_t expected = 0;
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             expected += primitive.indices.size() / 3;
     }
@@ -61,8 +60,11 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
     low_ = glm::vec3(std::numeric_limits<float>::max());
     high_ = glm::vec3(std::numeric_limits<float>::lowest());
     Hasher hasher;
+    const Bounds content = scene_bounds(scene);
+    const glm::vec3 middle = 0.5f * (content.low + content.high);
+    const glm::vec3 across = content.high - content.low;
+    const float reach = kBackdropReach * 0.5f * std::sqrt(glm::dot(across, across));
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             if (!stops_light(material)) {
@@ -77,6 +79,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
             if (material.double_sided && !material.cull_front) flags |= kTriangleDoubleSided;
             if (masked) flags |= kTriangleMasked;
             if (material.weather.sheltered) flags |= kTriangleSheltered;
+            if (instance.backdrop) flags |= kTriangleBackdrop;
             runs_.push_back({size(), &primitive, &instance.to_world, turned});
             hasher.add(flags);
             hasher.add(turned);
@@ -97,6 +100,13 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
                 glm::vec3 b = world[primitive.indices[i + 1]];
                 glm::vec3 c = world[primitive.indices[i + 2]];
                 if (turned) std::swap(b, c);
+                if (instance.backdrop) {
+                    const auto near = [&](const glm::vec3& p) {
+                        const glm::vec3 d = p - middle;
+                        return glm::dot(d, d) <= reach * reach;
+                    };
+                    if (!near(a) || !near(b) || !near(c)) continue;
+                }
                 const glm::vec3 cross = glm::cross(b - a, c - a);
                 const float twice = std::sqrt(glm::dot(cross, cross));
                 if (!usable(a) || !usable(b) || !usable(c) || !(twice > 1e-20f)) {
@@ -109,10 +119,14 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
                 source_.push_back(static_cast<std::uint32_t>(i / 3));
                 run_.push_back(static_cast<std::uint32_t>(runs_.size() - 1));
                 flags_.push_back(flags);
-                area_ += 0.5 * static_cast<double>(twice);
+                if (!instance.backdrop) area_ += 0.5 * static_cast<double>(twice);
+                backdrop_ = backdrop_ || instance.backdrop;
                 for (const glm::vec3& p : {a, b, c}) {
-                    low_ = glm::min(low_, p);
-                    high_ = glm::max(high_, p);
+                    farthest_m_ = std::max({farthest_m_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+                    if (!instance.backdrop) {
+                        low_ = glm::min(low_, p);
+                        high_ = glm::max(high_, p);
+                    }
                     hasher.add_numbers(std::span<const float>(&p.x, 3));
                 }
                 if (masked) {
@@ -127,7 +141,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
             }
         }
     }
-    if (flags_.empty()) low_ = high_ = glm::vec3(0.0f);
+    if (low_.x > high_.x) low_ = high_ = glm::vec3(0.0f);
     for (const AlphaImage& image : alpha_) {
         hasher.add(image.width);
         hasher.add(image.height);

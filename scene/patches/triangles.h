@@ -23,7 +23,12 @@ enum TriangleFlags : std::uint8_t {
     kTriangleDoubleSided = 1,  ///< its back is a surface too
     kTriangleMasked = 2,       ///< has holes by alpha
     kTriangleSheltered = 4,    ///< of a sheltered material
+    kTriangleBackdrop = 8,     ///< of a backdrop near the scene
 };
+
+/// Of a backdrop what lies within so many halves of the scene's diagonal is there: what is farther
+/// away sees the open sky.
+inline constexpr float kBackdropReach = 4.1f;
 
 /// Barycentric coordinates of the second and third corner.
 struct Barycentric {
@@ -66,9 +71,12 @@ public:
     bool is_hole(std::uint32_t t, Barycentric at) const;
 
     const Scene& scene() const { return *scene_; }
-    glm::vec3 low() const { return low_; }    ///< of all triangles, metres
+    glm::vec3 low() const { return low_; }    ///< of all triangles but backdrops, metres
     glm::vec3 high() const { return high_; }
-    double total_area_m2() const { return area_; }  ///< fronts only
+    /// The largest coordinate of all, and whether backdrops are among them.
+    float farthest_m() const { return farthest_m_; }
+    bool backdrop() const { return backdrop_; }
+    double total_area_m2() const { return area_; }  ///< fronts only, without backdrops
     std::uint64_t left_out_blended() const { return blended_; }
     std::uint64_t left_out_degenerate() const { return degenerate_; }
     /// Fingerprint of everything that rays can see: positions, sides, holes.
@@ -92,6 +100,8 @@ private:
     std::vector<std::uint32_t> run_;
     std::vector<std::uint8_t> flags_;
     glm::vec3 low_{0.0f}, high_{0.0f};
+    float farthest_m_ = 0.0f;
+    bool backdrop_ = false;
     double area_ = 0.0;
     std::uint64_t blended_ = 0, degenerate_ = 0;
     std::string fingerprint_;

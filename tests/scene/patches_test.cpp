@@ -456,6 +456,56 @@ TEST(Patches, CellsGrowUntilNumbersFit)
     EXPECT_GT(cut.patches.level_cell_m(1), 0.5f);
 }
 
+// A box on ground that the program lays around it: the ground is patches near the box, coarse ones far
+// from it.
+TEST(Patches, ABackdropIsPatchesNearTheScene)
+{
+    Scene alone = patch_scenes::empty_scene();
+    patch_scenes::add_box(alone, {-0.5f, 0.0f, -0.5f}, {0.5f, 1.0f, 0.5f}, false);
+    Scene scene = alone;
+    Scene ground = patch_scenes::empty_scene();
+    for (int i = -16; i < 16; ++i) {
+        for (int k = -16; k < 16; ++k) {
+            const glm::vec2 corner = 0.25f * glm::vec2(i, k + 1);
+            patch_scenes::add_face(ground, {corner.x, -0.001f, corner.y}, {0.25f, 0, 0},
+                                   {0, 0, -0.25f});
+        }
+    }
+    patch_scenes::add_face(ground, {50, -0.001f, 1}, {1, 0, 0}, {0, 0, -1});
+    scene.meshes.push_back(ground.meshes[0]);
+    Instance below;
+    below.mesh = 1;
+    below.backdrop = true;
+    scene.instances.push_back(below);
+
+    const Triangles plain(alone, {}), all(scene, {});
+    EXPECT_EQ(all.low(), plain.low());
+    EXPECT_EQ(all.high(), plain.high());
+    EXPECT_FALSE(plain.backdrop());
+    EXPECT_TRUE(all.backdrop());
+    EXPECT_EQ(plain.size(), 12u);
+    // Within 4.1 halves of the diagonal, 3.55 m about the middle.
+    EXPECT_GT(all.size(), 12u + 2u * 20u * 20u);
+    EXPECT_LT(all.size(), 12u + 2u * 32u * 32u);
+    const Tracer tracer(all);
+    const Patches p = build_patches(tracer);
+    const Patches boxed = build_patches(Tracer(plain));
+    EXPECT_EQ(p.cell_m, 2.0f * boxed.cell_m);
+    const auto beside = patch_at(p, {0.52f, -0.001f, 0.0f}, {0, 1, 0});
+    const auto away = patch_at(p, {3.0f, -0.001f, 0.0f}, {0, 1, 0});
+    ASSERT_TRUE(beside && away);
+    EXPECT_LT(p.sky_view[*beside], 0.75f);
+    EXPECT_GT(p.sky_view[*away], 0.95f);
+    EXPECT_GT(level_of(p.key[*away]), level_of(p.key[*beside]) + 2);
+    EXPECT_LT(p.count, 9000u);
+    // What stands on it is lit by it: half of what a wall sees is ground.
+    const auto wall = patch_at(p, {0.5f, 0.5f, 0.0f}, {1, 0, 0});
+    ASSERT_TRUE(wall);
+    int ground_links = 0;
+    for (int r = 0; r < p.rays; ++r) ground_links += p.row(*wall)[r] < p.count ? 1 : 0;
+    EXPECT_GT(ground_links, p.rays / 3);
+}
+
 TEST(Patches, OptionsOutOfRangeAreRefused)
 {
     const Scene scene = room();

@@ -46,7 +46,9 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
             // What no point fits takes the least wrong one.
             const float weight =
                 near * (fits * fits + 1.0e-4 * (0.1 + facing) / (1.0 + away + apart));
-            sent += vec4(unpackHalf2x16(a.x), unpackHalf2x16(a.y)) * weight;
+            const vec4 found = vec4(unpackHalf2x16(a.x), unpackHalf2x16(a.y));
+            if (found.w < 0.0) continue;
+            sent += found * weight;
             turn += vec4(unpackHalf2x16(b.x), unpackHalf2x16(b.y)) * weight;
             total += weight;
         }

@@ -130,6 +130,7 @@ private:
     };
     Outlook look_out(const SamplePoint& point, std::uint64_t hash) const;
     bool parted(const Cell& cell) const;
+    bool holds_content(const Cell& cell) const;
     void settle();
 
     float cell_edge_m(int level) const
@@ -302,6 +303,14 @@ Grower::Outlook Grower::look_out(const SamplePoint& point, std::uint64_t hash) c
     return outlook;
 }
 
+bool Grower::holds_content(const Cell& cell) const
+{
+    return std::any_of(cell.samples.begin(), cell.samples.begin() + cell.points,
+                       [&](const PatchSample& s) {
+                           return (triangles_.flags(s.triangle) & kTriangleBackdrop) == 0;
+                       });
+}
+
 // Two groups of samples, a fifth of them or more each, that do not see one another.
 bool Grower::parted(const Cell& cell) const
 {
@@ -404,7 +413,9 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
     if (level_ > 1) {
         // Ward 1988: the harmonic mean distance of what is seen.
         const float mean = inverse_distances / static_cast<float>(std::max(rays, 1));
-        if (cell_edge_m(level_) * mean > 0.25f) cell.state = CellState::Split;
+        const bool coarse = level_ >= plan_.content_levels && holds_content(cell);
+        if (coarse || cell_edge_m(level_) * mean > 0.25f)
+            cell.state = CellState::Split;
     } else if (level_ == 1 && options_.split_by_sight && parted(cell)) {
         cell.state = CellState::Split;
     }

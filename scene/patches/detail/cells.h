@@ -44,6 +44,7 @@ private:
 struct CellPlan {
     float cell_m = 0.175f;
     int levels = 2;  ///< level levels - 1 is the coarsest, 1 the finest regular one
+    int content_levels = 2;  ///< coarser cells are for backdrops alone
     std::uint32_t most = kMostPatches;
 };
 
