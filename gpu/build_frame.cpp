@@ -8,6 +8,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
+#include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
 #include "gpu/upload/draw.h"
@@ -295,8 +296,11 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
+        if (i == 0 && variant.patch_light) {
+            add_patch_points(graph, *r.targets, *r.patches, constants);
+        }
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps,
-                     *r.patches, *r.lamp_shadows, constants, variant);
+                     *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }

@@ -154,12 +154,21 @@ void finish_films(const Sequence& sequence, const RenderRequest& request, Render
         finish_film(sequence, request, part, records, report);
 }
 
+scene::PatchProgress tracing_progress(const RenderRequest& request)
+{
+    if (!request.watcher) return {};
+    return [watcher = request.watcher](std::string_view stage, float share) {
+        watcher->tracing(traced_share(stage, share));
+    };
+}
+
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
     const ScenarioOutput& output = sequence.scenario.output;
     // Before the scene loses its images.
-    ScenePlaces places(sequence, request.threads, request.stop, report.notes);
+    ScenePlaces places(sequence, request.threads, request.stop, tracing_progress(request),
+                       report.notes);
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
@@ -237,15 +246,18 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         TransportOptions transport;
         transport.patches.threads = request.threads;
         transport.patches.stop = request.stop;
+        transport.patches.progress = tracing_progress(request);
         transport.cache = user_cache();
         patches = prepare_patch_scene(sequence.scene, transport, report.notes);
     } else if (sequence.scenario.render.image_based_light) {
-        report.notes.push_back(
-            sequence.scenario.render.indirect == IndirectLight::Ambient
-                ? "light between surfaces: ambient ([render] indirect)"
-                : "light between surfaces: ambient; the scene has " +
-                      std::to_string(sequence.triangles) +
-                      " triangles, and patches may take minutes ([render] indirect = \"patches\")");
+        std::string why = "([render] indirect)";
+        if (sequence.scenario.render.indirect != IndirectLight::Ambient) {
+            why = sequence.triangles > kMostAutoTriangles
+                      ? "as patches of " + std::to_string(sequence.triangles) +
+                            " triangles take minutes and memory ([render] indirect = \"patches\")"
+                      : "as ground below a model is no patch ([render] indirect = \"patches\")";
+        }
+        report.notes.push_back("light between surfaces: ambient " + why);
     }
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;

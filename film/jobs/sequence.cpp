@@ -129,7 +129,11 @@ bool wants_patches(const Sequence& sequence)
 {
     const ScenarioRender& render = sequence.scenario.render;
     if (!render.image_based_light || render.indirect == IndirectLight::Ambient) return false;
-    return render.indirect == IndirectLight::Patches || sequence.triangles <= kMostAutoTriangles;
+    if (render.indirect == IndirectLight::Patches) return true;
+    // Ground below a model is no patch.
+    return sequence.triangles <= kMostAutoTriangles &&
+           std::none_of(sequence.scene.instances.begin(), sequence.scene.instances.end(),
+                        [](const scene::Instance& i) { return i.backdrop; });
 }
 
 FrameRange parse_frame_range(std::string_view text, int count)

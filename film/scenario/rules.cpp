@@ -383,9 +383,9 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
-        {{"render", "indirect", "\"ambient\"",
+        {{"render", "indirect", "\"auto\"",
           "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
-          "a constant), or auto: patches for scenes of up to 4 million triangles"},
+          "a constant), or auto: patches for scenes of up to a million triangles"},
          [](Scenario& s, const TomlValue& v) {
              s.render.indirect =
                  static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));

@@ -134,7 +134,7 @@ struct ScenarioLights {
 
 /// Light that comes from other surfaces.
 enum class IndirectLight {
-    Auto,     ///< patches, unless tracing them would take minutes
+    Auto,     ///< patches, unless tracing them would take minutes or much memory
     Patches,  ///< from the patches of the scene, solved each frame
     Ambient,  ///< skylight past depth maps, and a constant
 };
@@ -157,7 +157,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
-    IndirectLight indirect = IndirectLight::Ambient;  ///< the others cost a third more
+    IndirectLight indirect = IndirectLight::Auto;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 

@@ -53,38 +53,13 @@ layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
-layout(binding = LIGHTING_PATCH_TABLE) uniform usamplerBuffer patch_table_texels;
-layout(binding = LIGHTING_PATCH_WAYS) uniform usamplerBuffer patch_way_texels;
-layout(binding = LIGHTING_PATCH_KEPT, rgba32ui) uniform uimage2D patch_light_kept;
-layout(binding = LIGHTING_PATCH_PLANES) uniform samplerBuffer patch_plane_texels;
-layout(binding = LIGHTING_PATCH_IRRADIANCE) uniform samplerBuffer patch_irradiance_texels;
-layout(binding = LIGHTING_PATCH_GRADIENT) uniform samplerBuffer patch_gradient_texels;
+layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 
-uvec4 patch_table(uint slot)
-{
-    return texelFetch(patch_table_texels, int(slot));
-}
-uint patch_way(uint index)
-{
-    return texelFetch(patch_way_texels, int(index)).r;
-}
-vec4 patch_plane(uint node)
-{
-    return texelFetch(patch_plane_texels, int(node));
-}
-vec4 patch_irradiance(uint node)
-{
-    return texelFetch(patch_irradiance_texels, int(node));
-}
-vec4 patch_gradient(uint node)
-{
-    return texelFetch(patch_gradient_texels, int(node));
-}
-#include "formulas/light/patch_lookup.inc"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
+#include "gpu/passes/patch_light/patch_spread.glsl"
 #include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
@@ -317,42 +292,12 @@ struct Ambient {
     float open;       // 0..1: how far a mirror sees the sky
 };
 
-// Irradiance over pi from the patches around, and their share of open directions; w < 0: none there.
-vec4 looked_up(LitPoint p, vec3 geometry)
-{
-    const PatchLight light = patch_lookup(frame.patches, p.position, geometry);
-    if (light.weight <= 0.0) return vec4(0.0, 0.0, 0.0, -1.0);
-    const float turned = irradiance_towards(light.gradient, normalize(light.normal), p.normal);
-    return vec4(min(light.irradiance * (0.31830989 * turned), vec3(60000.0)), light.open);
-}
-
-// The first sample of a pixel looks up; those that see the same surface take what it found, as light
-// changes little within a pixel.
-vec4 patch_light_at(LitPoint p, vec3 geometry, float view_m, ivec2 texel)
-{
-    if (frame.sample_index > 0u) {
-        const uvec4 kept = imageLoad(patch_light_kept, texel);
-        const float other_m = uintBitsToFloat(kept.z);
-        const vec3 other = octahedral_decode(unpackSnorm2x16(kept.w));
-        if (abs(view_m - other_m) < 0.5 * frame.patches.cell_m + 0.005 * view_m &&
-            dot(other, p.normal) > 0.85) {
-            return vec4(unpackHalf2x16(kept.x), unpackHalf2x16(kept.y));
-        }
-        return looked_up(p, geometry);
-    }
-    const vec4 found = looked_up(p, geometry);
-    imageStore(patch_light_kept, texel,
-               uvec4(packHalf2x16(found.xy), packHalf2x16(found.zw), floatBitsToUint(view_m),
-                     packSnorm2x16(octahedral_encode(p.normal))));
-    return found;
-}
-
 // From the patches around; nothing (open < 0) where there are none.
 Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
                       ivec2 texel)
 {
     Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
-    const vec4 light = patch_light_at(p, geometry, view_m, texel);
+    const vec4 light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
     if (light.w < 0.0) return a;
     a.irradiance = light.rgb;
     if (AMBIENT_OCCLUSION != 0u) {
@@ -398,9 +343,6 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        // No surface is so far away: samples that meet one look up for themselves.
-        if (PATCHES != 0u && frame.sample_index == 0u)
-            imageStore(patch_light_kept, texel, uvec4(0u, 0u, floatBitsToUint(1.0e30), 0u));
         radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
                                                    : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));

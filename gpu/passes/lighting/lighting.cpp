@@ -6,8 +6,8 @@ namespace petrichor::gpu {
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const PatchLights& patches, LampShadows& lamp_shadows,
-                  const ConstantsRange& constants, const LightingVariant& variant)
+                  LampShadows& lamp_shadows, const ConstantsRange& constants,
+                  const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -37,12 +37,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},
                      {LIGHTING_LIGHTS, texels(*lights.texels)},
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
-                     {LIGHTING_PATCH_TABLE, texels(patches.table())},
-                     {LIGHTING_PATCH_WAYS, texels(patches.ways())},
-                     {LIGHTING_PATCH_PLANES, texels(patches.planes())},
-                     {LIGHTING_PATCH_IRRADIANCE, texels(patches.irradiance())},
-                     {LIGHTING_PATCH_GRADIENT, texels(patches.gradient())},
-                     {LIGHTING_PATCH_KEPT, storage(*targets.patch_light)},
+                     {LIGHTING_PATCH_POINTS, texels(*targets.patch_points)},
                      {LIGHTING_LAYERS, texels(scene.layers())},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},

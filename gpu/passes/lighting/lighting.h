@@ -4,7 +4,6 @@
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lights/lights.h"
-#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/sky/sky.h"
 
 namespace petrichor::gpu {
@@ -36,12 +35,12 @@ struct LightingVariant {
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patches
+//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const PatchLights& patches, LampShadows& lamp_shadows,
-                  const ConstantsRange& constants, const LightingVariant& variant);
+                  LampShadows& lamp_shadows, const ConstantsRange& constants,
+                  const LightingVariant& variant);
 
 }  // namespace petrichor::gpu
 
