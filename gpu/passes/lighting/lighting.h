@@ -3,6 +3,7 @@
 
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
+#include "gpu/passes/lighting/light_tables.h"
 #include "gpu/passes/lights/lights.h"
 #include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/sky/sky.h"
@@ -24,9 +25,12 @@ struct LightingVariant {
     bool gamma = false;
     bool patch_light = false;
     bool lamp_shadows = false;
-    bool rectangles = false;  ///< some lights are
+    bool rectangles = false;  ///< some lights are surfaces that glow
+    std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool lazarov = false;     ///< FrameSettings::lazarov
+    bool horizon = false;     ///< of the mesh
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
@@ -39,7 +43,7 @@ struct LightingVariant {
 //   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patches
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
+                  LightTable& lights, LightTables& light_tables, SkyMaps& sky, DepthMaps& depth_maps,
                   const PatchLights& patches, LampShadows& lamp_shadows,
                   const ConstantsRange& constants, const LightingVariant& variant);
 
