@@ -14,6 +14,10 @@
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/ltc.h"
+#include "formulas/light/other_lobes.h"
+#include "formulas/light/skin.h"
+#include "formulas/light/translucent.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
@@ -26,7 +30,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 34;
+SHARED_CONST int kProbeKinds = 38;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -183,6 +187,49 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 r = shade_layers(n, probe_direction(a.z, a.w), probe_direction(b.x, b.y),
                                     vec3(b.z), vec3(0.9f * b.z), vec3(0.04f), 0.3f + 0.7f * b.w, layers);
         return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
+    }
+    if (kind == 34) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 centre = probe_direction(a.z, a.w) * (1.0f + 3.0f * b.x);
+        const vec3 half_axis = probe_direction(b.y, b.z) * (0.9f * b.w);
+        const Frame3 f = lobe_frame(surface_frame(n, probe_direction(c.x, c.y)),
+                                    vec4(1.0f, 0.3f * c.z, -0.2f * c.z, 0.2f + 0.6f * c.w));
+        const vec3 tube = outline_irradiance(tube_outline(centre - half_axis, centre + half_axis, 0.1f), f);
+        return vec4(tube.x, tube.y, tube.z, cosine_share(tube));
+    }
+    if (kind == 35) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const NearestLight at =
+            nearest_light(probe_direction(a.z, a.w) * (1.0f + 3.0f * b.x),
+                          probe_direction(b.y, b.z) * (0.2f + 0.5f * b.w), 0.1f + 0.4f * c.x, n, c.y);
+        const vec3 on = nearest_on_axis(probe_direction(a.z, a.w) * 2.0f, n * c.z);
+        return vec4(at.direction.x, at.direction.z, at.energy, on.y);
+    }
+    if (kind == 36) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 v = probe_direction(a.z, a.w);
+        const vec3 l = probe_direction(b.x, b.y);
+        const float rough = 0.3f + 0.7f * b.w;
+        const vec3 lux = shade_lux(n, v, l, vec3(b.z), vec3(0.04f), rough);
+        const vec3 hair = shade_hair(n, tangent_at(n, 3.0f * c.x), v, l, vec3(b.z), vec3(c.y), rough,
+                                     0.3f * c.z);
+        return vec4(shade_lwrp(n, v, l, vec3(b.z), vec3(0.04f), rough * rough).x +
+                        shade_burley(n, v, l, vec3(b.z), vec3(0.04f), rough).x,
+                    lux.y, hair.z, lazarov_split_sum(c.w, b.w).x + lazarov_split_sum(c.w, b.w).y);
+    }
+    if (kind == 37) {
+        Translucency t;
+        t.strength = a.x;
+        t.power = 8.0f * a.y;
+        t.distortion = a.z;
+        t.scale = 8.0f * a.w;
+        t.shadow = b.x;
+        t.color = vec3(1.0f);
+        const vec3 ring = skin_ring(2.0f * b.y - 1.0f, b.z);
+        return vec4(light_through(t, probe_direction(b.w, c.x), probe_direction(c.y, c.z),
+                                  probe_direction(c.w, a.x)) +
+                        shadow_through(t, c.w),
+                    ring.x, ring.z, scattered_albedo(vec3(a.x), vec3(a.y), 0.5f * a.z, 10.0f * a.w, b.x).y);
     }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);

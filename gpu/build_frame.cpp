@@ -258,6 +258,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.gamma = settings.gamma;
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.rectangles = r.lights->rectangles;
+    variant.ways = r.lights->ways;
     variant.all_lights = settings.all_lights;
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
@@ -270,6 +271,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         c.place = r.place->constants();
         if (i == 0) {
             see_models(variant, *r.scene, c);
+            if ((variant.layers & LAYERS_SKIN) != 0u) r.light_tables->need_skin();
+            variant.lazarov = settings.lazarov;
+            variant.horizon = settings.horizon_fade > 0.0f;
             variant.fog = c.fog_per_m > 0.0f;
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
@@ -299,7 +303,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (i == 0 && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
-        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps,
+        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);

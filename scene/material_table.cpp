@@ -192,6 +192,44 @@ void add_gltf_rows(std::vector<Row>& t)
                                 "shows its base colour whatever the light"));
 }
 
+// Light that comes through, fibres at the rim, skin and hair: Lux 2.02's, with its ranges.
+void add_light_rows(std::vector<Row>& t)
+{
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(number<&M::translucency>(
+        "translucency", 0, 1, place("translucency"),
+        "light that comes through thick and thin things towards the eye: leaves, wax, ears"));
+    t.push_back(number<&M::translucency_power>(
+        "translucency_power", 0, 8, place("translucencyPower"),
+        "how narrow its glow around the lamp is; 0: wrapped around, for leaves"));
+    t.push_back(number<&M::translucency_distortion>("translucency_distortion", 0, 1,
+                                                    place("translucencyDistortion"),
+                                                    "how far normals bend what comes through"));
+    t.push_back(number<&M::translucency_scale>("translucency_scale", 0, 8, place("translucencyScale"),
+                                               "times what comes through; 8 adds light, 1 does not"));
+    t.push_back(number<&M::translucency_shadow>(
+        "translucency_shadow", 0, 1, place("translucencyShadow"),
+        "how dark shadows on it are for what comes through; 1: as for all else"));
+    t.push_back(number<&M::translucency_color>(
+        "translucency_color", 0, 1, place("translucencyColor"),
+        "linear tint of what comes through, times the surface's colour; alone of skin"));
+    t.push_back(number<&M::scatter_color>("scatter_color", 0, 1, place("scatterColor"),
+                                          "linear colour of fibres at the rim (velvet, peach, moss)"));
+    t.push_back(number<&M::scatter_bias>("scatter_bias", 0, 0.5f, place("scatterBias"),
+                                         "how much of it is everywhere"));
+    t.push_back(number<&M::scatter_power>("scatter_power", 1, 10, place("scatterPower"),
+                                          "how narrow the rim is"));
+    t.push_back(number<&M::skin_curvature>(
+        "skin_curvature", 0, 1, place("skinCurvature"),
+        "of lighting_model \"skin\": 0 flat, red does not bleed .. 1 as round as a finger"));
+    t.push_back(number<&M::skin_curvature_scale>(
+        "skin_curvature_scale", 0, 1, place("skinCurvatureScale"),
+        "of \"skin\": metres times the bend of the normals a metre, added to it; Lux has 0.02"));
+    t.push_back(number<&M::hair_shift>(
+        "hair_shift", 0, 0.3f, place("hairShift"),
+        "of lighting_model \"hair\": radians by which its highlights are tilted apart"));
+}
+
 // Lux 2.02, "per material": symbols, ranges and defaults.
 void add_weather_rows(std::vector<Row>& t)
 {
@@ -332,6 +370,7 @@ const std::vector<MaterialProperty>& material_table()
     static const std::vector<MaterialProperty> table = [] {
         std::vector<MaterialProperty> rows;
         add_gltf_rows(rows);
+        add_light_rows(rows);
         add_weather_rows(rows);
         return rows;
     }();

@@ -109,6 +109,18 @@ struct Material {
     float sheen_roughness = 0.0f;
     float anisotropy = 0.0f;
     float anisotropy_rotation_rad = 0.0f;
+    float translucency = 0.0f;  ///< light that comes through (Lux 2.02), of the models that have it
+    float translucency_power = 4.0f;
+    float translucency_distortion = 0.1f;
+    float translucency_scale = 4.0f;
+    float translucency_shadow = 0.7f;
+    glm::vec3 translucency_color{1.0f};
+    glm::vec3 scatter_color{0.0f};  ///< of a rim of fibres (Lux 2.02: diffuse scattering)
+    float scatter_bias = 0.0f;
+    float scatter_power = 8.0f;
+    float skin_curvature = 0.1f;  ///< of the model "skin"
+    float skin_curvature_scale = 0.0f;
+    float hair_shift = 0.1f;  ///< of the model "hair"
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -164,6 +176,22 @@ struct Light {
     glm::vec3 half_u_m{0.0f};  ///< of a rectangle: half its edges; `direction` is its front
     glm::vec3 half_v_m{0.0f};
     bool both_sides = false;
+    glm::vec3 up{0.0f, 1.0f, 0.0f};  ///< unit, across `direction`: how it is turned about it
+    float radius_m = 0.0f;   ///< > 0: a point is a sphere or tube, a spot a disc
+    float length_m = 0.0f;   ///< of a tube, along `up`
+    bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
+    float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
+    std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
+};
+
+/// How a lamp shines by direction, at most 1: a measured distribution (IES) over angles, or a picture
+/// before a spot (cookie). kLightProfileSide squared texels, by rows.
+inline constexpr int kLightProfileSide = 128;
+struct LightProfile {
+    std::string name;
+    bool picture = false;  ///< over the square of a spot's cone, `up` up; else over angles: a column a
+                           ///< turn about `direction` from `up`, a row an angle from it, 0 to pi
+    std::vector<glm::vec3> texels;
 };
 
 /// Looks along -z of `to_world`, +y up.
@@ -198,6 +226,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
 };

@@ -14,6 +14,7 @@
 #include "base/words.h"
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenes/lamps.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
 #include "film/scenes/scene_file.h"
@@ -104,8 +105,13 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
+    const AppliedLamps lamps =
+        apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
+    sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
+                                   lamps.unmatched.end());
     Hasher content;
     content.add(loaded.fingerprint);
+    if (!lamps.content.empty()) content.add(lamps.content);
     content.add(applied.textures);
     content.add(ground);
     sequence.content = content.text();

@@ -128,6 +128,7 @@ struct ScenarioLights {
     Lamps lamps = Lamps::On;         ///< point and spot lights and glowing materials of the scene
     double dusk_degrees = 4.0;       ///< with Dusk: full light at this sun elevation and below ...
     double dusk_fade_degrees = 4.0;  ///< ... none this much above it
+    gpu::AreaLights area = gpu::AreaLights::Ltc;
     bool emissive = true;            ///< what glows lights its surroundings
     double scale = 1.0;
 };
@@ -155,6 +156,10 @@ struct ScenarioRender : gpu::FrameSwitches {
     int falling_budget = 20000;
     double falling_density = 1.0;
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
+    bool lazarov = false;           ///< ambient_fit = "lazarov"
+    double horizon_fade = 0.0;      ///< 0: off
+    double specular_aa = 1.0;       ///< 0: off
+    double specular_aa_limit = 0.18;
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
     IndirectLight indirect = IndirectLight::Auto;
@@ -187,6 +192,18 @@ struct MaterialOverride {
     /// slot is emptied.
     std::vector<std::pair<std::string, std::string>> textures = {};
     std::string lighting_model = {};  ///< as written; empty: left as it is
+};
+
+/// What the lamps whose name matches have instead of their own.
+struct LampOverride {
+    std::string glob;
+    std::string place;  ///< "file:line", for messages
+    std::vector<std::pair<std::string, float>> shape;  ///< by name of a row of scene/light_shape.h
+    bool both_sides = false;
+    std::optional<glm::vec3> color;
+    std::optional<float> intensity;  ///< candela
+    std::optional<float> range_m;
+    std::string profile;  ///< a file, relative to the scenario
 };
 
 /// [look]: keys of look_keys() with their values over time, one number a channel.
@@ -234,6 +251,7 @@ struct Scenario : Conditions {
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;
+    std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
     std::vector<ScenarioView> views;        ///< empty: the scenario's own camera
 };

@@ -81,6 +81,9 @@ struct FrameConstants {
     float sun_angular_cos;   // cosine of the sun's angular radius
     uint fall_count;         // of falls; 0: no shelter is known
     float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
+    float horizon_fade;      // how fast mirrors darken below the horizon of the mesh
+    float specular_aa;       // times the variance of normals inside a pixel
+    float specular_aa_limit;
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;

@@ -96,14 +96,24 @@
 // Layers of those materials that have some, by number:
 //   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor
 //   1  sheen_color_factor, sheen_roughness_factor
-//   2  anisotropy_strength, -, -, -
-#define LAYERS_TEXELS 3
+//   2  anisotropy_strength, scatter_bias, scatter_power, hair_shift
+//   3  translucency, translucency_power, translucency_distortion, translucency_scale
+//   4  translucency_color, translucency_shadow
+//   5  scatter_color, skin_curvature
+//   6  skin_curvature_scale, -, -, -
+#define LAYERS_TEXELS 7
 
 // Which of them a material has.
 #define LAYERS_COAT 1u
 #define LAYERS_SHEEN 2u
 #define LAYERS_ANISOTROPY 4u
 #define LAYERS_TRANSMISSION 8u
+#define LAYERS_TRANSLUCENT 16u
+#define LAYERS_SCATTER 32u
+#define LAYERS_SKIN 64u
+#define LAYERS_HAIR 128u
+#define LAYERS_LATER (LAYERS_TRANSLUCENT | LAYERS_SCATTER | LAYERS_SKIN | LAYERS_HAIR)
+
 
 SHARED_BEGIN
 

@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scene/gltf/detail/gltf_parts.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::scene {
 namespace {
@@ -198,6 +199,8 @@ public:
         scene_.lights.push_back(*light);
         scene_.lights.back().position_m = glm::vec3(frame[3]);
         scene_.lights.back().direction = -glm::vec3(frame[2]);
+        scene_.lights.back().up = glm::vec3(frame[1]);
+        turn_shape(scene_.lights.back());
     }
 
 private:

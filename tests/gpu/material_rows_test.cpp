@@ -84,6 +84,10 @@ void make_visible(std::string_view row, Material& m)
     if (row == "clearcoat_roughness_factor") m.clearcoat = 1.0f;
     if (row == "sheen_roughness_factor") m.sheen_color = glm::vec3(0.8f);
     if (row == "anisotropy_rotation") m.anisotropy = 0.9f;
+    if (row.starts_with("translucency_")) m.translucency = 0.6f;
+    if (row.starts_with("scatter_")) m.scatter_color = glm::vec3(0.3f);
+    if (row.starts_with("skin_")) m.lighting_model = "skin";
+    if (row.starts_with("hair_")) m.lighting_model = "hair";
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
     if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;

@@ -24,7 +24,8 @@ vec3 mapped_normal(SurfaceInput at, vec2 shift)
 float widened_by_curvature(float roughness, SurfaceInput at)
 {
     const float variance =
-        min(0.5 * (dot(at.normal_dx, at.normal_dx) + dot(at.normal_dy, at.normal_dy)), 0.18);
+        min(frame.specular_aa * (dot(at.normal_dx, at.normal_dx) + dot(at.normal_dy, at.normal_dy)),
+            frame.specular_aa_limit);
     const float alpha = roughness * roughness;
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
 }
