@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,6 +131,20 @@ struct Material {
     MaterialWeather weather;
 };
 
+/// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
+/// entries.
+struct MorphTarget {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;
+};
+
+/// One joint's share of a vertex.
+struct Influence {
+    std::uint32_t joint = 0;  ///< index into Skin::joints
+    float weight = 0.0f;      ///< those of a vertex sum up to 1
+};
+
 /// Triangles of one material. All attribute arrays have positions.size() entries; uv1, colors and
 /// weather may be empty. Tangents are as MikkTSpace defines them, w the bitangent sign.
 struct Primitive {
@@ -143,12 +158,21 @@ struct Primitive {
         weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
+    std::vector<MorphTarget> targets;    ///< empty: it is not morphed
+    std::vector<Influence> influences;   ///< as many for each vertex; empty: it has no skin
+    bool flat = false;                   ///< normals are those of the triangles, in every shape
+
+    bool deforms() const { return !targets.empty() || !influences.empty(); }
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
 };
+
+/// Nodes, skins and animations of a scene: scene/animation/rig.h.
+struct Rig;
+inline constexpr std::int32_t kNoNode = -1;
 
 /// A mesh placed in the world. Several instances may share a mesh.
 struct Instance {
@@ -158,6 +182,12 @@ struct Instance {
     /// What the program put around the scene: seen and shaded, but no part of its bounds, patches and
     /// hollows.
     bool backdrop = false;
+    /// Its place or shape is another in other frames; `to_world` is that at rest. No part of patches,
+    /// hollows and ground.
+    bool moves = false;
+    std::int32_t node = kNoNode;  ///< of the rig, that carries it; read while it `moves`
+    std::int32_t skin = -1;       ///< of the rig; joints alone place it then
+    glm::mat4 in_node{1.0f};      ///< from the mesh to the node
 };
 
 enum class LightKind { Directional, Point, Spot, Rectangle };
@@ -181,6 +211,7 @@ struct Light {
     float length_m = 0.0f;   ///< of a tube, along `up`
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
+    std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
 };
 
@@ -201,6 +232,7 @@ struct Camera {
     float vertical_fov_rad = 0.8f;  ///< (0, pi); ignored when orthographic
     float near_m = 0.05f;
     float orthographic_height_m = 0.0f;  ///< > 0: orthographic
+    std::int32_t node = kNoNode;         ///< of the rig, that carries it
 };
 /// Half of what a picture of width x height shows at a distance of 1 m, metres; orthographic: at
 /// any.
@@ -218,6 +250,11 @@ struct EncodedImage {
     bool nearest = false;  ///< magnification filter
 };
 
+struct Bounds {
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+};
+
 /// One texture = one image and one sampler. The pixels are decoded outside of this room.
 struct Scene {
     std::string name;
@@ -229,13 +266,11 @@ struct Scene {
     std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
+    std::shared_ptr<const Rig> rig;     ///< null: nothing moves
+    std::optional<Bounds> reach;        ///< of all that moves, over time
 };
 
-/// World-space bounds of all instances but backdrops.
-struct Bounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-};
+/// World-space bounds of all instances but backdrops; of what moves, all that it passes through.
 Bounds scene_bounds(const Scene& scene);
 
 }  // namespace petrichor::scene

@@ -43,7 +43,10 @@ LoadedScene load(const Scenario& scenario, int threads)
                         did_you_mean(file, {kDemoStreet}),
                     std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
     }
-    return read_scene(scenario.folder / file, scenario.scene.allow_outside);
+    return read_scene(scenario.folder / file,
+                      {.allow_outside = scenario.scene.allow_outside,
+                       .variant = scenario.scene.variant,
+                       .playing = {scenario.scene.animation, scenario.scene.animation_loop}});
 }
 
 // A camera below it would see nothing but ground, and a picture of the sky shows some already.
@@ -101,6 +104,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     if (ground) add_ground(loaded.scene, sequence.bounds);
     say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
+    sequence.notes = std::move(loaded.notes);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
@@ -114,6 +118,9 @@ void load_sequence_scene(Sequence& sequence, int threads)
     if (!lamps.content.empty()) content.add(lamps.content);
     content.add(applied.textures);
     content.add(ground);
+    content.add(scenario.scene.variant);
+    content.add(scenario.scene.animation);
+    content.add(scenario.scene.animation_loop);
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -70,6 +70,25 @@ const std::vector<Rule>& rules()
         {{"scene", "north_degrees", "0.0",
           "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
          [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
+        {{"scene", "variant", "\"\"",
+          "a variant of the scene's materials (KHR_materials_variants); \"\": as the file has them"},
+         [](Scenario& s, const TomlValue& v) { s.scene.variant = v.text(); }},
+        {{"scene", "animation", "\"all\"",
+          "which of the scene's animations play over the film: all, none, or the name of one"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation = v.text();
+             if (s.scene.animation.empty()) v.refuse("all, none, or the name of an animation");
+         }},
+        {{"scene", "animation_speed", "1.0",
+          "seconds of the animation for a second of the film, -1000 to 1000; 0: it stands still"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation_speed = v.number(-1000.0, 1000.0);
+         }},
+        {{"scene", "animation_start_s", "0.0", "moment of the animation that frame 0 shows"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_start_s = v.number(-1e6, 1e6); }},
+        {{"scene", "animation_loop", "true",
+          "each begins again when it ends; false: it stays as it ended"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_loop = v.boolean(); }},
 
         {{"camera", "name", "\"Camera\"",
           "a camera of the scene; without one the whole scene is framed"},

@@ -30,6 +30,11 @@ struct ScenarioScene {
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
     StandsOn ground = StandsOn::Auto;
     double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
+    std::string variant;          ///< of its materials; empty: as the file has them
+    std::string animation = "all";  ///< "all", "none", or the name of one
+    double animation_speed = 1.0;   ///< seconds of its clock for a second of the film
+    double animation_start_s = 0.0; ///< on that clock, of frame 0
+    bool animation_loop = true;     ///< begins again when it ends
 };
 
 struct CameraKey {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -15,16 +16,6 @@
 namespace petrichor::gpu {
 
 namespace {
-
-std::uint8_t to_byte(float value)
-{
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-}
-
-void set_bytes(std::uint8_t (&target)[4], const std::vector<glm::vec4>& values, std::size_t i)
-{
-    for (int c = 0; c < 4; ++c) target[c] = values.empty() ? 255 : to_byte(values[i][c]);
-}
 
 VkSamplerAddressMode address_mode(Wrap wrap)
 {
@@ -115,9 +106,23 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
       glow_sources_(glow_sources(scene, textures)),
       bounds_(scene_bounds(scene))
 {
+    rig_ = scene.rig && scene.rig->settled ? scene.rig : nullptr;
+    rest_lights_ = lights_;
+    rest_glow_sources_ = glow_sources_;
+    rest_bounds_ = bounds_;
     upload_textures(device, textures);
     make_materials(device, scene);
     upload_geometry(device, scene);
+}
+
+void place_sphere(Draw& draw, const Bounds& box)
+{
+    const glm::vec3 centre = 0.5f * (box.low + box.high);
+    const glm::vec3 half = 0.5f * (box.high - box.low);
+    draw.centre_m = glm::vec3(draw.to_world * glm::vec4(centre, 1.0f));
+    const glm::mat3 linear(draw.to_world);
+    draw.radius_m = glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
+                                glm::abs(linear[2]) * half.z);
 }
 
 void GpuScene::upload_geometry(const Device& device, const Scene& scene)
@@ -137,14 +142,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                         static_cast<std::int32_t>(vertices.size()), glm::vec3(1e30f),
                         glm::vec3(-1e30f)};
             for (std::size_t i = 0; i < p.positions.size(); ++i) {
-                Vertex v{};
-                v.position = p.positions[i];
-                v.normal = p.normals[i];
-                v.tangent = p.tangents.empty() ? glm::vec4(0.0f, 0.0f, 0.0f, 1.0f) : p.tangents[i];
-                if (!p.uv0.empty()) v.uv0 = p.uv0[i];
-                v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
-                set_bytes(v.color, p.colors, i);
-                set_bytes(v.weather, p.weather, i);
+                const Vertex v = vertex_of(p, i);
                 vertices.push_back(v);
                 range.low = glm::min(range.low, v.position);
                 range.high = glm::max(range.high, v.position);
@@ -153,6 +151,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
             ranges[m].push_back(range);
         }
     }
+    first_bending_ = vertices.size();
+    std::map<const Primitive*, std::shared_ptr<const Primitive>> shapes;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const auto& primitives = scene.meshes[instance.mesh].primitives;
@@ -166,17 +166,27 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
             draw.material = primitives[p].material;
             draw.instance_id = static_cast<std::uint32_t>(i);
             draw.to_world = instance.to_world;
-            const glm::vec3 centre = 0.5f * (range.low + range.high);
-            const glm::vec3 half = 0.5f * (range.high - range.low);
-            draw.centre_m = glm::vec3(instance.to_world * glm::vec4(centre, 1.0f));
-            const glm::mat3 linear(instance.to_world);
-            draw.radius_m =
-                glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
-                            glm::abs(linear[2]) * half.z);
-            draw.mirrored = glm::determinant(linear) < 0.0f;
+            place_sphere(draw, {range.low, range.high});
+            draw.mirrored = glm::determinant(glm::mat3(instance.to_world)) < 0.0f;
+            if (rig_ && instance.moves) {
+                draw.moving = static_cast<std::int32_t>(moving_.size());
+                MovingDraw moving{instance, {range.low, range.high}, draw.index_count, 0, nullptr};
+                if (primitives[p].deforms()) {
+                    auto& shape = shapes[&primitives[p]];
+                    if (!shape) shape = std::make_shared<const Primitive>(primitives[p]);
+                    moving.shape = shape;
+                    moving.first_vertex = bending_.size();
+                    draw.vertex_offset =
+                        static_cast<std::int32_t>(first_bending_ + bending_.size());
+                    for (std::size_t v = 0; v < shape->positions.size(); ++v)
+                        bending_.push_back(vertex_of(*shape, v));
+                }
+                moving_.push_back(std::move(moving));
+            }
             draws_.push_back(draw);
         }
     }
+    vertices.insert(vertices.end(), bending_.begin(), bending_.end());
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
             const GpuMaterial& m = materials_[d.material];

@@ -2,28 +2,20 @@
 #define PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/device/pipelines.h"
 #include "gpu/lighting/lighting_models.h"
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/emissive_lights.h"
+#include "gpu/upload/pose.h"
 #include "gpu/upload/texture.h"
+#include "gpu/upload/vertex.h"
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
 
-/// One vertex as the vertex stage reads it.
-struct Vertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-    glm::vec4 tangent;
-    glm::vec2 uv0;
-    glm::vec2 uv1;
-    std::uint8_t color[4];
-    std::uint8_t weather[4];
-};
-static_assert(sizeof(Vertex) == 64);
 const std::vector<VertexAttribute>& vertex_attributes();
 
 /// One primitive of one instance.
@@ -37,7 +29,10 @@ struct Draw {
     glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
     float radius_m = 0.0f;
     bool mirrored = false;
+    std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
 };
+/// The bounding sphere of a draw, from the box of its vertices.
+void place_sphere(Draw& draw, const Bounds& box);
 
 struct GpuMaterial {
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
@@ -63,6 +58,12 @@ public:
     /// True when holes, and with them shadows, may have changed. The device must not be drawing.
     /// Throws Error for a material or property that is not there, or one that cannot change.
     bool set_materials(const std::vector<MaterialChange>& changes);
+
+    /// Brings what moves to where it is at this moment of its clips, for the frames that follow. True
+    /// when anything may have moved. The device must not be drawing.
+    bool pose(const Device& device, double time_s);
+    /// Grows whenever something may have moved.
+    std::uint64_t poses() const { return poses_; }
 
     const GpuBuffer& vertices() const { return *vertices_; }
     const GpuBuffer& indices() const { return *indices_; }
@@ -103,6 +104,15 @@ private:
     std::vector<const SamplerHandle*> image_samplers_;
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
+    std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
+    std::vector<MovingDraw> moving_;
+    std::vector<Vertex> bending_;  // the last vertices of the buffer
+    std::size_t first_bending_ = 0;
+    std::vector<Light> rest_lights_;
+    std::vector<GlowSource> rest_glow_sources_;
+    Bounds rest_bounds_;
+    std::optional<double> posed_s_;
+    std::uint64_t poses_ = 0;
     std::vector<GpuMaterial> materials_;
     std::vector<Material> sources_;  // as loaded
     std::vector<Material> current_;  // with the changes of the frame

@@ -58,6 +58,7 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
          .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          .texel_format = VK_FORMAT_R32G32B32A32_UINT});
     upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
+    tables.poses = scene.poses();
     const VkDeviceSize materials = std::max<VkDeviceSize>(scene.materials().size(), 1);
     const VkBufferUsageFlags table =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -76,6 +77,14 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
          .size = materials * sizeof(VkDispatchIndirectCommand),
          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     return tables;
+}
+
+void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene)
+{
+    if (tables.poses == scene.poses()) return;
+    tables.poses = scene.poses();
+    const std::vector<glm::uvec4> draws = draw_table(scene);
+    upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
 }
 
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
