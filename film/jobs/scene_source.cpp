@@ -16,6 +16,7 @@
 #include "film/scenario/material_keys.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 
@@ -108,6 +109,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     content.add(loaded.fingerprint);
     content.add(applied.textures);
     content.add(ground);
+    if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);
