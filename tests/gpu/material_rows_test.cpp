@@ -86,7 +86,7 @@ void make_visible(std::string_view row, Material& m)
     if (row == "anisotropy_rotation") m.anisotropy = 0.9f;
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
-    if (row == "water_slope_damp") m.weather.snow_accumulation = {0.0f, 0.0f};  // bare slopes
+    if (row == "water_slope_damp") m.weather.porosity = 1.0f;  // what a film darkens
     if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;
     if (row == "height_scale_m") m.weather.height_scale_m = 0.1f;
     if (row.starts_with("parallax") || row == "height_scale_m") {

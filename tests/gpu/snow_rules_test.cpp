@@ -242,7 +242,7 @@ TEST_F(SnowRules, SnowLiftsWhatIsSeenOverParallax)
         m.weather.height_scale_m = 0.4f;
         Frame frame = from_above({"base_color"}, amount);
         frame.camera = look({0.9f, 2.6f, 0.0f}, {0, 0, 0}, 0.25f);
-        return shot(scene_of({quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4})}, {m}), frame,
+        return shot(scene_of({quad({-1.5f, 0, 2}, {4, 0, 0}, {0, 0, -4})}, {m}), frame,
                     {ramp, even({0, 0, 0, 255})});
     };
     const auto apart = [](const RenderResult& a, const RenderResult& b) {
