@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "base/content_cache.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/words.h"
-#include "film/data/content_cache.h"
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/demo_scene.h"

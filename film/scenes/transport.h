@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/content_cache.h"
 #include "base/interrupted.h"
-#include "film/data/content_cache.h"
 #include "gpu/frame/patch_scene.h"
 #include "scene/patches/patches.h"
 #include "scene/patches/radiosity.h"
