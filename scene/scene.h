@@ -51,6 +51,16 @@ enum class Parallax {
     Occlusion,  ///< a ray is walked through the relief
 };
 
+/// Which rule lays snow on a material (Lux 2.02).
+enum class SnowRule {
+    Surface,  ///< by slope, height of the world and masks
+    Grass,    ///< on blades: the lighter a vertex, the more
+    Vertex,   ///< by slope alone, the same over a whole surface
+};
+
+/// Where the maps of the snow are laid.
+enum class SnowMapping { World, Local };
+
 /// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
@@ -77,9 +87,40 @@ struct MaterialWeather {
     float snow_normal_strength = 1.0f;
     float snow_detail_strength = 0.3f;
     float snow_opacity = 0.5f;
+    SnowRule snow_rule = SnowRule::Surface;
+    SnowMapping snow_mapping = SnowMapping::World;
+    glm::vec4 snow_local_tiling{2.0f, 4.0f, 0.3f, 4.0f};
+    TextureUse snow_mask_normal;  ///< of the snow where the snow mask has it trodden down
+    float snow_mask_normal_scale = 1.0f;
     bool sheltered = false;
 };
 
+/// What the second set of textures is for.
+enum class SecondSetUse {
+    None,
+    Mix,     ///< another material beside the first
+    Detail,  ///< fine structure on the first
+};
+
+/// A second set of textures on a material (Lux 2.02). Ranges and meanings: material_table.h.
+struct SecondSet {
+    SecondSetUse use = SecondSetUse::None;
+    float mix_factor = 1.0f;  ///< share of the first set
+    TextureUse mix_mask;      ///< times it; times red of _WEATHER
+    glm::vec2 mix_mask_tiling{1.0f};
+    TextureUse base_color_texture;
+    TextureUse normal_texture;
+    TextureUse metallic_roughness_texture;  ///< R occlusion, G roughness, B metallic
+    TextureUse height;
+    glm::vec2 tiling{1.0f};  ///< of the four
+    glm::vec3 color{1.0f};   ///< linear
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    float normal_scale = 1.0f;
+    bool own_water = false;  ///< false: that of the first set
+    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
+    glm::vec4 water_color{0.0f};
+};
 
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
@@ -129,6 +170,7 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
     std::string lighting_model;  ///< a built-in name, or a GLSL file's path; empty: the standard one
     MaterialWeather weather;
+    SecondSet second;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()

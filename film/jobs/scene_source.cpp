@@ -17,6 +17,7 @@
 #include "film/scenes/lamps.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 
@@ -121,6 +122,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     content.add(scenario.scene.variant);
     content.add(scenario.scene.animation);
     content.add(scenario.scene.animation_loop);
+    if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

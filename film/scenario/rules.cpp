@@ -1,6 +1,7 @@
 #include "film/scenario/rules.h"
 
 #include <array>
+#include "film/scenario/tracks.h"
 
 namespace petrichor::film {
 namespace {
@@ -359,6 +360,10 @@ const std::vector<Rule>& rules()
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
+        {{"ground", "tracks", "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
+          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent smoothly), "
+          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
 #define ROW(name, on, meaning)                                  \
     {{"render", #name, on ? "true" : "false", meaning},         \

@@ -237,6 +237,15 @@ struct ScenarioView {
     ScenarioCamera camera;
 };
 
+/// What has gone through the snow: a line of tracks.
+struct ScenarioTrack {
+    bool tyre = true;                  ///< false: feet
+    std::vector<glm::dvec3> points_m;  ///< of the way, at least 2
+    double width_m = 0.0;              ///< of a tyre or a foot; 0: 0.22, 0.10
+    double gauge_m = 1.6;              ///< between two tyres; 0: one alone
+    double depth = 1.0;                ///< 0 nothing .. 1 as deep as the snow lets them
+};
+
 /// [ground]: the weather of the scene's places, and what its water does.
 struct ScenarioGround {
     /// Weather on every patch of the scene; not given: of weather files under the physical model.
@@ -244,6 +253,7 @@ struct ScenarioGround {
     std::vector<std::string> ground, not_ground;  ///< globs of materials
     std::vector<glm::dvec3> drains;               ///< x, z and radius, m
     bool gutters = true;
+    std::vector<ScenarioTrack> tracks;
 };
 
 /// Everything a scenario file says, in the units of the file.

@@ -53,6 +53,13 @@ std::uint32_t water_bits(scene::Wetness wetness)
     return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
 }
 
+std::uint32_t snow_bits(const scene::MaterialWeather& weather)
+{
+    return SNOW_LIES | (weather.snow_rule == scene::SnowRule::Grass ? SNOW_GRASS : 0u) |
+           (weather.snow_rule == scene::SnowRule::Vertex ? SNOW_VERTEX : 0u) |
+           (weather.snow_mapping == scene::SnowMapping::Local ? SNOW_LOCAL : 0u);
+}
+
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
 std::uint32_t layers_of(const Material& m)
 {
@@ -288,6 +295,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         GpuMaterial material;
         material.cull = cull_mode(source);
         material.water = water_bits(source.weather.wetness);
+        material.snow = snow_bits(source.weather);
+        material.second = static_cast<std::uint32_t>(source.second.use);
         material.bindings.push_back(uniform(*constants_, i * constants_stride_,
                                             sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);
@@ -321,7 +330,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
-                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f}};
+                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f},
+                                                  c.second_water_color};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source);
@@ -365,9 +375,15 @@ void GpuScene::sum_up_materials()
     });
     baked_ = any([](const Material& m) { return m.light_map.present(); });
     glows_ = glowing(glow_sources_, current_);
+    two_sets_ = any([](const Material& m) {
+        return m.second.use == scene::SecondSetUse::Mix &&
+               (m.second.own_water || m.diffuse_transmission > 0.0f);
+    });
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;
-        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
+        const bool own = m.second.use == scene::SecondSetUse::Mix && m.second.own_water;
+        const glm::vec4& other = m.second.water_accumulation;
+        return (own && (other.x > 0.0f || other.z > 0.0f)) || w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
                w.snow_accumulation.x > 0.0f;
     });
 }

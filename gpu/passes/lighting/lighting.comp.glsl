@@ -39,6 +39,7 @@ layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
+layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -333,7 +334,7 @@ void main()
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u));
+            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -363,6 +364,10 @@ void main()
             state.snow_smoothness = g.snow_smoothness;
             const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
             dry.water_color = texelFetch(material_looks, look);
+            if ((frame.flags & FRAME_TWO_SETS) != 0u) {
+                dry.water_color =
+                    mix(texelFetch(material_looks, look + 2), dry.water_color, g.first_share);
+            }
             if (GAMMA != 0u) dry.water_color.rgb = srgb_codes(dry.water_color.rgb);
             dry.snow_opacity = texelFetch(material_looks, look + 1).x;
             m = apply_weather(dry, state, frame.weather, frame.look);
@@ -372,6 +377,7 @@ void main()
         // A normal map must not turn a visible point away from the eye.
         const float facing = dot(n, v);
         if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+        if (SNOW_SCATTER != 0u) m.albedo = snow_scattered(m.albedo, frame.look, dot(n, v), g.weather.z);
         LitPoint p;
         p.position = position;
         p.normal = n;
@@ -400,7 +406,7 @@ void main()
             // Snow lies over all of it; standing water over fibres.
             const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
-            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare;
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare * g.first_share;
             if ((LAYERS & LAYERS_COAT) != 0u) {
                 p.layers.coat = first.z * bare;
                 p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);

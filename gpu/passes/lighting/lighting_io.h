@@ -22,7 +22,8 @@
 #define LIGHTING_SPEC_WAYS 14     // bits of LIGHTS_..., gpu/passes/lights/lights_io.h: in the table
 #define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
 #define LIGHTING_SPEC_HORIZON 16
-#define LIGHTING_SPEC_MODEL 17    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_SNOW_SCATTER 17
+#define LIGHTING_SPEC_MODEL 18    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
