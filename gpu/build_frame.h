@@ -21,6 +21,7 @@ struct FrameResources {
     FrameTargets* targets = nullptr;
     SurfaceMaps* surface_maps = nullptr;
     DepthMaps* depth_maps = nullptr;
+    LightTables* light_tables = nullptr;
     LampShadows* lamp_shadows = nullptr;
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments

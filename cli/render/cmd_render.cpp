@@ -326,6 +326,7 @@ void render(const RenderOptions& options)
     load_sequence_scene(sequence, options.threads);
     for (const std::string& warning : sequence.scene.warnings)
         std::cerr << "warn scene: " << warning << "\n";
+    for (const std::string& note : sequence.notes) std::cerr << "info scene: " << note << "\n";
     for (const std::string& line : scene::unshaded_properties(sequence.scene))
         std::cerr << "warn scene: " << line << "\n";
     const RenderReport report = render_sequence(sequence, request);

@@ -22,6 +22,7 @@
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
 #include "scene/merge.h"
@@ -234,11 +235,14 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
         scenario.output.width, scenario.output.height, request.memory_budget);
+    gpu::WeatherMaps maps =
+        read_weather_textures(scenario.render.weather_textures, scenario.folder);
+    maps.tracks = draw_tracks(scenario.ground.tracks);
     gpu::Renderer renderer(
         {.device = request.device,
          .validation = request.validation,
          .ripple_texture_size = scenario.render.ripple_texture_size},
-        read_weather_textures(scenario.render.weather_textures, scenario.folder));
+        maps);
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     std::shared_ptr<const gpu::PatchScene> patches;

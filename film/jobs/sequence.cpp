@@ -88,14 +88,18 @@ void add_light(Hasher& hasher, const scene::Light& light)
 {
     hasher.add(light.kind);
     hasher.add(light.both_sides);
+    hasher.add(light.shaped);
+    hasher.add(light.profile);
     for (const glm::vec3& v :
-         {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m}) {
+         {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m,
+          light.up}) {
         hasher.add(v.x);
         hasher.add(v.y);
         hasher.add(v.z);
     }
     for (const float value :
-         {light.intensity, light.range_m, light.inner_cone_rad, light.outer_cone_rad}) {
+         {light.intensity, light.range_m, light.inner_cone_rad, light.outer_cone_rad,
+          light.radius_m, light.length_m, light.specular}) {
         hasher.add(value);
     }
 }
@@ -111,6 +115,12 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.exposure_bias_stops);
     hasher.add(settings.surface_path);
     hasher.add(settings.occlusion_direct);
+    hasher.add(settings.area_lights);
+    hasher.add(settings.lazarov);
+    for (const float value :
+         {settings.horizon_fade, settings.specular_aa, settings.specular_aa_limit}) {
+        hasher.add(value);
+    }
     hasher.add(settings.gamma);
 #define ROW(name, on, meaning) hasher.add(settings.name);
     FRAME_SWITCHES(ROW)
@@ -297,13 +307,21 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     gpu::Frame& out = result.frame;
     const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
     out.camera = camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s);
+    std::optional<scene::Posture> posture;
+    if (sequence.scene.rig) {
+        out.animation_s = scenario.scene.animation_start_s +
+                          scenario.scene.animation_speed * job.frame / scenario.output.fps;
+        posture = scene::posture_at(*sequence.scene.rig, out.animation_s);
+        out.camera = scene::carried(out.camera, *posture);
+    }
     out.weather = result.moment.values;
     out.look = look_at(here.look, time_s);
 
     const double north_rad = scenario.scene.north_degrees * kPi / 180.0;
     out.weather.wind_m_s = glm::vec2(turned(glm::dvec2(out.weather.wind_m_s), north_rad));
     const weather::SunAngles sun =
-        sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s);
+        sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s,
+               posture ? &*posture : nullptr);
     result.moment.sun = sun;
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
     out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad + north_rad);
@@ -360,6 +378,11 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.exposure_bias_stops = narrow(value_at(camera.exposure_bias, time_s, 0.0));
     static_cast<gpu::FrameSwitches&>(settings) = scenario.render;
     settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
+    settings.area_lights = here.lights.area;
+    settings.lazarov = scenario.render.lazarov;
+    settings.horizon_fade = narrow(scenario.render.horizon_fade);
+    settings.specular_aa = narrow(scenario.render.specular_aa);
+    settings.specular_aa_limit = narrow(scenario.render.specular_aa_limit);
     settings.gamma = scenario.render.gamma;
     settings.lamp_shadows = scenario.render.lamp_shadows;
     settings.tone_map = scenario.render.tone_map;
@@ -400,6 +423,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     hasher.add(frame.scene_light_scale);
     hasher.add(frame.emissive_scale);
     hasher.add(frame.emissive_lights);
+    hasher.add(frame.animation_s);
     add_materials(hasher, frame);
     add_settings(hasher, frame.settings);
 }
@@ -442,6 +466,8 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             add_materials(hasher, frame);
         });
     }
+    if (sequence.scene.rig)
+        parts["animation"] = part([&](Hasher& hasher) { hasher.add(frame.animation_s); });
     parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
@@ -466,6 +492,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["look"] =
         part([&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1))); });
     parts["lights"] = part([&](Hasher& hasher) {
+        // As the scenario has them: the file's own are part of its content.
+        if (!scenario.lamps.empty()) {
+            for (const scene::Light& light : sequence.scene.lights) add_light(hasher, light);
+        }
         for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
         hasher.add(frame.scene_light_scale);
         hasher.add(frame.emissive_scale);

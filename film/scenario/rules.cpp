@@ -1,5 +1,8 @@
 #include "film/scenario/rules.h"
 
+#include <array>
+#include "film/scenario/tracks.h"
+
 namespace petrichor::film {
 namespace {
 
@@ -68,6 +71,25 @@ const std::vector<Rule>& rules()
         {{"scene", "north_degrees", "0.0",
           "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
          [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
+        {{"scene", "variant", "\"\"",
+          "a variant of the scene's materials (KHR_materials_variants); \"\": as the file has them"},
+         [](Scenario& s, const TomlValue& v) { s.scene.variant = v.text(); }},
+        {{"scene", "animation", "\"all\"",
+          "which of the scene's animations play over the film: all, none, or the name of one"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation = v.text();
+             if (s.scene.animation.empty()) v.refuse("all, none, or the name of an animation");
+         }},
+        {{"scene", "animation_speed", "1.0",
+          "seconds of the animation for a second of the film, -1000 to 1000; 0: it stands still"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation_speed = v.number(-1000.0, 1000.0);
+         }},
+        {{"scene", "animation_start_s", "0.0", "moment of the animation that frame 0 shows"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_start_s = v.number(-1e6, 1e6); }},
+        {{"scene", "animation_loop", "true",
+          "each begins again when it ends; false: it stays as it ended"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_loop = v.boolean(); }},
 
         {{"camera", "name", "\"Camera\"",
           "a camera of the scene; without one the whole scene is framed"},
@@ -303,6 +325,15 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
         {{"lights", "emissive", "true", "glowing materials light what is around them"},
          [](Scenario& s, const TomlValue& v) { s.lights.emissive = v.boolean(); }},
+        {{"lights", "area",
+          "\"ltc\"",
+          "lamps with a size: ltc (linearly transformed cosines), nearest (the point nearest to what is "
+          "mirrored, as Lux 2.02), or off (points)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.lights.area = std::array{gpu::AreaLights::Ltc, gpu::AreaLights::Nearest,
+                                        gpu::AreaLights::Off}[static_cast<std::size_t>(
+                 v.choice({"ltc", "nearest", "off"}))];
+         }},
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
 
@@ -329,6 +360,10 @@ const std::vector<Rule>& rules()
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
+        {{"ground", "tracks", "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
+          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent smoothly), "
+          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
 #define ROW(name, on, meaning)                                  \
     {{"render", #name, on ? "true" : "false", meaning},         \
@@ -377,6 +412,21 @@ const std::vector<Rule>& rules()
         {{"render", "occlusion_direct", "0.0",
           "how much occlusion maps darken sun and lamps too, 0 to 1; they always darken the sky"},
          [](Scenario& s, const TomlValue& v) { s.render.occlusion_direct = v.number(0.0, 1.0); }},
+        {{"render", "ambient_fit", "\"table\"",
+          "how strongly surroundings are mirrored: table (GGX, integrated) or lazarov (the fit of Lux "
+          "2.02)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.lazarov = v.choice({"table", "lazarov"}) == 1;
+         }},
+        {{"render", "horizon_fade", "0.0",
+          "mirrors darken where their ray would enter the mesh below a normal map, so fast: 0 off, 1.3 "
+          "as Lux 2.02, to 8"},
+         [](Scenario& s, const TomlValue& v) { s.render.horizon_fade = v.number(0.0, 8.0); }},
+        {{"render", "specular_aa", "1.0",
+          "times the variance of normals inside a pixel, which widens highlights: 0 off to 4"},
+         [](Scenario& s, const TomlValue& v) { s.render.specular_aa = v.number(0.0, 4.0); }},
+        {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
         {{"render", "color_space", "\"linear\"",
           "gamma: lights colours as the sRGB codes that they are stored as and shows the sums as "
           "codes, without tone mapping; to compare with engines that work so. The EXR holds codes"},

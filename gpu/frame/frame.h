@@ -52,6 +52,13 @@ enum class SurfacePath {
     Visibility,
 };
 
+/// How the size of lamps is lit.
+enum class AreaLights {
+    Off,      ///< as points; rectangles as surfaces that glow
+    Ltc,      ///< by linearly transformed cosines
+    Nearest,  ///< from the point that is nearest to what is mirrored, as Lux 2.02
+};
+
 /// The curve from exposed light to the display (formulas/color).
 enum class ToneMap {
     Linear,   ///< clipped
@@ -99,6 +106,11 @@ struct FrameSettings : FrameSwitches {
     float exposure_bias_stops = 0.0f;
     float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
     bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
+    AreaLights area_lights = AreaLights::Ltc;
+    bool lazarov = false;  ///< what is mirrored of the sky by Lazarov's fit, as Lux 2.02
+    float horizon_fade = 0.0f;  ///< > 0: mirrors darken below the horizon of the mesh, so fast
+    float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off
+    float specular_aa_limit = 0.18f;
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
     int lamp_shadows =
         4;  ///< so many lamps throw shadows, 0 to 16: the brightest as the eye sees them
@@ -153,6 +165,7 @@ struct Frame {
     std::vector<MaterialChange> materials; ///< those that are not named are as loaded
     /// Albedo of every patch under this frame's weather; empty: worked out from `weather`.
     std::vector<glm::vec3> patch_albedo = {};
+    double animation_s = 0.0;         ///< on the clock of the scene's animations
     bool emissive_lights = true;      ///< what glows lights its surroundings
     FrameSettings settings;
 };

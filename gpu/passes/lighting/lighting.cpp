@@ -5,9 +5,9 @@
 namespace petrichor::gpu {
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  LampShadows& lamp_shadows, const ConstantsRange& constants,
-                  const LightingVariant& variant)
+                  LightTable& lights, LightTables& light_tables, SkyMaps& sky,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
+                  const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -26,7 +26,11 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_RECTANGLES, variant.rectangles},
                       {LIGHTING_SPEC_NIGHT, variant.night},
                       {LIGHTING_SPEC_FOG, variant.fog},
-                      {LIGHTING_SPEC_LAYERS, variant.layers}},
+                      {LIGHTING_SPEC_LAYERS, variant.layers},
+                      {LIGHTING_SPEC_WAYS, variant.ways},
+                      {LIGHTING_SPEC_LAZAROV, variant.lazarov},
+                      {LIGHTING_SPEC_HORIZON, variant.horizon},
+                      {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
@@ -39,6 +43,9 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
                      {LIGHTING_PATCH_POINTS, texels(*targets.patch_points)},
                      {LIGHTING_LAYERS, texels(scene.layers())},
+                     {LIGHTING_LTC, texels(light_tables.ltc())},
+                     {LIGHTING_PROFILES, texels(light_tables.profiles())},
+                     {LIGHTING_SKIN, texels(light_tables.skin())},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},

@@ -19,7 +19,11 @@
 #define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_LAYERS 13   // bits of LAYERS_..., gpu/upload/material_io.h: in the picture
-#define LIGHTING_SPEC_MODEL 16    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_WAYS 14     // bits of LIGHTS_..., gpu/passes/lights/lights_io.h: in the table
+#define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
+#define LIGHTING_SPEC_HORIZON 16
+#define LIGHTING_SPEC_SNOW_SCATTER 17
+#define LIGHTING_SPEC_MODEL 18    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -39,6 +43,9 @@
 #define LIGHTING_LAMP_SHADOWS 15
 #define LIGHTING_PATCH_POINTS 16
 #define LIGHTING_LAYERS 17
-#define LIGHTING_GBUFFER 18  // depth, then the targets
+#define LIGHTING_LTC 18
+#define LIGHTING_PROFILES 19
+#define LIGHTING_SKIN 20
+#define LIGHTING_GBUFFER 21  // depth, then the targets
 
 #endif
