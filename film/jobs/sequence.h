@@ -61,7 +61,8 @@ struct Sequence {
 /// the longest weather, else as long as the film). Throws Error as weather_source.
 Sequence make_sequence(Scenario scenario);
 
-/// Scenes of more triangles are lit by patches only when the scenario asks for it: a few minutes.
+/// Scenes of more triangles are lit by patches only when the scenario asks for it: that takes minutes,
+/// and 150 bytes each while they are traced.
 inline constexpr std::size_t kMostAutoTriangles = 1'000'000;
 /// Whether frames are lit by patches: [render] indirect, the scene's size, light from the sky.
 bool wants_patches(const Sequence& sequence);

@@ -190,6 +190,37 @@ TEST(PatchWeatherOfAScene, RainFillsTheHollowAndTheBooksClose)
     EXPECT_EQ(again->levels_m, wet->levels_m);
 }
 
+// What stands below the levels is what the books say, to rounding; it rises until it spills.
+TEST(PatchWeatherOfAScene, TwoTenAndFortyMillimetresStandAsTheyFell)
+{
+    const Place place;
+    double capacity = 0.0;
+    for (const scene::Hollow& h : place.sites.ground.basins.hollow)
+        if (h.parent == 0) capacity += h.capacity_m3;
+    double before = 0.0, out_before = -1.0;
+    for (const double mm : {2.0, 10.0, 40.0}) {
+        const auto table = rain(4, mm, 0.0, 0.0);
+        PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
+        const auto wet = run.at(table.time_us[1]);
+        const PlaceSums sums = run.sums();
+        const scene::HeightField& field = place.sites.ground.field;
+        double below = 0.0;
+        for (std::size_t c = 0; c < field.cells(); ++c) {
+            const std::uint32_t label = place.sites.ground.basins.label[c];
+            if (label == scene::kOutside || label == scene::kNoLabel) continue;
+            const float depth = wet->levels_m[label] - field.height_m[c];
+            if (depth > 0.0f) below += static_cast<double>(depth) * field.cell_m * field.cell_m;
+        }
+        EXPECT_NEAR(below, sums.ponds_m3, 1e-4 * capacity) << mm;
+        EXPECT_GT(sums.ponds_m3, before) << mm;
+        EXPECT_LE(sums.ponds_m3, capacity * (1.0 + 1e-9)) << mm;
+        EXPECT_GT(sums.books.out, out_before) << mm;
+        EXPECT_LT(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen) << mm;
+        before = sums.ponds_m3;
+        out_before = sums.books.out;
+    }
+}
+
 TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)
 {
     Place place;

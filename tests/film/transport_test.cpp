@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "film/jobs/sequence.h"
 #include "scene/gltf/gltf.h"
 #include "scene/patches/patch_file.h"
 #include "tests/support/program.h"
@@ -64,6 +65,19 @@ TEST(Transport, ShapeAndColourHaveKeysOfTheirOwn)
     // Another shape.
     scene.instances[0].to_world[3].y += 0.5f;
     EXPECT_FALSE(prepare_transport(scene, options_in(place)).kept);
+}
+
+TEST(Transport, HugeScenesAreLitByPatchesWhenAsked)
+{
+    Sequence sequence;
+    sequence.triangles = 200'000;
+    EXPECT_TRUE(wants_patches(sequence));
+    sequence.triangles = 10'000'000;
+    EXPECT_FALSE(wants_patches(sequence));
+    sequence.scenario.render.indirect = IndirectLight::Patches;
+    EXPECT_TRUE(wants_patches(sequence));
+    sequence.scenario.render.image_based_light = false;
+    EXPECT_FALSE(wants_patches(sequence));
 }
 
 TEST(Transport, ADamagedEntryIsMadeAgain)
