@@ -187,6 +187,7 @@ struct MaterialOverride {
     /// slot is emptied.
     std::vector<std::pair<std::string, std::string>> textures = {};
     std::string lighting_model = {};  ///< as written; empty: left as it is
+    std::string surface = {};         ///< likewise
 };
 
 /// [look]: keys of look_keys() with their values over time, one number a channel.
