@@ -223,6 +223,16 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
+    auto own_surfaces = impl_->scene->own_surfaces().compile();
+    if (!own_surfaces.empty()) {
+        if (chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1) !=
+            SurfacePath::Visibility) {
+            throw Error("surface: this device cannot number triangles or fetch their corners, which "
+                        "surfaces of one's own need",
+                        "Leave `surface` out of the materials, or choose another --device.");
+        }
+        impl_->pipelines.add_shader(kOwnResolveShader, std::move(own_surfaces));
+    }
 }
 
 void Renderer::set_patches(std::shared_ptr<const PatchScene> patches)

@@ -343,10 +343,18 @@ GltfPlace lighting_model_place()
     return {kWeather, "", "lightingModel"};
 }
 
+GltfPlace surface_place()
+{
+    return {kWeather, "", "surface"};
+}
+
 std::vector<std::string_view> extension_members(std::string_view extension)
 {
     std::vector<std::string_view> members;
-    if (extension == kWeather) members.push_back(lighting_model_place().member);
+    if (extension == kWeather) {
+        members.push_back(lighting_model_place().member);
+        members.push_back(surface_place().member);
+    }
     for (const MaterialTexture& t : material_textures()) {
         if (t.gltf.extension == extension) members.push_back(t.gltf.member);
     }

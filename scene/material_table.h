@@ -80,6 +80,9 @@ const std::vector<MaterialTexture>& material_textures();
 /// Where glTF keeps Material::lighting_model: a word, or the name of a file beside the scene.
 GltfPlace lighting_model_place();
 
+/// Where glTF keeps Material::surface: the name of a file beside the scene.
+GltfPlace surface_place();
+
 /// Members of an extension that the tables know; empty: a foreign extension.
 std::vector<std::string_view> extension_members(std::string_view extension);
 

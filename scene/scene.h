@@ -114,7 +114,7 @@ struct SecondSet {
     TextureUse height;
     glm::vec2 tiling{1.0f};  ///< of the four
     glm::vec3 color{1.0f};   ///< linear
-    float metallic = 1.0f;
+    float metallic = 0.0f;
     float roughness = 1.0f;
     float normal_scale = 1.0f;
     bool own_water = false;  ///< false: that of the first set
@@ -169,6 +169,7 @@ struct Material {
     bool cull_front = false;
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
     std::string lighting_model;  ///< a built-in name, or a GLSL file's path; empty: the standard one
+    std::string surface;  ///< path of a GLSL file that changes the dry surface; empty: none
     MaterialWeather weather;
     SecondSet second;
 };

@@ -72,7 +72,7 @@ void require_writable_folder(const fs::path& folder)
     }
 }
 
-std::string find_lighting_model(const std::string& name, const fs::path& folder)
+std::string find_shader(const std::string& name, const fs::path& folder)
 {
     const fs::path path(name);
     if (path.extension() != ".glsl") return name;

@@ -22,7 +22,7 @@ void require_writable_folder(const std::filesystem::path& folder);
 /// A lighting model as a renderer takes it: a file NAME.glsl is looked for in `folder`, then among
 /// the shaders of the data; any other name stays what it is, and a
 /// file that is nowhere is named in `folder`, for the message that refuses it.
-std::string find_lighting_model(const std::string& name, const std::filesystem::path& folder);
+std::string find_shader(const std::string& name, const std::filesystem::path& folder);
 
 /// Names (without .toml) of the files in data/<kind>, sorted; empty without a data folder.
 std::vector<std::string> preset_names(const std::string& kind);

@@ -136,8 +136,9 @@ std::string own_models_fingerprint(const scene::Scene& scene)
 {
     std::set<std::string> files;
     for (const scene::Material& material : scene.materials) {
-        if (fs::path(material.lighting_model).extension() == ".glsl")
-            files.insert(material.lighting_model);
+        for (const std::string& name : {material.lighting_model, material.surface}) {
+            if (fs::path(name).extension() == ".glsl") files.insert(name);
+        }
     }
     if (files.empty()) return "";
     Hasher hasher;

@@ -450,6 +450,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             for (const MaterialOverride& one : scenario.materials) {
                 hasher.add(one.glob);
                 hasher.add(one.lighting_model);
+                if (!one.surface.empty()) hasher.add(one.surface);
                 for (const auto& [name, channels] : one.values) {
                     hasher.add(name);
                     // What is loaded: the first key, and whether others follow.

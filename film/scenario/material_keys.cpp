@@ -24,6 +24,7 @@ using scene::MaterialProperty;
 using scene::PropertyKind;
 
 constexpr const char* kLightingModel = "lighting_model";
+constexpr const char* kSurface = "surface";
 constexpr std::uint64_t kLargestTexture = 1ull << 30;  // bytes of a file
 constexpr double kAny = std::numeric_limits<float>::max();
 
@@ -144,8 +145,9 @@ void apply(const MaterialOverride& override, const std::filesystem::path& folder
            TexturesOfFiles& textures, scene::Material& material)
 {
     if (!override.lighting_model.empty()) {
-        material.lighting_model = find_lighting_model(override.lighting_model, folder);
+        material.lighting_model = find_shader(override.lighting_model, folder);
     }
+    if (!override.surface.empty()) material.surface = find_shader(override.surface, folder);
     for (const auto& [name, channels] : override.values)
         scene::find_property(name)->set(material, value_of(channels, -kAny));
     for (const auto& [name, file] : override.textures) {
@@ -195,6 +197,11 @@ std::vector<ScenarioKey> material_keys()
                     .meaning = "how it answers to light: " +
                                join_words(gpu::built_in_lighting_models(), " | ") +
                                ", or a GLSL file of your own as data/shaders/minnaert.glsl"});
+    keys.push_back({.table = "materials",
+                    .name = kSurface,
+                    .example = "\"moss.glsl\"",
+                    .meaning = "a GLSL file of your own that changes the dry surface or its masks, as "
+                               "data/shaders/moss.glsl"});
     return keys;
 }
 
@@ -208,6 +215,7 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
     for (const scene::MaterialTexture& slot : scene::material_textures())
         known.emplace_back(slot.name);
     known.emplace_back(kLightingModel);
+    known.emplace_back(kSurface);
     std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
     for (const auto& [glob, node] : materials) {
         const TomlValue value(node, file, "[materials.\"" + std::string(glob.str()) + "\"]");
@@ -215,6 +223,9 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
         for (const auto& [name, entry] : value.entries(known)) {
             if (name == kLightingModel) {
                 one.lighting_model = entry.text();
+            } else if (name == kSurface) {
+                one.surface = entry.text();
+                if (!one.surface.ends_with(".glsl")) entry.refuse("a file that ends in .glsl");
             } else if (find_slot(name)) {
                 one.textures.emplace_back(name, entry.text());
             } else {

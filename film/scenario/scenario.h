@@ -197,6 +197,7 @@ struct MaterialOverride {
     /// slot is emptied.
     std::vector<std::pair<std::string, std::string>> textures = {};
     std::string lighting_model = {};  ///< as written; empty: left as it is
+    std::string surface = {};         ///< likewise
 };
 
 /// What the lamps whose name matches have instead of their own.

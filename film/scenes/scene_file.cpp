@@ -79,8 +79,10 @@ LoadedScene read_scene(const fs::path& file, const SceneFileOptions& options)
     loaded.scene = scene::load_gltf(asset, name, read_resource, {.variant = options.variant});
     loaded.notes = scene::settle_animation(loaded.scene, options.playing);
     loaded.fingerprint = hasher.text();
-    for (scene::Material& material : loaded.scene.materials)
-        material.lighting_model = find_lighting_model(material.lighting_model, file.parent_path());
+    for (scene::Material& material : loaded.scene.materials) {
+        material.lighting_model = find_shader(material.lighting_model, file.parent_path());
+        material.surface = find_shader(material.surface, file.parent_path());
+    }
     return loaded;
 }
 

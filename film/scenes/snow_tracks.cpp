@@ -13,6 +13,9 @@ namespace {
 constexpr double kFreshDensity = 100.0;  // kg/m3
 constexpr double kFootDensity = 400.0;
 constexpr double kTyreDensity = 550.0;
+// Of what is pressed away, that leaves: tyres throw it aside, soles pack it.
+constexpr double kThrownByTyres = 1.0;
+constexpr double kThrownByFeet = 0.5;
 constexpr double kRim = 0.12;       // height of rims over the depth
 constexpr double kDeep_m = 0.05;    // whose slopes are drawn
 constexpr double kStep_m = 0.75;
@@ -59,15 +62,17 @@ struct Field {
     gpu::TrackMap map;
     std::vector<float> pressed, height;
 
-    // What a press of `amount` leaves at a texel; rim: how high it is thrown up beside it.
-    void press(int x, int y, double share, double amount, double groove, double rim)
+    // What a press of `amount` leaves at a texel; thrown: the part of it that leaves; rim: how high it
+    // is thrown up beside it.
+    void press(int x, int y, double share, double thrown, double amount, double groove, double rim)
     {
         const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
                        static_cast<std::size_t>(x);
         const double deep = share * amount;
+        const double gone = deep * thrown;
         const double high = amount < 0.3 ? rim * (1.0 - amount / 0.3) : 0.0;
-        if (deep > static_cast<double>(pressed[i])) {
-            pressed[i] = static_cast<float>(deep);
+        if (gone > static_cast<double>(pressed[i])) {
+            pressed[i] = static_cast<float>(gone);
             height[i] = std::min(height[i], static_cast<float>(high - deep * (1.0 - groove)));
         } else if (pressed[i] <= 0.0f) {
             height[i] = std::max(height[i], static_cast<float>(high));
@@ -114,7 +119,7 @@ void draw_tyres(Field& field, const ScenarioTrack& track, const std::vector<glm:
                        const double groove =
                            0.22 * smooth(0.55, 0.75, std::abs(2.0 * (bars - std::floor(bars)) - 1.0));
                        const double out = (from - half - 0.035) / 0.03;
-                       field.press(x, y, share, amount, groove,
+                       field.press(x, y, share, kThrownByTyres, amount, groove,
                                    kRim * share * portable_exp(-out * out));
                    });
         gone += length;
@@ -157,7 +162,7 @@ void draw_feet(Field& field, const ScenarioTrack& track, const std::vector<glm::
                 const glm::dvec2 q = (p - middle) / size;
                 const double v = glm::dot(q, toe), u = q.x * toe.y - q.y * toe.x;
                 const double ring = foot(v / 1.22, u / 1.35);
-                field.press(x, y, share, foot(v, u), 0.0, kRim * share * ring);
+                field.press(x, y, share, kThrownByFeet, foot(v, u), 0.0, kRim * share * ring);
             });
         }
         left -= length;

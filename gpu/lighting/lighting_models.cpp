@@ -1,11 +1,9 @@
 #include "gpu/lighting/lighting_models.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/input_file.h"
 #include "base/words.h"
 #include "gpu/compiler/compiler.h"
 #include "gpu/lighting/models_io.h"
@@ -14,17 +12,7 @@ namespace petrichor::gpu {
 
 namespace {
 
-constexpr std::size_t kLargestFile = 256u << 10;
 constexpr std::size_t kMostModels = 256;  // numbers of 8 bits
-
-bool is_identifier(const std::string& word)
-{
-    const auto letter = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-    };
-    return !word.empty() && std::isdigit(static_cast<unsigned char>(word[0])) == 0 &&
-           std::all_of(word.begin(), word.end(), letter) && word.find("__") == std::string::npos;
-}
 
 }  // namespace
 
@@ -42,7 +30,7 @@ LightingModels::LightingModels(const std::vector<std::string>& names)
     for (const std::string& name : names) {
         const bool known =
             name.empty() || std::find(built_in.begin(), built_in.end(), name) != built_in.end() ||
-            std::any_of(own_.begin(), own_.end(), [&](const Own& own) { return own.path == name; });
+            std::any_of(own_.begin(), own_.end(), [&](const OwnText& own) { return own.path == name; });
         if (known) continue;
         const std::filesystem::path path(name);
         if (path.extension() != ".glsl") {
@@ -50,25 +38,10 @@ LightingModels::LightingModels(const std::vector<std::string>& names)
                             join_words(built_in),
                         "Choose one of these, or name a file of your own that ends in .glsl.");
         }
-        Own own{name, path.stem().string(), ""};
-        const auto taken = [&](const Own& other) { return other.name == own.name; };
-        if (!is_identifier(own.name) || own.name.rfind("gl_", 0) == 0 ||
-            std::find(built_in.begin(), built_in.end(), own.name) != built_in.end() ||
-            std::any_of(own_.begin(), own_.end(), taken)) {
-            throw Error("lighting model " + name + ": \"" + own.name +
-                            "\" cannot name its functions: letters, digits and _ can, once a "
-                            "scene, and not the name of a built-in model",
-                        "Rename the file.");
-        }
-        own.text = read_file(path, "lighting model", kLargestFile);
-        for (const char* part : {"_light", "_surround", "_own"}) {
-            if (own.text.find(own.name + part) == std::string::npos) {
-                throw Error("lighting model " + name + ": it does not define " + own.name + part,
-                            "Define NAME_light, NAME_surround and NAME_own, as "
-                            "data/shaders/minnaert.glsl does.");
-            }
-        }
-        own_.push_back(std::move(own));
+        std::vector<std::string> taken = built_in;
+        for (const OwnText& other : own_) taken.push_back(other.name);
+        own_.push_back(read_own_text(name, "lighting model", {"_light", "_surround", "_own"}, taken,
+                                     "data/shaders/minnaert.glsl"));
     }
     if (count() > kMostModels) {
         throw Error("lighting models: " + std::to_string(count()) + " in one scene; at most " +
@@ -100,7 +73,7 @@ std::vector<std::uint32_t> LightingModels::compile_lighting() const
     std::string rows = "#define OWN_LIGHTING_MODELS(ROW)";
     ShaderText list{"gpu/lighting/own_models.glsl", "", ""};
     std::vector<ShaderText> texts;
-    for (const Own& own : own_) {
+    for (const OwnText& own : own_) {
         const std::uint32_t number = number_of(own.path);
         const std::string include = "own/" + std::to_string(number) + ".glsl";
         rows += " ROW(" + std::to_string(number) + ", " + own.name + ")";

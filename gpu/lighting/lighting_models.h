@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gpu/compiler/own_text.h"
+
 namespace petrichor::gpu {
 
 /// Names of the built-in models; the index is the model's number.
@@ -29,12 +31,7 @@ public:
     std::vector<std::uint32_t> compile_lighting() const;
 
 private:
-    struct Own {
-        std::string path;
-        std::string name;  ///< NAME of NAME.glsl
-        std::string text;
-    };
-    std::vector<Own> own_;
+    std::vector<OwnText> own_;
 };
 
 }  // namespace petrichor::gpu

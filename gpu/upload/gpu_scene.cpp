@@ -270,6 +270,9 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
     std::vector<std::string> models;
     for (const Material& material : scene.materials) models.push_back(lighting_model_of(material));
     lighting_models_ = LightingModels(models);
+    std::vector<std::string> surfaces;
+    for (const Material& material : scene.materials) surfaces.push_back(material.surface);
+    own_surfaces_ = OwnSurfaces(surfaces);
     for (const auto& image : images_) loaded_.push_back(image != nullptr);
     const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
     constants_stride_ =
@@ -297,6 +300,7 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         material.water = water_bits(source.weather.wetness);
         material.snow = snow_bits(source.weather);
         material.second = static_cast<std::uint32_t>(source.second.use);
+        material.own_surface = own_surfaces_.number_of(source.surface);
         material.bindings.push_back(uniform(*constants_, i * constants_stride_,
                                             sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);

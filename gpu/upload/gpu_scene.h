@@ -7,6 +7,7 @@
 
 #include "gpu/device/pipelines.h"
 #include "gpu/lighting/lighting_models.h"
+#include "gpu/surface/own_surfaces.h"
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/pose.h"
@@ -44,6 +45,7 @@ struct GpuMaterial {
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
     std::uint32_t snow = 0;            ///< SNOW_... bits of its rule and mapping
     std::uint32_t second = 0;          ///< SECOND_... of its second set of textures
+    std::uint32_t own_surface = 0;     ///< number of a user's own surface; 0: none
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has
     std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
@@ -85,6 +87,7 @@ public:
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
     /// Some material mixes two sets that water or light that passes treats differently.
     bool two_sets() const { return two_sets_; }
+    const OwnSurfaces& own_surfaces() const { return own_surfaces_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
@@ -127,6 +130,7 @@ private:
     std::vector<GlowSource> glow_sources_;
     std::vector<Light> glows_;
     LightingModels lighting_models_;
+    OwnSurfaces own_surfaces_;
     Bounds bounds_;
     bool emissive_ = false;
     bool baked_ = false;

@@ -141,17 +141,14 @@ void check_extensions(const JsonObject& material)
     }
 }
 
-void read_lighting_model(const JsonObject& material, Material& out)
+// A word, or a file: a scene names files beside it and no others.
+void read_shader(const JsonObject& material, const GltfPlace& place, std::string& out)
 {
-    const GltfPlace place = lighting_model_place();
     const auto holder = holder_of(material, place);
     if (!holder) return;
-    out.lighting_model = holder->text(place.member);
-    // A scene names files beside it and no others.
-    if (out.lighting_model.ends_with(".glsl")) {
-        out.lighting_model = decode_relative_uri(out.lighting_model, holder->path_to(place.member),
-                                                 holder->log());
-    }
+    out = holder->text(place.member);
+    if (out.ends_with(".glsl"))
+        out = decode_relative_uri(out, holder->path_to(place.member), holder->log());
 }
 
 Material read_material(const JsonObject& json, std::size_t number, TextureCollector& textures)
@@ -164,7 +161,8 @@ Material read_material(const JsonObject& json, std::size_t number, TextureCollec
         if (holder) texture.edit(out) = textures.use(*holder, texture.gltf.member);
     }
     for (const MaterialProperty& property : material_table()) read_property(property, json, out);
-    read_lighting_model(json, out);
+    read_shader(json, lighting_model_place(), out.lighting_model);
+    read_shader(json, surface_place(), out.surface);
     return out;
 }
 

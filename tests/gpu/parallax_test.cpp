@@ -39,7 +39,8 @@ Scene floor(float y, scene::Parallax parallax, float scale_m)
     return scene_of({quad({-2, y, 2}, {4, 0, 0}, {0, 0, -4})}, {m});
 }
 
-RenderResult seen(Renderer& renderer, const Scene& scene, int height_code)
+RenderResult seen(Renderer& renderer, const Scene& scene, int height_code,
+                  float detail_distance_m = 50.0f)
 {
     renderer.load(scene, {texture_of("ramp", [](int x) { return 2 * x; }),
                           texture_of("height", [=](int) { return height_code; })});
@@ -49,6 +50,8 @@ RenderResult seen(Renderer& renderer, const Scene& scene, int height_code)
     frame.settings.width = frame.settings.height = kSize;
     frame.settings.samples = 1;
     frame.settings.aovs = {"base_color"};
+    frame.look.detail_distance_m = detail_distance_m;
+    frame.look.detail_fade_m = 2.0f;
     return renderer.render(frame);
 }
 
@@ -86,6 +89,18 @@ TEST_F(ParallaxTest, NothingMovesAtFullHeightOrWithoutDepth)
         EXPECT_EQ(share_alike(seen(*renderer, floor(0.0f, parallax, 0.3f), 255), flat), 1.0);
         EXPECT_EQ(share_alike(seen(*renderer, floor(0.0f, parallax, 0.0f), 10), flat), 1.0);
     }
+}
+
+// Beyond the distance of detail a surface is flat; before it the relief comes up little by little.
+TEST_F(ParallaxTest, FadesWithDistance)
+{
+    const RenderResult flat = seen(*renderer, floor(0.0f, scene::Parallax::None, 0.3f), 0);
+    const Scene deep = floor(0.0f, scene::Parallax::Occlusion, 0.3f);
+    const RenderResult near = seen(*renderer, deep, 0);
+    const RenderResult between = seen(*renderer, deep, 0, 4.1f);  // the floor is 2.75 m away
+    EXPECT_EQ(share_alike(seen(*renderer, deep, 0, 2.5f), flat), 1.0);
+    EXPECT_LT(share_alike(between, flat), 0.8);
+    EXPECT_LT(share_alike(between, near), 0.8);
 }
 
 TEST_F(ParallaxTest, WaterFillsTheRelief)

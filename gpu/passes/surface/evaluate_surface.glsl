@@ -13,6 +13,9 @@
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
 #include "gpu/passes/surface/parallax.glsl"
+#ifdef OWN_SURFACES
+#include "gpu/passes/surface/own_surfaces.glsl"
+#endif
 
 // Curvature of the geometry inside a pixel widens the lobe (Tokuyoshi and Kaplanyan 2019).
 float widened_by_curvature(float roughness, SurfaceInput at)
@@ -44,6 +47,12 @@ void share_footprint(inout SurfaceInput at)
 SurfaceData evaluate_surface(SurfaceInput at)
 {
     share_footprint(at);
+#ifdef OWN_SURFACES
+#define ROW(number_, name_) \
+    if (OWN == uint(number_)) name_##_input(at);
+    OWN_SURFACES(ROW)
+#undef ROW
+#endif
     if (PARALLAX != PARALLAX_NONE) sink(at);
     read_sets(at);
     const TangentFrame f = tangent_frame(at);
@@ -144,6 +153,12 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;
     data.texel.first_share = at.shares.x;
+#ifdef OWN_SURFACES
+#define ROW(number_, name_) \
+    if (OWN == uint(number_)) name_##_surface(at, data);
+    OWN_SURFACES(ROW)
+#undef ROW
+#endif
     return data;
 }
 

@@ -28,7 +28,7 @@ LocalWeather weather_everywhere(SurfaceInput at)
                  flood_share(open.rain);
     here.snow = cover_of_share(frame.weather.snow_amount, open.snow);
     // Hoar is of the air: it grows where heat is lost to the sky, most of which is overhead.
-    here.frost = frame.weather.frost * min(open.snow, 1.0);
+    here.frost = frame.weather.frost * min(open.sky, 1.0);
     here.frozen = frame.weather.water_to_snow;
     here.still = frame.weather.freeze_exp;
     here.pond_m = 0.0;

@@ -13,6 +13,7 @@ layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
 layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
 layout(constant_id = SURFACE_SPEC_SECOND) const uint SECOND = SECOND_NONE;
+layout(constant_id = SURFACE_SPEC_OWN) const uint OWN = 0u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };

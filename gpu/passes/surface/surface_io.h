@@ -11,6 +11,7 @@
 #define SURFACE_SPEC_FROST 9  // 0: no frost anywhere in this frame
 #define SURFACE_SPEC_PARALLAX 10  // PARALLAX_... of the material
 #define SURFACE_SPEC_SECOND 14  // SECOND_... of the material
+#define SURFACE_SPEC_OWN 15     // number of a user's own surface; 0: none
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.

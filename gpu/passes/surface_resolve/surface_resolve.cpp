@@ -151,24 +151,26 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
+            {SURFACE_SPEC_OWN, material.own_surface},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, parts.emission},
             {RESOLVE_SPEC_BAKED, parts.baked}};
     };
+    const char* shader = scene.own_surfaces().any() ? kOwnResolveShader : kResolveShader;
     DispatchListPass pass{.name = "surface",
                           .bindings = std::move(bindings),
                           .arguments = tables.groups.get(),
                           .pipelines = {},
                           .record = {}};
     for (const GpuMaterial& material : scene.materials()) {
-        pass.pipelines.push_back({kResolveShader, variant(material),
+        pass.pipelines.push_back({shader, variant(material),
                                   {types_of(pass.bindings), types_of(material.bindings)}});
     }
     pass.record = [=, &scene](DispatchContext& list) {
         for (std::uint32_t m = 0; m < materials; ++m) {
             const GpuMaterial& material = scene.materials()[m];
-            list.bind(kResolveShader, variant(material), types_of(material.bindings));
+            list.bind(shader, variant(material), types_of(material.bindings));
             list.bind_set1(material.bindings);
             list.push(shared::SurfaceResolveParams{m});
             list.dispatch_indirect(m);

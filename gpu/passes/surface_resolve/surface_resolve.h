@@ -12,6 +12,9 @@
 
 namespace petrichor::gpu {
 
+/// The resolve with users' own surfaces in it (PipelineCache::add_shader).
+inline constexpr const char* kOwnResolveShader = "own_surface_resolve.comp";
+
 /// What the resolve reads beside the scene: the table of its draws, and the lists of tiles.
 struct ResolveTables {
     std::unique_ptr<GpuImage> ids;      ///< draw (from 1) and triangle of each pixel

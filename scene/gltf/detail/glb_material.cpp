@@ -123,11 +123,13 @@ void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Mate
             holder[std::string(property.gltf.member)] = value_of(property, value);
         }
     }
-    if (!m.lighting_model.empty()) {
+    const auto add_shader = [&](const GltfPlace& place, const std::string& name) {
         // Of a file its name: it lies beside the scene.
-        holder_of(out, lighting_model_place())[std::string(lighting_model_place().member)] =
-            m.lighting_model.substr(m.lighting_model.rfind('/') + 1);
-    }
+        if (!name.empty())
+            holder_of(out, place)[std::string(place.member)] = name.substr(name.rfind('/') + 1);
+    };
+    add_shader(lighting_model_place(), m.lighting_model);
+    add_shader(surface_place(), m.surface);
     if (out.contains("extensions")) {
         for (const auto& item : out["extensions"].items()) glb.extensions.insert(item.key());
     }

@@ -1,0 +1,23 @@
+// A surface of your own is a GLSL file NAME.glsl with two functions, named by a material
+// ([materials."glob"] surface = "NAME.glsl", or "surface" in the weather extension of glTF):
+//
+//   void NAME_input(inout SurfaceInput at)
+//       before anything is read. What a point is asked with may change: at.weather (red mixes the two
+//       sets of textures, green lets puddles stand, blue lets snow lie; each 0..1), at.color, at.uv.
+//   void NAME_surface(SurfaceInput at, inout SurfaceData data)
+//       at the end. data.texel holds the dry material (base_color, roughness, metallic, base_normal,
+//       occlusion, porosity), data.texel.weather the film, water, snow and frost here, data.emission
+//       the radiance. What weather does to the material is worked out from these, in the light.
+//
+// frame holds the time, the weather of the moment and the look (gpu/frame/frame_io.h), material the
+// constants of the material (gpu/upload/material_io.h). No derivative may be taken: at.position_dx and
+// the like are given. Random numbers are hashes of places (formulas/noise/noise.h).
+//
+// Such a scene is shaded from a visibility buffer, whatever [render] surface_path says.
+#ifndef PETRICHOR_OWN_SURFACE_GLSL
+#define PETRICHOR_OWN_SURFACE_GLSL
+
+#include "formulas/noise/noise.h"
+#include "gpu/passes/surface/sets.glsl"
+
+#endif

@@ -1,0 +1,51 @@
+#include "gpu/surface/own_surfaces.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "gpu/compiler/compiler.h"
+
+namespace petrichor::gpu {
+
+OwnSurfaces::OwnSurfaces(const std::vector<std::string>& names)
+{
+    for (const std::string& name : names) {
+        if (name.empty() || number_of(name) != 0) continue;
+        if (!name.ends_with(".glsl")) {
+            throw Error("surface \"" + name + "\": it is no GLSL file",
+                        "Name a file that ends in .glsl.");
+        }
+        std::vector<std::string> taken;
+        for (const OwnText& other : own_) taken.push_back(other.name);
+        own_.push_back(read_own_text(name, "surface", {"_input", "_surface"}, taken,
+                                     "data/shaders/moss.glsl"));
+    }
+}
+
+std::uint32_t OwnSurfaces::number_of(const std::string& name) const
+{
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+        if (own_[i].path == name) return static_cast<std::uint32_t>(i + 1);
+    }
+    return 0;
+}
+
+std::vector<std::uint32_t> OwnSurfaces::compile() const
+{
+    if (own_.empty()) return {};
+    std::string rows = "#define OWN_SURFACES(ROW)";
+    ShaderText list{"gpu/passes/surface/own_surfaces.glsl", "", ""};
+    std::vector<ShaderText> texts;
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+        const std::string number = std::to_string(i + 1);
+        const std::string include = "own/surface_" + number + ".glsl";
+        rows += " ROW(" + number + ", " + own_[i].name + ")";
+        list.text += "#include \"" + include + "\"\n";
+        texts.push_back({include, own_[i].text, own_[i].path});
+    }
+    texts.insert(texts.begin(), list);
+    return compile_shader("gpu/passes/surface_resolve/surface_resolve.comp.glsl", rows + "\n", texts,
+                          user_cache());
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,34 @@
+#ifndef PETRICHOR_GPU_SURFACE_OWN_SURFACES_H
+#define PETRICHOR_GPU_SURFACE_OWN_SURFACES_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/compiler/own_text.h"
+
+namespace petrichor::gpu {
+
+/// Users' own surfaces of a scene, by number: GLSL files NAME.glsl that define NAME_input, which may
+/// change what a surface point is asked with, and NAME_surface, which may change what it answers
+/// (gpu/passes/surface/own_surface.glsl is the manual).
+class OwnSurfaces {
+public:
+    /// names: of the materials, "" for none. Throws Error when one is no such file.
+    explicit OwnSurfaces(const std::vector<std::string>& names = {});
+
+    /// The number of one of those names, from 1; 0 of "".
+    std::uint32_t number_of(const std::string& name) const;
+    bool any() const { return !own_.empty(); }
+
+    /// SPIR-V of the pass that resolves visible surfaces with users' own in it; empty when there are
+    /// none. Throws Error with the user's file and line.
+    std::vector<std::uint32_t> compile() const;
+
+private:
+    std::vector<OwnText> own_;
+};
+
+}  // namespace petrichor::gpu
+
+#endif

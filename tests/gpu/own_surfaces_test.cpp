@@ -1,0 +1,177 @@
+// Surfaces of users' own: what their two functions may change, and what is said of wrong ones.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSize = 48;
+
+class OwnSurface : public GpuTest {
+protected:
+    void SetUp() override
+    {
+        folder = fs::temp_directory_path() / ("petrichor-surfaces-" + std::to_string(getpid()));
+        fs::create_directories(folder);
+        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
+        GpuTest::SetUp();
+    }
+    void TearDown() override
+    {
+        GpuTest::TearDown();
+        unsetenv("PETRICHOR_CACHE");
+        fs::remove_all(folder);
+    }
+    std::string write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder / name) << "#include \"gpu/passes/surface/own_surface.glsl\"\n" << text;
+        return (folder / name).string();
+    }
+    std::string refusal(const std::string& surface) const
+    {
+        Material material = plain_material(glm::vec3(0.5f));
+        material.surface = surface;
+        try {
+            renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {material}), {});
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+    // Two floors side by side, the left of the given surface; 2 m straight from above.
+    RenderResult seen(const std::string& surface, const shared::WeatherMoment& weather,
+                      std::vector<std::string> aovs, float roughness = 0.8f, float metallic = 0.0f)
+    {
+        Material own = plain_material(glm::vec3(0.5f), roughness, metallic);
+        own.surface = surface;
+        own.weather.default_height = 0.0f;
+        Material other = own;
+        other.surface = "";
+        renderer->load(scene_of({quad({-1, 0, 1}, {1, 0, 0}, {0, 0, -2}, 0),
+                                 quad({0, 0, 1}, {1, 0, 0}, {0, 0, -2}, 1)},
+                                {own, other}),
+                       {});
+        Frame frame;
+        frame.camera = look({0, 2, 0}, {0, 0, 0});
+        frame.camera.orthographic_height_m = 2.0f;
+        frame.settings.width = frame.settings.height = kSize;
+        frame.settings.samples = 1;
+        frame.settings.shelter = false;
+        frame.settings.aovs = std::move(aovs);
+        frame.weather = weather;
+        return renderer->render(frame);
+    }
+    static float half(const RenderResult& r, const std::string& name, bool right, int channel = 0)
+    {
+        float sum = 0.0f;
+        for (int y = 2; y < kSize - 2; ++y) {
+            for (int x = right ? 26 : 2; x < (right ? 46 : 22); ++x) sum += aov(r, name, x, y, channel);
+        }
+        return sum / (20.0f * (kSize - 4));
+    }
+    static std::string example(const std::string& name)
+    {
+        return std::string(PETRICHOR_SOURCE_DIR) + "/data/shaders/" + name;
+    }
+
+    fs::path folder;
+};
+
+TEST_F(OwnSurface, ChangesWhatItsFunctionsSay)
+{
+    const std::string file = write("half.glsl", R"(
+void half_input(inout SurfaceInput at) { at.weather.g = 0.0; }
+void half_surface(SurfaceInput at, inout SurfaceData data)
+{
+    data.texel.base_color = vec3(0.1, 0.2, 0.3);
+    data.texel.roughness = 0.25;
+})");
+    shared::WeatherMoment wet;
+    wet.flood_puddles = 1.0f;
+    const auto r = seen(file, wet, {"base_color", "roughness", "water"});
+    EXPECT_NEAR(half(r, "base_color", false, 2), 0.3f, 0.01f);
+    EXPECT_NEAR(half(r, "roughness", false), 0.25f, 0.01f);
+    EXPECT_EQ(half(r, "water", false), 0.0f) << "no puddles where the mask says none";
+    EXPECT_NEAR(half(r, "base_color", true, 2), 0.5f, 0.01f) << "the other is as it is";
+    EXPECT_GT(half(r, "water", true), 0.5f);
+}
+
+// A surface that changes nothing gives the picture of the resolve without it, bit by bit.
+TEST_F(OwnSurface, OneThatDoesNothingChangesNothing)
+{
+    const std::string file = write("idle.glsl", R"(
+void idle_input(inout SurfaceInput at) {}
+void idle_surface(SurfaceInput at, inout SurfaceData data) {})");
+    shared::WeatherMoment weather;
+    weather.rain = 0.7f;
+    weather.film_albedo = weather.film_smoothness = 0.8f;
+    weather.flood_puddles = 0.6f;
+    const auto own = seen(file, weather, {"base_color"});
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < 20; ++x) {
+            EXPECT_EQ(aov(own, "base_color", x, y), aov(own, "base_color", x + 25, y));
+        }
+    }
+}
+
+TEST_F(OwnSurface, MistakesAreToldWithTheirFileAndLine)
+{
+    EXPECT_NE(refusal("moss.png").find("GLSL"), std::string::npos);
+    EXPECT_NE(refusal((folder / "missing.glsl").string()).find("missing.glsl"), std::string::npos);
+    EXPECT_NE(refusal(write("lone.glsl", "void lone_input(inout SurfaceInput at) {}\n")).find("lone_surface"),
+              std::string::npos);
+    EXPECT_NE(refusal(write("2.glsl", "")).find("cannot name"), std::string::npos);
+    const std::string wrong = refusal(write("wrong.glsl", R"(
+void wrong_input(inout SurfaceInput at) { at.nothing = 1.0; }
+void wrong_surface(SurfaceInput at, inout SurfaceData data) {})"));
+    EXPECT_NE(wrong.find("wrong.glsl"), std::string::npos) << wrong;
+    EXPECT_NE(wrong.find("3"), std::string::npos) << wrong;
+}
+
+TEST_F(OwnSurface, MossGrowsWhereItIsDampAndKeepsPuddlesOff)
+{
+    shared::WeatherMoment wet;
+    wet.flood_puddles = 1.0f;
+    const auto r = seen(example("moss.glsl"), wet, {"base_color", "water", "roughness"});
+    int green = 0;
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < 22; ++x) {
+            const bool moss = aov(r, "base_color", x, y, 1) > 1.2f * aov(r, "base_color", x, y, 0);
+            green += moss;
+            if (aov(r, "base_color", x, y, 0) < 0.12f) {
+                EXPECT_LT(aov(r, "water", x, y), 0.2f);
+            }
+        }
+    }
+    EXPECT_GT(green, 22 * kSize / 10);
+    EXPECT_LT(half(r, "water", false), half(r, "water", true));
+}
+
+TEST_F(OwnSurface, RustIsNoMetal)
+{
+    const auto r = seen(example("rust.glsl"), {}, {"metallic", "roughness"}, 0.3f, 1.0f);
+    EXPECT_LT(half(r, "metallic", false), 0.95f);
+    EXPECT_GT(half(r, "roughness", false), 0.32f);
+    EXPECT_NEAR(half(r, "metallic", true), 1.0f, 0.01f);
+}
+
+TEST_F(OwnSurface, TheWindSweepsSnowOff)
+{
+    shared::WeatherMoment snow;
+    snow.snow_amount = 0.6f;
+    const auto still = seen(example("windswept.glsl"), snow, {"snow"});
+    EXPECT_NEAR(half(still, "snow", false), half(still, "snow", true), 0.15f);
+    snow.wind_m_s = {9.0f, 0.0f};
+    const auto windy = seen(example("windswept.glsl"), snow, {"snow"});
+    EXPECT_LT(half(windy, "snow", false), 0.8f * half(windy, "snow", true));
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
