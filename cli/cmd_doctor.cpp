@@ -9,15 +9,16 @@
 #include <thread>
 #include <vector>
 
+#include "base/content_cache.h"
 #include "base/error.h"
 #include "base/words.h"
 #include "cli/commands.h"
 #include "cli/exit.h"
 #include "cli/rooms.h"
-#include "film/data/content_cache.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
 #include "film/weather/packed.h"
+#include "gpu/device/specialize.h"
 #include "gpu/renderer.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/readers/formats.h"
@@ -113,6 +114,16 @@ Finding check_decoder()
     }
 }
 
+Finding check_shaders()
+{
+    if (gpu::can_specialize()) {
+        return {"shaders", true, false, "cut down to what a picture uses before the driver sees them",
+                ""};
+    }
+    return {"shaders", false, false, "given to the driver whole: the first frame takes longer",
+            "Build with SPIRV-Tools (Debian: apt-get install spirv-tools)."};
+}
+
 void print_json(const std::vector<Finding>& findings, const std::vector<gpu::DeviceInfo>& devices,
                 bool can_render)
 {
@@ -175,7 +186,8 @@ void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
     const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
-                                        check_decoder(), check_cache()};
+                                        check_decoder(), check_cache(),
+                                        check_shaders()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {

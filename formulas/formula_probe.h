@@ -23,6 +23,7 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
@@ -30,7 +31,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 38;
+SHARED_CONST int kProbeKinds = 40;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -264,7 +265,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 30) {
         const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);
-        return vec4(facing_share(probe_direction(a.z, a.w), from), film_share(b.x),
+        const float facing = facing_share(probe_direction(a.z, a.w), from);
+        return vec4(facing + snow_facing_share(facing), film_share(b.x),
                     flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
     }
     if (kind == 31) {
@@ -276,6 +278,23 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 reach = parallax_reach(probe_direction(a.x, a.y), probe_direction(a.z, a.w), b.x);
         const vec2 p = pixels_along(reach, vec3(b.y, 0.1f, 0.0f), vec3(0.0f, 0.2f, 0.1f + b.z));
         return vec4(p.x, p.y, secant_depth(b.w, c.x, b.w + c.y, c.z), reach.x + reach.z);
+    }
+    if (kind == 38) {
+        const vec3 color = detail_color(vec3(a.x, a.y, a.z), vec3(b.x, b.y, b.z), c.x);
+        const vec3 detail = detail_normal(normalize(vec3(a.x - 0.5f, a.y - 0.5f, 1.0f)),
+                                          normalize(vec3(b.x - 0.5f, b.y - 0.5f, 1.0f)), c.y);
+        return vec4(mix_by_height(a.w, vec2(b.w, c.z)).x, color.x + color.y + color.z, detail.x,
+                    detail.y);
+    }
+    if (kind == 39) {
+        const SnowCover s =
+            snow_cover_of_vertices(a.x, 2.0f * a.y - 1.0f, 2.0f * a.z, a.w, b.x, b.y);
+        WeatherLook look;
+        look.snow_scatter_color = vec3(b.z);
+        look.snow_scatter_bias = 0.5f * b.w;
+        look.snow_scatter_contraction = 1.0f + 9.0f * c.x;
+        return vec4(s.snow, s.melt, snow_on_grass(a.x, a.y, a.z, a.w),
+                    snow_scattered(vec3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -8,6 +8,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
+#include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
 #include "gpu/upload/draw.h"
@@ -166,6 +167,14 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.falls[c.fall_count++] =
             glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
     }
+    const TrackMap& tracks = r.surface_maps->track_area;
+    if (tracks.width > 0) {
+        c.tracks =
+            glm::vec4(tracks.corner_m, 1.0f / (tracks.texel_m * static_cast<float>(tracks.width)),
+                      1.0f / (tracks.texel_m * static_cast<float>(tracks.height)));
+        c.tracks_y_m = {tracks.low_m, tracks.high_m};
+    }
+    if (r.scene->two_sets()) c.flags |= FRAME_TWO_SETS;
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
     c.light_count = r.lights->count;
@@ -259,6 +268,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.rectangles = r.lights->rectangles;
     variant.ways = r.lights->ways;
     variant.all_lights = settings.all_lights;
+    variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
@@ -299,8 +309,11 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
+        if (i == 0 && variant.patch_light) {
+            add_patch_points(graph, *r.targets, *r.patches, constants);
+        }
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
-                     *r.patches, *r.lamp_shadows, constants, variant);
+                     *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }

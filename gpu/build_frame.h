@@ -6,6 +6,7 @@
 #include "gpu/passes/falling/falling.h"
 #include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
+#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/upload/gpu_scene.h"

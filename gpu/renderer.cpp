@@ -169,6 +169,7 @@ struct Renderer::Impl {
             set.resolve_arena = std::make_unique<MemoryArena>(device);
             resolve = make_resolve_tables(device, *set.resolve_arena, *scene, s.width, s.height);
         }
+        update_draws(device, resolve, *scene);
         return true;
     }
 
@@ -259,7 +260,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
                        static_cast<std::size_t>(frame.settings.height),
                    device.limits().maxStorageBufferRange);
 
-    if (scene->set_materials(frame.materials)) {
+    const bool moved = scene->pose(device, frame.animation_s);
+    if (scene->set_materials(frame.materials) || moved) {
         depth_maps.forget();
         lamp_shadows.forget();
     }

@@ -19,7 +19,7 @@ std::pair<std::uint32_t, unsigned> key_of(const Primitive& p)
 {
     unsigned attributes = 0;
     for (const bool there : {!p.normals.empty(), !p.tangents.empty(), !p.uv0.empty(),
-                             !p.uv1.empty(), !p.colors.empty(), !p.weather.empty()}) {
+                             !p.uv1.empty(), !p.colors.empty(), !p.weather.empty(), p.deforms()}) {
         attributes = attributes * 2 + (there ? 1 : 0);
     }
     return {p.material, attributes};
@@ -53,7 +53,7 @@ void merge_primitives(Scene& scene)
             const bool fits =
                 !is_new && merged[place->second].positions.size() + primitive.positions.size() <
                                std::numeric_limits<std::uint32_t>::max();
-            if (fits && !blends) {
+            if (fits && !blends && !primitive.deforms()) {
                 join(merged[place->second], primitive);
             } else {
                 place->second = merged.size();

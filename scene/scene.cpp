@@ -10,7 +10,7 @@ Bounds scene_bounds(const Scene& scene)
     Bounds bounds{glm::vec3(std::numeric_limits<float>::max()),
                   glm::vec3(std::numeric_limits<float>::lowest())};
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop) continue;
+        if (instance.backdrop || instance.moves) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             for (const glm::vec3& position : primitive.positions) {
                 const auto world = glm::vec3(instance.to_world * glm::vec4(position, 1.0f));
@@ -18,6 +18,10 @@ Bounds scene_bounds(const Scene& scene)
                 bounds.high = glm::max(bounds.high, world);
             }
         }
+    }
+    if (scene.reach) {
+        bounds.low = glm::min(bounds.low, scene.reach->low);
+        bounds.high = glm::max(bounds.high, scene.reach->high);
     }
     if (bounds.low.x > bounds.high.x) return {};
     return bounds;

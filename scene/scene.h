@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,16 @@ enum class Parallax {
     Occlusion,  ///< a ray is walked through the relief
 };
 
+/// Which rule lays snow on a material (Lux 2.02).
+enum class SnowRule {
+    Surface,  ///< by slope, height of the world and masks
+    Grass,    ///< on blades: the lighter a vertex, the more
+    Vertex,   ///< by slope alone, the same over a whole surface
+};
+
+/// Where the maps of the snow are laid.
+enum class SnowMapping { World, Local };
+
 /// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
@@ -76,9 +87,40 @@ struct MaterialWeather {
     float snow_normal_strength = 1.0f;
     float snow_detail_strength = 0.3f;
     float snow_opacity = 0.5f;
+    SnowRule snow_rule = SnowRule::Surface;
+    SnowMapping snow_mapping = SnowMapping::World;
+    glm::vec4 snow_local_tiling{2.0f, 4.0f, 0.3f, 4.0f};
+    TextureUse snow_mask_normal;  ///< of the snow where the snow mask has it trodden down
+    float snow_mask_normal_scale = 1.0f;
     bool sheltered = false;
 };
 
+/// What the second set of textures is for.
+enum class SecondSetUse {
+    None,
+    Mix,     ///< another material beside the first
+    Detail,  ///< fine structure on the first
+};
+
+/// A second set of textures on a material (Lux 2.02). Ranges and meanings: material_table.h.
+struct SecondSet {
+    SecondSetUse use = SecondSetUse::None;
+    float mix_factor = 1.0f;  ///< share of the first set
+    TextureUse mix_mask;      ///< times it; times red of _WEATHER
+    glm::vec2 mix_mask_tiling{1.0f};
+    TextureUse base_color_texture;
+    TextureUse normal_texture;
+    TextureUse metallic_roughness_texture;  ///< R occlusion, G roughness, B metallic
+    TextureUse height;
+    glm::vec2 tiling{1.0f};  ///< of the four
+    glm::vec3 color{1.0f};   ///< linear
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    float normal_scale = 1.0f;
+    bool own_water = false;  ///< false: that of the first set
+    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
+    glm::vec4 water_color{0.0f};
+};
 
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
@@ -128,6 +170,21 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
     std::string lighting_model;  ///< a built-in name, or a GLSL file's path; empty: the standard one
     MaterialWeather weather;
+    SecondSet second;
+};
+
+/// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
+/// entries.
+struct MorphTarget {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;
+};
+
+/// One joint's share of a vertex.
+struct Influence {
+    std::uint32_t joint = 0;  ///< index into Skin::joints
+    float weight = 0.0f;      ///< those of a vertex sum up to 1
 };
 
 /// Triangles of one material. All attribute arrays have positions.size() entries; uv1, colors and
@@ -143,12 +200,21 @@ struct Primitive {
         weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
+    std::vector<MorphTarget> targets;    ///< empty: it is not morphed
+    std::vector<Influence> influences;   ///< as many for each vertex; empty: it has no skin
+    bool flat = false;                   ///< normals are those of the triangles, in every shape
+
+    bool deforms() const { return !targets.empty() || !influences.empty(); }
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
 };
+
+/// Nodes, skins and animations of a scene: scene/animation/rig.h.
+struct Rig;
+inline constexpr std::int32_t kNoNode = -1;
 
 /// A mesh placed in the world. Several instances may share a mesh.
 struct Instance {
@@ -158,6 +224,12 @@ struct Instance {
     /// What the program put around the scene: seen and shaded, but no part of its bounds, patches and
     /// hollows.
     bool backdrop = false;
+    /// Its place or shape is another in other frames; `to_world` is that at rest. No part of patches,
+    /// hollows and ground.
+    bool moves = false;
+    std::int32_t node = kNoNode;  ///< of the rig, that carries it; read while it `moves`
+    std::int32_t skin = -1;       ///< of the rig; joints alone place it then
+    glm::mat4 in_node{1.0f};      ///< from the mesh to the node
 };
 
 enum class LightKind { Directional, Point, Spot, Rectangle };
@@ -181,6 +253,7 @@ struct Light {
     float length_m = 0.0f;   ///< of a tube, along `up`
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
+    std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
 };
 
@@ -201,6 +274,7 @@ struct Camera {
     float vertical_fov_rad = 0.8f;  ///< (0, pi); ignored when orthographic
     float near_m = 0.05f;
     float orthographic_height_m = 0.0f;  ///< > 0: orthographic
+    std::int32_t node = kNoNode;         ///< of the rig, that carries it
 };
 /// Half of what a picture of width x height shows at a distance of 1 m, metres; orthographic: at
 /// any.
@@ -218,6 +292,11 @@ struct EncodedImage {
     bool nearest = false;  ///< magnification filter
 };
 
+struct Bounds {
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+};
+
 /// One texture = one image and one sampler. The pixels are decoded outside of this room.
 struct Scene {
     std::string name;
@@ -229,13 +308,11 @@ struct Scene {
     std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
+    std::shared_ptr<const Rig> rig;     ///< null: nothing moves
+    std::optional<Bounds> reach;        ///< of all that moves, over time
 };
 
-/// World-space bounds of all instances but backdrops.
-struct Bounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-};
+/// World-space bounds of all instances but backdrops; of what moves, all that it passes through.
 Bounds scene_bounds(const Scene& scene);
 
 }  // namespace petrichor::scene

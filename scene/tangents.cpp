@@ -102,6 +102,8 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive,
     const std::size_t old_count = primitive.positions.size();
     std::vector<glm::vec4> values(old_count, unused);
     std::vector<bool> seen(old_count, false);
+    const std::size_t influences_each =
+        old_count == 0 ? 0 : primitive.influences.size() / old_count;
     RowTable<5> copies(0);
     std::vector<std::uint32_t> vertex_of_copy;
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
@@ -129,6 +131,15 @@ std::vector<glm::vec4> split_by_value(Primitive& primitive,
             duplicate(primitive.uv1);
             duplicate(primitive.colors);
             duplicate(primitive.weather);
+            for (MorphTarget& target : primitive.targets) {
+                duplicate(target.positions);
+                duplicate(target.normals);
+                duplicate(target.tangents);
+            }
+            for (std::size_t i = 0; i < influences_each; ++i) {
+                const Influence original = primitive.influences[index * influences_each + i];
+                primitive.influences.push_back(original);
+            }
         }
         index = vertex_of_copy[copy];
     }
@@ -362,6 +373,7 @@ void generate_flat_normals(Primitive& primitive)
     const auto normals =
         split_by_value(primitive, corner_normals, glm::vec4(0.0f, 1.0f, 0.0f, 0.0f));
     primitive.normals.assign(normals.begin(), normals.end());
+    primitive.flat = true;
 }
 
 void generate_tangents(Primitive& primitive, int texcoord)

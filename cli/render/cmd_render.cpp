@@ -262,8 +262,14 @@ void report_weather(const Sequence& sequence)
 // The log line at the start, and a progress line.
 class ProgressWatcher : public RenderWatcher {
 public:
+    void tracing(double share) override
+    {
+        if (!progress_) progress_.emplace("light between surfaces", 100);
+        progress_->update(std::min(static_cast<int>(share * 100.0), 99));
+    }
     void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) override
     {
+        progress_.reset();
         std::cerr << "info render: " << count << " frames, " << output.width << "x" << output.height
                   << ", " << output.samples << " samples, on " << device.name << "\n";
         progress_.emplace("render", count);
@@ -320,6 +326,7 @@ void render(const RenderOptions& options)
     load_sequence_scene(sequence, options.threads);
     for (const std::string& warning : sequence.scene.warnings)
         std::cerr << "warn scene: " << warning << "\n";
+    for (const std::string& note : sequence.notes) std::cerr << "info scene: " << note << "\n";
     for (const std::string& line : scene::unshaded_properties(sequence.scene))
         std::cerr << "warn scene: " << line << "\n";
     const RenderReport report = render_sequence(sequence, request);

@@ -57,18 +57,6 @@ fs::path data_folder()
                 "Set PETRICHOR_DATA to the folder that holds scenarios/ and weather/.");
 }
 
-fs::path cache_folder()
-{
-    std::string set = environment("PETRICHOR_CACHE");
-    if (!set.empty()) return set;
-    set = environment("XDG_CACHE_HOME");
-    if (!set.empty()) return fs::path(set) / "petrichor";
-    set = environment("HOME");
-    if (!set.empty()) return fs::path(set) / ".cache" / "petrichor";
-    std::error_code failed;
-    return fs::temp_directory_path(failed) / "petrichor";
-}
-
 void require_writable_folder(const fs::path& folder)
 {
     std::error_code failed;

@@ -15,11 +15,6 @@ std::optional<std::filesystem::path> find_data_folder();
 /// The same; throws Error when there is none.
 std::filesystem::path data_folder();
 
-/// Where generated scenes and finished textures are kept (content_cache.h): PETRICHOR_CACHE, else
-/// XDG_CACHE_HOME/petrichor, else
-/// ~/.cache/petrichor, else petrichor under the temporary folder. Not created.
-std::filesystem::path cache_folder();
-
 /// Creates the folder where needed and tries to write in it. Throws Error that names it when not
 /// possible.
 void require_writable_folder(const std::filesystem::path& folder);

@@ -8,15 +8,16 @@
 #include <string>
 #include <utility>
 
+#include "base/content_cache.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/words.h"
-#include "film/data/content_cache.h"
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/lamps.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 
@@ -43,7 +44,10 @@ LoadedScene load(const Scenario& scenario, int threads)
                         did_you_mean(file, {kDemoStreet}),
                     std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
     }
-    return read_scene(scenario.folder / file, scenario.scene.allow_outside);
+    return read_scene(scenario.folder / file,
+                      {.allow_outside = scenario.scene.allow_outside,
+                       .variant = scenario.scene.variant,
+                       .playing = {scenario.scene.animation, scenario.scene.animation_loop}});
 }
 
 // A camera below it would see nothing but ground, and a picture of the sky shows some already.
@@ -101,6 +105,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     if (ground) add_ground(loaded.scene, sequence.bounds);
     say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
+    sequence.notes = std::move(loaded.notes);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
@@ -114,6 +119,10 @@ void load_sequence_scene(Sequence& sequence, int threads)
     if (!lamps.content.empty()) content.add(lamps.content);
     content.add(applied.textures);
     content.add(ground);
+    content.add(scenario.scene.variant);
+    content.add(scenario.scene.animation);
+    content.add(scenario.scene.animation_loop);
+    if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -139,7 +139,11 @@ bool wants_patches(const Sequence& sequence)
 {
     const ScenarioRender& render = sequence.scenario.render;
     if (!render.image_based_light || render.indirect == IndirectLight::Ambient) return false;
-    return render.indirect == IndirectLight::Patches || sequence.triangles <= kMostAutoTriangles;
+    if (render.indirect == IndirectLight::Patches) return true;
+    // Ground below a model is no patch.
+    return sequence.triangles <= kMostAutoTriangles &&
+           std::none_of(sequence.scene.instances.begin(), sequence.scene.instances.end(),
+                        [](const scene::Instance& i) { return i.backdrop; });
 }
 
 FrameRange parse_frame_range(std::string_view text, int count)
@@ -307,13 +311,21 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     gpu::Frame& out = result.frame;
     const double aspect = static_cast<double>(scenario.output.width) / scenario.output.height;
     out.camera = camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s);
+    std::optional<scene::Posture> posture;
+    if (sequence.scene.rig) {
+        out.animation_s = scenario.scene.animation_start_s +
+                          scenario.scene.animation_speed * job.frame / scenario.output.fps;
+        posture = scene::posture_at(*sequence.scene.rig, out.animation_s);
+        out.camera = scene::carried(out.camera, *posture);
+    }
     out.weather = result.moment.values;
     out.look = look_at(here.look, time_s);
 
     const double north_rad = scenario.scene.north_degrees * kPi / 180.0;
     out.weather.wind_m_s = glm::vec2(turned(glm::dvec2(out.weather.wind_m_s), north_rad));
     const weather::SunAngles sun =
-        sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s);
+        sun_at(here.sun, sequence.scene, result.moment, north_rad, time_s,
+               posture ? &*posture : nullptr);
     result.moment.sun = sun;
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
     out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad + north_rad);
@@ -415,6 +427,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     hasher.add(frame.scene_light_scale);
     hasher.add(frame.emissive_scale);
     hasher.add(frame.emissive_lights);
+    hasher.add(frame.animation_s);
     add_materials(hasher, frame);
     add_settings(hasher, frame.settings);
 }
@@ -457,6 +470,8 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
             add_materials(hasher, frame);
         });
     }
+    if (sequence.scene.rig)
+        parts["animation"] = part([&](Hasher& hasher) { hasher.add(frame.animation_s); });
     parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });

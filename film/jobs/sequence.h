@@ -54,6 +54,7 @@ struct Sequence {
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
     std::string weather_textures;  ///< of [render]'s, weather_textures_fingerprint()
     std::size_t triangles = 0;     ///< of all instances
+    std::vector<std::string> notes = {};  ///< about the scene: which of its animations play
 };
 
 /// A sequence without its scene: weather of every variant, views, duration (the scenario's, else of
@@ -61,7 +62,7 @@ struct Sequence {
 Sequence make_sequence(Scenario scenario);
 
 /// Scenes of more triangles are lit by patches only when the scenario asks for it: a few minutes.
-inline constexpr std::size_t kMostAutoTriangles = 4'000'000;
+inline constexpr std::size_t kMostAutoTriangles = 1'000'000;
 /// Whether frames are lit by patches: [render] indirect, the scene's size, light from the sky.
 bool wants_patches(const Sequence& sequence);
 

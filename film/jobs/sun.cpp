@@ -20,12 +20,14 @@ weather::SunAngles direction_against(const glm::vec3& travel, double north_rad)
 }
 
 weather::SunAngles sun_at(const ScenarioSun& sun, const scene::Scene& scene,
-                          const weather::Moment& moment, double north_rad, double time_s)
+                          const weather::Moment& moment, double north_rad, double time_s,
+                          const scene::Posture* posture)
 {
     weather::SunAngles direction{35.0 * kDegree, 140.0 * kDegree};
     for (const scene::Light& light : scene.lights) {
         if (light.kind == scene::LightKind::Directional) {
-            direction = direction_against(light.direction, north_rad);
+            const scene::Light here = posture ? scene::carried(light, *posture) : light;
+            direction = direction_against(here.direction, north_rad);
             break;
         }
     }

@@ -1,6 +1,7 @@
 #include "film/scenario/rules.h"
 
 #include <array>
+#include "film/scenario/tracks.h"
 
 namespace petrichor::film {
 namespace {
@@ -70,6 +71,25 @@ const std::vector<Rule>& rules()
         {{"scene", "north_degrees", "0.0",
           "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
          [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
+        {{"scene", "variant", "\"\"",
+          "a variant of the scene's materials (KHR_materials_variants); \"\": as the file has them"},
+         [](Scenario& s, const TomlValue& v) { s.scene.variant = v.text(); }},
+        {{"scene", "animation", "\"all\"",
+          "which of the scene's animations play over the film: all, none, or the name of one"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation = v.text();
+             if (s.scene.animation.empty()) v.refuse("all, none, or the name of an animation");
+         }},
+        {{"scene", "animation_speed", "1.0",
+          "seconds of the animation for a second of the film, -1000 to 1000; 0: it stands still"},
+         [](Scenario& s, const TomlValue& v) {
+             s.scene.animation_speed = v.number(-1000.0, 1000.0);
+         }},
+        {{"scene", "animation_start_s", "0.0", "moment of the animation that frame 0 shows"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_start_s = v.number(-1e6, 1e6); }},
+        {{"scene", "animation_loop", "true",
+          "each begins again when it ends; false: it stays as it ended"},
+         [](Scenario& s, const TomlValue& v) { s.scene.animation_loop = v.boolean(); }},
 
         {{"camera", "name", "\"Camera\"",
           "a camera of the scene; without one the whole scene is framed"},
@@ -340,6 +360,10 @@ const std::vector<Rule>& rules()
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
+        {{"ground", "tracks", "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
+          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent smoothly), "
+          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
 #define ROW(name, on, meaning)                                  \
     {{"render", #name, on ? "true" : "false", meaning},         \
@@ -409,9 +433,9 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
-        {{"render", "indirect", "\"ambient\"",
+        {{"render", "indirect", "\"auto\"",
           "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
-          "a constant), or auto: patches for scenes of up to 4 million triangles"},
+          "a constant), or auto: patches for scenes of up to a million triangles"},
          [](Scenario& s, const TomlValue& v) {
              s.render.indirect =
                  static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));

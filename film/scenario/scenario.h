@@ -30,6 +30,11 @@ struct ScenarioScene {
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
     StandsOn ground = StandsOn::Auto;
     double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
+    std::string variant;          ///< of its materials; empty: as the file has them
+    std::string animation = "all";  ///< "all", "none", or the name of one
+    double animation_speed = 1.0;   ///< seconds of its clock for a second of the film
+    double animation_start_s = 0.0; ///< on that clock, of frame 0
+    bool animation_loop = true;     ///< begins again when it ends
 };
 
 struct CameraKey {
@@ -135,7 +140,7 @@ struct ScenarioLights {
 
 /// Light that comes from other surfaces.
 enum class IndirectLight {
-    Auto,     ///< patches, unless tracing them would take minutes
+    Auto,     ///< patches, unless tracing them would take minutes or much memory
     Patches,  ///< from the patches of the scene, solved each frame
     Ambient,  ///< skylight past depth maps, and a constant
 };
@@ -162,7 +167,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     double specular_aa_limit = 0.18;
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
-    IndirectLight indirect = IndirectLight::Ambient;  ///< the others cost a third more
+    IndirectLight indirect = IndirectLight::Auto;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 
@@ -232,6 +237,15 @@ struct ScenarioView {
     ScenarioCamera camera;
 };
 
+/// What has gone through the snow: a line of tracks.
+struct ScenarioTrack {
+    bool tyre = true;                  ///< false: feet
+    std::vector<glm::dvec3> points_m;  ///< of the way, at least 2
+    double width_m = 0.0;              ///< of a tyre or a foot; 0: 0.22, 0.10
+    double gauge_m = 1.6;              ///< between two tyres; 0: one alone
+    double depth = 1.0;                ///< 0 nothing .. 1 as deep as the snow lets them
+};
+
 /// [ground]: the weather of the scene's places, and what its water does.
 struct ScenarioGround {
     /// Weather on every patch of the scene; not given: of weather files under the physical model.
@@ -239,6 +253,7 @@ struct ScenarioGround {
     std::vector<std::string> ground, not_ground;  ///< globs of materials
     std::vector<glm::dvec3> drains;               ///< x, z and radius, m
     bool gutters = true;
+    std::vector<ScenarioTrack> tracks;
 };
 
 /// Everything a scenario file says, in the units of the file.

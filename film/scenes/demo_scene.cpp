@@ -1,3 +1,4 @@
+#include "film/data/source_fingerprint.h"
 #include "film/scenes/demo_scene.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #ifndef PETRICHOR_FILM_SCENES_DEMO_SCENE_H
 #define PETRICHOR_FILM_SCENES_DEMO_SCENE_H
 
+#include "base/content_cache.h"
 #include "demo/street.h"
-#include "film/data/content_cache.h"
 #include "film/scenes/scene_file.h"
 
 namespace petrichor::film {

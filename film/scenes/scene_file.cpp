@@ -62,21 +62,22 @@ fs::path resource_path(const fs::path& folder, const std::string& uri, const std
 
 }  // namespace
 
-LoadedScene read_scene(const fs::path& file, bool allow_outside)
+LoadedScene read_scene(const fs::path& file, const SceneFileOptions& options)
 {
     const auto asset = read_bytes(file, "scene");
     Hasher hasher;
     hasher.add_bytes(asset);
     const std::string name = printable(file.filename().string());
     const auto read_resource = [&](const std::string& uri) {
-        const fs::path path = resource_path(file.parent_path(), uri, name, allow_outside);
+        const fs::path path = resource_path(file.parent_path(), uri, name, options.allow_outside);
         auto bytes = read_bytes(path, "scene " + name + ":");
         hasher.add(uri);
         hasher.add_bytes(bytes);
         return bytes;
     };
     LoadedScene loaded;
-    loaded.scene = scene::load_gltf(asset, name, read_resource);
+    loaded.scene = scene::load_gltf(asset, name, read_resource, {.variant = options.variant});
+    loaded.notes = scene::settle_animation(loaded.scene, options.playing);
     loaded.fingerprint = hasher.text();
     for (scene::Material& material : loaded.scene.materials)
         material.lighting_model = find_lighting_model(material.lighting_model, file.parent_path());

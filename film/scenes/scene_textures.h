@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "base/content_cache.h"
 #include "base/interrupted.h"
-#include "film/data/content_cache.h"
 #include "film/scenes/prepared_texture.h"
 #include "film/scenes/texture_plan.h"
 #include "gpu/renderer.h"

@@ -1,3 +1,4 @@
+#include "film/data/source_fingerprint.h"
 #include "film/scenes/transport.h"
 
 #include <chrono>
@@ -308,6 +309,22 @@ std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& s
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     notes.emplace_back(text);
     return made;
+}
+
+double traced_share(std::string_view stage, float share)
+{
+    struct Stage {
+        std::string_view name;
+        double first, length;
+    };
+    constexpr Stage kStages[] = {{"patches", 0.0, 0.2},
+                                 {"links", 0.2, 0.45},
+                                 {"connections", 0.65, 0.05},
+                                 {"visibility", 0.7, 0.3}};
+    for (const Stage& s : kStages) {
+        if (s.name == stage) return s.first + s.length * static_cast<double>(share);
+    }
+    return 0.0;
 }
 
 SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptions& options)

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <future>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -15,27 +16,53 @@ namespace petrichor::gpu {
 
 namespace {
 
-// Specialization constants in the layout that Vulkan wants; must outlive the create call.
-struct SpecializationInfo {
-    explicit SpecializationInfo(const std::vector<Specialization>& constants)
+// A stage of a pipeline: the shader with its constants in it, or both as Vulkan wants them. Must
+// outlive the create call.
+class Stage {
+public:
+    Stage(const Device& device, VkShaderStageFlagBits stage, const std::string& name,
+          std::span<const std::uint32_t> code, const std::vector<Specialization>& constants,
+          const ContentCache& cache)
     {
-        for (std::size_t i = 0; i < constants.size(); ++i) {
-            entries.push_back({constants[i].id,
-                               static_cast<std::uint32_t>(i * sizeof(std::uint32_t)),
-                               sizeof(std::uint32_t)});
-            values.push_back(constants[i].value);
-        }
-        info.mapEntryCount = static_cast<std::uint32_t>(entries.size());
-        info.pMapEntries = entries.data();
-        info.dataSize = values.size() * sizeof(std::uint32_t);
-        info.pData = values.data();
-    }
-    SpecializationInfo(const SpecializationInfo&) = delete;
-    SpecializationInfo& operator=(const SpecializationInfo&) = delete;
+        const std::vector<std::uint32_t> own = specialized(code, constants, cache);
+        const std::span<const std::uint32_t> words = own.empty() ? code : own;
+        VkShaderModuleCreateInfo module{};
+        module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+        module.codeSize = words.size_bytes();
+        module.pCode = words.data();
+        VkShaderModule made = VK_NULL_HANDLE;
+        check(vkCreateShaderModule(device.handle(), &module, nullptr, &made), "creating a shader");
+        device.name(VK_OBJECT_TYPE_SHADER_MODULE, made, name);
+        module_ = ShaderModuleHandle(device.handle(), made);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
-    VkSpecializationInfo info{};
+        info_.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        info_.stage = stage;
+        info_.module = made;
+        info_.pName = "main";
+        if (!own.empty()) return;
+        for (const Specialization& constant : constants) {
+            entries_.push_back({constant.id,
+                                static_cast<std::uint32_t>(values_.size() * sizeof(std::uint32_t)),
+                                sizeof(std::uint32_t)});
+            values_.push_back(constant.value);
+        }
+        constants_.mapEntryCount = static_cast<std::uint32_t>(entries_.size());
+        constants_.pMapEntries = entries_.data();
+        constants_.dataSize = values_.size() * sizeof(std::uint32_t);
+        constants_.pData = values_.data();
+        info_.pSpecializationInfo = &constants_;
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    const VkPipelineShaderStageCreateInfo& info() const { return info_; }
+
+private:
+    ShaderModuleHandle module_;
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<std::uint32_t> values_;
+    VkSpecializationInfo constants_{};
+    VkPipelineShaderStageCreateInfo info_{};
 };
 
 std::string key_of(const std::string& name, const std::vector<Specialization>& specialization)
@@ -176,7 +203,6 @@ void PipelineCache::add_shader(const std::string& name, std::vector<std::uint32_
     if (slot == code) return;
     ahead_ = nullptr;
     slot = std::move(code);
-    modules_.erase(name);
     std::erase_if(pipelines_, [&](const auto& entry) { return entry.first.rfind(name, 0) == 0; });
 }
 
@@ -189,29 +215,12 @@ std::span<const std::uint32_t> PipelineCache::code(const std::string& shader) co
     return words;
 }
 
-VkShaderModule PipelineCache::module(const std::string& shader)
-{
-    auto& slot = modules_[shader];
-    if (slot) return slot.get();
-    const auto words = code(shader);
-    VkShaderModuleCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = words.size_bytes();
-    info.pCode = words.data();
-    VkShaderModule made = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device_->handle(), &info, nullptr, &made), "creating a shader");
-    device_->name(VK_OBJECT_TYPE_SHADER_MODULE, made, shader);
-    slot = ShaderModuleHandle(device_->handle(), made);
-    return made;
-}
-
 // A list of pipelines that threads work through, and so does who waits for one.
 class PipelineCache::Ahead {
 public:
     struct Task {
         std::string key;
         ComputeDesc desc;
-        VkShaderModule module;
         VkPipelineLayout layout;
         std::atomic_flag taken;
         std::promise<std::unique_ptr<Pipeline>> promise;
@@ -253,7 +262,7 @@ private:
     void make(Task& task) const
     {
         try {
-            task.promise.set_value(cache_->make_compute(task.desc, task.module, task.layout));
+            task.promise.set_value(cache_->make_compute(task.desc, task.layout));
         } catch (...) {
             task.promise.set_exception(std::current_exception());
         }
@@ -290,7 +299,6 @@ void PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
         tasks.push_back(std::make_unique<Ahead::Task>());
         tasks.back()->key = std::move(key);
         tasks.back()->desc = desc;
-        tasks.back()->module = module(desc.shader);
         tasks.back()->layout = layout(desc.sets);
     }
     // The long ones first.
@@ -301,18 +309,14 @@ void PipelineCache::prepare(const std::vector<ComputeDesc>& wanted)
 }
 
 std::unique_ptr<Pipeline> PipelineCache::make_compute(const ComputeDesc& desc,
-                                                      VkShaderModule module,
                                                       VkPipelineLayout layout) const
 {
     auto made = std::make_unique<Pipeline>();
-    const SpecializationInfo constants(desc.specialization);
+    const Stage stage(*device_, VK_SHADER_STAGE_COMPUTE_BIT, desc.shader, code(desc.shader),
+                      desc.specialization, cache_);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module;
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &constants.info;
+    info.stage = stage.info();
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
@@ -331,7 +335,7 @@ const Pipeline& PipelineCache::compute(const std::string& shader,
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = ahead_ ? ahead_->take(key) : nullptr;
-    if (!made) made = make_compute({shader, specialization, sets}, module(shader), layout(sets));
+    if (!made) made = make_compute({shader, specialization, sets}, layout(sets));
     for (const BindingTypes& set : sets) made->set_layouts.push_back(set_layout(set));
     slot = std::move(made);
     return *slot;
@@ -346,20 +350,15 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
-    const SpecializationInfo constants(desc.specialization);
-
-    std::vector<VkPipelineShaderStageCreateInfo> stages;
-    const auto add_stage = [&](VkShaderStageFlagBits stage, const std::string& shader) {
-        VkPipelineShaderStageCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        info.stage = stage;
-        info.module = module(shader);
-        info.pName = "main";
-        info.pSpecializationInfo = &constants.info;
-        stages.push_back(info);
-    };
-    add_stage(VK_SHADER_STAGE_VERTEX_BIT, desc.vertex);
-    if (!desc.fragment.empty()) add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment);
+    const Stage vertex(*device_, VK_SHADER_STAGE_VERTEX_BIT, desc.vertex, code(desc.vertex),
+                       desc.specialization, cache_);
+    std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.info()};
+    std::optional<Stage> fragment;
+    if (!desc.fragment.empty()) {
+        fragment.emplace(*device_, VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment, code(desc.fragment),
+                         desc.specialization, cache_);
+        stages.push_back(fragment->info());
+    }
 
     const VkVertexInputBindingDescription stream{0, desc.stride, VK_VERTEX_INPUT_RATE_VERTEX};
     std::vector<VkVertexInputAttributeDescription> attributes;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/device/resources.h"
+#include "gpu/device/specialize.h"
 
 namespace petrichor::gpu {
 
@@ -38,12 +39,6 @@ using Bindings = std::vector<Bound>;  ///< every number from 0 on, in any order
 using BindingTypes = std::vector<VkDescriptorType>;
 BindingTypes types_of(const Bindings& bindings);
 BindingTypes types_of(const std::vector<Binding>& bindings);
-
-/// Value of a specialization constant.
-struct Specialization {
-    std::uint32_t id = 0;
-    std::uint32_t value = 0;
-};
 
 inline constexpr std::uint32_t kPushBytes = 128;
 inline constexpr VkShaderStageFlags kAllStages =
@@ -99,17 +94,15 @@ public:
 
 private:
     class Ahead;  // the threads of prepare()
-    std::unique_ptr<Pipeline> make_compute(const ComputeDesc& desc, VkShaderModule module,
-                                           VkPipelineLayout layout) const;
+    std::unique_ptr<Pipeline> make_compute(const ComputeDesc& desc, VkPipelineLayout layout) const;
     std::span<const std::uint32_t> code(const std::string& shader) const;
     VkPipelineLayout layout(const std::vector<BindingTypes>& sets);
-    VkShaderModule module(const std::string& shader);
 
     const Device* device_;
+    ContentCache cache_ = user_cache();
     std::map<BindingTypes, SetLayoutHandle> set_layouts_;
     std::map<std::vector<BindingTypes>, PipelineLayoutHandle> layouts_;
     std::map<std::string, std::vector<std::uint32_t>> added_;
-    std::map<std::string, ShaderModuleHandle> modules_;
     std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
     std::unique_ptr<Ahead> ahead_;
 };

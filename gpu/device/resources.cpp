@@ -174,11 +174,12 @@ std::unique_ptr<GpuBuffer> MemoryArena::buffer(const BufferDesc& desc)
     return made;
 }
 
-void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes)
+void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes,
+                   VkDeviceSize offset)
 {
     if (bytes.empty()) return;
     if (target.mapped) {
-        std::memcpy(target.mapped, bytes.data(), bytes.size());
+        std::memcpy(target.mapped + offset, bytes.data(), bytes.size());
         return;
     }
     MemoryArena arena(device);
@@ -188,7 +189,7 @@ void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std:
                                        .host = true});
     std::memcpy(staging->mapped, bytes.data(), bytes.size());
     device.run([&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, bytes.size()};
+        const VkBufferCopy region{0, offset, bytes.size()};
         vkCmdCopyBuffer(commands, staging->buffer.get(), target.buffer.get(), 1, &region);
         VkMemoryBarrier2 barrier{};
         barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;

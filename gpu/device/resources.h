@@ -89,7 +89,8 @@ private:
 };
 
 /// Copies bytes into a device-local resource through a staging buffer; waits until done.
-void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes);
+void upload_buffer(const Device& device, GpuBuffer& target, std::span<const std::byte> bytes,
+                   VkDeviceSize offset = 0);
 
 /// Host memory that uploads go through, as large as the largest of them.
 class Staging {

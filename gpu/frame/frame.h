@@ -165,6 +165,7 @@ struct Frame {
     std::vector<MaterialChange> materials; ///< those that are not named are as loaded
     /// Albedo of every patch under this frame's weather; empty: worked out from `weather`.
     std::vector<glm::vec3> patch_albedo = {};
+    double animation_s = 0.0;         ///< on the clock of the scene's animations
     bool emissive_lights = true;      ///< what glows lights its surroundings
     FrameSettings settings;
 };

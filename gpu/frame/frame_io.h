@@ -87,6 +87,8 @@ struct FrameConstants {
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
+    vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
+    vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none
     PlaceConstants place;  // of the scene's patches
 };
@@ -100,5 +102,6 @@ SHARED_END
 #define FRAME_SUN_DISC 128u
 #define FRAME_GAMMA 256u
 #define FRAME_WHITE_BALANCE 512u
+#define FRAME_TWO_SETS 1024u  // the G-buffer keeps shares of two sets of textures
 
 #endif

@@ -109,7 +109,7 @@ std::vector<std::uint32_t> LightingModels::compile_lighting() const
     }
     texts.insert(texts.begin(), list);
     return compile_shader("gpu/passes/lighting/lighting.comp.glsl", rows + "\n", texts,
-                          default_cache_folder());
+                          user_cache());
 }
 
 }  // namespace petrichor::gpu

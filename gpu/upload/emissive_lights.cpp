@@ -292,9 +292,11 @@ std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Textu
 {
     std::vector<GlowSource> sources;
     for (const Instance& instance : scene.instances) {
+        const auto carrier = instance.moves ? std::make_shared<const Instance>(instance) : nullptr;
         for (const Primitive& p : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[p.material];
             if (material.emissive * material.emissive_strength == glm::vec3(0.0f)) continue;
+            if (instance.moves && p.deforms()) continue;
             const auto facets = facets_of(p, material, instance.to_world, textures);
             for (const Patch& patch : merged(connected(facets))) {
                 if (std::any_of(scene.lights.begin(), scene.lights.end(),
@@ -302,7 +304,7 @@ std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Textu
                     continue;
                 }
                 sources.push_back({light_of(patch, material.double_sided), patch.radiance,
-                                   patch.area, p.material});
+                                   patch.area, p.material, carrier});
             }
         }
     }

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_UPLOAD_EMISSIVE_LIGHTS_H
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "gpu/upload/texture.h"
@@ -16,7 +17,7 @@ namespace petrichor::gpu {
 ///              below 2 % of the brightest it is left out. Block-compressed textures are not read:
 ///              what they make glow is seen, and lights nothing
 ///   left out   what encloses a point or spot light of the scene, which stands for it already; what
-///              sends less than a thousandth of the whole; all but the brightest 256.
+///              bends; what sends less than a thousandth of the whole; all but the brightest 256.
 ///
 /// Deterministic: in the order of instances and triangles.
 std::vector<Light> emissive_lights(const Scene& scene, const std::vector<Texture>& textures);
@@ -28,6 +29,7 @@ struct GlowSource {
     glm::vec3 share{1.0f};  ///< of the material's emission, by its texture
     float area_m2 = 0.0f;
     std::size_t material = 0;
+    std::shared_ptr<const Instance> carrier = {};  ///< that moves it; null: nothing does
 };
 std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Texture>& textures);
 std::vector<Light> glowing(const std::vector<GlowSource>& sources,

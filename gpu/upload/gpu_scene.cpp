@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -15,16 +16,6 @@
 namespace petrichor::gpu {
 
 namespace {
-
-std::uint8_t to_byte(float value)
-{
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-}
-
-void set_bytes(std::uint8_t (&target)[4], const std::vector<glm::vec4>& values, std::size_t i)
-{
-    for (int c = 0; c < 4; ++c) target[c] = values.empty() ? 255 : to_byte(values[i][c]);
-}
 
 VkSamplerAddressMode address_mode(Wrap wrap)
 {
@@ -60,6 +51,13 @@ std::uint32_t water_bits(scene::Wetness wetness)
             break;
     }
     return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
+}
+
+std::uint32_t snow_bits(const scene::MaterialWeather& weather)
+{
+    return SNOW_LIES | (weather.snow_rule == scene::SnowRule::Grass ? SNOW_GRASS : 0u) |
+           (weather.snow_rule == scene::SnowRule::Vertex ? SNOW_VERTEX : 0u) |
+           (weather.snow_mapping == scene::SnowMapping::Local ? SNOW_LOCAL : 0u);
 }
 
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
@@ -115,9 +113,23 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
       glow_sources_(glow_sources(scene, textures)),
       bounds_(scene_bounds(scene))
 {
+    rig_ = scene.rig && scene.rig->settled ? scene.rig : nullptr;
+    rest_lights_ = lights_;
+    rest_glow_sources_ = glow_sources_;
+    rest_bounds_ = bounds_;
     upload_textures(device, textures);
     make_materials(device, scene);
     upload_geometry(device, scene);
+}
+
+void place_sphere(Draw& draw, const Bounds& box)
+{
+    const glm::vec3 centre = 0.5f * (box.low + box.high);
+    const glm::vec3 half = 0.5f * (box.high - box.low);
+    draw.centre_m = glm::vec3(draw.to_world * glm::vec4(centre, 1.0f));
+    const glm::mat3 linear(draw.to_world);
+    draw.radius_m = glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
+                                glm::abs(linear[2]) * half.z);
 }
 
 void GpuScene::upload_geometry(const Device& device, const Scene& scene)
@@ -137,14 +149,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                         static_cast<std::int32_t>(vertices.size()), glm::vec3(1e30f),
                         glm::vec3(-1e30f)};
             for (std::size_t i = 0; i < p.positions.size(); ++i) {
-                Vertex v{};
-                v.position = p.positions[i];
-                v.normal = p.normals[i];
-                v.tangent = p.tangents.empty() ? glm::vec4(0.0f, 0.0f, 0.0f, 1.0f) : p.tangents[i];
-                if (!p.uv0.empty()) v.uv0 = p.uv0[i];
-                v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
-                set_bytes(v.color, p.colors, i);
-                set_bytes(v.weather, p.weather, i);
+                const Vertex v = vertex_of(p, i);
                 vertices.push_back(v);
                 range.low = glm::min(range.low, v.position);
                 range.high = glm::max(range.high, v.position);
@@ -153,6 +158,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
             ranges[m].push_back(range);
         }
     }
+    first_bending_ = vertices.size();
+    std::map<const Primitive*, std::shared_ptr<const Primitive>> shapes;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const auto& primitives = scene.meshes[instance.mesh].primitives;
@@ -166,17 +173,27 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
             draw.material = primitives[p].material;
             draw.instance_id = static_cast<std::uint32_t>(i);
             draw.to_world = instance.to_world;
-            const glm::vec3 centre = 0.5f * (range.low + range.high);
-            const glm::vec3 half = 0.5f * (range.high - range.low);
-            draw.centre_m = glm::vec3(instance.to_world * glm::vec4(centre, 1.0f));
-            const glm::mat3 linear(instance.to_world);
-            draw.radius_m =
-                glm::length(glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
-                            glm::abs(linear[2]) * half.z);
-            draw.mirrored = glm::determinant(linear) < 0.0f;
+            place_sphere(draw, {range.low, range.high});
+            draw.mirrored = glm::determinant(glm::mat3(instance.to_world)) < 0.0f;
+            if (rig_ && instance.moves) {
+                draw.moving = static_cast<std::int32_t>(moving_.size());
+                MovingDraw moving{instance, {range.low, range.high}, draw.index_count, 0, nullptr};
+                if (primitives[p].deforms()) {
+                    auto& shape = shapes[&primitives[p]];
+                    if (!shape) shape = std::make_shared<const Primitive>(primitives[p]);
+                    moving.shape = shape;
+                    moving.first_vertex = bending_.size();
+                    draw.vertex_offset =
+                        static_cast<std::int32_t>(first_bending_ + bending_.size());
+                    for (std::size_t v = 0; v < shape->positions.size(); ++v)
+                        bending_.push_back(vertex_of(*shape, v));
+                }
+                moving_.push_back(std::move(moving));
+            }
             draws_.push_back(draw);
         }
     }
+    vertices.insert(vertices.end(), bending_.begin(), bending_.end());
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
             const GpuMaterial& m = materials_[d.material];
@@ -278,6 +295,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         GpuMaterial material;
         material.cull = cull_mode(source);
         material.water = water_bits(source.weather.wetness);
+        material.snow = snow_bits(source.weather);
+        material.second = static_cast<std::uint32_t>(source.second.use);
         material.bindings.push_back(uniform(*constants_, i * constants_stride_,
                                             sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);
@@ -311,7 +330,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
-                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f}};
+                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f},
+                                                  c.second_water_color};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source);
@@ -355,9 +375,15 @@ void GpuScene::sum_up_materials()
     });
     baked_ = any([](const Material& m) { return m.light_map.present(); });
     glows_ = glowing(glow_sources_, current_);
+    two_sets_ = any([](const Material& m) {
+        return m.second.use == scene::SecondSetUse::Mix &&
+               (m.second.own_water || m.diffuse_transmission > 0.0f);
+    });
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;
-        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
+        const bool own = m.second.use == scene::SecondSetUse::Mix && m.second.own_water;
+        const glm::vec4& other = m.second.water_accumulation;
+        return (own && (other.x > 0.0f || other.z > 0.0f)) || w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
                w.snow_accumulation.x > 0.0f;
     });
 }

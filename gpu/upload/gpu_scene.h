@@ -2,28 +2,20 @@
 #define PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/device/pipelines.h"
 #include "gpu/lighting/lighting_models.h"
 #include "gpu/upload/material_io.h"
 #include "gpu/upload/emissive_lights.h"
+#include "gpu/upload/pose.h"
 #include "gpu/upload/texture.h"
+#include "gpu/upload/vertex.h"
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
 
-/// One vertex as the vertex stage reads it.
-struct Vertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-    glm::vec4 tangent;
-    glm::vec2 uv0;
-    glm::vec2 uv1;
-    std::uint8_t color[4];
-    std::uint8_t weather[4];
-};
-static_assert(sizeof(Vertex) == 64);
 const std::vector<VertexAttribute>& vertex_attributes();
 
 /// One primitive of one instance.
@@ -37,7 +29,10 @@ struct Draw {
     glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
     float radius_m = 0.0f;
     bool mirrored = false;
+    std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
 };
+/// The bounding sphere of a draw, from the box of its vertices.
+void place_sphere(Draw& draw, const Bounds& box);
 
 struct GpuMaterial {
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
@@ -47,6 +42,8 @@ struct GpuMaterial {
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
+    std::uint32_t snow = 0;            ///< SNOW_... bits of its rule and mapping
+    std::uint32_t second = 0;          ///< SECOND_... of its second set of textures
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has
     std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
@@ -64,6 +61,12 @@ public:
     /// Throws Error for a material or property that is not there, or one that cannot change.
     bool set_materials(const std::vector<MaterialChange>& changes);
 
+    /// Brings what moves to where it is at this moment of its clips, for the frames that follow. True
+    /// when anything may have moved. The device must not be drawing.
+    bool pose(const Device& device, double time_s);
+    /// Grows whenever something may have moved.
+    std::uint64_t poses() const { return poses_; }
+
     const GpuBuffer& vertices() const { return *vertices_; }
     const GpuBuffer& indices() const { return *indices_; }
     /// Both buffers can be bound as texels: RGBA32UI, four a vertex, and R32UI.
@@ -80,6 +83,8 @@ public:
     bool emissive() const { return emissive_; }  ///< any material emits light
     bool baked() const { return baked_; }        ///< any has a light map
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
+    /// Some material mixes two sets that water or light that passes treats differently.
+    bool two_sets() const { return two_sets_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
@@ -103,6 +108,15 @@ private:
     std::vector<const SamplerHandle*> image_samplers_;
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
+    std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
+    std::vector<MovingDraw> moving_;
+    std::vector<Vertex> bending_;  // the last vertices of the buffer
+    std::size_t first_bending_ = 0;
+    std::vector<Light> rest_lights_;
+    std::vector<GlowSource> rest_glow_sources_;
+    Bounds rest_bounds_;
+    std::optional<double> posed_s_;
+    std::uint64_t poses_ = 0;
     std::vector<GpuMaterial> materials_;
     std::vector<Material> sources_;  // as loaded
     std::vector<Material> current_;  // with the changes of the frame
@@ -117,6 +131,7 @@ private:
     bool emissive_ = false;
     bool baked_ = false;
     bool constant_weather_ = false;
+    bool two_sets_ = false;
     bool as_texels_ = false;
 };
 

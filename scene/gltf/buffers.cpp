@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "scene/gltf/detail/gltf_uri.h"
+#include "scene/gltf/detail/meshopt.h"
 
 namespace petrichor::scene {
 namespace {
@@ -47,7 +48,8 @@ int component_count(const JsonObject& json)
     if (type == "VEC2") return 2;
     if (type == "VEC3") return 3;
     if (type == "VEC4") return 4;
-    json.fail("type", "must be SCALAR, VEC2, VEC3 or VEC4 here, got " + in_quotes(type),
+    if (type == "MAT4") return 16;
+    json.fail("type", "must be SCALAR, VEC2, VEC3, VEC4 or MAT4 here, got " + in_quotes(type),
               kFixDamaged);
 }
 
@@ -139,6 +141,14 @@ std::uint32_t Accessor::whole(std::size_t i) const
     return load<std::uint32_t>(at);
 }
 
+std::uint32_t Accessor::part(std::size_t i, int c) const
+{
+    const std::byte* at = element(i);
+    if (!at) return 0;
+    at += static_cast<std::size_t>(c) * component_bytes(type);
+    return type == ComponentType::Uint8 ? load<std::uint8_t>(at) : load<std::uint16_t>(at);
+}
+
 GltfBuffers::GltfBuffers(const JsonObject& root, std::span<const std::byte> bin, bool has_bin,
                          const ResourceReader& read_resource, std::size_t asset_bytes)
     : log_(&root.log()),
@@ -205,9 +215,52 @@ std::span<const std::byte> GltfBuffers::buffer(std::uint32_t index)
     return buffers_[index] = bytes.first(length);
 }
 
+// EXT_meshopt_compression of a view; its plain bytes may be missing.
+std::span<const std::byte> GltfBuffers::unpacked_view(const JsonObject& json,
+                                                      const JsonObject& view_json,
+                                                      std::uint32_t index)
+{
+    const auto known = unpacked_.find(index);
+    if (known != unpacked_.end()) return known->second;
+    const auto choice = [&](std::string_view key, std::span<const std::string_view> words) {
+        const std::string word = json.text(key, std::string(words[0]));
+        const auto found = std::find(words.begin(), words.end(), word);
+        if (found == words.end()) json.fail(key, "unknown word " + in_quotes(word), kFixDamaged);
+        return found - words.begin();
+    };
+    static constexpr std::string_view kModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+    static constexpr std::string_view kFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION",
+                                                    "EXPONENTIAL"};
+    const auto packed = range_of(json);
+    const std::uint64_t stride = json.require_whole("byteStride");
+    const std::uint64_t count = json.require_whole("count");
+    if (stride == 0 || stride > 256 || count != view_json.require_whole("byteLength") / stride) {
+        json.fail("count", "times byteStride must be the byteLength of the view", kFixDamaged);
+    }
+    // A packed byte brings forth 128 at most: sixteen zeros are two bits of a header.
+    if (count * stride / 128 > packed.size()) {
+        json.fail("count", "is more than " + std::to_string(packed.size()) + " bytes can hold",
+                  kFixDamaged);
+    }
+    budget.take(count, stride, json.path_to("count"), *log_);
+    auto bytes = unpack_meshopt(packed, count, stride,
+                                static_cast<MeshoptMode>(choice("mode", kModes)),
+                                static_cast<MeshoptFilter>(choice("filter", kFilters)));
+    if (!bytes) json.fail("", "the packed bytes are damaged", kFixDamaged);
+    return unpacked_[index] = std::move(*bytes);
+}
+
 std::span<const std::byte> GltfBuffers::view(std::uint32_t index)
 {
     const JsonObject json = views_json_.object(index);
+    if (const auto packed = json.extension("EXT_meshopt_compression"))
+        return unpacked_view(*packed, json, index);
+    return range_of(json);
+}
+
+// The bytes of a view, or of its packed form.
+std::span<const std::byte> GltfBuffers::range_of(const JsonObject& json)
+{
     const auto bytes = buffer(json.require_index("buffer", "buffer", buffers_json_.size()));
     const std::uint64_t offset = json.whole("byteOffset", 0);
     const std::uint64_t length = json.require_whole("byteLength");

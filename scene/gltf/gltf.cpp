@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "scene/animation/settle.h"
 #include "scene/gltf/detail/gltf_container.h"
 #include "scene/gltf/detail/gltf_parts.h"
 #include "scene/material_table.h"
@@ -14,11 +15,12 @@ namespace {
 
 bool is_known(std::string_view extension)
 {
-    static constexpr std::array<std::string_view, 8> others{
+    static constexpr std::array<std::string_view, 13> others{
         "PETRICHOR_lights_shape",
         "KHR_lights_punctual",     "KHR_texture_transform", "KHR_mesh_quantization",
         "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_texture_basisu",
-        "MSFT_texture_dds"};
+        "MSFT_texture_dds",        "KHR_node_visibility",   "KHR_animation_pointer",
+        "KHR_materials_variants",  "EXT_meshopt_compression", "KHR_draco_mesh_compression"};
     return !extension_members(extension).empty() ||
            std::find(others.begin(), others.end(), extension) != others.end();
 }
@@ -44,13 +46,10 @@ void check_extensions(const JsonObject& root)
     const JsonArray required = root.array("extensionsRequired");
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string name = required.text(i);
-        if (is_known(name) || name == "KHR_materials_variants") continue;
-        std::string fix = "Export the scene without it.";
-        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
-            fix = "Export the scene without mesh compression.";
-        }
+        if (is_known(name)) continue;
         root.log().fail(required.path_to(i),
-                        "cannot read the required extension " + in_quotes(name), fix);
+                        "cannot read the required extension " + in_quotes(name),
+                        "Export the scene without it.");
     }
     const JsonArray used = root.array("extensionsUsed");
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -102,7 +101,7 @@ bool uses_second_texcoord(const Material& material)
 }  // namespace
 
 Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
-                const ResourceReader& read_resource)
+                const ResourceReader& read_resource, const GltfOptions& options)
 {
     GltfLog log{name, {}};
     const GltfContainer container = split_container(asset, log);
@@ -117,7 +116,7 @@ Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
     scene.name = name;
     read_materials(source, scene);
     const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
-    scene.meshes = read_meshes(source, default_material);
+    scene.meshes = read_meshes(source, default_material, options.variant);
     read_nodes(source, scene.meshes.size(), scene);
     prune(scene);
 
@@ -142,6 +141,7 @@ Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
         }
     }
     scene.warnings = log.warnings.lines();
+    if (scene.rig && scene.rig->clips.empty()) settle_animation(scene, {});
     return scene;
 }
 

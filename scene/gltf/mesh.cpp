@@ -1,13 +1,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <utility>
 
+#include "base/words.h"
+#include "scene/gltf/detail/draco_mesh.h"
 #include "scene/gltf/detail/gltf_parts.h"
 
 namespace petrichor::scene {
 namespace {
 
 constexpr const char* kFixDamaged = "Export the scene again: the file is damaged or incomplete.";
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kVariants = "KHR_materials_variants";
 
 enum Mode { Points, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
 
@@ -67,10 +76,12 @@ std::vector<std::uint32_t> keep_used(std::vector<std::uint32_t>& indices, std::s
 
 class PrimitiveReader {
 public:
+    /// `packed`: what Draco gave for it; null: it is not packed.
     PrimitiveReader(GltfSource& source, const JsonObject& json, const JsonObject& attributes,
-                    bool quantized)
+                    bool quantized, const DracoMesh* packed)
         : buffers_(source.buffers), json_(json), attributes_(attributes), quantized_(quantized)
     {
+        if (packed) take_unpacked(*packed);
     }
 
     /// Nothing when there is nothing to draw.
@@ -89,14 +100,6 @@ public:
             json_.warn("mode", "points and lines are not drawn");
             return std::nullopt;
         }
-        if (json_.extension("KHR_draco_mesh_compression") && !positions->base) {
-            json_.fail("extensions.KHR_draco_mesh_compression",
-                       "compressed meshes cannot be read, and there is no uncompressed copy",
-                       "Export the scene without Draco compression.");
-        }
-        if (json_.array("targets").size() > 0) {
-            json_.warn("targets", "morph targets are not applied: the mesh is shown at rest");
-        }
         Primitive primitive;
         primitive.indices = to_triangles(read_corners(*positions, mode), mode);
         if (primitive.indices.empty()) {
@@ -105,14 +108,79 @@ public:
         }
         used_ = keep_used(primitive.indices, positions->count);
         read_attributes(primitive, *positions);
+        read_targets(primitive, positions->count);
+        read_influences(primitive, positions->count);
         return primitive;
     }
 
 private:
+    // Attributes that Draco gave stand in for the accessors, in the type that these say.
+    void take_unpacked(const DracoMesh& packed)
+    {
+        const auto extension = json_.extension(kDraco);
+        const auto names = extension->object("attributes");
+        if (!names) extension->fail("attributes", "is missing", kFixDamaged);
+        for (const std::string& name : names->keys()) {
+            const auto id = names->require_whole(name);
+            const auto found = id <= 0xffffffffu
+                                   ? packed.attributes.find(static_cast<std::uint32_t>(id))
+                                   : packed.attributes.end();
+            if (found == packed.attributes.end()) {
+                names->fail(name, "Draco's mesh has no attribute " + std::to_string(id), kFixDamaged);
+            }
+            Accessor accessor = buffers_.accessor(
+                attributes_.require_index(name, "accessor", buffers_.accessor_count()));
+            const DracoAttribute& attribute = found->second;
+            if (accessor.count != packed.vertices ||
+                accessor.components != static_cast<int>(attribute.components)) {
+                names->fail(name,
+                            "Draco's mesh has " + std::to_string(packed.vertices) +
+                                " vertices of " + std::to_string(attribute.components) +
+                                " numbers; the accessor says " + std::to_string(accessor.count) +
+                                " of " + std::to_string(accessor.components),
+                            kFixDamaged);
+            }
+            std::vector<std::byte>& bytes = unpacked_bytes_[name];
+            bytes = as_component_type(attribute.values, accessor.type);
+            accessor.base = bytes.data();
+            accessor.stride = bytes.size() / packed.vertices;
+            accessor.sparse_indices.clear();
+            unpacked_.emplace(name, std::move(accessor));
+        }
+        corners_ = &packed.indices;
+        buffers_.budget.take(packed.indices.size() + packed.vertices, 64,
+                             json_.path_to("extensions"), json_.log());
+    }
+
+    static std::vector<std::byte> as_component_type(const std::vector<float>& values,
+                                                    ComponentType type)
+    {
+        std::vector<std::byte> bytes;
+        const auto put = [&bytes](auto value) {
+            const auto* from = reinterpret_cast<const std::byte*>(&value);
+            bytes.insert(bytes.end(), from, from + sizeof value);
+        };
+        const auto whole = [](float v, float low, float high) {
+            return std::isnan(v) ? 0.0f : std::clamp(v, low, high);
+        };
+        for (const float v : values) {
+            if (type == ComponentType::Float) put(v);
+            if (type == ComponentType::Int8) put(static_cast<std::int8_t>(whole(v, -128, 127)));
+            if (type == ComponentType::Uint8) put(static_cast<std::uint8_t>(whole(v, 0, 255)));
+            if (type == ComponentType::Int16)
+                put(static_cast<std::int16_t>(whole(v, -32768, 32767)));
+            if (type == ComponentType::Uint16) put(static_cast<std::uint16_t>(whole(v, 0, 65535)));
+            if (type == ComponentType::Uint32)
+                put(static_cast<std::uint32_t>(whole(v, 0, 4294967040.0f)));
+        }
+        return bytes;
+    }
+
     std::vector<std::uint32_t> read_corners(const Accessor& positions, std::uint64_t mode)
     {
         // What a corner can come to in the end: its index, and a vertex of its own.
         constexpr std::uint64_t kCorner = 64;
+        if (corners_) return *corners_;
         std::vector<std::uint32_t> corners;
         if (!json_.has("indices")) {
             buffers_.budget.take(positions.count,
@@ -155,12 +223,26 @@ private:
     // KHR_mesh_quantization.
     const Accessor* attribute(std::string_view name, std::initializer_list<int> components)
     {
-        const auto index = attributes_.index(name, "accessor", buffers_.accessor_count());
+        return attribute(attributes_, name, components);
+    }
+    const Accessor& accessor_of(const JsonObject& attributes, std::string_view name,
+                                std::uint32_t index)
+    {
+        const auto found = unpacked_.find(name);
+        const bool own = &attributes == &attributes_ && found != unpacked_.end();
+        return own ? found->second : buffers_.accessor(index);
+    }
+
+
+    const Accessor* attribute(const JsonObject& attributes, std::string_view name,
+                              std::initializer_list<int> components)
+    {
+        const auto index = attributes.index(name, "accessor", buffers_.accessor_count());
         if (!index) return nullptr;
-        const Accessor& accessor = buffers_.accessor(*index);
+        const Accessor& accessor = accessor_of(attributes, name, *index);
         if (std::find(components.begin(), components.end(), accessor.components) ==
             components.end()) {
-            attributes_.fail(name,
+            attributes.fail(name,
                              "accessor " + std::to_string(*index) + " has " +
                                  std::to_string(accessor.components) + " components, " +
                                  std::to_string(*components.begin()) + " are needed",
@@ -169,10 +251,11 @@ private:
         const bool plain_integer =
             accessor.normalized &&
             (accessor.type == ComponentType::Uint8 || accessor.type == ComponentType::Uint16) &&
-            (name.starts_with("TEXCOORD") || name.starts_with("COLOR") || name == "_WEATHER");
+            (name.starts_with("TEXCOORD") || name.starts_with("COLOR") ||
+             name.starts_with("WEIGHTS") || name == "_WEATHER");
         const bool quantized_integer = quantized_ && accessor.type != ComponentType::Uint32;
         if (accessor.type != ComponentType::Float && !plain_integer && !quantized_integer) {
-            attributes_.fail(name,
+            attributes.fail(name,
                              "accessor " + std::to_string(*index) + " has component type " +
                                  std::to_string(static_cast<std::uint32_t>(accessor.type)) +
                                  ", which this attribute may not have",
@@ -187,18 +270,25 @@ private:
     std::vector<glm::vec<N, float>> read(const char* name, const Accessor* accessor,
                                          std::size_t vertex_count)
     {
+        return read<N>(attributes_, name, accessor, vertex_count);
+    }
+
+    template <int N>
+    std::vector<glm::vec<N, float>> read(const JsonObject& attributes, const std::string& name,
+                                         const Accessor* accessor, std::size_t vertex_count)
+    {
         constexpr float kLargest =
             1e18f;  // its square, and a place in the world, still fit a float
         std::vector<glm::vec<N, float>> values;
         if (!accessor) return values;
         if (accessor->count != vertex_count) {
-            attributes_.fail(name,
+            attributes.fail(name,
                              "has " + std::to_string(accessor->count) + " elements, POSITION has " +
                                  std::to_string(vertex_count),
                              kFixDamaged);
         }
         const int components = std::min(accessor->components, N);
-        buffers_.budget.take(used_.size(), sizeof values[0], attributes_.path_to(name),
+        buffers_.budget.take(used_.size(), sizeof values[0], attributes.path_to(name),
                              json_.log());
         values.assign(used_.size(), glm::vec<N, float>(1.0f));
         bool broken = false;
@@ -206,8 +296,8 @@ private:
             for (int c = 0; c < components; ++c) {
                 float value = accessor->value(used_[i], c);
                 if (!(std::abs(value) <= kLargest)) {
-                    if (name == std::string_view("POSITION")) {
-                        attributes_.fail(name,
+                    if (name == "POSITION") {
+                        attributes.fail(name,
                                          "element " + std::to_string(used_[i]) +
                                              " is not a finite number below 1e18",
                                          "Remove the broken vertex, or export the scene again.");
@@ -218,7 +308,7 @@ private:
                 values[i][c] = value;
             }
         }
-        if (broken) attributes_.warn(name, "numbers that are not finite count as 0");
+        if (broken) attributes.warn(name, "numbers that are not finite count as 0");
         return values;
     }
 
@@ -238,11 +328,81 @@ private:
         for (glm::vec4& masks : out.weather) masks = glm::clamp(masks, 0.0f, 1.0f);
         mend_normals(out);
         mend_tangents(out);
-        if (attributes_.has("JOINTS_0")) {
-            json_.warn("attributes.JOINTS_0", "skins are not applied: the mesh is shown at rest");
-        }
         if (attributes_.has("COLOR_1") || attributes_.has("TEXCOORD_2")) {
             json_.warn("attributes", "only COLOR_0, TEXCOORD_0 and TEXCOORD_1 are read");
+        }
+    }
+
+    void read_targets(Primitive& out, std::size_t vertex_count)
+    {
+        const JsonArray targets = json_.array("targets");
+        for (std::size_t t = 0; t < targets.size(); ++t) {
+            const JsonObject json = targets.object(t);
+            const auto deltas = [&](const char* name) {
+                return read<3>(json, name, attribute(json, name, {3}), vertex_count);
+            };
+            MorphTarget target{deltas("POSITION"), {}, {}};
+            if (!out.normals.empty()) target.normals = deltas("NORMAL");
+            if (!out.tangents.empty()) target.tangents = deltas("TANGENT");
+            for (const std::string& name : json.keys()) {
+                if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
+                json_.warn("targets", "of morph targets only POSITION, NORMAL and TANGENT are read");
+            }
+            out.targets.push_back(std::move(target));
+        }
+    }
+
+    // Joints and weights, four a set. Weights are made to sum up to 1.
+    void read_influences(Primitive& out, std::size_t vertex_count)
+    {
+        constexpr int kMostSets = 4;
+        std::vector<std::vector<Influence>> sets;
+        for (int set = 0; set < kMostSets; ++set) {
+            const std::string joints_name = "JOINTS_" + std::to_string(set);
+            const std::string weights_name = "WEIGHTS_" + std::to_string(set);
+            if (!attributes_.has(joints_name) && !attributes_.has(weights_name)) break;
+            const auto index =
+                attributes_.require_index(joints_name, "accessor", buffers_.accessor_count());
+            const Accessor& joints = accessor_of(attributes_, joints_name, index);
+            const bool whole = joints.type == ComponentType::Uint8 ||
+                               joints.type == ComponentType::Uint16;
+            if (!whole || joints.components != 4 || joints.count != vertex_count) {
+                attributes_.fail(joints_name,
+                                 "must be a VEC4 accessor of unsigned bytes or shorts with as many "
+                                 "elements as POSITION",
+                                 kFixDamaged);
+            }
+            const Accessor* accessor = attribute(weights_name, {4});
+            if (!accessor) attributes_.fail(weights_name, "is missing", kFixDamaged);
+            const auto weights = read<4>(attributes_, weights_name, accessor, vertex_count);
+            std::vector<Influence> influences;
+            buffers_.budget.take(used_.size(), 4 * sizeof(Influence),
+                                 attributes_.path_to(joints_name), json_.log());
+            for (std::size_t i = 0; i < used_.size(); ++i) {
+                for (int c = 0; c < 4; ++c) {
+                    influences.push_back(
+                        {joints.part(used_[i], c), std::max(weights[i][c], 0.0f)});
+                }
+            }
+            sets.push_back(std::move(influences));
+        }
+        if (attributes_.has("JOINTS_" + std::to_string(kMostSets)))
+            json_.warn("attributes", "only 16 joints of a vertex are read");
+        for (std::size_t v = 0; v < used_.size() && !sets.empty(); ++v) {
+            const std::size_t first = out.influences.size();
+            float sum = 0.0f;
+            for (const auto& set : sets) {
+                out.influences.insert(out.influences.end(), set.begin() + 4 * static_cast<long>(v),
+                                      set.begin() + 4 * static_cast<long>(v + 1));
+            }
+            for (std::size_t i = first; i < out.influences.size(); ++i)
+                sum += out.influences[i].weight;
+            if (!(sum > 0.0f)) {
+                json_.warn("attributes.WEIGHTS_0", "vertices without weight follow one joint");
+                out.influences[first].weight = sum = 1.0f;
+            }
+            for (std::size_t i = first; i < out.influences.size(); ++i)
+                out.influences[i].weight /= sum;
         }
     }
 
@@ -300,7 +460,37 @@ private:
     const JsonObject& attributes_;
     bool quantized_;                   ///< KHR_mesh_quantization is in use
     std::vector<std::uint32_t> used_;  ///< vertices of the file that triangles use
+    std::map<std::string, std::vector<std::byte>> unpacked_bytes_;
+    std::map<std::string, Accessor, std::less<>> unpacked_;  ///< by attribute
+    const std::vector<std::uint32_t>* corners_ = nullptr;    ///< of Draco
 };
+
+// Draco's meshes of the file, by mesh and primitive; those that have a plain copy are left packed.
+std::map<std::pair<std::size_t, std::size_t>, DracoMesh> unpacked_meshes(GltfSource& source,
+                                                                         const JsonArray& meshes)
+{
+    std::vector<std::span<const std::byte>> packed;
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const JsonArray primitives = meshes.object(m).array("primitives");
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const JsonObject json = primitives.object(p);
+            const auto extension = json.extension(kDraco);
+            const auto attributes = json.object("attributes");
+            if (!extension || !attributes) continue;
+            const auto position =
+                attributes->index("POSITION", "accessor", source.buffers.accessor_count());
+            if (!position || source.buffers.accessor(*position).base) continue;
+            packed.push_back(source.buffers.view(extension->require_index(
+                "bufferView", "buffer view", source.buffers.view_count())));
+            places.emplace_back(m, p);
+        }
+    }
+    std::vector<DracoMesh> unpacked = unpack_draco(packed, source.root.log().file);
+    std::map<std::pair<std::size_t, std::size_t>, DracoMesh> found;
+    for (std::size_t i = 0; i < places.size(); ++i) found[places[i]] = std::move(unpacked[i]);
+    return found;
+}
 
 bool lists_extension(const JsonArray& names, std::string_view name)
 {
@@ -310,15 +500,58 @@ bool lists_extension(const JsonArray& names, std::string_view name)
     return false;
 }
 
+// The number of the variant to show; nothing when none is asked for.
+std::optional<std::uint32_t> variant_number(const JsonObject& root, const std::string& variant)
+{
+    const auto extension = root.extension(kVariants);
+    const JsonArray list = extension ? extension->array("variants") : JsonArray(nullptr, "", root.log());
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < list.size(); ++i) names.push_back(list.object(i).text("name"));
+    const auto found = std::find(names.begin(), names.end(), variant);
+    if (!variant.empty() && found == names.end()) {
+        root.log().fail("extensions.KHR_materials_variants",
+                        "there is no variant " + in_quotes(variant) + "." +
+                            did_you_mean(variant, names),
+                        names.empty() ? "Leave [scene] variant out: the scene has none."
+                                      : "Use one of: " + printable(join_words(names)) + ".");
+    }
+    if (variant.empty() && !names.empty()) {
+        root.log().warnings.add("", "variants of materials: " + printable(join_words(names)) +
+                                        "; [scene] variant chooses one");
+    }
+    if (variant.empty()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - names.begin());
+}
+
+std::optional<std::uint32_t> variant_material(const JsonObject& primitive, std::uint32_t variant,
+                                              std::size_t material_count)
+{
+    const auto extension = primitive.extension(kVariants);
+    if (!extension) return std::nullopt;
+    const JsonArray mappings = extension->array("mappings");
+    for (std::size_t i = 0; i < mappings.size(); ++i) {
+        const JsonObject mapping = mappings.object(i);
+        const JsonArray variants = mapping.array("variants");
+        for (std::size_t v = 0; v < variants.size(); ++v) {
+            if (variants.index(v, "variant", std::size_t{1} << 31) == variant)
+                return mapping.require_index("material", "material", material_count);
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
-std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material)
+std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material,
+                              const std::string& variant)
 {
+    const auto chosen = variant_number(source.root, variant);
     const JsonArray meshes_json = source.root.array("meshes");
     const std::size_t material_count = source.root.array("materials").size();
     constexpr std::string_view kQuantization = "KHR_mesh_quantization";
     const bool quantized = lists_extension(source.root.array("extensionsUsed"), kQuantization) ||
                            lists_extension(source.root.array("extensionsRequired"), kQuantization);
+    const auto unpacked = unpacked_meshes(source, meshes_json);
     std::vector<Mesh> meshes;
     for (std::size_t m = 0; m < meshes_json.size(); ++m) {
         const JsonObject mesh_json = meshes_json.object(m);
@@ -327,10 +560,16 @@ std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material
         const JsonArray primitives_json = mesh_json.array("primitives");
         for (std::size_t p = 0; p < primitives_json.size(); ++p) {
             const JsonObject json = primitives_json.object(p);
-            const auto material = json.index("material", "material", material_count);
+            auto material = json.index("material", "material", material_count);
+            if (chosen) {
+                const auto other = variant_material(json, *chosen, material_count);
+                if (other) material = other;
+            }
             const auto attributes = json.object("attributes");
             if (!attributes) json.fail("attributes", "is missing", kFixDamaged);
-            auto primitive = PrimitiveReader(source, json, *attributes, quantized).read();
+            const auto packed = unpacked.find({m, p});
+            const DracoMesh* draco = packed == unpacked.end() ? nullptr : &packed->second;
+            auto primitive = PrimitiveReader(source, json, *attributes, quantized, draco).read();
             if (!primitive) continue;
             primitive->material = material.value_or(default_material);
             mesh.primitives.push_back(std::move(*primitive));

@@ -2,48 +2,15 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "scene/animation/transform.h"
 #include "scene/gltf/detail/gltf_parts.h"
 #include "scene/light_shape.h"
 
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kNoParent = 0xffffffffu;
 constexpr const char* kFixTree = "Give every node one parent at most, or export the scene again.";
 constexpr const char* kFixDamaged = "Export the scene again: the file is damaged or incomplete.";
-
-bool finite(const glm::dmat4& m)
-{
-    // Beyond this a float overflows; positions and normals are computed in floats later.
-    constexpr double kLargest = 1e18;
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            if (!(std::abs(m[c][r]) <= kLargest)) return false;
-        }
-    }
-    return true;
-}
-
-glm::dmat4 compose(const glm::dvec3& translation, const glm::dquat& rotation,
-                   const glm::dvec3& scale)
-{
-    glm::dmat4 m = glm::mat4_cast(rotation);
-    m[0] *= scale.x;
-    m[1] *= scale.y;
-    m[2] *= scale.z;
-    m[3] = glm::dvec4(translation, 1.0);
-    return m;
-}
-
-// x, y, z, w as files give it; nothing when it has no direction.
-std::optional<glm::dquat> to_rotation(const glm::vec4& xyzw)
-{
-    const glm::dquat rotation(static_cast<double>(xyzw.w), static_cast<double>(xyzw.x),
-                              static_cast<double>(xyzw.y), static_cast<double>(xyzw.z));
-    const double length = glm::length(rotation);
-    if (!(length > 1e-12)) return std::nullopt;
-    return rotation / length;
-}
 
 glm::dmat4 local_matrix(const JsonObject& node)
 {
@@ -69,45 +36,24 @@ glm::dmat4 local_matrix(const JsonObject& node)
     return compose(glm::dvec3(translation), *turned, glm::dvec3(scale));
 }
 
-// The rotation and place of a matrix: columns made orthonormal, z first, since a camera or light
-// looks along it. A mirrored or collapsed matrix gives the nearest proper frame.
-glm::dmat4 without_scale(const glm::dmat4& m)
-{
-    const auto unit_or = [](const glm::dvec3& v, const glm::dvec3& otherwise) {
-        const double length = glm::length(v);
-        return length > 1e-30 ? v / length : otherwise;
-    };
-    const glm::dvec3 z = unit_or(glm::dvec3(m[2]), {0.0, 0.0, 1.0});
-    const glm::dvec3 side =
-        std::abs(z.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-    glm::dvec3 y(m[1]);
-    y = unit_or(y - z * glm::dot(z, y), glm::normalize(side - z * glm::dot(z, side)));
-    glm::dmat4 out(1.0);
-    out[0] = glm::dvec4(glm::cross(y, z), 0.0);
-    out[1] = glm::dvec4(y, 0.0);
-    out[2] = glm::dvec4(z, 0.0);
-    out[3] = m[3];
-    return out;
-}
-
 // Checks that the nodes form trees. Gives the children by node.
 std::vector<std::vector<std::uint32_t>> read_tree(const JsonArray& nodes,
-                                                  std::vector<std::uint32_t>& parents)
+                                                  std::vector<std::int32_t>& parents)
 {
     std::vector<std::vector<std::uint32_t>> children(nodes.size());
-    parents.assign(nodes.size(), kNoParent);
+    parents.assign(nodes.size(), kNoNode);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
         const JsonArray list = nodes.object(n).array("children");
         for (std::size_t i = 0; i < list.size(); ++i) {
             const std::uint32_t child = list.index(i, "node", nodes.size());
-            if (parents[child] != kNoParent) {
+            if (parents[child] != kNoNode) {
                 nodes.object(n).log().fail(list.path_to(i),
                                            "node " + std::to_string(child) +
                                                " is already a child of node " +
                                                std::to_string(parents[child]),
                                            kFixTree);
             }
-            parents[child] = n;
+            parents[child] = static_cast<std::int32_t>(n);
             children[n].push_back(child);
         }
     }
@@ -115,7 +61,7 @@ std::vector<std::vector<std::uint32_t>> read_tree(const JsonArray& nodes,
     std::vector<bool> reached(nodes.size(), false);
     std::vector<std::uint32_t> open;
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-        if (parents[n] == kNoParent) open.push_back(n);
+        if (parents[n] == kNoNode) open.push_back(n);
     }
     while (!open.empty()) {
         const std::uint32_t n = open.back();
@@ -133,7 +79,7 @@ std::vector<std::vector<std::uint32_t>> read_tree(const JsonArray& nodes,
 }
 
 std::vector<std::uint32_t> scene_roots(const JsonObject& root,
-                                       const std::vector<std::uint32_t>& parents,
+                                       const std::vector<std::int32_t>& parents,
                                        std::string& scene_name)
 {
     std::vector<std::uint32_t> roots;
@@ -141,7 +87,7 @@ std::vector<std::uint32_t> scene_roots(const JsonObject& root,
     const auto chosen = root.index("scene", "scene", scenes.size());
     if (scenes.size() == 0) {
         for (std::uint32_t n = 0; n < parents.size(); ++n) {
-            if (parents[n] == kNoParent) roots.push_back(n);
+            if (parents[n] == kNoNode) roots.push_back(n);
         }
         return roots;
     }
@@ -151,7 +97,7 @@ std::vector<std::uint32_t> scene_roots(const JsonObject& root,
     std::vector<bool> listed(parents.size(), false);
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::uint32_t n = list.index(i, "node", parents.size());
-        if (parents[n] != kNoParent || listed[n]) {
+        if (parents[n] != kNoNode || listed[n]) {
             scene.log().fail(
                 list.path_to(i),
                 "node " + std::to_string(n) +
@@ -179,15 +125,15 @@ public:
     {
         const std::string name = node.text("name", "node " + std::to_string(number));
         if (const auto mesh = node.index("mesh", "mesh", mesh_count_)) {
-            if (node.has("skin")) {
-                node.warn("skin", "skins are not applied: the mesh is shown at rest");
-            }
+            const std::size_t first = scene_.instances.size();
             place_mesh(node, name, *mesh, to_world);
+            if (scene_.rig) bind(node, number, first);
         }
         if (const auto index = node.index("camera", "camera", cameras_.size())) {
             Camera camera = cameras_[*index];
             charge(node, sizeof camera + camera.name.size());
             camera.to_world = glm::mat4(without_scale(to_world));
+            if (scene_.rig) camera.node = static_cast<std::int32_t>(number);
             scene_.cameras.push_back(std::move(camera));
         }
         const auto extension = node.extension("KHR_lights_punctual");
@@ -201,12 +147,46 @@ public:
         scene_.lights.back().direction = -glm::vec3(frame[2]);
         scene_.lights.back().up = glm::vec3(frame[1]);
         turn_shape(scene_.lights.back());
+        if (scene_.rig) scene_.lights.back().node = static_cast<std::int32_t>(number);
     }
 
 private:
     void charge(const JsonObject& node, std::size_t bytes)
     {
         source_.buffers.budget.take(1, bytes, node.path(), node.log());
+    }
+
+    // The instances from `first` on hang on their node, and bend by its skin.
+    void bind(const JsonObject& node, std::size_t number, std::size_t first)
+    {
+        const auto skin = node.index("skin", "skin", scene_.rig->skins.size());
+        for (std::size_t i = first; i < scene_.instances.size(); ++i) {
+            Instance& instance = scene_.instances[i];
+            instance.node = static_cast<std::int32_t>(number);
+            if (skin) bind_skin(node, *skin, instance);
+        }
+    }
+
+    void bind_skin(const JsonObject& node, std::uint32_t skin, Instance& instance)
+    {
+        const std::size_t joints = scene_.rig->skins[skin].joints.size();
+        bool bends = false;
+        for (const Primitive& primitive : scene_.meshes[instance.mesh].primitives) {
+            for (const Influence& influence : primitive.influences) {
+                if (influence.joint < joints) continue;
+                node.fail("skin",
+                          "has " + std::to_string(joints) + " joints, and mesh " +
+                              std::to_string(instance.mesh) + " asks for joint " +
+                              std::to_string(influence.joint),
+                          kFixDamaged);
+            }
+            if (!primitive.influences.empty()) {
+                bends = true;
+            } else {
+                node.warn("skin", "a mesh without JOINTS_0 is not bent by the node's skin");
+            }
+        }
+        if (bends) instance.skin = static_cast<std::int32_t>(skin);
     }
 
     void place_mesh(const JsonObject& node, const std::string& name, std::uint32_t mesh,
@@ -256,11 +236,13 @@ private:
             const glm::dmat4 placed =
                 rotation ? to_world * compose(glm::dvec3(translation), *rotation, glm::dvec3(scale))
                          : glm::dmat4(0.0);
-            if (!rotation || !finite(placed)) {
+            if (!rotation || !is_usable(placed)) {
                 attributes->fail("", "instance " + std::to_string(i) + " has no usable transform",
                                  kFixDamaged);
             }
             scene_.instances.push_back({name, mesh, glm::mat4(placed)});
+            scene_.instances.back().in_node =
+                glm::mat4(compose(glm::dvec3(translation), *rotation, glm::dvec3(scale)));
         }
     }
 
@@ -276,8 +258,9 @@ private:
 void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene)
 {
     const JsonArray nodes = source.root.array("nodes");
-    std::vector<std::uint32_t> parents;
+    std::vector<std::int32_t> parents;
     const auto children = read_tree(nodes, parents);
+    scene.rig = read_rig(source, parents);
     NodeReader reader(source, mesh_count, scene);
 
     struct Visit {
@@ -292,7 +275,7 @@ void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene)
         open.pop_back();
         const JsonObject node = nodes.object(visit.node);
         const glm::dmat4 to_world = visit.parent_to_world * local_matrix(node);
-        if (!finite(to_world)) {
+        if (!is_usable(to_world)) {
             node.fail("", "its place in the world is beyond 1e18", "Correct the node's transform.");
         }
         reader.place(node, visit.node, to_world);

@@ -46,7 +46,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
 {
     std::size_t expected = 0;
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop) continue;
+        if (instance.backdrop || instance.moves) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             expected += primitive.indices.size() / 3;
     }
@@ -62,7 +62,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
     high_ = glm::vec3(std::numeric_limits<float>::lowest());
     Hasher hasher;
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop) continue;
+        if (instance.backdrop || instance.moves) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             if (!stops_light(material)) {

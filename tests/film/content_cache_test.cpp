@@ -1,4 +1,3 @@
-#include "film/data/content_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "base/content_cache.h"
 #include "base/error.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/scene_textures.h"

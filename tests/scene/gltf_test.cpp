@@ -315,21 +315,39 @@ TEST(Gltf, SaysWhatItIgnores)
     const Scene scene = load(edited({
         {"/extensionsUsed", {"KHR_materials_variants", "VENDOR_thing"}},
         {"/extensionsRequired", {"KHR_materials_variants"}},
-        {"/meshes/0/primitives/0/targets", json::array({{{"POSITION", 0}}})},
-        {"/meshes/0/primitives/0/attributes/JOINTS_0", 5},
-        {"/nodes/1/skin", 0},
-        {"/nodes/4/skin", 0},
         {"/materials/0/pbrMetallicRoughness/metallicFactor", 1.5},
     }));
     EXPECT_EQ(scene.materials[0].metallic, 1.0f);
     EXPECT_THAT(
         scene.warnings,
         testing::UnorderedElementsAre(
-            HasSubstr("\"KHR_materials_variants\" is ignored"),
-            HasSubstr("\"VENDOR_thing\" is ignored"), HasSubstr("meshes[0].primitives[0].targets"),
-            HasSubstr("attributes.JOINTS_0: skins are not applied: the mesh is shown at "
-                      "rest (and 2 more like it)"),
+            HasSubstr("\"VENDOR_thing\" is ignored"),
             HasSubstr("metallicFactor: the value is out of range")));
+}
+
+TEST(Gltf, AVariantReplacesMaterials)
+{
+    const json document = edited({
+        {"/extensionsUsed", {"KHR_materials_variants"}},
+        {"/materials/1", {{"name", "moss"}}},
+        {"/extensions/KHR_materials_variants/variants", {{{"name", "dry"}}, {{"name", "mossy"}}}},
+        {"/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings",
+         {{{"material", 1}, {"variants", {1}}}}},
+    });
+    const auto material = [&](const std::string& variant) {
+        const Scene scene =
+            load_gltf(glb(document.dump()), "yard.glb", nullptr, {.variant = variant});
+        return scene.materials[scene.meshes[0].primitives[0].material].name;
+    };
+    EXPECT_NE(material(""), material("mossy"));
+    EXPECT_EQ(material(""), material("dry"));
+    EXPECT_THAT(load(document).warnings, ElementsAre(HasSubstr("dry, mossy")));
+    try {
+        material("mosy");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean \"mossy\"?"));
+    }
 }
 
 TEST(Gltf, MendsNormalsWithoutDirection)

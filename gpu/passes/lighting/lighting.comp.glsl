@@ -39,6 +39,7 @@ layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
+layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -61,38 +62,13 @@ layout(binding = LIGHTING_SKIN) uniform samplerBuffer skin_table;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
-layout(binding = LIGHTING_PATCH_TABLE) uniform usamplerBuffer patch_table_texels;
-layout(binding = LIGHTING_PATCH_WAYS) uniform usamplerBuffer patch_way_texels;
-layout(binding = LIGHTING_PATCH_KEPT, rgba32ui) uniform uimage2D patch_light_kept;
-layout(binding = LIGHTING_PATCH_PLANES) uniform samplerBuffer patch_plane_texels;
-layout(binding = LIGHTING_PATCH_IRRADIANCE) uniform samplerBuffer patch_irradiance_texels;
-layout(binding = LIGHTING_PATCH_GRADIENT) uniform samplerBuffer patch_gradient_texels;
+layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 
-uvec4 patch_table(uint slot)
-{
-    return texelFetch(patch_table_texels, int(slot));
-}
-uint patch_way(uint index)
-{
-    return texelFetch(patch_way_texels, int(index)).r;
-}
-vec4 patch_plane(uint node)
-{
-    return texelFetch(patch_plane_texels, int(node));
-}
-vec4 patch_irradiance(uint node)
-{
-    return texelFetch(patch_irradiance_texels, int(node));
-}
-vec4 patch_gradient(uint node)
-{
-    return texelFetch(patch_gradient_texels, int(node));
-}
-#include "formulas/light/patch_lookup.inc"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
+#include "gpu/passes/patch_light/patch_spread.glsl"
 #include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
@@ -302,42 +278,12 @@ struct Ambient {
     float open;       // 0..1: how far a mirror sees the sky
 };
 
-// Irradiance over pi from the patches around, and their share of open directions; w < 0: none there.
-vec4 looked_up(LitPoint p, vec3 geometry)
-{
-    const PatchLight light = patch_lookup(frame.patches, p.position, geometry);
-    if (light.weight <= 0.0) return vec4(0.0, 0.0, 0.0, -1.0);
-    const float turned = irradiance_towards(light.gradient, normalize(light.normal), p.normal);
-    return vec4(min(light.irradiance * (0.31830989 * turned), vec3(60000.0)), light.open);
-}
-
-// The first sample of a pixel looks up; those that see the same surface take what it found, as light
-// changes little within a pixel.
-vec4 patch_light_at(LitPoint p, vec3 geometry, float view_m, ivec2 texel)
-{
-    if (frame.sample_index > 0u) {
-        const uvec4 kept = imageLoad(patch_light_kept, texel);
-        const float other_m = uintBitsToFloat(kept.z);
-        const vec3 other = octahedral_decode(unpackSnorm2x16(kept.w));
-        if (abs(view_m - other_m) < 0.5 * frame.patches.cell_m + 0.005 * view_m &&
-            dot(other, p.normal) > 0.85) {
-            return vec4(unpackHalf2x16(kept.x), unpackHalf2x16(kept.y));
-        }
-        return looked_up(p, geometry);
-    }
-    const vec4 found = looked_up(p, geometry);
-    imageStore(patch_light_kept, texel,
-               uvec4(packHalf2x16(found.xy), packHalf2x16(found.zw), floatBitsToUint(view_m),
-                     packSnorm2x16(octahedral_encode(p.normal))));
-    return found;
-}
-
 // From the patches around; nothing (open < 0) where there are none.
 Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
                       ivec2 texel)
 {
     Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
-    const vec4 light = patch_light_at(p, geometry, view_m, texel);
+    const vec4 light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
     if (light.w < 0.0) return a;
     a.irradiance = light.rgb;
     if (AMBIENT_OCCLUSION != 0u) {
@@ -383,15 +329,12 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        // No surface is so far away: samples that meet one look up for themselves.
-        if (PATCHES != 0u && frame.sample_index == 0u)
-            imageStore(patch_light_kept, texel, uvec4(0u, 0u, floatBitsToUint(1.0e30), 0u));
         radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
                                                    : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u));
+            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -421,6 +364,10 @@ void main()
             state.snow_smoothness = g.snow_smoothness;
             const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
             dry.water_color = texelFetch(material_looks, look);
+            if ((frame.flags & FRAME_TWO_SETS) != 0u) {
+                dry.water_color =
+                    mix(texelFetch(material_looks, look + 2), dry.water_color, g.first_share);
+            }
             if (GAMMA != 0u) dry.water_color.rgb = srgb_codes(dry.water_color.rgb);
             dry.snow_opacity = texelFetch(material_looks, look + 1).x;
             m = apply_weather(dry, state, frame.weather, frame.look);
@@ -430,6 +377,7 @@ void main()
         // A normal map must not turn a visible point away from the eye.
         const float facing = dot(n, v);
         if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+        if (SNOW_SCATTER != 0u) m.albedo = snow_scattered(m.albedo, frame.look, dot(n, v), g.weather.z);
         LitPoint p;
         p.position = position;
         p.normal = n;
@@ -458,7 +406,7 @@ void main()
             // Snow lies over all of it; standing water over fibres.
             const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
-            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare;
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare * g.first_share;
             if ((LAYERS & LAYERS_COAT) != 0u) {
                 p.layers.coat = first.z * bare;
                 p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);

@@ -5,7 +5,6 @@
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lighting/light_tables.h"
 #include "gpu/passes/lights/lights.h"
-#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/sky/sky.h"
 
 namespace petrichor::gpu {
@@ -33,6 +32,7 @@ struct LightingVariant {
     bool horizon = false;     ///< of the mesh
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
+    bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
     std::vector<bool> models{true};  ///< by number: something in the picture has it
 };
@@ -40,11 +40,11 @@ struct LightingVariant {
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patches
+//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, LightTables& light_tables, SkyMaps& sky, DepthMaps& depth_maps,
-                  const PatchLights& patches, LampShadows& lamp_shadows,
+                  LightTable& lights, LightTables& light_tables, SkyMaps& sky,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
                   const ConstantsRange& constants, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu

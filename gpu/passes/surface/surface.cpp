@@ -32,8 +32,10 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
+    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
     graph.add(DrawPass{
         .name = "surface",
         .colors = gbuffer_attachments(g, parts),
@@ -97,9 +99,11 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
-                        {SURFACE_SPEC_SNOW, weather.snow},
+                        {SURFACE_SPEC_SNOW,
+                         weather.snow ? scene.materials()[draw->material].snow | tracks : 0u},
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
+                        {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);

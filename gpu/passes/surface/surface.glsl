@@ -60,7 +60,7 @@ void main()
     SurfaceData data = evaluate_surface(at);
     if (HOLES != 0u && data.hole) discard;
     data.texel.emission = data.emission;
-    const GBufferCode code = encode_gbuffer(data.texel);
+    const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
 #define ROW(name, location_, format_, when_, meaning_) out_##name = code.name;
     TARGETS(ROW)
 #undef ROW

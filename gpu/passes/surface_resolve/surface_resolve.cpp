@@ -58,6 +58,7 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
          .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          .texel_format = VK_FORMAT_R32G32B32A32_UINT});
     upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
+    tables.poses = scene.poses();
     const VkDeviceSize materials = std::max<VkDeviceSize>(scene.materials().size(), 1);
     const VkBufferUsageFlags table =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
@@ -76,6 +77,14 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
          .size = materials * sizeof(VkDispatchIndirectCommand),
          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     return tables;
+}
+
+void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene)
+{
+    if (tables.poses == scene.poses()) return;
+    tables.poses = scene.poses();
+    const std::vector<glm::uvec4> draws = draw_table(scene);
+    upload_buffer(device, *tables.draws, std::as_bytes(std::span(draws)));
 }
 
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
@@ -118,6 +127,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
                       {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
@@ -131,14 +141,16 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    const auto variant = [parts, weather](const GpuMaterial& material) {
+    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const auto variant = [parts, weather, tracks](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
             {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
-            {SURFACE_SPEC_SNOW, weather.snow},
+            {SURFACE_SPEC_SNOW, weather.snow ? material.snow | tracks : 0u},
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_PARALLAX, material.parallax},
+            {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, parts.emission},

@@ -19,11 +19,15 @@ struct ResolveTables {
     std::unique_ptr<GpuBuffer> counts;  ///< a word a material
     std::unique_ptr<GpuBuffer> tiles;   ///< tiles, material after material
     std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a material
+    std::uint64_t poses = 0;            ///< GpuScene::poses() that `draws` is of
 };
 
 /// For one scene and one frame size. The lists hold every tile with every material it can show.
 ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, const GpuScene& scene,
                                   int width, int height);
+
+/// Brings the transforms up to the scene's pose.
+void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene);
 
 // Fills the G-buffer from a visibility buffer (passes/visibility): every pixel is evaluated once,
 // in tiles binned by material, by the same text as the surface pass.

@@ -44,7 +44,7 @@ enum class ComponentType : std::uint32_t {
 /// An accessor whose every byte is known to lie inside its buffer.
 struct Accessor {
     std::size_t count = 0;
-    int components = 1;  ///< 1..4
+    int components = 1;  ///< 1..4, or 16 of a matrix
     ComponentType type = ComponentType::Float;
     bool normalized = false;
     const std::byte* base = nullptr;  ///< null: zeros
@@ -56,6 +56,8 @@ struct Accessor {
     float value(std::size_t i, int c) const;
     /// Element i of an unsigned accessor.
     std::uint32_t whole(std::size_t i) const;
+    /// Component c of element i of an accessor of unsigned bytes or shorts.
+    std::uint32_t part(std::size_t i, int c) const;
 
 private:
     const std::byte* element(std::size_t i) const;
@@ -81,6 +83,9 @@ public:
 
 private:
     std::span<const std::byte> buffer(std::uint32_t index);
+    std::span<const std::byte> range_of(const JsonObject& json);
+    std::span<const std::byte> unpacked_view(const JsonObject& json, const JsonObject& view_json,
+                                             std::uint32_t index);
     Accessor read_accessor(const JsonObject& json);
     void read_sparse(const JsonObject& json, Accessor& accessor);
 
@@ -94,6 +99,7 @@ private:
     std::set<std::string> files_read_;
     std::map<std::string, std::vector<std::byte>> resources_;  ///< of buffers, by decoded URI
     std::map<std::uint32_t, std::span<const std::byte>> buffers_;
+    std::map<std::uint32_t, std::vector<std::byte>> unpacked_;  ///< views, by number
     std::map<std::uint32_t, Accessor> accessors_;
 };
 

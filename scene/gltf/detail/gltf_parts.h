@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/animation/rig.h"
 #include "scene/gltf/detail/gltf_buffers.h"
 #include "scene/gltf/detail/gltf_json.h"
 #include "scene/scene.h"
@@ -48,10 +49,16 @@ void read_materials(GltfSource& source, Scene& scene);
 
 /// All meshes, in the order of the file; indices are checked, triangles only. Primitives without a
 /// material get `default_material`. Normals and tangents stay empty where the file gives none.
-std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material);
+/// `variant` of KHR_materials_variants replaces materials; empty: none does.
+std::vector<Mesh> read_meshes(GltfSource& source, std::uint32_t default_material,
+                              const std::string& variant);
 
 /// Fills instances, lights and cameras with what the scene to be shown holds.
 void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene);
+
+/// Nodes, skins and animations; null when nothing in the file could move or bend. `parents` by node.
+/// Channels without a target that we know are left out with a warning.
+std::shared_ptr<Rig> read_rig(GltfSource& source, std::span<const std::int32_t> parents);
 
 /// KHR_lights_punctual of the file, at the origin, shining along -z. Lights of a type that we do
 /// not know are none.

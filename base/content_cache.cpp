@@ -1,4 +1,4 @@
-#include "film/data/content_cache.h"
+#include "base/content_cache.h"
 
 #include <sys/mman.h>
 
@@ -16,9 +16,8 @@
 #include "base/hash.h"
 #include "base/input_file.h"
 #include "base/output_file.h"
-#include "film/data/folders.h"
 
-namespace petrichor::film {
+namespace petrichor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,6 +176,23 @@ void ContentCache::make_room(const fs::path& newest) const
     }
 }
 
+fs::path cache_folder()
+{
+    const auto set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    if (const std::string own = set("PETRICHOR_CACHE"); !own.empty()) return own;
+    if (const std::string user = set("XDG_CACHE_HOME"); !user.empty()) {
+        return fs::path(user) / "petrichor";
+    }
+    if (const std::string home = set("HOME"); !home.empty()) {
+        return fs::path(home) / ".cache" / "petrichor";
+    }
+    std::error_code failed;
+    return fs::temp_directory_path(failed) / "petrichor";
+}
+
 ContentCache user_cache()
 {
     std::uint64_t mib = kDefaultMib;
@@ -193,4 +209,4 @@ ContentCache user_cache()
     return ContentCache(cache_folder(), mib << 20);
 }
 
-}  // namespace petrichor::film
+}  // namespace petrichor

@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_FILM_DATA_CONTENT_CACHE_H
-#define PETRICHOR_FILM_DATA_CONTENT_CACHE_H
+#ifndef PETRICHOR_BASE_CONTENT_CACHE_H
+#define PETRICHOR_BASE_CONTENT_CACHE_H
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace petrichor::film {
+namespace petrichor {
 
 /// The bytes of an entry, where they lie in its file: nothing is copied. They stay while this or a
 /// copy of it lives, also when the entry is thrown out meanwhile.
@@ -60,14 +60,14 @@ private:
     std::uint64_t max_bytes_ = 0;
 };
 
+/// Where the user's cache lies: PETRICHOR_CACHE, else XDG_CACHE_HOME/petrichor, else
+/// ~/.cache/petrichor, else petrichor under the temporary folder. Not created.
+std::filesystem::path cache_folder();
+
 /// The user's: in cache_folder(), with the limit of PETRICHOR_CACHE_MIB (2048; 0: nothing is kept).
 /// Throws Error when that is not a whole number.
 ContentCache user_cache();
 
-/// Fingerprint of the program's sources that decide what generated scenes and finished textures
-/// look like: part of every key, so that a program never finds what another version made.
-const char* source_fingerprint();
-
-}  // namespace petrichor::film
+}  // namespace petrichor
 
 #endif

@@ -1,0 +1,132 @@
+#include "gpu/upload/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gpu/upload/gpu_scene.h"
+#include "scene/animation/deform.h"
+
+namespace petrichor::gpu {
+
+namespace {
+
+scene::Bounds no_box()
+{
+    return {glm::vec3(std::numeric_limits<float>::max()),
+            glm::vec3(std::numeric_limits<float>::lowest())};
+}
+
+void widen(scene::Bounds& box, const glm::vec3& point)
+{
+    box.low = glm::min(box.low, point);
+    box.high = glm::max(box.high, point);
+}
+
+}  // namespace
+
+Vertex vertex_of(const scene::Primitive& p, std::size_t i)
+{
+    const auto set_bytes = [i](std::uint8_t(&target)[4], const std::vector<glm::vec4>& values) {
+        for (int c = 0; c < 4; ++c) {
+            const float value = values.empty() ? 1.0f : std::clamp(values[i][c], 0.0f, 1.0f);
+            target[c] = static_cast<std::uint8_t>(std::lround(value * 255.0f));
+        }
+    };
+    Vertex v{};
+    v.position = p.positions[i];
+    v.normal = p.normals[i];
+    v.tangent = p.tangents.empty() ? glm::vec4(0.0f, 0.0f, 0.0f, 1.0f) : p.tangents[i];
+    if (!p.uv0.empty()) v.uv0 = p.uv0[i];
+    v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
+    set_bytes(v.color, p.colors);
+    set_bytes(v.weather, p.weather);
+    return v;
+}
+
+scene::Bounds box_in_world(const scene::Bounds& box, const glm::mat4& to_world)
+{
+    scene::Bounds out = no_box();
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                          corner & 4 ? box.high.z : box.low.z);
+        widen(out, glm::vec3(to_world * glm::vec4(p, 1.0f)));
+    }
+    return out;
+}
+
+PosedDraw posed(const MovingDraw& draw, const scene::Rig& rig, const scene::Posture& posture,
+                std::vector<Vertex>& vertices)
+{
+    const auto node = static_cast<std::size_t>(draw.instance.node);
+    PosedDraw out;
+    out.visible = posture.visible[node];
+    out.to_world = scene::place_of(draw.instance, posture);
+    out.box = draw.box;
+    out.mirrored = glm::determinant(glm::mat3(out.to_world)) < 0.0f;
+    if (!draw.shape) return out;
+    const auto joints = scene::joints_of(rig, draw.instance, posture);
+    const scene::Shape shape = scene::deformed(*draw.shape, posture.weights[node], joints);
+    out.box = no_box();
+    for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+        Vertex& v = vertices[draw.first_vertex + i];
+        v.position = shape.positions[i];
+        v.normal = shape.normals[i];
+        if (!shape.tangents.empty()) v.tangent = shape.tangents[i];
+        widen(out.box, v.position);
+    }
+    if (!joints.empty() && !draw.shape->influences.empty()) {
+        const std::uint32_t first = draw.shape->influences.front().joint;
+        out.mirrored = glm::determinant(glm::mat3(joints[first])) < 0.0f;
+    }
+    return out;
+}
+
+bool GpuScene::pose(const Device& device, double time_s)
+{
+    if (!rig_ || posed_s_ == time_s) return false;
+    posed_s_ = time_s;
+    ++poses_;
+    const scene::Posture posture = scene::posture_at(*rig_, time_s);
+    bounds_ = rest_bounds_;
+    for (Draw& draw : draws_) {
+        if (draw.moving < 0) continue;
+        const MovingDraw& moving = moving_[static_cast<std::size_t>(draw.moving)];
+        const PosedDraw here = posed(moving, *rig_, posture, bending_);
+        draw.index_count = here.visible ? moving.index_count : 0;
+        draw.to_world = here.to_world;
+        draw.mirrored = here.mirrored;
+        place_sphere(draw, here.box);
+        if (!here.visible) continue;
+        const Bounds box = box_in_world(here.box, here.to_world);
+        bounds_.low = glm::min(bounds_.low, box.low);
+        bounds_.high = glm::max(bounds_.high, box.high);
+    }
+    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
+                  first_bending_ * sizeof(Vertex));
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        lights_[i] = scene::carried(rest_lights_[i], posture);
+    for (std::size_t i = 0; i < glow_sources_.size(); ++i) {
+        GlowSource& source = glow_sources_[i];
+        if (!source.carrier) continue;
+        const scene::Instance& carrier = *source.carrier;
+        source = rest_glow_sources_[i];
+        if (!posture.visible[static_cast<std::size_t>(carrier.node)]) {
+            source.area_m2 = 0.0f;
+            source.light.intensity = 0.0f;
+            continue;
+        }
+        const glm::mat4 moved =
+            scene::place_of(carrier, posture) * glm::inverse(carrier.to_world);
+        const glm::mat3 linear(moved);
+        Light& light = source.light;
+        light.position_m = glm::vec3(moved * glm::vec4(light.position_m, 1.0f));
+        light.direction = glm::normalize(linear * light.direction);
+        light.half_u_m = linear * light.half_u_m;
+        light.half_v_m = linear * light.half_v_m;
+    }
+    glows_ = glowing(glow_sources_, current_);
+    return true;
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,40 @@
+#ifndef PETRICHOR_GPU_UPLOAD_POSE_H
+#define PETRICHOR_GPU_UPLOAD_POSE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gpu/upload/vertex.h"
+#include "scene/animation/rig.h"
+
+namespace petrichor::gpu {
+
+/// One primitive of one instance that moves. Where it bends, it has vertices of its own.
+struct MovingDraw {
+    scene::Instance instance;
+    scene::Bounds box;                 ///< of its mesh at rest
+    std::uint32_t index_count = 0;
+    std::size_t first_vertex = 0;      ///< of those that are written anew
+    std::shared_ptr<const scene::Primitive> shape;  ///< null: it is rigid
+};
+
+/// What a draw is at a moment.
+struct PosedDraw {
+    bool visible = true;
+    glm::mat4 to_world{1.0f};
+    scene::Bounds box;        ///< in the space that to_world starts from
+    bool mirrored = false;
+};
+
+/// `vertices` are those of all bending draws; the draw's own are written.
+PosedDraw posed(const MovingDraw& draw, const scene::Rig& rig, const scene::Posture& posture,
+                std::vector<Vertex>& vertices);
+
+/// The smallest box along the axes around a box that is turned.
+scene::Bounds box_in_world(const scene::Bounds& box, const glm::mat4& to_world);
+
+}  // namespace petrichor::gpu
+
+#endif
