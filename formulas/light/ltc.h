@@ -1,6 +1,6 @@
 // Light of shapes by linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016): seen through a
 // matrix, the lobe of a rough mirror is a cosine, and a cosine's share of a polygon has a closed form
-// (formulas/light/area.h). The matrices are a table over roughness and angle (gpu/lighting/ltc_table.h).
+// (formulas/light/area.h). The matrices are a table over roughness and angle (gpu/lighting/ltc_table.inc).
 //
 // Round shapes are polygons of kOutlineCorners corners and of their own area.
 #ifndef PETRICHOR_FORMULAS_LIGHT_LTC_H

@@ -21,7 +21,7 @@ const std::string kCone = head("3 1 1") + "0 45 90\n0\n100, 50 0\n";
 float at(const IesLight& light, double down_degrees, double turn_degrees)
 {
     const int side = kLightProfileSide;
-    const auto y = static_cast<std::size_t>(std::lround(down_degrees / 180.0 * (side - 1)));
+    const auto y = static_cast<std::size_t>(down_degrees / 180.0 * (side - 1) + 1e-9);
     const auto x = static_cast<std::size_t>(std::lround(turn_degrees / 360.0 * side)) %
                    static_cast<std::size_t>(side);
     return light.profile.texels[y * static_cast<std::size_t>(side) + x].x;
