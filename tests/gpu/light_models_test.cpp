@@ -100,6 +100,28 @@ TEST_F(LightModels, SkinBleedsRedPastTheTerminatorAndOnlyThere)
     EXPECT_NEAR(seen(renderer->render(frame), -0.2f, 0.0f).r, past.r, 0.2f * past.r);
 }
 
+TEST_F(LightModels, SkinIsNotCutOffByItsOwnShadow)
+{
+    Material skin = plain_material(glm::vec3(0.6f), 1.0f);
+    skin.specular = 0.0f;
+    skin.lighting_model = "skin";
+    skin.skin_curvature = 1.0f;
+    renderer->load(scene_of({ball()}, {skin}), {});
+    Frame frame = of_ball({1, 0, 0});
+    Light lamp;
+    lamp.position_m = {20, 0, 0};
+    lamp.intensity = 400000.0f;
+    frame.extra_lights = {lamp};
+    const RenderResult open = renderer->render(frame);
+    frame.settings.shadows = true;
+    const RenderResult shadowed = renderer->render(frame);
+    EXPECT_GT(seen(open, -0.2f, 0.0f).r, 5.0f);
+    EXPECT_NEAR(seen(shadowed, -0.2f, 0.0f).r, seen(open, -0.2f, 0.0f).r, 0.02f * seen(open, -0.2f, 0.0f).r);
+    // A wall before the lamp still is one.
+    renderer->load(scene_of({ball(), quad({2, -2, 2}, {0, 0, -4}, {0, 4, 0})}, {skin}), {});
+    EXPECT_EQ(seen(renderer->render(frame), 0.6f, 0.0f).r, 0.0f);
+}
+
 TEST_F(LightModels, SkinFarAwayIsTheStandardModel)
 {
     Material skin = plain_material(glm::vec3(0.6f), 0.5f);

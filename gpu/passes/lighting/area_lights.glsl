@@ -19,13 +19,29 @@ vec3 skin_lookup(float nl, float curvature)
     return mix(a, b, part.y);
 }
 
+// What of a shadow falls on the light that skin carries past its terminator: none. All that is turned away
+// lies in its own shadow, and would end where the light begins to bleed.
+float shadow_on_model(LitPoint p, float nl, float visible)
+{
+    const bool bleeds = (LAYERS & LAYERS_SKIN) != 0u && p.curvature > 0.0 && nl < 0.0;
+    return bleeds ? 1.0 : visible;
+}
+
+// .. and on what comes through: closed things are in their own shadow behind; towards their terminator it
+// comes on by and by.
+float shadow_on_glow(LitPoint p, float nl, float visible)
+{
+    return shadow_through(p.translucency, nl > 0.0 ? visible * min(4.0 * nl, 1.0) : visible);
+}
+
 // The answer to a light of which so much is seen, and what comes through.
 vec3 shadowed_light(LitPoint p, vec3 l, float visible)
 {
-    vec3 radiance = model_light(p, l) * visible;
+    const float nl = dot(p.normal, l);
+    vec3 radiance = model_light(p, l) * shadow_on_model(p, nl, visible);
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, l) *
-                                            shadow_through(p.translucency, visible));
+                                            shadow_on_glow(p, nl, visible));
     }
     return radiance;
 }
@@ -142,7 +158,13 @@ vec3 shape_light(LitPoint p, Outline o, float specular, float visible)
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
-                                            shadow_through(p.translucency, visible) * kPi * size);
+                                            shadow_on_glow(p, nl, visible) * kPi * size);
+    }
+    if ((LAYERS & LAYERS_SKIN) != 0u && p.curvature > 0.0) {
+        // Its diffuse part by the middle of the light, past the horizon too.
+        radiance += p.lobe.diffuse * (kPi * size) *
+                    (skin_lookup(nl, p.curvature) * shadow_on_model(p, nl, visible) -
+                     skin_lookup(dot(p.normal, l), p.curvature) * (visible * seen / (size * max(dot(p.normal, l), 1.0e-3))));
     }
     return radiance;
 }
