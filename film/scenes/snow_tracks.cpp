@@ -15,7 +15,7 @@ constexpr double kFootDensity = 400.0;
 constexpr double kTyreDensity = 550.0;
 // Of what is pressed away, that leaves: tyres throw it aside, soles pack it.
 constexpr double kThrownByTyres = 1.0;
-constexpr double kThrownByFeet = 0.5;
+constexpr double kThrownByFeet = 0.8;
 constexpr double kRim = 0.12;       // height of rims over the depth
 constexpr double kDeep_m = 0.05;    // whose slopes are drawn
 constexpr double kStep_m = 0.75;

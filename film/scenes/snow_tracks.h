@@ -11,7 +11,7 @@ namespace petrichor::film {
 
 /// Draws tracks from above, 1 cm a texel, coarser where they go further than 19 m. Feet of 28 by 10 cm
 /// step every 0.75 m; fresh snow of 100 kg/m3 is pressed to 400 by feet and 550 by tyres, with rims beside
-/// them; tyres throw it aside, soles leave half of it packed below them. The same list gives the same bytes.
+/// them; tyres throw it aside, soles leave a fifth of it packed below them. The same list gives the same bytes.
 gpu::TrackMap draw_tracks(const std::vector<ScenarioTrack>& tracks);
 
 /// Of the list; "" without any.
