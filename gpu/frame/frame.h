@@ -100,6 +100,7 @@ struct FrameSettings : FrameSwitches {
     float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
     bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
+    int transparent_layers = 4;  ///< of what lets light through, exact; what is behind goes by chance
     int lamp_shadows =
         4;  ///< so many lamps throw shadows, 0 to 16: the brightest as the eye sees them
     ToneMap tone_map = ToneMap::Filmic;

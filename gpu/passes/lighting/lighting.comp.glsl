@@ -34,6 +34,7 @@ layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
+layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -401,8 +402,9 @@ void main()
         // No surface is so far away: samples that meet one look up for themselves.
         if (PATCHES != 0u && frame.sample_index == 0u)
             imageStore(patch_light_kept, texel, uvec4(0u, 0u, floatBitsToUint(1.0e30), 0u));
-        radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
-                                                   : vec3(0.0);
+        radiance = BACKGROUND != 0u && (frame.flags & FRAME_SKY) != 0u
+                       ? background(pixel_view_direction(frame, pixel))
+                       : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =

@@ -27,6 +27,7 @@ struct LightingVariant {
     bool rectangles = false;  ///< some lights are
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool background = true;   ///< the sky is seen where there is no surface
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture

@@ -19,6 +19,7 @@
 #define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_LAYERS 13   // bits of LAYERS_..., gpu/upload/material_io.h: in the picture
+#define LIGHTING_SPEC_BACKGROUND 14  // 0: nothing where there is no surface
 #define LIGHTING_SPEC_MODEL 16    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
