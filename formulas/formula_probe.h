@@ -14,11 +14,16 @@
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/ltc.h"
+#include "formulas/light/other_lobes.h"
+#include "formulas/light/skin.h"
+#include "formulas/light/translucent.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
@@ -26,7 +31,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 34;
+SHARED_CONST int kProbeKinds = 40;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -184,6 +189,49 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                                     vec3(b.z), vec3(0.9f * b.z), vec3(0.04f), 0.3f + 0.7f * b.w, layers);
         return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
     }
+    if (kind == 34) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 centre = probe_direction(a.z, a.w) * (1.0f + 3.0f * b.x);
+        const vec3 half_axis = probe_direction(b.y, b.z) * (0.9f * b.w);
+        const Frame3 f = lobe_frame(surface_frame(n, probe_direction(c.x, c.y)),
+                                    vec4(1.0f, 0.3f * c.z, -0.2f * c.z, 0.2f + 0.6f * c.w));
+        const vec3 tube = outline_irradiance(tube_outline(centre - half_axis, centre + half_axis, 0.1f), f);
+        return vec4(tube.x, tube.y, tube.z, cosine_share(tube));
+    }
+    if (kind == 35) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const NearestLight at =
+            nearest_light(probe_direction(a.z, a.w) * (1.0f + 3.0f * b.x),
+                          probe_direction(b.y, b.z) * (0.2f + 0.5f * b.w), 0.1f + 0.4f * c.x, n, c.y);
+        const vec3 on = nearest_on_axis(probe_direction(a.z, a.w) * 2.0f, n * c.z);
+        return vec4(at.direction.x, at.direction.z, at.energy, on.y);
+    }
+    if (kind == 36) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 v = probe_direction(a.z, a.w);
+        const vec3 l = probe_direction(b.x, b.y);
+        const float rough = 0.3f + 0.7f * b.w;
+        const vec3 lux = shade_lux(n, v, l, vec3(b.z), vec3(0.04f), rough);
+        const vec3 hair = shade_hair(n, tangent_at(n, 3.0f * c.x), v, l, vec3(b.z), vec3(c.y), rough,
+                                     0.3f * c.z);
+        return vec4(shade_lwrp(n, v, l, vec3(b.z), vec3(0.04f), rough * rough).x +
+                        shade_burley(n, v, l, vec3(b.z), vec3(0.04f), rough).x,
+                    lux.y, hair.z, lazarov_split_sum(c.w, b.w).x + lazarov_split_sum(c.w, b.w).y);
+    }
+    if (kind == 37) {
+        Translucency t;
+        t.strength = a.x;
+        t.power = 8.0f * a.y;
+        t.distortion = a.z;
+        t.scale = 8.0f * a.w;
+        t.shadow = b.x;
+        t.color = vec3(1.0f);
+        const vec3 ring = skin_ring(2.0f * b.y - 1.0f, b.z);
+        return vec4(light_through(t, probe_direction(b.w, c.x), probe_direction(c.y, c.z),
+                                  probe_direction(c.w, a.x)) +
+                        shadow_through(t, c.w),
+                    ring.x, ring.z, scattered_albedo(vec3(a.x), vec3(a.y), 0.5f * a.z, 10.0f * a.w, b.x).y);
+    }
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);
         const int i = int(8.999f * a.z);
@@ -217,7 +265,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 30) {
         const vec3 from = probe_direction(0.5f + 0.5f * a.x, a.y);
-        return vec4(facing_share(probe_direction(a.z, a.w), from), film_share(b.x),
+        const float facing = facing_share(probe_direction(a.z, a.w), from);
+        return vec4(facing + snow_facing_share(facing), film_share(b.x),
                     flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
     }
     if (kind == 31) {
@@ -229,6 +278,23 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 reach = parallax_reach(probe_direction(a.x, a.y), probe_direction(a.z, a.w), b.x);
         const vec2 p = pixels_along(reach, vec3(b.y, 0.1f, 0.0f), vec3(0.0f, 0.2f, 0.1f + b.z));
         return vec4(p.x, p.y, secant_depth(b.w, c.x, b.w + c.y, c.z), reach.x + reach.z);
+    }
+    if (kind == 38) {
+        const vec3 color = detail_color(vec3(a.x, a.y, a.z), vec3(b.x, b.y, b.z), c.x);
+        const vec3 detail = detail_normal(normalize(vec3(a.x - 0.5f, a.y - 0.5f, 1.0f)),
+                                          normalize(vec3(b.x - 0.5f, b.y - 0.5f, 1.0f)), c.y);
+        return vec4(mix_by_height(a.w, vec2(b.w, c.z)).x, color.x + color.y + color.z, detail.x,
+                    detail.y);
+    }
+    if (kind == 39) {
+        const SnowCover s =
+            snow_cover_of_vertices(a.x, 2.0f * a.y - 1.0f, 2.0f * a.z, a.w, b.x, b.y);
+        WeatherLook look;
+        look.snow_scatter_color = vec3(b.z);
+        look.snow_scatter_bias = 0.5f * b.w;
+        look.snow_scatter_contraction = 1.0f + 9.0f * c.x;
+        return vec4(s.snow, s.melt, snow_on_grass(a.x, a.y, a.z, a.w),
+                    snow_scattered(vec3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

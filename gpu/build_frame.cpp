@@ -9,6 +9,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
+#include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
 #include "gpu/upload/draw.h"
@@ -167,6 +168,14 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.falls[c.fall_count++] =
             glm::vec4(static_cast<float>(fall.direction), fall.rain, fall.snow, 0.0f);
     }
+    const TrackMap& tracks = r.surface_maps->track_area;
+    if (tracks.width > 0) {
+        c.tracks =
+            glm::vec4(tracks.corner_m, 1.0f / (tracks.texel_m * static_cast<float>(tracks.width)),
+                      1.0f / (tracks.texel_m * static_cast<float>(tracks.height)));
+        c.tracks_y_m = {tracks.low_m, tracks.high_m};
+    }
+    if (r.scene->two_sets()) c.flags |= FRAME_TWO_SETS;
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
     c.light_count = r.lights->count;
@@ -231,7 +240,8 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     };
     const auto light = [&] {
         add_light_lists(graph, layer, *r.lights, constants);
-        add_lighting(graph, layer, *r.scene, *r.lights, *r.sky, *r.depth_maps, *r.patches,
+        if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
+        add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) add_reflections(graph, layer, *r.sky, constants);
     };
@@ -282,7 +292,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.gamma = settings.gamma;
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.rectangles = r.lights->rectangles;
+    variant.ways = r.lights->ways;
     variant.all_lights = settings.all_lights;
+    variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
@@ -294,6 +306,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         c.place = r.place->constants();
         if (i == 0) {
             see_models(variant, *r.scene, c);
+            if ((variant.layers & LAYERS_SKIN) != 0u) r.light_tables->need_skin();
+            variant.lazarov = settings.lazarov;
+            variant.horizon = settings.horizon_fade > 0.0f;
             variant.fog = c.fog_per_m > 0.0f;
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
@@ -328,8 +343,11 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             begin_transparent(graph, *r.transparent, constants);
             std::swap(r.targets->accumulated, r.transparent->solid);
         }
-        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.sky, *r.depth_maps,
-                     *r.patches, *r.lamp_shadows, constants, variant);
+        if (i == 0 && variant.patch_light) {
+            add_patch_points(graph, *r.targets, *r.patches, constants);
+        }
+        add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
+                     *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
         }

@@ -6,6 +6,7 @@
 #include "gpu/passes/falling/falling.h"
 #include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
+#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/passes/transparent/transparent.h"
@@ -21,6 +22,7 @@ struct FrameResources {
     FrameTargets* targets = nullptr;
     SurfaceMaps* surface_maps = nullptr;
     DepthMaps* depth_maps = nullptr;
+    LightTables* light_tables = nullptr;
     LampShadows* lamp_shadows = nullptr;
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments

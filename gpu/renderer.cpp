@@ -93,6 +93,7 @@ struct Renderer::Impl {
           shared_arena(device),
           surface_maps(device, shared_arena, options.ripple_texture_size, weather_maps),
           depth_maps(device, shared_arena),
+          light_tables(device),
           lamp_shadows(device),
           sky(device, shared_arena),
           lamp_glow(device),
@@ -138,7 +139,8 @@ struct Renderer::Impl {
         light_arena = std::make_unique<MemoryArena>(device);
         light_table = make_light_table(device, *light_arena, lights,
                                        frame.settings.shadows ? frame.settings.lamp_shadows : 0,
-                                       glm::vec3(frame.camera.to_world[3]));
+                                       glm::vec3(frame.camera.to_world[3]),
+                                       frame.settings.area_lights);
     }
 
     void prepare_targets(TargetSet& set, const FrameSettings& s,
@@ -208,6 +210,7 @@ struct Renderer::Impl {
     VkDeviceSize constants_stride = 0;
     SurfaceMaps surface_maps;
     DepthMaps depth_maps;
+    LightTables light_tables;
     LampShadows lamp_shadows;
     SkyMaps sky;
     LampGlow lamp_glow;
@@ -241,6 +244,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->patches.load(nullptr);
     impl_->depth_maps.forget();
     impl_->lamp_shadows.forget();
+    impl_->light_tables.load(scene.light_profiles);
     impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
@@ -309,6 +313,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.targets = &set.targets;
     resources.surface_maps = &surface_maps;
     resources.depth_maps = &depth_maps;
+    resources.light_tables = &light_tables;
     resources.lamp_shadows = &lamp_shadows;
     resources.sky = &sky;
     resources.lights = &light_table;

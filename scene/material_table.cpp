@@ -7,119 +7,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/detail/material_row.h"
+
 namespace petrichor::scene {
 namespace {
 
-using M = Material;
-using W = MaterialWeather;
-using Row = MaterialProperty;
-
-constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr std::string_view kWeather = "PETRICHOR_materials_weather";
-constexpr std::string_view kPbr = "pbrMetallicRoughness";
-
-// The member at the end of a chain of pointers to members.
-template <auto First, auto... Rest>
-auto& follow(auto& object)
-{
-    if constexpr (sizeof...(Rest) == 0) {
-        return object.*First;
-    } else {
-        return follow<Rest...>(object.*First);
-    }
-}
-
-template <typename T>
-constexpr int components()
-{
-    if constexpr (std::is_same_v<T, glm::vec2>) return 2;
-    if constexpr (std::is_same_v<T, glm::vec3>) return 3;
-    if constexpr (std::is_same_v<T, glm::vec4>) return 4;
-    return 1;
-}
-
-template <auto... Path>
-glm::vec4 get(const Material& material)
-{
-    const auto& value = follow<Path...>(material);
-    using T = std::remove_cvref_t<decltype(value)>;
-    glm::vec4 out(0.0f);
-    if constexpr (components<T>() == 1) {
-        out.x = static_cast<float>(value);
-    } else {
-        for (int i = 0; i < components<T>(); ++i) out[i] = value[i];
-    }
-    return out;
-}
-
-template <auto... Path>
-void set(Material& material, const glm::vec4& in)
-{
-    auto& value = follow<Path...>(material);
-    using T = std::remove_cvref_t<decltype(value)>;
-    if constexpr (std::is_same_v<T, bool>) {
-        value = in.x != 0.0f;
-    } else if constexpr (components<T>() == 1) {
-        value = static_cast<T>(in.x);
-    } else {
-        for (int i = 0; i < components<T>(); ++i) value[i] = in[i];
-    }
-}
-
-template <auto... Path>
-Row row(std::string_view name, PropertyKind kind, GltfPlace gltf, std::string_view help)
-{
-    using T = std::remove_cvref_t<decltype(follow<Path...>(std::declval<Material&>()))>;
-    Row r{.name = name, .kind = kind, .count = components<T>(), .gltf = gltf, .help = help};
-    r.get = get<Path...>;
-    r.set = set<Path...>;
-    return r;
-}
-
-template <auto... Path>
-Row number(std::string_view name, glm::vec4 low, glm::vec4 high, GltfPlace gltf,
-           std::string_view help)
-{
-    Row r = row<Path...>(name, PropertyKind::Number, gltf, help);
-    r.low = low;
-    r.high = high;
-    r.keyed = true;
-    return r;
-}
-
-template <auto... Path>
-Row number(std::string_view name, float low, float high, GltfPlace gltf, std::string_view help)
-{
-    return number<Path...>(name, glm::vec4(low), glm::vec4(high), gltf, help);
-}
-
-template <auto... Path>
-Row flag(std::string_view name, GltfPlace gltf, std::string_view help)
-{
-    return row<Path...>(name, PropertyKind::Flag, gltf, help);
-}
-
-template <auto... Path>
-Row choice(std::string_view name, std::vector<std::string_view> words, GltfPlace gltf,
-           std::string_view help)
-{
-    Row r = row<Path...>(name, PropertyKind::Choice, gltf, help);
-    r.high = glm::vec4(static_cast<float>(words.size() - 1));
-    r.words = std::move(words);
-    return r;
-}
-
-template <auto... Path>
-Row channel(std::string_view name, std::string_view texture, std::string_view help)
-{
-    return choice<Path...>(name, {"r", "g", "b", "a"}, {kWeather, texture, "channel"}, help);
-}
-
-Row or_also(Row r, float value)
-{
-    r.also = value;
-    return r;
-}
+using namespace detail;
 
 // glTF 2.0 and its KHR extensions. Ranges are those of their specifications.
 void add_gltf_rows(std::vector<Row>& t)
@@ -206,6 +99,44 @@ void add_gltf_rows(std::vector<Row>& t)
                                 "shows its base colour whatever the light"));
 }
 
+// Light that comes through, fibres at the rim, skin and hair: Lux 2.02's, with its ranges.
+void add_light_rows(std::vector<Row>& t)
+{
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(number<&M::translucency>(
+        "translucency", 0, 1, place("translucency"),
+        "light that comes through thick and thin things towards the eye: leaves, wax, ears"));
+    t.push_back(number<&M::translucency_power>(
+        "translucency_power", 0, 8, place("translucencyPower"),
+        "how narrow its glow around the lamp is; 0: wrapped around, for leaves"));
+    t.push_back(number<&M::translucency_distortion>("translucency_distortion", 0, 1,
+                                                    place("translucencyDistortion"),
+                                                    "how far normals bend what comes through"));
+    t.push_back(number<&M::translucency_scale>("translucency_scale", 0, 8, place("translucencyScale"),
+                                               "times what comes through; 8 adds light, 1 does not"));
+    t.push_back(number<&M::translucency_shadow>(
+        "translucency_shadow", 0, 1, place("translucencyShadow"),
+        "how dark shadows on it are for what comes through; 1: as for all else"));
+    t.push_back(number<&M::translucency_color>(
+        "translucency_color", 0, 1, place("translucencyColor"),
+        "linear tint of what comes through, times the surface's colour; alone of skin"));
+    t.push_back(number<&M::scatter_color>("scatter_color", 0, 1, place("scatterColor"),
+                                          "linear colour of fibres at the rim (velvet, peach, moss)"));
+    t.push_back(number<&M::scatter_bias>("scatter_bias", 0, 0.5f, place("scatterBias"),
+                                         "how much of it is everywhere"));
+    t.push_back(number<&M::scatter_power>("scatter_power", 1, 10, place("scatterPower"),
+                                          "how narrow the rim is"));
+    t.push_back(number<&M::skin_curvature>(
+        "skin_curvature", 0, 1, place("skinCurvature"),
+        "of lighting_model \"skin\": 0 flat, red does not bleed .. 1 as round as a finger"));
+    t.push_back(number<&M::skin_curvature_scale>(
+        "skin_curvature_scale", 0, 1, place("skinCurvatureScale"),
+        "of \"skin\": metres times the bend of the normals a metre, added to it; Lux has 0.02"));
+    t.push_back(number<&M::hair_shift>(
+        "hair_shift", 0, 0.3f, place("hairShift"),
+        "of lighting_model \"hair\": radians by which its highlights are tilted apart"));
+}
+
 // Lux 2.02, "per material": symbols, ranges and defaults.
 void add_weather_rows(std::vector<Row>& t)
 {
@@ -278,16 +209,22 @@ void add_weather_rows(std::vector<Row>& t)
     t.push_back(number<&M::weather, &W::snow_opacity>(
         "snow_opacity", 0, 1, place("snowOpacity"),
         "how much of the light that glows below the snow swallows"));
+    t.push_back(choice<&M::weather, &W::snow_rule>(
+        "snow_rule", {"surface", "grass", "vertex"}, place("snowRule"),
+        "how snow lies: by slope, height and masks; on blades, the lighter COLOR_0 the more; by slope "
+        "alone"));
+    t.push_back(choice<&M::weather, &W::snow_mapping>(
+        "snow_mapping", {"world", "local"}, place("snowMapping"),
+        "the maps of the snow are laid over the world from above, or along the texture coordinates"));
+    t.push_back(number<&M::weather, &W::snow_local_tiling>(
+        "snow_local_tiling", 0, 1000, place("snowLocalTiling"),
+        "of snow_mapping = \"local\": repeats a texture coordinate of relief, detail, where it lies, "
+        "detail of that"));
+    t.push_back(number<&M::weather, &W::snow_mask_normal_scale>(
+        "snow_mask_normal_scale", -kLargest, kLargest, {kWeather, "snowMaskNormalTexture", "scale"},
+        "of the x and y of what is trodden into the snow"));
     t.push_back(flag<&M::weather, &W::sheltered>("sheltered", place("sheltered"),
                                                  "an interior: never gets rain or snow"));
-}
-
-template <auto... Path>
-MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view help)
-{
-    return {name, gltf, help,
-            [](const Material& m) -> const TextureUse& { return follow<Path...>(m); },
-            [](Material& m) -> TextureUse& { return follow<Path...>(m); }};
 }
 
 // The shortest decimal that reads back as the same float.
@@ -311,7 +248,8 @@ void add_mesh_masks(const Scene& scene, std::vector<std::string>& lines)
     std::string first;
     for (const Mesh& mesh : scene.meshes) {
         const bool mixes = std::any_of(
-            mesh.primitives.begin(), mesh.primitives.end(), [](const Primitive& primitive) {
+            mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
+                if (scene.materials[primitive.material].second.use == SecondSetUse::Mix) return false;
                 return std::any_of(primitive.weather.begin(), primitive.weather.end(),
                                    [](const glm::vec4& mask) { return mask.x < 1.0f; });
             });
@@ -319,7 +257,7 @@ void add_mesh_masks(const Scene& scene, std::vector<std::string>& lines)
     }
     if (count == 0) return;
     lines.push_back("red of _WEATHER, which mixes two sets of textures, is below 1 in " +
-                    counted(count, "mesh", first) + ": not shaded yet");
+                    counted(count, "mesh", first) + ": shown where second_set = \"mix\"");
 }
 
 }  // namespace
@@ -346,7 +284,9 @@ const std::vector<MaterialProperty>& material_table()
     static const std::vector<MaterialProperty> table = [] {
         std::vector<MaterialProperty> rows;
         add_gltf_rows(rows);
+        add_light_rows(rows);
         add_weather_rows(rows);
+        add_second_set_rows(rows);
         return rows;
     }();
     return table;
@@ -379,7 +319,8 @@ glm::vec4 default_value(const MaterialProperty& property)
 
 const std::vector<MaterialTexture>& material_textures()
 {
-    static const std::vector<MaterialTexture> table{
+    static const std::vector<MaterialTexture> table = [] {
+        std::vector<MaterialTexture> rows{
         texture<&M::base_color_texture>("base_color_texture", {"", kPbr, "baseColorTexture"},
                                         "sRGB colour, alpha"),
         texture<&M::metallic_roughness_texture>("metallic_roughness_texture",
@@ -401,7 +342,13 @@ const std::vector<MaterialTexture>& material_textures()
                                               "1 puddles may stand, 0 never; puddle_mask_channel"),
         texture<&M::weather, &W::snow_mask>("snow_mask_texture", {kWeather, "", "snowMaskTexture"},
                                             "1 snow may lie, 0 never; snow_mask_channel"),
-    };
+        texture<&M::weather, &W::snow_mask_normal>(
+            "snow_mask_normal_texture", {kWeather, "", "snowMaskNormalTexture"},
+            "tangent space, green up: footprints and tyre tracks, seen where the snow mask is below 1"),
+        };
+        add_second_set_textures(rows);
+        return rows;
+    }();
     return table;
 }
 

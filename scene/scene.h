@@ -51,6 +51,16 @@ enum class Parallax {
     Occlusion,  ///< a ray is walked through the relief
 };
 
+/// Which rule lays snow on a material (Lux 2.02).
+enum class SnowRule {
+    Surface,  ///< by slope, height of the world and masks
+    Grass,    ///< on blades: the lighter a vertex, the more
+    Vertex,   ///< by slope alone, the same over a whole surface
+};
+
+/// Where the maps of the snow are laid.
+enum class SnowMapping { World, Local };
+
 /// What weather does to a material. Symbols and defaults: Lux 2.02 (docs/lux.md, 7). All linear.
 /// Ranges, meanings and the glTF extension's names: material_table.h.
 struct MaterialWeather {
@@ -77,9 +87,40 @@ struct MaterialWeather {
     float snow_normal_strength = 1.0f;
     float snow_detail_strength = 0.3f;
     float snow_opacity = 0.5f;
+    SnowRule snow_rule = SnowRule::Surface;
+    SnowMapping snow_mapping = SnowMapping::World;
+    glm::vec4 snow_local_tiling{2.0f, 4.0f, 0.3f, 4.0f};
+    TextureUse snow_mask_normal;  ///< of the snow where the snow mask has it trodden down
+    float snow_mask_normal_scale = 1.0f;
     bool sheltered = false;
 };
 
+/// What the second set of textures is for.
+enum class SecondSetUse {
+    None,
+    Mix,     ///< another material beside the first
+    Detail,  ///< fine structure on the first
+};
+
+/// A second set of textures on a material (Lux 2.02). Ranges and meanings: material_table.h.
+struct SecondSet {
+    SecondSetUse use = SecondSetUse::None;
+    float mix_factor = 1.0f;  ///< share of the first set
+    TextureUse mix_mask;      ///< times it; times red of _WEATHER
+    glm::vec2 mix_mask_tiling{1.0f};
+    TextureUse base_color_texture;
+    TextureUse normal_texture;
+    TextureUse metallic_roughness_texture;  ///< R occlusion, G roughness, B metallic
+    TextureUse height;
+    glm::vec2 tiling{1.0f};  ///< of the four
+    glm::vec3 color{1.0f};   ///< linear
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    float normal_scale = 1.0f;
+    bool own_water = false;  ///< false: that of the first set
+    glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
+    glm::vec4 water_color{0.0f};
+};
 
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
@@ -113,6 +154,18 @@ struct Material {
     float sheen_roughness = 0.0f;
     float anisotropy = 0.0f;
     float anisotropy_rotation_rad = 0.0f;
+    float translucency = 0.0f;  ///< light that comes through (Lux 2.02), of the models that have it
+    float translucency_power = 4.0f;
+    float translucency_distortion = 0.1f;
+    float translucency_scale = 4.0f;
+    float translucency_shadow = 0.7f;
+    glm::vec3 translucency_color{1.0f};
+    glm::vec3 scatter_color{0.0f};  ///< of a rim of fibres (Lux 2.02: diffuse scattering)
+    float scatter_bias = 0.0f;
+    float scatter_power = 8.0f;
+    float skin_curvature = 0.1f;  ///< of the model "skin"
+    float skin_curvature_scale = 0.0f;
+    float hair_shift = 0.1f;  ///< of the model "hair"
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool premultiplied_alpha = false;  ///< Blend: what is mirrored does not fade with alpha
@@ -122,6 +175,7 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named
     std::string lighting_model;  ///< a built-in name, or a GLSL file's path; empty: the standard one
     MaterialWeather weather;
+    SecondSet second;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
@@ -199,7 +253,23 @@ struct Light {
     glm::vec3 half_u_m{0.0f};  ///< of a rectangle: half its edges; `direction` is its front
     glm::vec3 half_v_m{0.0f};
     bool both_sides = false;
+    glm::vec3 up{0.0f, 1.0f, 0.0f};  ///< unit, across `direction`: how it is turned about it
+    float radius_m = 0.0f;   ///< > 0: a point is a sphere or tube, a spot a disc
+    float length_m = 0.0f;   ///< of a tube, along `up`
+    bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
+    float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
+    std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative
+};
+
+/// How a lamp shines by direction, at most 1: a measured distribution (IES) over angles, or a picture
+/// before a spot (cookie). kLightProfileSide squared texels, by rows.
+inline constexpr int kLightProfileSide = 128;
+struct LightProfile {
+    std::string name;
+    bool picture = false;  ///< over the square of a spot's cone, `up` up; else over angles: a column a
+                           ///< turn about `direction` from `up`, a row an angle from it, 0 to pi
+    std::vector<glm::vec3> texels;
 };
 
 /// Looks along -z of `to_world`, +y up.
@@ -240,6 +310,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings;  ///< what was ignored or mended, for the log
     std::shared_ptr<const Rig> rig;     ///< null: nothing moves

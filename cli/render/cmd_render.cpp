@@ -262,8 +262,14 @@ void report_weather(const Sequence& sequence)
 // The log line at the start, and a progress line.
 class ProgressWatcher : public RenderWatcher {
 public:
+    void tracing(double share) override
+    {
+        if (!progress_) progress_.emplace("light between surfaces", 100);
+        progress_->update(std::min(static_cast<int>(share * 100.0), 99));
+    }
     void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) override
     {
+        progress_.reset();
         std::cerr << "info render: " << count << " frames, " << output.width << "x" << output.height
                   << ", " << output.samples << " samples, on " << device.name << "\n";
         progress_.emplace("render", count);

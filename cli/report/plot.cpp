@@ -103,7 +103,7 @@ void add_heading(Drawing& drawing, const SimulationTable& table, const PlotPanel
             !panel.dots.empty() &&
             std::any_of(panel.series.begin(), panel.series.end(),
                         [&](const PlotSeries& s) { return s.column == score.column; });
-        if (!here) continue;
+        if (!here || score.agreement) continue;
         char text[120];
         std::snprintf(text, sizeof text, "RMSE %.3g%s, bias %+.2g%s", score.rmse,
                       unit_text(score).c_str(), score.bias, unit_text(score).c_str());

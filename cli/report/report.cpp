@@ -263,7 +263,11 @@ std::string scores_table(const SimulationTable& table)
         "observation</th><th>RMSE</th><th>bias</th><th>values</th></tr>\n";
     for (const Score& s : table.scores) {
         char cells[160];
-        std::snprintf(cells, sizeof cells, "<td>%.3g%s</td><td>%+.2g%s</td><td>%zu</td></tr>\n",
+        if (s.agreement)
+            std::snprintf(cells, sizeof cells, "<td>%.0f %% agree</td><td></td><td>%zu</td></tr>\n",
+                          *s.agreement * 100.0, s.count);
+        else
+            std::snprintf(cells, sizeof cells, "<td>%.3g%s</td><td>%+.2g%s</td><td>%zu</td></tr>\n",
                       s.rmse, unit_text(s).c_str(), s.bias, unit_text(s).c_str(), s.count);
         html += "<tr><td>" + escaped(spelt_out(s.column)) + " <small>" + escaped(s.how) +
                 "</small></td>" + cells;

@@ -57,11 +57,13 @@ ordered_json head_of(const SimulationTable& table)
     if (!table.scores.empty()) {
         ordered_json scores = ordered_json::object();
         for (const Score& s : table.scores) {
-            scores[s.column] = {{"rmse", s.rmse},
-                                {"bias", s.bias},
-                                {"unit", s.unit},
-                                {"count", s.count},
-                                {"how", s.how}};
+            ordered_json one = s.agreement ? ordered_json{{"agreement", *s.agreement}}
+                                           : ordered_json{{"rmse", s.rmse},
+                                                          {"bias", s.bias},
+                                                          {"unit", s.unit}};
+            one["count"] = s.count;
+            one["how"] = s.how;
+            scores[s.column] = one;
         }
         json["scores"] = scores;
     }

@@ -2,6 +2,7 @@
 #define PETRICHOR_CLI_REPORT_TABLE_H
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,8 @@ struct Score {
     double rmse = 0.0;
     double bias = 0.0;  ///< model less observation
     std::string how;    ///< what was compared: "at 12 h", "daily mean, snow deeper than 0.1 m"
+    /// Of classes: share of the observations in which both say the same; `rmse` and `bias` are 0.
+    std::optional<double> agreement = {};
 };
 
 struct SimulationEvent {

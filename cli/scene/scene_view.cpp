@@ -45,14 +45,6 @@ LoadedScene load(const SceneViewOptions& options)
     return read_scene(options.file);
 }
 
-// Where a stage begins among a hundred, and how much of it is its own.
-struct Stage {
-    std::string_view name;
-    int first, length;
-};
-constexpr Stage kStages[] = {
-    {"patches", 0, 20}, {"links", 20, 45}, {"connections", 65, 5}, {"visibility", 70, 30}};
-
 double bytes_of(const scene::Patches& p)
 {
     const double nodes = p.nodes(), count = p.count;
@@ -152,12 +144,7 @@ SceneView open_scene(const SceneViewOptions& options)
     if (!options.quiet) {
         transport.patches.progress = [&](std::string_view what, float share) {
             if (!progress) progress.emplace("scene", 100);
-            for (const Stage& stage : kStages) {
-                if (stage.name == what) {
-                    progress->update(stage.first +
-                                     static_cast<int>(share * static_cast<float>(stage.length)));
-                }
-            }
+            progress->update(static_cast<int>(traced_share(what, share) * 100.0));
         };
     }
     if (!options.fresh) transport.cache = user_cache();

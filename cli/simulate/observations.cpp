@@ -9,6 +9,7 @@
 #include "base/words.h"
 #include "cli/report/plot_axes.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/friction.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::cli {
@@ -198,6 +199,15 @@ struct Rows {
         const double x = (time_s - times[i - 1]) / (times[i] - times[i - 1]);
         return table.rows[i - 1][column] + (table.rows[i][column] - table.rows[i - 1][column]) * x;
     }
+    // Of what is a class and not a quantity.
+    double nearest(std::size_t column, double time_s) const
+    {
+        const auto above = std::lower_bound(times.begin(), times.end(), time_s);
+        const auto i = static_cast<std::size_t>(above - times.begin());
+        if (i == times.size()) return table.rows.back()[column];
+        const bool before = i > 0 && time_s - times[i - 1] < times[i] - time_s;
+        return table.rows[before ? i - 1 : i][column];
+    }
     // Mean over [from, from + a day), weighted by another column where there is one.
     std::optional<double> daily_mean(std::size_t column, double from_s,
                                      std::optional<std::size_t> weight) const
@@ -273,6 +283,34 @@ Score score_of(const Rows& rows, const Observations& observed, const ObservedCol
     return score;
 }
 
+// Dry, wet, or white: what an observer and METRo's codes tell apart alike.
+int kind_of_condition(double code)
+{
+    using weather::RoadCondition;
+    switch (static_cast<RoadCondition>(std::lround(code))) {
+        case RoadCondition::Dry: return 0;
+        case RoadCondition::Wet:
+        case RoadCondition::Dew: return 1;
+        default: return 2;
+    }
+}
+
+Score agreement_of(const Rows& rows, const ObservedColumn& one)
+{
+    const std::size_t column = column_index(rows.table, one.column);
+    Score score{one.column, "", 0, 0.0, 0.0, "dry, wet, or snow and ice, at the time", 0.0};
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < one.values.size(); ++i) {
+        const double at_s = static_cast<double>(one.time_us[i] - rows.table.utc_start_us) * 1e-6;
+        if (at_s < rows.first_s() || at_s > rows.last_s()) continue;
+        ++score.count;
+        same += kind_of_condition(rows.nearest(column, at_s)) == kind_of_condition(one.values[i]);
+    }
+    if (score.count > 0)
+        score.agreement = static_cast<double>(same) / static_cast<double>(score.count);
+    return score;
+}
+
 // On days without much snow the measured surface is not the snow's.
 PlotDots dots_of(const SimulationTable& table, const Observations& observed,
                  const ObservedColumn& one)
@@ -333,6 +371,8 @@ Observations observations_of(const weather::ForcingTable& table)
     take(Field::SnowDepth, "snow_depth_m", 0.0);
     take(Field::SnowWater, "swe_kg_m2", 0.0);
     take(Field::SurfaceTemp, "surface_temp_c", -weather::kZeroCelsiusK);
+    take(Field::Condition, "road_condition", 0.0);
+    take(Field::Friction, "wheel_friction", 0.0);
     if (table.has(Field::Reflected) && table.has(Field::Shortwave)) {
         ObservedColumn albedo{"snow_albedo", {}, {}};
         for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -354,13 +394,19 @@ void compare(const SimulationTable& fine, const Observations& observed, Simulati
     if (fine.rows.empty() || !fine.dated) return;
     const Rows rows(fine);
     for (const ObservedColumn& one : observed.columns) {
-        const Score score = score_of(rows, observed, one);
+        const bool classes = one.column == "road_condition";
+        const Score score = classes ? agreement_of(rows, one) : score_of(rows, observed, one);
         if (score.count == 0) {
             table.notes.push_back("observed " + one.column + ": nothing to compare in this time");
             continue;
         }
         char line[200];
-        std::snprintf(line, sizeof line, "observed %s: RMSE %.4g%s%s, bias %+.3g, %zu values (%s)",
+        if (score.agreement)
+            std::snprintf(line, sizeof line, "observed %s: %.0f %% agree, %zu values (%s)",
+                          one.column.c_str(), *score.agreement * 100.0, score.count,
+                          score.how.c_str());
+        else
+            std::snprintf(line, sizeof line, "observed %s: RMSE %.4g%s%s, bias %+.3g, %zu values (%s)",
                       one.column.c_str(), score.rmse, score.unit.empty() ? "" : " ",
                       score.unit.c_str(), score.bias, score.count, score.how.c_str());
         table.notes.emplace_back(line);

@@ -34,7 +34,7 @@ Observations read_observations(std::string_view text, const std::string& file,
                                const std::vector<std::string>& table_columns);
 
 /// What a weather file itself observed of the ground: snow depth, snow water, surface temperature,
-/// albedo from reflected sun. Columns of nothing but zeros are left out.
+/// albedo from reflected sun, condition and friction of roads and runways. Columns of nothing but zeros are left out.
 Observations observations_of(const weather::ForcingTable& table);
 
 /// Compares and draws: adds scores, notes and dots on the panels that show an observed column.
@@ -43,7 +43,7 @@ Observations observations_of(const weather::ForcingTable& table);
 /// the same). Daily observations: depth, SWE and other states against the value at 12 h; surface
 /// temperature and albedo against the daily mean (albedo weighted by the sun) on days with more
 /// than 0.1 m of observed snow, where depth is observed. Timed ones: against the value at their
-/// time.
+/// time. Conditions of a road (METRo's codes) agree when both are dry, both wet, or both white.
 void compare(const SimulationTable& fine, const Observations& observed, SimulationTable& table);
 
 }  // namespace petrichor::cli

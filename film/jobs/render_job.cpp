@@ -22,6 +22,7 @@
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
 #include "scene/merge.h"
@@ -154,12 +155,21 @@ void finish_films(const Sequence& sequence, const RenderRequest& request, Render
         finish_film(sequence, request, part, records, report);
 }
 
+scene::PatchProgress tracing_progress(const RenderRequest& request)
+{
+    if (!request.watcher) return {};
+    return [watcher = request.watcher](std::string_view stage, float share) {
+        watcher->tracing(traced_share(stage, share));
+    };
+}
+
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
     const ScenarioOutput& output = sequence.scenario.output;
     // Before the scene loses its images.
-    ScenePlaces places(sequence, request.threads, request.stop, report.notes);
+    ScenePlaces places(sequence, request.threads, request.stop, tracing_progress(request),
+                       report.notes);
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     const int count = static_cast<int>(pending.size());
     if (request.watcher) request.watcher->begin(count, output, renderer.device());
@@ -225,11 +235,14 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
         scenario.output.width, scenario.output.height, request.memory_budget);
+    gpu::WeatherMaps maps =
+        read_weather_textures(scenario.render.weather_textures, scenario.folder);
+    maps.tracks = draw_tracks(scenario.ground.tracks);
     gpu::Renderer renderer(
         {.device = request.device,
          .validation = request.validation,
          .ripple_texture_size = scenario.render.ripple_texture_size},
-        read_weather_textures(scenario.render.weather_textures, scenario.folder));
+        maps);
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     std::shared_ptr<const gpu::PatchScene> patches;
@@ -237,15 +250,18 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         TransportOptions transport;
         transport.patches.threads = request.threads;
         transport.patches.stop = request.stop;
+        transport.patches.progress = tracing_progress(request);
         transport.cache = user_cache();
         patches = prepare_patch_scene(sequence.scene, transport, report.notes);
     } else if (sequence.scenario.render.image_based_light) {
-        report.notes.push_back(
-            sequence.scenario.render.indirect == IndirectLight::Ambient
-                ? "light between surfaces: ambient ([render] indirect)"
-                : "light between surfaces: ambient; the scene has " +
-                      std::to_string(sequence.triangles) +
-                      " triangles, and patches may take minutes ([render] indirect = \"patches\")");
+        std::string why = "([render] indirect)";
+        if (sequence.scenario.render.indirect != IndirectLight::Ambient) {
+            why = sequence.triangles > kMostAutoTriangles
+                      ? "as patches of " + std::to_string(sequence.triangles) +
+                            " triangles take minutes and memory ([render] indirect = \"patches\")"
+                      : "as ground below a model is no patch ([render] indirect = \"patches\")";
+        }
+        report.notes.push_back("light between surfaces: ambient " + why);
     }
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;

@@ -16,6 +16,9 @@ namespace petrichor::film {
 class RenderWatcher {
 public:
     virtual ~RenderWatcher() = default;
+    /// Rays look for what the scene's surfaces see; share 0..1 of it is done. Only where that is not
+    /// in the cache, and before begin().
+    virtual void tracing(double share) { static_cast<void>(share); }
     /// Before the first of `count` pictures.
     virtual void begin(int count, const ScenarioOutput& output, const gpu::DeviceInfo& device) = 0;
     /// `count` pictures are on disk.

@@ -33,7 +33,7 @@ const SequenceVariant& variant_of(const Sequence& sequence, const Job& job)
 }  // namespace
 
 ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopRequest& stop,
-                         std::vector<std::string>& notes)
+                         const scene::PatchProgress& progress, std::vector<std::string>& notes)
     : threads_(threads > 0 ? threads
                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())))
 {
@@ -52,6 +52,7 @@ ScenePlaces::ScenePlaces(const Sequence& sequence, int threads, const StopReques
     TransportOptions options;
     options.patches.threads = threads;
     options.patches.stop = stop;
+    options.patches.progress = progress;
     options.cache = user_cache();
     const SceneTransport transport = prepare_transport(sequence.scene, options);
     if (transport.patches.empty()) {

@@ -22,7 +22,7 @@ public:
     /// Cuts the scene into patches, or finds them in the cache; the scene must still hold its
     /// encoded images. Notes are appended. Throws Error, and Interrupted when `stop` says so.
     ScenePlaces(const Sequence& sequence, int threads, const StopRequest& stop,
-                std::vector<std::string>& notes);
+                const scene::PatchProgress& progress, std::vector<std::string>& notes);
 
     /// Gives a frame the weather of its places, and the facts the sums over them.
     void place(const Sequence& sequence, const Job& job, SequenceFrame& frame, FrameFacts& facts);

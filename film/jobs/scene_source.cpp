@@ -14,8 +14,10 @@
 #include "base/words.h"
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenes/lamps.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
+#include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
 
@@ -108,13 +110,19 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
+    const AppliedLamps lamps =
+        apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
+    sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
+                                   lamps.unmatched.end());
     Hasher content;
     content.add(loaded.fingerprint);
+    if (!lamps.content.empty()) content.add(lamps.content);
     content.add(applied.textures);
     content.add(ground);
     content.add(scenario.scene.variant);
     content.add(scenario.scene.animation);
     content.add(scenario.scene.animation_loop);
+    if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -88,14 +88,18 @@ void add_light(Hasher& hasher, const scene::Light& light)
 {
     hasher.add(light.kind);
     hasher.add(light.both_sides);
+    hasher.add(light.shaped);
+    hasher.add(light.profile);
     for (const glm::vec3& v :
-         {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m}) {
+         {light.color, light.position_m, light.direction, light.half_u_m, light.half_v_m,
+          light.up}) {
         hasher.add(v.x);
         hasher.add(v.y);
         hasher.add(v.z);
     }
     for (const float value :
-         {light.intensity, light.range_m, light.inner_cone_rad, light.outer_cone_rad}) {
+         {light.intensity, light.range_m, light.inner_cone_rad, light.outer_cone_rad,
+          light.radius_m, light.length_m, light.specular}) {
         hasher.add(value);
     }
 }
@@ -111,6 +115,12 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.exposure_bias_stops);
     hasher.add(settings.surface_path);
     hasher.add(settings.occlusion_direct);
+    hasher.add(settings.area_lights);
+    hasher.add(settings.lazarov);
+    for (const float value :
+         {settings.horizon_fade, settings.specular_aa, settings.specular_aa_limit}) {
+        hasher.add(value);
+    }
     hasher.add(settings.gamma);
 #define ROW(name, on, meaning) hasher.add(settings.name);
     FRAME_SWITCHES(ROW)
@@ -130,7 +140,11 @@ bool wants_patches(const Sequence& sequence)
 {
     const ScenarioRender& render = sequence.scenario.render;
     if (!render.image_based_light || render.indirect == IndirectLight::Ambient) return false;
-    return render.indirect == IndirectLight::Patches || sequence.triangles <= kMostAutoTriangles;
+    if (render.indirect == IndirectLight::Patches) return true;
+    // Ground below a model is no patch.
+    return sequence.triangles <= kMostAutoTriangles &&
+           std::none_of(sequence.scene.instances.begin(), sequence.scene.instances.end(),
+                        [](const scene::Instance& i) { return i.backdrop; });
 }
 
 FrameRange parse_frame_range(std::string_view text, int count)
@@ -369,6 +383,11 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.exposure_bias_stops = narrow(value_at(camera.exposure_bias, time_s, 0.0));
     static_cast<gpu::FrameSwitches&>(settings) = scenario.render;
     settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
+    settings.area_lights = here.lights.area;
+    settings.lazarov = scenario.render.lazarov;
+    settings.horizon_fade = narrow(scenario.render.horizon_fade);
+    settings.specular_aa = narrow(scenario.render.specular_aa);
+    settings.specular_aa_limit = narrow(scenario.render.specular_aa_limit);
     settings.gamma = scenario.render.gamma;
     settings.lamp_shadows = scenario.render.lamp_shadows;
     settings.transparent_layers = scenario.render.transparent_layers;
@@ -479,6 +498,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["look"] =
         part([&](Hasher& hasher) { hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1))); });
     parts["lights"] = part([&](Hasher& hasher) {
+        // As the scenario has them: the file's own are part of its content.
+        if (!scenario.lamps.empty()) {
+            for (const scene::Light& light : sequence.scene.lights) add_light(hasher, light);
+        }
         for (const scene::Light& light : frame.extra_lights) add_light(hasher, light);
         hasher.add(frame.scene_light_scale);
         hasher.add(frame.emissive_scale);

@@ -62,7 +62,7 @@ struct Sequence {
 Sequence make_sequence(Scenario scenario);
 
 /// Scenes of more triangles are lit by patches only when the scenario asks for it: a few minutes.
-inline constexpr std::size_t kMostAutoTriangles = 4'000'000;
+inline constexpr std::size_t kMostAutoTriangles = 1'000'000;
 /// Whether frames are lit by patches: [render] indirect, the scene's size, light from the sky.
 bool wants_patches(const Sequence& sequence);
 

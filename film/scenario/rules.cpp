@@ -1,5 +1,8 @@
 #include "film/scenario/rules.h"
 
+#include <array>
+#include "film/scenario/tracks.h"
+
 namespace petrichor::film {
 namespace {
 
@@ -322,6 +325,15 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
         {{"lights", "emissive", "true", "glowing materials light what is around them"},
          [](Scenario& s, const TomlValue& v) { s.lights.emissive = v.boolean(); }},
+        {{"lights", "area",
+          "\"ltc\"",
+          "lamps with a size: ltc (linearly transformed cosines), nearest (the point nearest to what is "
+          "mirrored, as Lux 2.02), or off (points)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.lights.area = std::array{gpu::AreaLights::Ltc, gpu::AreaLights::Nearest,
+                                        gpu::AreaLights::Off}[static_cast<std::size_t>(
+                 v.choice({"ltc", "nearest", "off"}))];
+         }},
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
 
@@ -348,6 +360,10 @@ const std::vector<Rule>& rules()
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
+        {{"ground", "tracks", "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
+          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent smoothly), "
+          "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
 #define ROW(name, on, meaning)                                  \
     {{"render", #name, on ? "true" : "false", meaning},         \
@@ -400,15 +416,30 @@ const std::vector<Rule>& rules()
         {{"render", "occlusion_direct", "0.0",
           "how much occlusion maps darken sun and lamps too, 0 to 1; they always darken the sky"},
          [](Scenario& s, const TomlValue& v) { s.render.occlusion_direct = v.number(0.0, 1.0); }},
+        {{"render", "ambient_fit", "\"table\"",
+          "how strongly surroundings are mirrored: table (GGX, integrated) or lazarov (the fit of Lux "
+          "2.02)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.lazarov = v.choice({"table", "lazarov"}) == 1;
+         }},
+        {{"render", "horizon_fade", "0.0",
+          "mirrors darken where their ray would enter the mesh below a normal map, so fast: 0 off, 1.3 "
+          "as Lux 2.02, to 8"},
+         [](Scenario& s, const TomlValue& v) { s.render.horizon_fade = v.number(0.0, 8.0); }},
+        {{"render", "specular_aa", "1.0",
+          "times the variance of normals inside a pixel, which widens highlights: 0 off to 4"},
+         [](Scenario& s, const TomlValue& v) { s.render.specular_aa = v.number(0.0, 4.0); }},
+        {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
+         [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
         {{"render", "color_space", "\"linear\"",
           "gamma: lights colours as the sRGB codes that they are stored as and shows the sums as "
           "codes, without tone mapping; to compare with engines that work so. The EXR holds codes"},
          [](Scenario& s, const TomlValue& v) {
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
-        {{"render", "indirect", "\"ambient\"",
+        {{"render", "indirect", "\"auto\"",
           "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
-          "a constant), or auto: patches for scenes of up to 4 million triangles"},
+          "a constant), or auto: patches for scenes of up to a million triangles"},
          [](Scenario& s, const TomlValue& v) {
              s.render.indirect =
                  static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));

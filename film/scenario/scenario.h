@@ -133,13 +133,14 @@ struct ScenarioLights {
     Lamps lamps = Lamps::On;         ///< point and spot lights and glowing materials of the scene
     double dusk_degrees = 4.0;       ///< with Dusk: full light at this sun elevation and below ...
     double dusk_fade_degrees = 4.0;  ///< ... none this much above it
+    gpu::AreaLights area = gpu::AreaLights::Ltc;
     bool emissive = true;            ///< what glows lights its surroundings
     double scale = 1.0;
 };
 
 /// Light that comes from other surfaces.
 enum class IndirectLight {
-    Auto,     ///< patches, unless tracing them would take minutes
+    Auto,     ///< patches, unless tracing them would take minutes or much memory
     Patches,  ///< from the patches of the scene, solved each frame
     Ambient,  ///< skylight past depth maps, and a constant
 };
@@ -161,9 +162,13 @@ struct ScenarioRender : gpu::FrameSwitches {
     int falling_budget = 20000;
     double falling_density = 1.0;
     int ripple_texture_size = 512;  ///< texels a side of the map of rings, a power of two
+    bool lazarov = false;           ///< ambient_fit = "lazarov"
+    double horizon_fade = 0.0;      ///< 0: off
+    double specular_aa = 1.0;       ///< 0: off
+    double specular_aa_limit = 0.18;
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
-    IndirectLight indirect = IndirectLight::Ambient;  ///< the others cost a third more
+    IndirectLight indirect = IndirectLight::Auto;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 
@@ -195,6 +200,18 @@ struct MaterialOverride {
     std::string lighting_model = {};  ///< as written; empty: left as it is
 };
 
+/// What the lamps whose name matches have instead of their own.
+struct LampOverride {
+    std::string glob;
+    std::string place;  ///< "file:line", for messages
+    std::vector<std::pair<std::string, float>> shape;  ///< by name of a row of scene/light_shape.h
+    bool both_sides = false;
+    std::optional<glm::vec3> color;
+    std::optional<float> intensity;  ///< candela
+    std::optional<float> range_m;
+    std::string profile;  ///< a file, relative to the scenario
+};
+
 /// [look]: keys of look_keys() with their values over time, one number a channel.
 using ScenarioLook = std::vector<std::pair<std::string, std::vector<KeyedNumber>>>;
 
@@ -221,6 +238,15 @@ struct ScenarioView {
     ScenarioCamera camera;
 };
 
+/// What has gone through the snow: a line of tracks.
+struct ScenarioTrack {
+    bool tyre = true;                  ///< false: feet
+    std::vector<glm::dvec3> points_m;  ///< of the way, at least 2
+    double width_m = 0.0;              ///< of a tyre or a foot; 0: 0.22, 0.10
+    double gauge_m = 1.6;              ///< between two tyres; 0: one alone
+    double depth = 1.0;                ///< 0 nothing .. 1 as deep as the snow lets them
+};
+
 /// [ground]: the weather of the scene's places, and what its water does.
 struct ScenarioGround {
     /// Weather on every patch of the scene; not given: of weather files under the physical model.
@@ -228,6 +254,7 @@ struct ScenarioGround {
     std::vector<std::string> ground, not_ground;  ///< globs of materials
     std::vector<glm::dvec3> drains;               ///< x, z and radius, m
     bool gutters = true;
+    std::vector<ScenarioTrack> tracks;
 };
 
 /// Everything a scenario file says, in the units of the file.
@@ -240,6 +267,7 @@ struct Scenario : Conditions {
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;
+    std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
     std::vector<ScenarioView> views;        ///< empty: the scenario's own camera
 };

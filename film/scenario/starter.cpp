@@ -10,7 +10,8 @@ namespace {
 
 std::string header_of(const std::string& table)
 {
-    return table == "materials" ? "[materials.\"*cobble*\"]" : "[" + table + "]";
+    if (table == "materials") return "[materials.\"*cobble*\"]";
+    return table == "lamps" ? "[lamps.\"*lantern*\"]" : "[" + table + "]";
 }
 
 // Parameters of the artist model: for keys, and for files under it. A preset has its own.
@@ -62,7 +63,7 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
         if (first_of_table && table == "weather") text += artist_table(all_active);
         if (first_of_table) {
             table = key.table;
-            const bool optional = table == "materials" && !all_active;
+            const bool optional = (table == "materials" || table == "lamps") && !all_active;
             text += "\n# " + table_meaning(table) + "\n" + (optional ? "# " : "") +
                     header_of(table) + "\n";
         }

@@ -226,12 +226,28 @@ std::vector<gpu::Texture> finish_surface(const scene::Scene& scene,
     return made;
 }
 
+// Small levels of a detail colour leave what lies below as it is: level by level it goes to sRGB 0.5,
+// which it is where 8 texels are left.
+void fade_to_grey(std::vector<Image>& levels)
+{
+    constexpr float kGrey = 0.21404114f;
+    const auto whole = static_cast<float>(std::max<std::size_t>(levels.size(), 4) - 4);
+    for (std::size_t level = 1; level < levels.size(); ++level) {
+        const float share = whole > 0.0f ? std::min(static_cast<float>(level) / whole, 1.0f) : 1.0f;
+        std::vector<float>& pixels = levels[level].pixels;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            if (i % 4 != 3) pixels[i] += (kGrey - pixels[i]) * share;
+        }
+    }
+}
+
 // A base colour; with a normal map its small levels are as dark as the slopes make them.
 std::vector<Image> color_levels(const scene::Scene& scene, const TextureRecipe& recipe,
                                 const texproc::MipOptions& mips, const TextureOptions& options)
 {
     std::vector<Image> levels = texproc::plain_levels(
         decode(image_at(scene, recipe.image), ColorSpace::Linear, 4, options), "albedo", mips);
+    if (recipe.fades_to_grey) fade_to_grey(levels);
     if (recipe.normal_image < 0 || options.prefilter.rule != "picture") return levels;
     Image normals = decode_normals(image_at(scene, recipe.normal_image), options);
     scale_normals(normals, recipe.normal_scale);

@@ -47,6 +47,7 @@ void add_recipe(Hasher& hasher, const scene::Scene& scene, const TextureRecipe& 
     for (const float value : {recipe.alpha_cutoff, recipe.normal_scale, recipe.roughness_factor})
         hasher.add(value);
     hasher.add(recipe.alpha_covers);
+    hasher.add(recipe.fades_to_grey);
     hasher.add(recipe.prepared);
     hasher.add(recipe.normal_image >= 0);
     if (recipe.normal_image >= 0)

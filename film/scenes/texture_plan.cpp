@@ -103,12 +103,11 @@ void plan_color(scene::Material& material, const scene::Scene& scene, Planner& p
     planner.use(material.light_map, {.kind = Kind::Light});
 }
 
-// Normals and roughness, together where they can be, and occlusion.
-void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner,
-                  bool roughness_moves)
+// Normals and roughness of a set of textures, together where they can be. roughness: the factor, which
+// moves into the texture; null: it stays.
+void plan_pair(scene::TextureUse& surface, scene::TextureUse& normal, float normal_scale,
+               float* roughness, const scene::Scene& scene, Planner& planner)
 {
-    scene::TextureUse& surface = material.metallic_roughness_texture;
-    scene::TextureUse& normal = material.normal_texture;
     TextureRecipe surface_recipe{.kind = Kind::Surface};
     TextureRecipe normal_recipe{.kind = Kind::Normal};
     const bool paired = surface.present() && normal.present() && !planner.prepared(surface) &&
@@ -117,25 +116,32 @@ void plan_surface(scene::Material& material, const scene::Scene& scene, Planner&
                                       scene.textures[static_cast<std::size_t>(normal.texture)]);
     if (paired) {
         surface_recipe.normal_image = normal.texture;
-        surface_recipe.normal_scale = material.normal_scale;
-        if (!roughness_moves)
-            surface_recipe.roughness_factor = std::exchange(material.roughness, 1.0f);
+        surface_recipe.normal_scale = normal_scale;
+        if (roughness) surface_recipe.roughness_factor = std::exchange(*roughness, 1.0f);
         // Normals that bring their own levels keep them; those of a scale of 0 have no directions.
-        if (!planner.prepared(normal) && material.normal_scale != 0.0f) {
+        if (!planner.prepared(normal) && normal_scale != 0.0f) {
             normal_recipe.surface_image = surface.texture;
             normal_recipe.normal_scale = surface_recipe.normal_scale;
             normal_recipe.roughness_factor = surface_recipe.roughness_factor;
         }
     }
+    planner.use(surface, surface_recipe);
+    planner.use(normal, normal_recipe);
+}
+
+void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner,
+                  bool roughness_moves)
+{
+    scene::TextureUse& surface = material.metallic_roughness_texture;
     const scene::TextureIndex surface_image = surface.texture;
     const scene::TextureIndex occlusion_image = material.occlusion_texture.texture;
-    planner.use(surface, surface_recipe);
+    plan_pair(surface, material.normal_texture, material.normal_scale,
+              roughness_moves ? nullptr : &material.roughness, scene, planner);
     if (surface.present() && occlusion_image == surface_image) {
         material.occlusion_texture.texture = surface.texture;  // one packed image, one read
     } else {
         planner.use(material.occlusion_texture, {.kind = Kind::Scalar});
     }
-    planner.use(normal, normal_recipe);
 }
 
 // One channel, which then is the only one; a file with its own levels keeps all it has.
@@ -147,6 +153,16 @@ void plan_scalar(scene::TextureUse& use, Planner& planner)
         use.channel = scene::Channel::R;
     }
     planner.use(use, recipe);
+}
+
+void plan_second(scene::SecondSet& second, const scene::Scene& scene, Planner& planner)
+{
+    const bool detail = second.use == scene::SecondSetUse::Detail;
+    planner.use(second.base_color_texture, {.kind = Kind::Color, .fades_to_grey = detail});
+    plan_pair(second.metallic_roughness_texture, second.normal_texture, second.normal_scale, nullptr,
+              scene, planner);
+    plan_scalar(second.mix_mask, planner);
+    plan_scalar(second.height, planner);
 }
 
 }  // namespace
@@ -162,6 +178,8 @@ std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<
         plan_scalar(material.weather.height, planner);
         plan_scalar(material.weather.puddle_mask, planner);
         plan_scalar(material.weather.snow_mask, planner);
+        planner.use(material.weather.snow_mask_normal, {.kind = Kind::Normal});
+        plan_second(material.second, scene, planner);
     }
     return planner.take();
 }

@@ -29,6 +29,7 @@ struct TextureRecipe {
     float normal_scale = 1.0f;      ///< of such a pair: scale of the normal map
     float roughness_factor = 1.0f;  ///< of such a pair: multiplied into the surface map
     float metallic_factor = 0.0f;   ///< Color: of the material
+    bool fades_to_grey = false;     ///< Color: of fine detail, which small levels lose
     bool prepared = false;          ///< brings its own levels (DDS, KTX2): loaded as it is
 
     bool operator==(const TextureRecipe&) const = default;

@@ -311,6 +311,22 @@ std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& s
     return made;
 }
 
+double traced_share(std::string_view stage, float share)
+{
+    struct Stage {
+        std::string_view name;
+        double first, length;
+    };
+    constexpr Stage kStages[] = {{"patches", 0.0, 0.2},
+                                 {"links", 0.2, 0.45},
+                                 {"connections", 0.65, 0.05},
+                                 {"visibility", 0.7, 0.3}};
+    for (const Stage& s : kStages) {
+        if (s.name == stage) return s.first + s.length * static_cast<double>(share);
+    }
+    return 0.0;
+}
+
 SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/content_cache.h"
@@ -40,6 +41,9 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
 std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
                                                            const TransportOptions& options,
                                                            std::vector<std::string>& notes);
+
+/// Share 0..1 of all tracing, from what scene::PatchOptions::progress is told.
+double traced_share(std::string_view stage, float share);
 
 /// Small pictures of the textures that patches are coloured by, by texture index.
 std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,

@@ -112,6 +112,15 @@ SHARED_FN WeatheredMaterial apply_snow(WeatheredMaterial under, float cover, vec
     return snowy;
 }
 
+// Albedo with the light that snow scatters towards grazing eyes (Lux 2.02, diffuse scattering). facing:
+// cosine of the normal with the eye; cover: sx.
+SHARED_FN vec3 snow_scattered(vec3 albedo, WeatherLook look, float facing, float cover)
+{
+    const float x = facing * facing;
+    return albedo + look.snow_scatter_color *
+                        ((exp2(-look.snow_scatter_contraction * x) + look.snow_scatter_bias) * cover);
+}
+
 // Hoar frost: white crystals, matt as a whole. cover 0..1.
 SHARED_FN WeatheredMaterial apply_frost(WeatheredMaterial under, float cover)
 {

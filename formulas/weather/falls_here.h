@@ -15,6 +15,13 @@ SHARED_FN float facing_share(vec3 n, vec3 from)
     return clamp(dot(n, from) / max(from.y, 0.3f), 0.0f, 1.5f);
 }
 
+// Of snow only what looks away gets none: how much holds on a slope is for the law of the cover to say,
+// and eddies carry it to lee sides.
+SHARED_FN float snow_facing_share(float facing)
+{
+    return min(4.0f * facing, 1.0f);
+}
+
 // Of the film: a few tenths of a millimetre fill it, so that a place that gets a tenth of the rain is
 // wet soon after an open one.
 SHARED_FN float film_share(float share)

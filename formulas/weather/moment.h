@@ -71,6 +71,10 @@ struct WeatherLook {
     vec4 snow_tiling MOMENT_DEFAULT(vec4(0.35f, 1.7f, 0.09f, 0.83f));
     // Bumpiness of the snow and of its detail, times that of the material.
     vec2 snow_strength MOMENT_DEFAULT(vec2(1.0f));
+    // Light that snow scatters at grazing angles: brightens its albedo. Black: none.
+    vec3 snow_scatter_color MOMENT_DEFAULT(vec3(0.0f));
+    float snow_scatter_bias MOMENT_DEFAULT(0.0f);
+    float snow_scatter_contraction MOMENT_DEFAULT(8.0f);
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
     // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a

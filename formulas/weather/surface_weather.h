@@ -69,15 +69,15 @@ struct SnowCover {
 };
 
 // amount          S0 = saturate(published amount * influence + constant)
+// slope           S1: what of it lies on this slope
 // height_factor   Z: 0 below the snow line .. 1 above the blend range, square-rooted
 // normal_up       y of the smoothed pixel normal
 // unique_mask     1 snow may lie, 0 never (footprints, wind-swept places)
 // mask, detail    the two-frequency mask, each 0..1
 // melt_influence  published melt * snow influence
-SHARED_FN SnowCover snow_cover(float amount, float height_factor, float normal_up, float slope_damp,
-                               float unique_mask, float mask, float detail, float melt_influence)
+SHARED_FN SnowCover snow_cover_of_slope(float slope, float height_factor, float unique_mask, float mask,
+                                        float detail, float melt_influence)
 {
-    const float slope = saturate(amount - slope_damp * saturate(1.0f - normal_up - amount * 0.25f));
     const float base = slope * height_factor;
     const float sharpened = saturate(4.0f * slope * unique_mask * (2.0f - base));
     const float noise = mask * detail;
@@ -90,6 +90,31 @@ SHARED_FN SnowCover snow_cover(float amount, float height_factor, float normal_u
     cover.snow = inside * depth;
     cover.melt = around * depth;
     return cover;
+}
+
+SHARED_FN SnowCover snow_cover(float amount, float height_factor, float normal_up, float slope_damp,
+                               float unique_mask, float mask, float detail, float melt_influence)
+{
+    return snow_cover_of_slope(
+        saturate(amount - slope_damp * saturate(1.0f - normal_up - amount * 0.25f)), height_factor,
+        unique_mask, mask, detail, melt_influence);
+}
+
+// Lux's other mask, of vertices: the slope counts the less the more snow lies, and nothing else does.
+// normal_up: of the geometry.
+SHARED_FN SnowCover snow_cover_of_vertices(float amount, float normal_up, float slope_damp, float mask,
+                                           float detail, float melt_influence)
+{
+    return snow_cover_of_slope(saturate(amount - slope_damp * (1.0f - normal_up - 0.75f * amount)), 1.0f,
+                               1.0f, mask, detail, melt_influence);
+}
+
+// Snow on a blade of grass. tint: red of the vertex colour, dark at the root; mask: at the blade.
+SHARED_FN float snow_on_grass(float amount, float height_factor, float mask, float tint)
+{
+    const float x = amount * height_factor;
+    const float e = smooth_edge(mask - x, mask, x * tint * (x * tint));
+    return amount > 0.001f ? e * e * height_factor : 0.0f;
 }
 
 // Z of snow_cover: start and blend range in metres; a range of 0 is a sharp snow line.

@@ -52,6 +52,13 @@ enum class SurfacePath {
     Visibility,
 };
 
+/// How the size of lamps is lit.
+enum class AreaLights {
+    Off,      ///< as points; rectangles as surfaces that glow
+    Ltc,      ///< by linearly transformed cosines
+    Nearest,  ///< from the point that is nearest to what is mirrored, as Lux 2.02
+};
+
 /// The curve from exposed light to the display (formulas/color).
 enum class ToneMap {
     Linear,   ///< clipped
@@ -99,6 +106,11 @@ struct FrameSettings : FrameSwitches {
     float exposure_bias_stops = 0.0f;
     float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
     bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
+    AreaLights area_lights = AreaLights::Ltc;
+    bool lazarov = false;  ///< what is mirrored of the sky by Lazarov's fit, as Lux 2.02
+    float horizon_fade = 0.0f;  ///< > 0: mirrors darken below the horizon of the mesh, so fast
+    float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off
+    float specular_aa_limit = 0.18f;
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
     int transparent_layers = 4;  ///< of what lets light through, exact; what is behind goes by chance
     int lamp_shadows =

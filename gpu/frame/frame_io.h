@@ -81,9 +81,14 @@ struct FrameConstants {
     float sun_angular_cos;   // cosine of the sun's angular radius
     uint fall_count;         // of falls; 0: no shelter is known
     float shelter_spread_m;  // splashes and drift carry water and snow this far under a roof
+    float horizon_fade;      // how fast mirrors darken below the horizon of the mesh
+    float specular_aa;       // times the variance of normals inside a pixel
+    float specular_aa_limit;
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;
+    vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
+    vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none
     PlaceConstants place;  // of the scene's patches
 };
@@ -97,5 +102,6 @@ SHARED_END
 #define FRAME_SUN_DISC 128u
 #define FRAME_GAMMA 256u
 #define FRAME_WHITE_BALANCE 512u
+#define FRAME_TWO_SETS 1024u  // the G-buffer keeps shares of two sets of textures
 
 #endif

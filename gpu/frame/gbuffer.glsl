@@ -20,10 +20,23 @@ struct GBufferTexel {
     vec4 weather;  // film, water, snow, frost
     uint material;          // its number in the scene, 0..65535; 0 where no weather is kept
     float snow_smoothness;  // of the snow here
+    float first_share;      // of the first of two sets of textures; kept with FRAME_TWO_SETS
     vec3 emission; // radiance
     vec3 baked;    // of the light map: what a white Lambert surface sends out
     float baked_sky;  // share of skylight that is in it
 };
+
+// Two numbers of 8 bits in one of 16.
+float two_in_one(float high, float low)
+{
+    return (floor(clamp(high, 0.0, 1.0) * 255.0 + 0.5) * 256.0 + floor(clamp(low, 0.0, 1.0) * 255.0 + 0.5)) / 65535.0;
+}
+
+vec2 one_as_two(float both)
+{
+    const uint code = uint(both * 65535.0 + 0.5);
+    return vec2(code >> 8, code & 255u) / 255.0;
+}
 
 // As the targets hold it.
 struct GBufferCode {
@@ -32,7 +45,8 @@ struct GBufferCode {
 #undef ROW
 };
 
-GBufferCode encode_gbuffer(GBufferTexel texel)
+// flags: of the frame.
+GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
 {
     GBufferCode code;
     code.color = vec4(sqrt(clamp(texel.base_color, vec3(0.0), vec3(1.0))), texel.occlusion);
@@ -42,13 +56,16 @@ GBufferCode encode_gbuffer(GBufferTexel texel)
                          float(texel.model) / 255.0);
     code.payload = vec4(sqrt(clamp(texel.f0, vec3(0.0), vec3(1.0))), texel.tangent);  // 0.04 is exact
     code.weather = texel.weather;
-    code.identity = vec4(float(texel.material) / 65535.0, texel.snow_smoothness, 0.0, 0.0);
+    const float snow = (flags & FRAME_TWO_SETS) != 0u
+                           ? two_in_one(texel.snow_smoothness, texel.first_share)
+                           : texel.snow_smoothness;
+    code.identity = vec4(float(texel.material) / 65535.0, snow, 0.0, 0.0);
     code.emission = vec4(texel.emission, 1.0);
     code.baked = vec4(texel.baked, texel.baked_sky);
     return code;
 }
 
-GBufferTexel decode_gbuffer(GBufferCode code)
+GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
 {
     GBufferTexel texel;
     texel.base_color = code.color.rgb * code.color.rgb;
@@ -64,6 +81,12 @@ GBufferTexel decode_gbuffer(GBufferCode code)
     texel.weather = code.weather;
     texel.material = uint(code.identity.x * 65535.0 + 0.5);
     texel.snow_smoothness = code.identity.y;
+    texel.first_share = 1.0;
+    if ((flags & FRAME_TWO_SETS) != 0u) {
+        const vec2 both = one_as_two(code.identity.y);
+        texel.snow_smoothness = both.x;
+        texel.first_share = both.y;
+    }
     texel.emission = code.emission.rgb;
     texel.baked = code.baked.rgb;
     texel.baked_sky = code.baked.a;

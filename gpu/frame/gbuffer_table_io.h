@@ -20,7 +20,7 @@
         "root of the reflectance at normal incidence, not of metal; direction of the tangent")
 #define GBUFFER_WEATHER(ROW)                                                                 \
     ROW(weather, 4, R8G8B8A8_UNORM, WEATHER, "film, standing water, snow, frost; each 0..1") \
-    ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow")
+    ROW(identity, 5, R16G16_UNORM, WEATHER, "number of the material; smoothness of the snow, with two sets the share of the first")
 #define GBUFFER_EMISSION(ROW) ROW(emission, 6, R16G16B16A16_SFLOAT, EMISSION, "radiance")
 #define GBUFFER_BAKED(ROW)                       \
     ROW(baked, 7, R16G16B16A16_SFLOAT, BAKED,     \

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/patch_points_io.h"
 
 namespace petrichor::gpu {
 
@@ -114,7 +115,6 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
-    targets.patch_light = target("patch_light", VK_FORMAT_R32G32B32A32_UINT, storage);
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
     const int block = GLOW_BLOCK;
@@ -146,6 +146,13 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                         .size = light_lists_bytes(width, height, light_words),
                                         .usage = table,
                                         .texel_format = VK_FORMAT_R32G32_UINT});
+    targets.patch_points =
+        arena.buffer({.name = "patch_points",
+                      .size = static_cast<VkDeviceSize>(divide_up(width, PATCH_BLOCK)) *
+                              static_cast<VkDeviceSize>(divide_up(height, PATCH_BLOCK)) *
+                              PATCH_POINTS * PATCH_POINT_TEXELS * 16,
+                      .usage = table,
+                      .texel_format = VK_FORMAT_R32G32B32A32_UINT});
     targets.beauty = arena.buffer({.name = "beauty", .size = pixels * 8, .host = true});
     targets.display = arena.buffer({.name = "display", .size = pixels * 4, .host = true});
     return targets;

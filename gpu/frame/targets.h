@@ -44,13 +44,13 @@ struct FrameTargets {
         radiance;  ///< of this sample, before smooth reflections; alpha as below
     std::unique_ptr<GpuImage>
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
-    std::unique_ptr<GpuImage> patch_light;   ///< of the first sample: see lighting.comp
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuImage> lamp_glow;  ///< of blocks of pixels; alpha: how far they are
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;
+    std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
     std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host
     std::vector<std::unique_ptr<GpuBuffer>> aovs;  ///< read by the host; gpu/outputs/aov.h

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_FRAME_WEATHER_MAPS_H
 
 #include <cstddef>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace petrichor::gpu {
@@ -12,10 +13,24 @@ struct WeatherMap {
     std::vector<std::byte> rgba;  ///< size * size * 4, first row at v = 0
 };
 
+/// What feet and tyres have pressed into snow, from above; empty: nothing. One texel a cell, x to the right
+/// and z down; a texel beyond its edge is as one at it, so the edge should be untouched.
+struct TrackMap {
+    int width = 0;  ///< texels, multiples of 64
+    int height = 0;
+    glm::vec2 corner_m{0.0f};     ///< world x and z of the first texel's corner
+    float texel_m = 0.01f;
+    float low_m = 0.0f;           ///< only what lies between these heights of the world
+    float high_m = 0.0f;
+    /// R: share of the depth that is pressed away, G and B: 0.5 + a quarter of the slope along x and z.
+    std::vector<std::byte> rgba;
+};
+
 /// Maps that weather is drawn with, instead of those of formulas/weather/weather_maps.h.
 struct WeatherMaps {
     WeatherMap drops;  ///< as rain_drops(): envelope, direction, time offset
     WeatherMap snow;   ///< as snow_texel(): normal xy, mask, smoothness
+    TrackMap tracks;
     WeatherMap water;  ///< normal xy of moving water; it stands still, its phases move it
 };
 

@@ -5,15 +5,26 @@
 #ifndef PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 #define PETRICHOR_GPU_LIGHTING_MODELS_IO_H
 
-#define BUILT_IN_LIGHTING_MODELS(ROW) ROW(0, standard) ROW(1, unlit) ROW(2, lambert) ROW(3, layered)
+#define BUILT_IN_LIGHTING_MODELS(ROW)                                                         \
+    ROW(0, standard) ROW(1, unlit) ROW(2, lambert) ROW(3, layered) ROW(4, lwrp) ROW(5, burley) \
+    ROW(6, lux) ROW(7, skin) ROW(8, hair) ROW(9, unlit_shadowed)
 #define LIGHTING_MODEL_STANDARD 0
 #define LIGHTING_MODEL_LAYERED 3
+#define LIGHTING_MODEL_BURLEY 5
+#define LIGHTING_MODEL_SKIN 7
+#define LIGHTING_MODEL_HAIR 8
 
 #ifndef __cplusplus
+#include "gpu/lighting/models/burley.glsl"
+#include "gpu/lighting/models/hair.glsl"
 #include "gpu/lighting/models/lambert.glsl"
 #include "gpu/lighting/models/layered.glsl"
+#include "gpu/lighting/models/lux.glsl"
+#include "gpu/lighting/models/lwrp.glsl"
+#include "gpu/lighting/models/skin.glsl"
 #include "gpu/lighting/models/standard.glsl"
 #include "gpu/lighting/models/unlit.glsl"
+#include "gpu/lighting/models/unlit_shadowed.glsl"
 // The run-time compiler puts the rows and files of a user's own models here.
 #ifdef OWN_LIGHTING_MODELS
 #include "gpu/lighting/own_models.glsl"

@@ -70,7 +70,7 @@ void main()
     const bool surface = p.depth > 0.0;
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
     p.g = decode_gbuffer(
-        fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u));
+        fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u), frame.flags);
     set_si(p);
 
     const uint pixels = uint(frame.size.x * frame.size.y);

@@ -53,13 +53,22 @@ std::uint32_t water_bits(scene::Wetness wetness)
     return WATER_STANDS | WATER_RIPPLES | WATER_FLOWS;
 }
 
+std::uint32_t snow_bits(const scene::MaterialWeather& weather)
+{
+    return SNOW_LIES | (weather.snow_rule == scene::SnowRule::Grass ? SNOW_GRASS : 0u) |
+           (weather.snow_rule == scene::SnowRule::Vertex ? SNOW_VERTEX : 0u) |
+           (weather.snow_mapping == scene::SnowMapping::Local ? SNOW_LOCAL : 0u);
+}
+
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
 std::uint32_t layers_of(const Material& m)
 {
     return (m.clearcoat > 0.0f ? LAYERS_COAT : 0u) |
            (m.sheen_color != glm::vec3(0.0f) ? LAYERS_SHEEN : 0u) |
            (m.anisotropy > 0.0f ? LAYERS_ANISOTROPY : 0u) |
-           (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u);
+           (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u) |
+           (m.translucency > 0.0f && m.translucency_scale > 0.0f ? LAYERS_TRANSLUCENT : 0u) |
+           (m.scatter_color != glm::vec3(0.0f) ? LAYERS_SCATTER : 0u);
 }
 
 std::string lighting_model_of(const Material& material)
@@ -67,6 +76,19 @@ std::string lighting_model_of(const Material& material)
     if (!material.lighting_model.empty()) return material.lighting_model;
     if (material.unlit) return "unlit";
     return layers_of(material) != 0 ? "layered" : "standard";
+}
+
+// Who names one of the other built-in models gets it as it is; light that comes through, and fibres at
+// the rim, go with any that is lit.
+std::uint32_t layers_of(const Material& m, const std::string& model)
+{
+    const auto& built_in = built_in_lighting_models();
+    const bool own = std::find(built_in.begin(), built_in.end(), model) == built_in.end();
+    const std::uint32_t all = layers_of(m);
+    if (model == "layered" || own) return all;
+    if (model == "unlit" || model == "unlit_shadowed") return 0;
+    return (all & (LAYERS_TRANSLUCENT | LAYERS_SCATTER)) | (model == "skin" ? LAYERS_SKIN : 0u) |
+           (model == "hair" ? LAYERS_HAIR : 0u);
 }
 
 }  // namespace
@@ -273,6 +295,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         GpuMaterial material;
         material.cull = cull_mode(source);
         material.water = water_bits(source.weather.wetness);
+        material.snow = snow_bits(source.weather);
+        material.second = static_cast<std::uint32_t>(source.second.use);
         material.bindings.push_back(uniform(*constants_, i * constants_stride_,
                                             sizeof(shared::MaterialConstants)));
         const auto slots = slots_of(source);
@@ -300,15 +324,15 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     GpuMaterial& material = materials_[index];
     material.lighting_model = lighting_models_.number_of(lighting_model_of(source));
     c.lighting_model = material.lighting_model;
-    // Who names one of the other built-in models gets it as it is.
-    const std::string model = lighting_model_of(source);
-    const bool plain = model == "standard" || model == "unlit" || model == "lambert";
-    material.layers = plain ? 0 : layers_of(source);
+    material.layers = layers_of(source, lighting_model_of(source));
+    // Its strands lie along the tangent.
+    if ((material.layers & LAYERS_HAIR) != 0u) c.anisotropy_strength = 1.0f;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
                                                   {c.snow_opacity, c.transmission_factor, c.ior,
                                                    c.thickness_factor},
+                                                  c.second_water_color,
                                                   {c.roughness_factor, 0.0f, 0.0f, 0.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
@@ -323,7 +347,7 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
     if (material.layers_row == 0) {
         if (lighting_models_.count() + layers_used_ > 255) {
             throw Error("scene: " + std::to_string(layers_used_ + 1) +
-                            " materials with a coat, sheen, anisotropy or light that passes; at "
+                            " materials with a coat, sheen, anisotropy, skin, hair or light that passes; at "
                             "most " +
                             std::to_string(256 - lighting_models_.count()) + " are possible",
                         "Merge materials that are alike.");
@@ -335,7 +359,11 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         {static_cast<float>(material.lighting_model), m.diffuse_transmission, m.clearcoat,
          m.clearcoat_roughness},
         glm::vec4(m.sheen_color, m.sheen_roughness),
-        {m.anisotropy, 0.0f, 0.0f, 0.0f}};
+        {m.anisotropy, m.scatter_bias, m.scatter_power, m.hair_shift},
+        {m.translucency, m.translucency_power, m.translucency_distortion, m.translucency_scale},
+        glm::vec4(m.translucency_color, m.translucency_shadow),
+        glm::vec4(m.scatter_color, m.skin_curvature),
+        {m.skin_curvature_scale, 0.0f, 0.0f, 0.0f}};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }
@@ -350,9 +378,15 @@ void GpuScene::sum_up_materials()
     });
     baked_ = any([](const Material& m) { return m.light_map.present(); });
     glows_ = glowing(glow_sources_, current_);
+    two_sets_ = any([](const Material& m) {
+        return m.second.use == scene::SecondSetUse::Mix &&
+               (m.second.own_water || m.diffuse_transmission > 0.0f);
+    });
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;
-        return w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
+        const bool own = m.second.use == scene::SecondSetUse::Mix && m.second.own_water;
+        const glm::vec4& other = m.second.water_accumulation;
+        return (own && (other.x > 0.0f || other.z > 0.0f)) || w.water_accumulation.x > 0.0f || w.water_accumulation.z > 0.0f ||
                w.snow_accumulation.x > 0.0f;
     });
 }

@@ -43,6 +43,8 @@ struct GpuMaterial {
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
+    std::uint32_t snow = 0;            ///< SNOW_... bits of its rule and mapping
+    std::uint32_t second = 0;          ///< SECOND_... of its second set of textures
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has
     std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
@@ -82,6 +84,8 @@ public:
     bool emissive() const { return emissive_; }  ///< any material emits light
     bool baked() const { return baked_; }        ///< any has a light map
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
+    /// Some material mixes two sets that water or light that passes treats differently.
+    bool two_sets() const { return two_sets_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
@@ -128,6 +132,7 @@ private:
     bool emissive_ = false;
     bool baked_ = false;
     bool constant_weather_ = false;
+    bool two_sets_ = false;
     bool as_texels_ = false;
 };
 

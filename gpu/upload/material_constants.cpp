@@ -88,6 +88,20 @@ MaterialConstants material_constants(const Material& material, const std::vector
     for (std::size_t i = 0; i < slots.size(); ++i) {
         constants.slots[i] = slot_constants(*slots[i], loaded);
     }
+    const auto tile = [&constants](int slot, const glm::vec2& tiling) {
+        constants.slots[slot].row0 *= tiling.x;
+        constants.slots[slot].row1 *= tiling.y;
+    };
+    const scene::SecondSet& second = material.second;
+    tile(TEXTURE_MIX_MASK, second.mix_mask_tiling);
+    for (const int slot : {TEXTURE_SECOND_BASE_COLOR, TEXTURE_SECOND_NORMAL,
+                           TEXTURE_SECOND_METALLIC_ROUGHNESS, TEXTURE_SECOND_HEIGHT}) {
+        tile(slot, second.tiling);
+    }
+    if (!second.own_water) {
+        constants.second_water_accumulation = constants.water_accumulation;
+        constants.second_water_color = constants.water_color;
+    }
     return constants;
 }
 

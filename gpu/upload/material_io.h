@@ -50,6 +50,15 @@
     X(float, snow_normal_strength) \
     X(float, snow_detail_strength) \
     X(float, snow_opacity)         \
+    X(vec4, snow_local_tiling)     \
+    X(float, snow_mask_normal_scale) \
+    X(float, mix_factor)           \
+    X(vec3, second_color_factor)   \
+    X(float, second_metallic_factor) \
+    X(float, second_roughness_factor) \
+    X(float, second_normal_scale)  \
+    X(vec4, second_water_accumulation) \
+    X(vec4, second_water_color)    \
     X(uint, sheltered)             \
     X(float, light_map_scale)      \
     X(float, light_map_sky)
@@ -65,7 +74,13 @@
     X(5, height_texture)             \
     X(6, puddle_mask_texture)        \
     X(7, snow_mask_texture)          \
-    X(8, light_map_texture)
+    X(8, light_map_texture)      \
+    X(9, snow_mask_normal_texture) \
+    X(10, mix_mask_texture)      \
+    X(11, second_base_color_texture) \
+    X(12, second_normal_texture) \
+    X(13, second_metallic_roughness_texture) \
+    X(14, second_height_texture)
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_NORMAL 1
 #define TEXTURE_METALLIC_ROUGHNESS 2
@@ -75,7 +90,13 @@
 #define TEXTURE_PUDDLE_MASK 6
 #define TEXTURE_SNOW_MASK 7
 #define TEXTURE_LIGHT_MAP 8
-#define TEXTURE_SLOTS 9
+#define TEXTURE_SNOW_MASK_NORMAL 9
+#define TEXTURE_MIX_MASK 10
+#define TEXTURE_SECOND_BASE_COLOR 11
+#define TEXTURE_SECOND_NORMAL 12
+#define TEXTURE_SECOND_METALLIC_ROUGHNESS 13
+#define TEXTURE_SECOND_HEIGHT 14
+#define TEXTURE_SLOTS 15
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u
@@ -92,23 +113,46 @@
 #define PARALLAX_SIMPLE 1u
 #define PARALLAX_OCCLUSION 2u
 
+// What its second set of textures is for (scene::SecondSetUse).
+#define SECOND_NONE 0u
+#define SECOND_MIX 1u
+#define SECOND_DETAIL 2u
+
+// How snow lies on it (scene::SnowRule, scene::SnowMapping).
+#define SNOW_LIES 1u
+#define SNOW_GRASS 2u
+#define SNOW_VERTEX 4u
+#define SNOW_LOCAL 8u
+#define SNOW_TRACKS 16u  // feet and tyres have trodden it somewhere
+
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
-//   2  roughness_factor, -, -, -
-#define MATERIAL_LOOK_TEXELS 3
+//   2  second_water_color; that of the first set again where it has none of its own
+//   3  roughness_factor, -, -, -
+#define MATERIAL_LOOK_TEXELS 4
 
 // Layers of those materials that have some, by number:
 //   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor
 //   1  sheen_color_factor, sheen_roughness_factor
-//   2  anisotropy_strength, -, -, -
-#define LAYERS_TEXELS 3
+//   2  anisotropy_strength, scatter_bias, scatter_power, hair_shift
+//   3  translucency, translucency_power, translucency_distortion, translucency_scale
+//   4  translucency_color, translucency_shadow
+//   5  scatter_color, skin_curvature
+//   6  skin_curvature_scale, -, -, -
+#define LAYERS_TEXELS 7
 
 // Which of them a material has.
 #define LAYERS_COAT 1u
 #define LAYERS_SHEEN 2u
 #define LAYERS_ANISOTROPY 4u
 #define LAYERS_TRANSMISSION 8u
+#define LAYERS_TRANSLUCENT 16u
+#define LAYERS_SCATTER 32u
+#define LAYERS_SKIN 64u
+#define LAYERS_HAIR 128u
+#define LAYERS_LATER (LAYERS_TRANSLUCENT | LAYERS_SCATTER | LAYERS_SKIN | LAYERS_HAIR)
+
 
 SHARED_BEGIN
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "scene/gltf/detail/glb_document.h"
 #include "scene/gltf/detail/glb_material.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::scene {
 
@@ -171,25 +172,45 @@ private:
         glb_.extensions.insert("KHR_lights_punctual");
         json out = {{"name", light.name},
                     {"color", numbers(light.color)},
-                    {"intensity", number(light.intensity)}};
+                    {"intensity", number(scene::light_candela(light))}};
         if (light.range_m > 0.0f) out["range"] = number(light.range_m);
         out["type"] = light.kind == scene::LightKind::Directional ? "directional"
-                      : light.kind == scene::LightKind::Point     ? "point"
-                                                                  : "spot";
+                      : light.kind == scene::LightKind::Spot      ? "spot"
+                                                                  : "point";
         if (light.kind == scene::LightKind::Spot) {
             out["spot"] = {{"innerConeAngle", number(light.inner_cone_rad)},
                            {"outerConeAngle", number(light.outer_cone_rad)}};
+        }
+        const json shape = shape_of(light);
+        if (!shape.empty()) {
+            glb_.extensions.insert("PETRICHOR_lights_shape");
+            out["extensions"]["PETRICHOR_lights_shape"] = shape;
         }
         json& lights = glb_.tree["extensions"]["KHR_lights_punctual"]["lights"];
         lights.push_back(out);
         // A light shines along -z of its node.
         const glm::vec3 back = -glm::normalize(light.direction);
-        const glm::vec3 helper = std::abs(back.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+        const bool turned = std::abs(glm::dot(light.up, back)) < 0.99f;
+        const glm::vec3 helper = turned                      ? light.up
+                                 : std::abs(back.y) < 0.9f ? glm::vec3(0, 1, 0)
+                                                           : glm::vec3(1, 0, 0);
         const glm::vec3 right = glm::normalize(glm::cross(helper, back));
         const glm::mat4 to_world(glm::vec4(right, 0.0f), glm::vec4(glm::cross(back, right), 0.0f),
                                  glm::vec4(back, 0.0f), glm::vec4(light.position_m, 1.0f));
         const std::size_t node = add_node(light.name, to_world);
         glb_.tree["nodes"][node]["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
+    }
+
+    static json shape_of(const scene::Light& light)
+    {
+        json shape = json::object();
+        const scene::LightShape own = shape_of_light(light);
+        for (const scene::LightProperty& row : scene::light_table()) {
+            const auto value = row.get(own);
+            if (!row.gltf.empty() && value) shape[std::string(row.gltf)] = number(*value);
+        }
+        if (own.both_sides) shape["bothSides"] = true;
+        return shape;
     }
 
     const scene::Scene& scene_;

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "scene/gltf/detail/gltf_parts.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::scene {
 namespace {
@@ -22,6 +23,21 @@ void read_spot(const JsonObject& json, Light& light)
                        number_text(static_cast<double>(light.inner_cone_rad)),
                    "Make the inner cone narrower than the outer one.");
     }
+}
+
+// PETRICHOR_lights_shape: the size of a lamp, metres.
+void read_shape(const JsonObject& json, Light& light)
+{
+    const auto extension = json.extension("PETRICHOR_lights_shape");
+    if (!extension) return;
+    LightShape shape;
+    for (const LightProperty& row : light_table()) {
+        if (!row.gltf.empty() && extension->has(row.gltf))
+            row.set(shape, extension->number(row.gltf, 0.0f, row.low, row.high));
+    }
+    if (extension->has("bothSides")) shape.both_sides = extension->flag("bothSides", false);
+    const std::string problem = shape_light(light, shape);
+    if (!problem.empty()) extension->fail("", problem, "Correct the lamp's shape.");
 }
 
 std::optional<Light> read_light(const JsonObject& json, std::size_t number)
@@ -46,6 +62,7 @@ std::optional<Light> read_light(const JsonObject& json, std::size_t number)
         light.range_m = json.number("range", 0.0f, std::numeric_limits<float>::min());
     }
     if (light.kind == LightKind::Spot) read_spot(json, light);
+    read_shape(json, light);
     return light;
 }
 

@@ -4,6 +4,7 @@
 
 #include "scene/animation/transform.h"
 #include "scene/gltf/detail/gltf_parts.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::scene {
 namespace {
@@ -144,6 +145,8 @@ public:
         scene_.lights.push_back(*light);
         scene_.lights.back().position_m = glm::vec3(frame[3]);
         scene_.lights.back().direction = -glm::vec3(frame[2]);
+        scene_.lights.back().up = glm::vec3(frame[1]);
+        turn_shape(scene_.lights.back());
         if (scene_.rig) scene_.lights.back().node = static_cast<std::int32_t>(number);
     }
 

@@ -2,11 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "film/frames/frames_jsonl.h"
 #include "scene/material_table.h"
-#include "tests/support/device.h"
-#include "tests/support/program.h"
+#include "tests/support/tiny_render.h"
 
 namespace petrichor::cli {
 namespace {
@@ -15,48 +13,16 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using namespace testing_program;
 
-constexpr const char* kScenario = R"(
-[scene]
-file = "scene.glb"
-[weather]
-keys = [{ time_s = 0, temperature_c = 5, rainfall = 0.8, script_controlled = 0, wetness = 0.5, cracks = 0.5, puddles = 0.7, snow = 0.4 }]
-[lights]
+class MaterialTextures : public TinyRender {
+protected:
+    MaterialTextures() : TinyRender("material-textures-cli", R"([lights]
 lamps = "on"
-[output]
-width = 48
-height = 27
-samples = 1
-frames = 1
-film = false
-exr = false
-[camera]
-position_m = [0.0, 1.5, 4.0]
-look_at_m = [0.0, 0.4, 0.0]
 [materials."stone"]
 emissive_factor = [1, 1, 1]
 emissive_strength = 3000
-)";
-
-class MaterialTextures : public testing::Test {
-protected:
-    void SetUp() override
+)")
     {
-        write_file(place_ / "scene.glb", tiny_scene_glb());
-        (void)testing_device::device_is_there();
     }
-    Outcome render(const std::string& more, const std::string& folder)
-    {
-        write_file(place_ / "s.toml", kScenario + more);
-        return run_petrichor({.arguments = {"render", "s.toml", "-o", folder}}, place_.path());
-    }
-    std::string picture(const std::string& more, const std::string& folder)
-    {
-        const Outcome outcome = render(more, folder);
-        EXPECT_EQ(outcome.exit_code, 0) << more << outcome.err;
-        return read_file(place_ / folder / "frame_0000.png");
-    }
-
-    Workplace place_{"material-textures-cli"};
 };
 
 // Stripes in all four channels, neither white nor what the scene brings.
@@ -81,7 +47,14 @@ TEST_F(MaterialTextures, EverySlotTakesAFileThatChangesThePicture)
     const std::string plain = picture("", "plain");
     for (const scene::MaterialTexture& slot : scene::material_textures()) {
         const std::string name(slot.name);
-        EXPECT_NE(picture(name + " = \"stripes.png\"\n", name), plain) << name;
+        // Of a second set something must be seen, and of a trodden normal what is trodden.
+        const bool mixes = name.starts_with("second_") || name.starts_with("mix_");
+        const std::string more = mixes ? "second_set = \"mix\"\nmix_factor = 0.5\n"
+                                 : name.starts_with("snow_mask_normal")
+                                     ? "snow_mask_texture = \"stripes.png\"\n"
+                                     : "";
+        const std::string without = more.empty() ? plain : picture(more, name + "-without");
+        EXPECT_NE(picture(more + name + " = \"stripes.png\"\n", name), without) << name;
     }
     EXPECT_NE(picture("base_color_texture = \"\"\n", "bare"), plain);
 }

@@ -450,5 +450,36 @@ TEST(Report, WhatTheFileObservedIsDrawn)
     EXPECT_EQ(t.scores.size(), 2u);
 }
 
+TEST(Report, RunwaysOfMetarAreCompared)
+{
+    // A dry runway, then heavy snow that stays: dry, wet and white count as three classes.
+    std::string text = "2024-01-10\n";
+    const char* const states[] = {"R33/0///70", "R33/0///70", "R33/490230", "R33/490231 R15/0///70"};
+    for (int hour = 0; hour < 12; ++hour) {
+        const bool snows = hour >= 6;
+        char line[160];
+        std::snprintf(line, sizeof line,
+                      "METAR KABC 10%02d50Z 24010KT 2000 %sOVC010 M06/%s Q1003 %s=\n", hour,
+                      snows ? "+SN " : "", snows ? "M07" : "M14", states[hour / 3]);
+        text += line;
+    }
+    const SimulationTable t = simulated(text, city());
+    ASSERT_EQ(t.scores.size(), 2u);
+    EXPECT_EQ(t.scores[0].column, "road_condition");
+    EXPECT_EQ(t.scores[0].count, 12u);
+    ASSERT_TRUE(t.scores[0].agreement);
+    EXPECT_GT(*t.scores[0].agreement, 0.8);
+    EXPECT_EQ(t.scores[1].column, "wheel_friction");
+    EXPECT_LT(t.scores[1].rmse, 0.2);
+    EXPECT_NE(html_report(t).find("agree</td>"), std::string::npos);
+
+    // The same runway reported the wrong way round agrees with nothing.
+    std::string wrong = text;
+    for (std::size_t at = 0; (at = wrong.find("R33/", at)) != std::string::npos; at += 4)
+        wrong[at + 4] = wrong[at + 4] == '0' ? '7' : '0';
+    const SimulationTable other = simulated(wrong, city());
+    EXPECT_LT(*other.scores[0].agreement, 0.2);
+}
+
 }  // namespace
 }  // namespace petrichor::cli

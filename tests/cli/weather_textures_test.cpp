@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "film/frames/frames_jsonl.h"
-#include "tests/support/device.h"
-#include "tests/support/program.h"
+#include "tests/support/tiny_render.h"
 
 namespace petrichor::cli {
 namespace {
@@ -12,31 +11,9 @@ namespace {
 using testing::HasSubstr;
 using namespace testing_program;
 
-constexpr const char* kScenario = R"(
-[scene]
-file = "scene.glb"
-[weather]
-keys = [{ time_s = 0, temperature_c = 5, rainfall = 0.8, script_controlled = 0, wetness = 0.5, cracks = 0.5, puddles = 0.7, snow = 0.4 }]
-[output]
-width = 48
-height = 27
-samples = 1
-frames = 1
-film = false
-exr = false
-[camera]
-position_m = [0.0, 1.5, 4.0]
-look_at_m = [0.0, 0.4, 0.0]
-[render]
-)";
-
-class WeatherTextureFiles : public testing::Test {
+class WeatherTextureFiles : public TinyRender {
 protected:
-    void SetUp() override
-    {
-        write_file(place_ / "scene.glb", tiny_scene_glb());
-        (void)testing_device::device_is_there();
-    }
+    WeatherTextureFiles() : TinyRender("weather-textures-cli", "[render]\n") {}
     void generate(const std::string& kind, const std::string& seed, const std::string& size)
     {
         const Outcome made =
@@ -45,19 +22,6 @@ protected:
                           place_.path());
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
-    Outcome render(const std::string& keys, const std::string& folder)
-    {
-        write_file(place_ / "s.toml", kScenario + keys);
-        return run_petrichor({.arguments = {"render", "s.toml", "-o", folder}}, place_.path());
-    }
-    std::string picture(const std::string& keys, const std::string& folder)
-    {
-        const Outcome outcome = render(keys, folder);
-        EXPECT_EQ(outcome.exit_code, 0) << keys << outcome.err;
-        return read_file(place_ / folder / "frame_0000.png");
-    }
-
-    Workplace place_{"weather-textures-cli"};
 };
 
 TEST_F(WeatherTextureFiles, EachChangesThePicture)

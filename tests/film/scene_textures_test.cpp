@@ -83,6 +83,30 @@ TEST(PrepareTextures, FiltersAsTextureBuildDoes)
     }
 }
 
+// Far away fine detail leaves the colour below as it is: sRGB 0.5, whatever its own mean.
+TEST(PrepareTextures, DetailFadesToGreyInSmallLevels)
+{
+    scene::Scene scene;
+    scene.textures = {image_of(64, {250, 250, 250}, {200, 120, 40})};
+    scene::Material material;
+    material.second.use = scene::SecondSetUse::Detail;
+    material.second.base_color_texture.texture = 0;
+    scene.materials = {material};
+    const auto levels = prepare_textures(scene)[0].mips;
+    ASSERT_EQ(levels.size(), 7u);
+    const auto red_and_blue_apart = [&](std::size_t level) {
+        return std::abs(static_cast<int>(levels[level][0]) - static_cast<int>(levels[level][2]));
+    };
+    EXPECT_EQ(levels[0][0], std::byte{250}) << "the first level is as it was";
+    for (std::size_t level = 2; level < levels.size(); ++level)
+        EXPECT_LE(red_and_blue_apart(level), red_and_blue_apart(level - 1));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<int>(levels[4][static_cast<std::size_t>(c)]), 128, 1);
+    scene.textures = {image_of(64, {250, 250, 250}, {200, 120, 40})};
+    scene.materials[0].second.use = scene::SecondSetUse::Mix;
+    EXPECT_GT(static_cast<int>(prepare_textures(scene)[0].mips[4][0]), 200) << "of detail alone";
+}
+
 TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
 {
     scene::Scene scene = scene_with_maps();

@@ -183,7 +183,9 @@ TEST_F(LightingModelsTest, ModelsStandSideBySide)
         const RenderResult one = renderer->render(frame);
         int seen = 0;
         for (int x = 0; x < 48; ++x) {
-            if (aov(all, "lighting_model", x, 8) != static_cast<float>(i < 1 ? 0 : i < 2 ? 2 : 4)) {
+            if (aov(all, "lighting_model", x, 8) != static_cast<float>(i < 1   ? 0u
+                                                                           : i < 2 ? 2u
+                                                                                   : built_in_lighting_models().size())) {
                 continue;
             }
             ++seen;

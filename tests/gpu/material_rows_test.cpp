@@ -37,8 +37,8 @@ std::vector<Texture> textures()
     std::vector<Texture> all;
     for (const scene::MaterialTexture& row : scene::material_textures()) {
         const std::string name(row.name);
-        const bool color = name.starts_with("base") || name.starts_with("emissive");
-        const bool normal = name.starts_with("normal");
+        const bool color = name.find("base_color") != name.npos || name.starts_with("emissive");
+        const bool normal = name.find("normal_") != name.npos;
         all.push_back(
             chequers(row.name.data(), color ? TexelFormat::Rgba8Srgb : TexelFormat::Rgba8Unorm,
                      normal ? std::array{90, 128, 250, 255} : std::array{120, 60, 200, 90},
@@ -84,8 +84,13 @@ void make_visible(std::string_view row, Material& m)
     if (row == "clearcoat_roughness_factor") m.clearcoat = 1.0f;
     if (row == "sheen_roughness_factor") m.sheen_color = glm::vec3(0.8f);
     if (row == "anisotropy_rotation") m.anisotropy = 0.9f;
+    if (row.starts_with("translucency_")) m.translucency = 0.6f;
+    if (row.starts_with("scatter_")) m.scatter_color = glm::vec3(0.3f);
+    if (row.starts_with("skin_")) m.lighting_model = "skin";
+    if (row.starts_with("hair_")) m.lighting_model = "hair";
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
+    if (row == "water_slope_damp") m.weather.porosity = 1.0f;  // what a film darkens
     if (row == "flow_refraction") m.weather.flow_normal_strength = 2.0f;
     if (row == "height_scale_m") m.weather.height_scale_m = 0.1f;
     if (row.starts_with("parallax") || row == "height_scale_m") {
@@ -102,6 +107,21 @@ void make_visible(std::string_view row, Material& m)
         m.attenuation_distance_m = 0.2f;
         m.attenuation_color = glm::vec3(0.3f, 0.6f, 0.9f);
     }
+    if (row.starts_with("second_") || row.starts_with("mix_")) {
+        m.second.use = scene::SecondSetUse::Mix;
+        m.second.mix_factor = 0.5f;
+        m.second.mix_mask = use_of("mix_mask_texture");
+        m.second.base_color_texture = use_of("second_base_color_texture");
+        m.second.normal_texture = use_of("second_normal_texture");
+        m.second.height = use_of("second_height_texture");
+        m.second.metallic = 0.2f;
+        m.second.own_water = row.starts_with("second_water");
+        m.second.water_color = {0.1f, 0.1f, 0.5f, 0.5f};
+        m.second.water_accumulation = {0.5f, 1.0f, 0.5f, 1.0f};
+    }
+    if (row == "snow_local_tiling") m.weather.snow_mapping = scene::SnowMapping::Local;
+    if (row == "snow_mask_normal_scale")
+        m.weather.snow_mask_normal = use_of("snow_mask_normal_texture");
     if (row == "height_channel") m.weather.height = use_of("height_texture");
 }
 
@@ -235,6 +255,7 @@ TEST_F(MaterialRows, EveryTextureChangesThePicture)
     const Frame frame = weathered();
     for (const scene::MaterialTexture& row : scene::material_textures()) {
         Material material = rich_material();
+        make_visible(row.name, material);
         row.edit(material) = {};
         renderer->load(stage(material), pixels);
         const RenderResult without = renderer->render(frame);

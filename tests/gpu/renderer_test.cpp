@@ -215,6 +215,7 @@ TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
     Frame snow = rain;
     snow.weather = deep_snow();
     snow.weather.snow_amount = 0.6f;
+    snow.look.snow_scatter_color = glm::vec3(0.2f);
     const std::size_t numbers = sizeof(shared::WeatherLook) / sizeof(float);
     const auto rain_before = renderer->render(rain).beauty;
     const auto snow_before = renderer->render(snow).beauty;
@@ -224,7 +225,8 @@ TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
             float* look_numbers = reinterpret_cast<float*>(&frame.look);
             // The distance of detail comes before the camera, its fade beyond the scene.
             const float old = look_numbers[i];
-            look_numbers[i] = old > 10.0f ? (old > 20.0f ? 3.2f : 60.0f) : old * 2.5f;
+            look_numbers[i] =
+                old > 10.0f ? (old > 20.0f ? 3.2f : 60.0f) : old > 0.0f ? old * 2.5f : 0.4f;
         }
         EXPECT_TRUE(renderer->render(changed[0]).beauty != rain_before ||
                     renderer->render(changed[1]).beauty != snow_before)

@@ -217,6 +217,23 @@ TEST(Metar, Groups)
     EXPECT_EQ(parse_metar("EDDF 101250Z VCSH BLSN 01/00 Q1000")->weather_seen, false);
 }
 
+TEST(Metar, RunwaysAreRoadsThatSomebodySaw)
+{
+    const auto condition = [](const std::string& group) {
+        const auto report = parse_metar("KABC 101250Z 24010KT 01/00 Q1000 " + group);
+        return report && report->runways.size() == 1 ? condition_of(report->runways[0])
+                                                     : std::nullopt;
+    };
+    EXPECT_EQ(condition("R33/0///70"), RoadCondition::Dry);
+    EXPECT_EQ(condition("R33/190170"), RoadCondition::Wet);
+    EXPECT_EQ(condition("R33/390135"), RoadCondition::Frost);
+    EXPECT_EQ(condition("R33/790120"), RoadCondition::IceOrSnow);
+    EXPECT_EQ(condition("R33/690430"), RoadCondition::WaterAndSnow);
+    EXPECT_FALSE(condition("R33/720120"));  // ice on a quarter of it
+    EXPECT_FALSE(condition("R33/CLRD70"));
+    EXPECT_FALSE(condition("R33////99//"));
+}
+
 TEST(Metar, MonthsTurnAndForecastsFollow)
 {
     const std::string text =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formulas/light/skin.h"
 #include "texproc/filter/bake.h"
 
 namespace petrichor::texproc {
@@ -15,21 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Skin's diffusion as a sum of Gaussians over the distance: variance in mm2, weight of red, green
-// and blue (d'Eon and Luebke 2007, GPU Gems 3, chapter 14).
-struct Gaussian {
-    double variance_mm2;
-    std::array<double, 3> weight;
-};
-constexpr Gaussian kProfile[] = {
-    {0.0064, {0.233, 0.455, 0.649}}, {0.0484, {0.100, 0.336, 0.344}},
-    {0.187, {0.118, 0.198, 0.000}},  {0.567, {0.113, 0.007, 0.007}},
-    {1.99, {0.358, 0.004, 0.000}},   {7.41, {0.078, 0.000, 0.000}},
-};
-// Radius of the ring at curvature 1. Chosen so that the table has the values of Lux's.
-constexpr double kRadius_mm = 1.6;
-constexpr double kReach_mm = 14.0;  // five deviations of the widest Gaussian
-constexpr double kStep_mm = 0.06;   // finer than the narrowest
+constexpr double kStep_mm = 0.06;  // finer than the narrowest Gaussian of the profile
 
 // Points of the ring from which light comes through the skin, and the share of each, in all 1.
 struct Point {
@@ -39,8 +26,8 @@ struct Point {
 
 std::vector<Point> ring_of(double curvature)
 {
-    const double radius_mm = kRadius_mm / curvature;
-    const double half = std::min(0.5 * kPi, kReach_mm / radius_mm);
+    const double radius_mm = static_cast<double>(shared::kSkinRadius_mm) / curvature;
+    const double half = std::min(0.5 * kPi, static_cast<double>(shared::kSkinReach_mm) / radius_mm);
     const int steps = static_cast<int>(std::ceil(2.0 * half * radius_mm / kStep_mm));
     std::vector<Point> ring(static_cast<std::size_t>(steps));
     std::array<double, 3> sum{};
@@ -50,13 +37,10 @@ std::vector<Point> ring_of(double curvature)
         const double distance = 2.0 * radius_mm * std::sin(0.5 * angle);
         point.cosine = std::cos(angle);
         point.sine = std::sin(angle);
-        for (const Gaussian& g : kProfile) {
-            const double spread = std::exp(-distance * distance / (2.0 * g.variance_mm2)) /
-                                  std::sqrt(2.0 * kPi * g.variance_mm2);
-            for (std::size_t c = 0; c < 3; ++c) {
-                point.share[c] += g.weight[c] * spread;
-                sum[c] += g.weight[c] * spread;
-            }
+        const glm::vec3 weight = shared::skin_profile(static_cast<float>(distance * distance));
+        for (int c = 0; c < 3; ++c) {
+            point.share[static_cast<std::size_t>(c)] = static_cast<double>(weight[c]);
+            sum[static_cast<std::size_t>(c)] += static_cast<double>(weight[c]);
         }
     }
     for (Point& point : ring) {

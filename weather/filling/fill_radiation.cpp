@@ -133,13 +133,10 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report)
             for (std::size_t f = 0; f < kFieldCount; ++f) {
                 const auto& from = columns[f];
                 if (from.empty()) continue;
-                const bool rate = field_info(static_cast<Field>(f)).is_rate;
-                const bool line = part > 0 && i < last && !rate;
+                const FieldInfo& info = field_info(static_cast<Field>(f));
+                const bool line = part > 0 && i < last && !info.is_rate;
                 // What was observed was not observed in between.
-                const auto field = static_cast<Field>(f);
-                const bool observed = field == Field::SnowDepth || field == Field::SurfaceTemp ||
-                                      field == Field::Reflected || field == Field::SnowWater;
-                table.columns[f].push_back(observed && part > 0 ? kMissing
+                table.columns[f].push_back(info.observed && part > 0 ? kMissing
                                            : line ? from[i] + (from[i + 1] - from[i]) * x
                                                   : from[i]);
             }

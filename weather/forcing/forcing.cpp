@@ -20,14 +20,16 @@ constexpr FieldInfo kInfo[kFieldCount] = {
     {"dew_point", "K", 143.15, 313.15, false},
     {"wind_from", "deg", 0.0, 360.0, false},
     {"visibility", "m", 0.0, 1.0e6, false},
-    {"snow_depth", "m", 0.0, 30.0, false, 0.06},
+    {"snow_depth", "m", 0.0, 30.0, false, 0.06, true},
     {"direct", "W/m2", -15.0, 1500.0, false},
     {"diffuse", "W/m2", -15.0, 1300.0, false},
     {"sw_net", "W/m2", -15.0, 1600.0, true},
     {"snow_share", "1", 0.0, 1.0, true},
-    {"surface_temp", "K", 173.15, 363.15, false},
-    {"sw_up", "W/m2", -15.0, 1600.0, false},
-    {"snow_water", "kg/m2", 0.0, 15000.0, false, 5.0},
+    {"surface_temp", "K", 173.15, 363.15, false, 0.0, true},
+    {"sw_up", "W/m2", -15.0, 1600.0, false, 0.0, true},
+    {"snow_water", "kg/m2", 0.0, 15000.0, false, 5.0, true},
+    {"road_condition", "", 1.0, 8.0, false, 0.0, true},
+    {"wheel_friction", "1", 0.0, 1.0, false, 0.0, true},
 };
 
 }  // namespace

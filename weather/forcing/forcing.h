@@ -39,6 +39,8 @@ enum class Field : std::uint8_t {
     SurfaceTemp,   ///< K, of the surface, as observed, at; never used as input, only compared
     Reflected,     ///< W/m2 that come back from the ground, as observed, at; only compared
     SnowWater,     ///< kg/m2 of snow on the ground, as observed, at; only compared
+    Condition,     ///< RoadCondition (physics/friction.h) of a road or runway, as observed, at
+    Friction,      ///< coefficient, as measured on a road or runway, at; only compared
     Count
 };
 inline constexpr std::size_t kFieldCount = static_cast<std::size_t>(Field::Count);
@@ -51,6 +53,7 @@ struct FieldInfo {
     double low, high;
     bool is_rate;
     double noise = 0.0;  ///< so far below `low` a sensor may say and mean it; taken as `low`
+    bool observed = false;  ///< of the ground, to compare with: never used as input
 };
 const FieldInfo& field_info(Field field);
 

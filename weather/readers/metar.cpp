@@ -59,6 +59,20 @@ void put_report(RowCollector& rows, const MetarReport& r, double elevation_m)
     put(Field::Visibility, r.visibility_m);
     put(Field::Cloud, r.cloud);
     if (!std::isnan(r.snow_depth_m)) rows.set(Field::SnowDepth, r.snow_depth_m);
+    // The first runway that says something about most of itself; 99 repeats an older report.
+    const auto seen = [&](Field field, const auto& value_of) {
+        for (const RunwayState& runway : r.runways) {
+            const double value = runway.runway == 99 ? kMissing : value_of(runway);
+            if (std::isnan(value)) continue;
+            rows.set(field, value);
+            return;
+        }
+    };
+    seen(Field::Condition, [](const RunwayState& runway) {
+        const auto condition = condition_of(runway);
+        return condition ? static_cast<double>(*condition) : kMissing;
+    });
+    seen(Field::Friction, [](const RunwayState& runway) { return runway.friction; });
     if (std::isnan(r.qnh_pa)) {
         rows.missing(Field::Pressure);
     } else {

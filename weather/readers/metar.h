@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "weather/forcing/forcing.h"
+#include "weather/physics/friction.h"
 
 namespace petrichor::weather {
 
@@ -24,6 +25,11 @@ struct RunwayState {
     bool cleared = false;
 };
 const char* deposit_name(int deposit);
+
+/// What the deposit is among the conditions of a road: damp counts as wet, slush as water and snow,
+/// ruts and packed snow as snow. None where it covers a quarter of the runway or less, where it was
+/// cleared (by whom the model does not know), or where it is not told.
+std::optional<RoadCondition> condition_of(const RunwayState& runway);
 
 /// One report. What it does not say is NaN.
 struct MetarReport {

@@ -199,6 +199,18 @@ bool take_weather(std::string_view t, MetarReport& r)
     return true;
 }
 
+std::optional<RoadCondition> condition_of(const RunwayState& runway)
+{
+    const bool part = runway.extent == 1 || runway.extent == 2;
+    if (runway.cleared || part || runway.deposit < 0) return std::nullopt;
+    constexpr RoadCondition kOf[10] = {
+        RoadCondition::Dry,       RoadCondition::Wet,       RoadCondition::Wet,
+        RoadCondition::Frost,     RoadCondition::IceOrSnow, RoadCondition::IceOrSnow,
+        RoadCondition::WaterAndSnow, RoadCondition::IceOrSnow, RoadCondition::IceOrSnow,
+        RoadCondition::IceOrSnow};
+    return kOf[runway.deposit];
+}
+
 // R88/290050, R33/CLRD//, R24/P6000FT (visual range), 88290050 (old form)
 bool take_runway(std::string_view t, MetarReport& r)
 {

@@ -15,6 +15,8 @@
 
 #include "formulas/light/brdf.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/other_lobes.h"
+#include "formulas/light/translucent.h"
 
 // A surface point; weather is on it already.
 struct LitPoint {
@@ -31,7 +33,14 @@ struct LitPoint {
     uint model;        // its number
     Lobe lobe;         // of GGX, made ready for shade_lobe()
     Layers layers;     // coat, sheen and so on of the material; zero where it has none
+    Translucency translucency;  // of the material; the pass adds it
+    float curvature;   // of skin, 0 flat .. 1
+    float hair_shift;  // radians
+    float sunlit;      // 0 in the shadow of the sun .. 1
 };
+
+// What a white surface sends back of a light at that cosine (formulas/light/skin.h), from a table.
+vec3 skin_lookup(float nl, float curvature);
 
 // Light from all around a point.
 struct Surroundings {

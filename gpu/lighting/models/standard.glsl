@@ -1,4 +1,7 @@
 // glTF's metallic-roughness: GGX over Lambert.
+#ifndef PETRICHOR_GPU_LIGHTING_STANDARD_GLSL
+#define PETRICHOR_GPU_LIGHTING_STANDARD_GLSL
+
 #include "gpu/lighting/models/lighting_model.glsl"
 
 vec3 standard_light(LitPoint p, vec3 to_light)
@@ -24,3 +27,5 @@ vec3 standard_own(LitPoint p)
 {
     return p.emission;
 }
+
+#endif

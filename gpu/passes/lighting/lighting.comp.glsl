@@ -6,6 +6,8 @@
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
+#include "formulas/light/ltc.h"
+#include "formulas/light/skin.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/passes/lighting/lighting_io.h"
@@ -35,6 +37,10 @@ layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
+layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
+layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
+layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
+layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -51,41 +57,19 @@ layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
 layout(binding = LIGHTING_LIGHTS) uniform samplerBuffer lights;
 layout(binding = LIGHTING_MATERIALS) uniform samplerBuffer material_looks;
 layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
+layout(binding = LIGHTING_LTC) uniform samplerBuffer ltc_matrices;
+layout(binding = LIGHTING_PROFILES) uniform samplerBuffer light_profiles;
+layout(binding = LIGHTING_SKIN) uniform samplerBuffer skin_table;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
-layout(binding = LIGHTING_PATCH_TABLE) uniform usamplerBuffer patch_table_texels;
-layout(binding = LIGHTING_PATCH_WAYS) uniform usamplerBuffer patch_way_texels;
-layout(binding = LIGHTING_PATCH_KEPT, rgba32ui) uniform uimage2D patch_light_kept;
-layout(binding = LIGHTING_PATCH_PLANES) uniform samplerBuffer patch_plane_texels;
-layout(binding = LIGHTING_PATCH_IRRADIANCE) uniform samplerBuffer patch_irradiance_texels;
-layout(binding = LIGHTING_PATCH_GRADIENT) uniform samplerBuffer patch_gradient_texels;
+layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 
-uvec4 patch_table(uint slot)
-{
-    return texelFetch(patch_table_texels, int(slot));
-}
-uint patch_way(uint index)
-{
-    return texelFetch(patch_way_texels, int(index)).r;
-}
-vec4 patch_plane(uint node)
-{
-    return texelFetch(patch_plane_texels, int(node));
-}
-vec4 patch_irradiance(uint node)
-{
-    return texelFetch(patch_irradiance_texels, int(node));
-}
-vec4 patch_gradient(uint node)
-{
-    return texelFetch(patch_gradient_texels, int(node));
-}
-#include "formulas/light/patch_lookup.inc"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
+#include "gpu/passes/patch_light/patch_spread.glsl"
 #include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
@@ -151,6 +135,7 @@ float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
 // Scale and offset of F0 for GGX.
 vec2 split_sum(vec3 n, vec3 v, float roughness)
 {
+    if (LAZAROV != 0u) return lazarov_split_sum(clamp(dot(n, v), 0.0, 1.0), roughness);
     const vec2 size = vec2(textureSize(env_brdf, 0));
     const vec2 at = (vec2(clamp(dot(n, v), 0.0, 1.0), roughness) * (size - 1.0) + 0.5) / size;
     return textureLod(env_brdf, at, 0.0).rg;
@@ -221,39 +206,7 @@ vec3 model_own(LitPoint p)
     return radiance;
 }
 
-// A glowing rectangle: exact for a matt surface that sees all of it; what is mirrored, as of a light in
-// the direction of the irradiance, blurred by its size. Surfaces that mirror the picture itself have it
-// from there.
-vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
-{
-    const vec3 half_u = texelFetch(lights, light * LIGHT_TEXELS + 2).xyz;
-    vec3 half_v = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
-    if (dot(centre, cross(half_u, half_v)) >= 0.0) {  // it is turned away
-        if (color.w > LIGHT_BOTH_SIDES + 0.5) return vec3(0.0);
-        half_v = -half_v;
-    }
-    const vec3 f = rectangle_irradiance(centre, half_u, half_v);
-    const float size = length(f);
-    if (size < 1.0e-7) return vec3(0.0);
-    vec3 l = f / size;
-    const float nl = dot(p.normal, l);
-    const float seen = sphere_form_factor(size, nl);
-    if (seen <= 0.0) return vec3(0.0);
-    // Where the horizon cuts it, from the middle of what is left.
-    const float wide = sqrt(min(size, 1.0));
-    const float cosine = max(nl, 0.25 * wide);
-    if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
-    const float alpha = p.roughness * p.roughness;
-    const float blurred = min(alpha + 0.5 * wide, 1.0);
-    const float mirrored =
-        IMAGE_BASED_LIGHT != 0u ? smoothstep(kMirrorRoughness, kMirrorRoughness + 0.1, p.roughness) : 1.0;
-    LitPoint q = p;
-    q.roughness = sqrt(blurred);
-    q.specular = p.specular * mirrored;
-    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
-                       blurred);
-    return model_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
-}
+#include "gpu/passes/lighting/area_lights.glsl"
 
 // One light of the table; zero out of its range or behind the surface.
 vec3 punctual_light(LitPoint p, int light, ivec2 texel)
@@ -267,7 +220,13 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
         const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
         const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
         if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, faced, texel);
-        if (visible <= 0.0) return vec3(0.0);
+        if (visible <= 0.0 && !BLEEDS) return vec3(0.0);
+    }
+    if (WAYS != 0u) {
+        const vec4 size = texelFetch(lights, light * LIGHT_TEXELS + 4);
+        if ((WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
+            return area_light(p, light, to_light, sphere.w, size, visible);
+        if ((WAYS & LIGHTS_FILL) != 0u) p.lobe.lit *= size.z;
     }
     if (RECTANGLES != 0u) {
         const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
@@ -275,14 +234,16 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     }
     const float distance_m = sqrt(d2);
     const vec3 l = to_light / max(distance_m, 1.0e-4);
-    if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0) return vec3(0.0);
+    if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0 && !BLEEDS) return vec3(0.0);
     const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
     const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
     float falloff = light_attenuation(distance_m, sphere.w);
     if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
-    return model_light(p, l) * color.rgb * (falloff * visible);
+    vec3 shines = color.rgb;
+    if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
+    return shadowed_light(p, l, visible) * shines * falloff;
 }
 
 // Adds lights far away, then those that reach this tile, in the order of the table.
@@ -291,7 +252,7 @@ void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
     for (uint i = 0u; i < frame.directional_count; ++i) {
         const vec4 color = texelFetch(lights, int(i) * LIGHT_TEXELS + 1);
         const vec4 direction = texelFetch(lights, int(i) * LIGHT_TEXELS + 2);
-        radiance += model_light(p, -direction.xyz) * color.rgb;
+        radiance += shadowed_light(p, -direction.xyz, 1.0) * color.rgb;
     }
     if (ALL_LIGHTS != 0u) {
         for (uint i = frame.directional_count; i < frame.light_count; ++i) {
@@ -318,42 +279,12 @@ struct Ambient {
     float open;       // 0..1: how far a mirror sees the sky
 };
 
-// Irradiance over pi from the patches around, and their share of open directions; w < 0: none there.
-vec4 looked_up(LitPoint p, vec3 geometry)
-{
-    const PatchLight light = patch_lookup(frame.patches, p.position, geometry);
-    if (light.weight <= 0.0) return vec4(0.0, 0.0, 0.0, -1.0);
-    const float turned = irradiance_towards(light.gradient, normalize(light.normal), p.normal);
-    return vec4(min(light.irradiance * (0.31830989 * turned), vec3(60000.0)), light.open);
-}
-
-// The first sample of a pixel looks up; those that see the same surface take what it found, as light
-// changes little within a pixel.
-vec4 patch_light_at(LitPoint p, vec3 geometry, float view_m, ivec2 texel)
-{
-    if (frame.sample_index > 0u) {
-        const uvec4 kept = imageLoad(patch_light_kept, texel);
-        const float other_m = uintBitsToFloat(kept.z);
-        const vec3 other = octahedral_decode(unpackSnorm2x16(kept.w));
-        if (abs(view_m - other_m) < 0.5 * frame.patches.cell_m + 0.005 * view_m &&
-            dot(other, p.normal) > 0.85) {
-            return vec4(unpackHalf2x16(kept.x), unpackHalf2x16(kept.y));
-        }
-        return looked_up(p, geometry);
-    }
-    const vec4 found = looked_up(p, geometry);
-    imageStore(patch_light_kept, texel,
-               uvec4(packHalf2x16(found.xy), packHalf2x16(found.zw), floatBitsToUint(view_m),
-                     packSnorm2x16(octahedral_encode(p.normal))));
-    return found;
-}
-
 // From the patches around; nothing (open < 0) where there are none.
 Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
                       ivec2 texel)
 {
     Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
-    const vec4 light = patch_light_at(p, geometry, view_m, texel);
+    const vec4 light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
     if (light.w < 0.0) return a;
     a.irradiance = light.rgb;
     if (AMBIENT_OCCLUSION != 0u) {
@@ -399,16 +330,13 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        // No surface is so far away: samples that meet one look up for themselves.
-        if (PATCHES != 0u && frame.sample_index == 0u)
-            imageStore(patch_light_kept, texel, uvec4(0u, 0u, floatBitsToUint(1.0e30), 0u));
         radiance = BACKGROUND != 0u && (frame.flags & FRAME_SKY) != 0u
                        ? background(pixel_view_direction(frame, pixel))
                        : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u));
+            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);
@@ -438,6 +366,10 @@ void main()
             state.snow_smoothness = g.snow_smoothness;
             const int look = int(g.material) * MATERIAL_LOOK_TEXELS;
             dry.water_color = texelFetch(material_looks, look);
+            if ((frame.flags & FRAME_TWO_SETS) != 0u) {
+                dry.water_color =
+                    mix(texelFetch(material_looks, look + 2), dry.water_color, g.first_share);
+            }
             if (GAMMA != 0u) dry.water_color.rgb = srgb_codes(dry.water_color.rgb);
             dry.snow_opacity = texelFetch(material_looks, look + 1).x;
             m = apply_weather(dry, state, frame.weather, frame.look);
@@ -447,6 +379,7 @@ void main()
         // A normal map must not turn a visible point away from the eye.
         const float facing = dot(n, v);
         if (facing < 0.02) n = normalize(n + v * (0.02 - facing));
+        if (SNOW_SCATTER != 0u) m.albedo = snow_scattered(m.albedo, frame.look, dot(n, v), g.weather.z);
         LitPoint p;
         p.position = position;
         p.normal = n;
@@ -460,6 +393,10 @@ void main()
         p.exposure = sky_light.exposure;
         p.model = g.model;
         p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0);
+        p.translucency = Translucency(0.0, 1.0, 0.0, 0.0, 0.0, vec3(0.0));
+        p.curvature = 0.0;
+        p.hair_shift = 0.0;
+        p.sunlit = 1.0;
         vec3 mirror_normal = n;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
             p.model = uint(LIGHTING_MODEL_LAYERED);  // with none it is the same
@@ -471,7 +408,7 @@ void main()
             // Snow lies over all of it; standing water over fibres.
             const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
-            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare;
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare * g.first_share;
             if ((LAYERS & LAYERS_COAT) != 0u) {
                 p.layers.coat = first.z * bare;
                 p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);
@@ -481,7 +418,8 @@ void main()
                 p.layers.sheen = second.rgb * open;
                 p.layers.sheen_roughness = second.w;
             }
-            if ((LAYERS & LAYERS_ANISOTROPY) != 0u) {
+            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, g.metallic, bare, open, view_m, texel);
+            if ((LAYERS & (LAYERS_ANISOTROPY | LAYERS_HAIR)) != 0u) {
                 // Along the surface as it is seen.
                 const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);
                 const vec3 level = tangent - n * dot(n, tangent);
@@ -504,13 +442,14 @@ void main()
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
-        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0) &&
+        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
             const float visible =
                 SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
-            if (visible > 0.0) {
-                direct += model_light(p, frame.sun_direction) * frame.sun_illuminance * visible;
+            p.sunlit = visible;
+            if (visible > 0.0 || BLEEDS) {
+                direct += shadowed_light(p, frame.sun_direction, visible) * frame.sun_illuminance;
             }
         }
         add_lights(direct, p, texel);
@@ -545,6 +484,7 @@ void main()
             s.specular_occlusion =
                 saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +
                          mirror_occlusion);
+            if (HORIZON != 0u) s.specular_occlusion *= horizon_occlusion(p, mirror_normal, texel);
             s.split_sum = split_sum(n, v, p.roughness);
             s.scale = frame.ambient_scale;
             Reflected reflected = model_surround(p, s);

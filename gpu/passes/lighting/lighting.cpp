@@ -5,8 +5,8 @@
 namespace petrichor::gpu {
 
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const PatchLights& patches, LampShadows& lamp_shadows,
+                  LightTable& lights, LightTables& light_tables, SkyMaps& sky,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
                   const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
@@ -27,7 +27,11 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_NIGHT, variant.night},
                       {LIGHTING_SPEC_FOG, variant.fog},
                       {LIGHTING_SPEC_LAYERS, variant.layers},
-                      {LIGHTING_SPEC_BACKGROUND, variant.background}},
+                      {LIGHTING_SPEC_BACKGROUND, variant.background},
+                      {LIGHTING_SPEC_WAYS, variant.ways},
+                      {LIGHTING_SPEC_LAZAROV, variant.lazarov},
+                      {LIGHTING_SPEC_HORIZON, variant.horizon},
+                      {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
@@ -38,13 +42,11 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY, sampled(*sky.cube, sky.linear)},
                      {LIGHTING_LIGHTS, texels(*lights.texels)},
                      {LIGHTING_LIGHT_LISTS, texels(*targets.light_lists)},
-                     {LIGHTING_PATCH_TABLE, texels(patches.table())},
-                     {LIGHTING_PATCH_WAYS, texels(patches.ways())},
-                     {LIGHTING_PATCH_PLANES, texels(patches.planes())},
-                     {LIGHTING_PATCH_IRRADIANCE, texels(patches.irradiance())},
-                     {LIGHTING_PATCH_GRADIENT, texels(patches.gradient())},
-                     {LIGHTING_PATCH_KEPT, storage(*targets.patch_light)},
+                     {LIGHTING_PATCH_POINTS, texels(*targets.patch_points)},
                      {LIGHTING_LAYERS, texels(scene.layers())},
+                     {LIGHTING_LTC, texels(light_tables.ltc())},
+                     {LIGHTING_PROFILES, texels(light_tables.profiles())},
+                     {LIGHTING_SKIN, texels(light_tables.skin())},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},

@@ -3,8 +3,8 @@
 
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
+#include "gpu/passes/lighting/light_tables.h"
 #include "gpu/passes/lights/lights.h"
-#include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/sky/sky.h"
 
 namespace petrichor::gpu {
@@ -24,12 +24,16 @@ struct LightingVariant {
     bool gamma = false;
     bool patch_light = false;
     bool lamp_shadows = false;
-    bool rectangles = false;  ///< some lights are
+    bool rectangles = false;  ///< some lights are surfaces that glow
+    std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
     bool background = true;   ///< the sky is seen where there is no surface
+    bool lazarov = false;     ///< FrameSettings::lazarov
+    bool horizon = false;     ///< of the mesh
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
+    bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
     std::vector<bool> models{true};  ///< by number: something in the picture has it
 };
@@ -37,11 +41,11 @@ struct LightingVariant {
 // Applies weather to the dry material, then light. Without image-based light the sample is added to
 // the sum at once, else by the reflections.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patches
+//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
 //   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
-                  LightTable& lights, SkyMaps& sky, DepthMaps& depth_maps,
-                  const PatchLights& patches, LampShadows& lamp_shadows,
+                  LightTable& lights, LightTables& light_tables, SkyMaps& sky,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
                   const ConstantsRange& constants, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu

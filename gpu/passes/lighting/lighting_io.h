@@ -19,8 +19,12 @@
 #define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_LAYERS 13   // bits of LAYERS_..., gpu/upload/material_io.h: in the picture
-#define LIGHTING_SPEC_BACKGROUND 14  // 0: nothing where there is no surface
-#define LIGHTING_SPEC_MODEL 16    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_WAYS 14     // bits of LIGHTS_..., gpu/passes/lights/lights_io.h: in the table
+#define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
+#define LIGHTING_SPEC_HORIZON 16
+#define LIGHTING_SPEC_SNOW_SCATTER 17
+#define LIGHTING_SPEC_BACKGROUND 18  // 0: nothing where there is no surface
+#define LIGHTING_SPEC_MODEL 19    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -38,13 +42,11 @@
 #define LIGHTING_MIRROR_SHAPE 13
 #define LIGHTING_MATERIALS 14
 #define LIGHTING_LAMP_SHADOWS 15
-#define LIGHTING_PATCH_TABLE 16
-#define LIGHTING_PATCH_PLANES 17
-#define LIGHTING_PATCH_IRRADIANCE 18
-#define LIGHTING_PATCH_GRADIENT 19
-#define LIGHTING_PATCH_WAYS 20
-#define LIGHTING_PATCH_KEPT 21
-#define LIGHTING_LAYERS 22
-#define LIGHTING_GBUFFER 23  // depth, then the targets
+#define LIGHTING_PATCH_POINTS 16
+#define LIGHTING_LAYERS 17
+#define LIGHTING_LTC 18
+#define LIGHTING_PROFILES 19
+#define LIGHTING_SKIN 20
+#define LIGHTING_GBUFFER 21  // depth, then the targets
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/lights/lights_io.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::gpu {
 
@@ -19,7 +20,14 @@ float light_radius_m(const Light& light)
         area * light.intensity * std::max({light.color.r, light.color.g, light.color.b});
     // Where it would give a hundredth of a lux.
     const float faded = std::sqrt(std::max(strongest, 0.0f) / 0.01f);
-    const float radius = light.range_m > 0.0f ? light.range_m : faded;
+    float radius = light.range_m > 0.0f ? light.range_m : faded;
+    if (light.range_m > 0.0f) {
+        radius = std::max(radius, 0.75f * light.length_m);
+    } else if (light.shaped) {
+        radius += glm::length(light.half_u_m) + glm::length(light.half_v_m);
+    } else {
+        radius += light.radius_m + 0.5f * light.length_m;
+    }
     return std::clamp(radius, 0.0f, 5000.0f);
 }
 
@@ -70,8 +78,21 @@ std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int 
 
 }  // namespace
 
+namespace {
+
+// Intensity as the shader takes it: of what has a size, radiance.
+float strength_of(const Light& light, bool sized)
+{
+    if (!sized || light.kind == LightKind::Rectangle) return light.intensity;
+    const float r = light.radius_m;
+    return light.intensity / (3.14159265f * r * r + 2.0f * r * light.length_m);
+}
+
+}  // namespace
+
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m)
+                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m,
+                            AreaLights area)
 {
     std::vector<const Light*> ordered;
     for (const Light& light : lights) ordered.push_back(&light);
@@ -83,16 +104,30 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         if (light->kind == LightKind::Directional) ++table.directional;
         const bool spot = light->kind == LightKind::Spot;
         const bool rectangle = light->kind == LightKind::Rectangle;
-        table.rectangles = table.rectangles || rectangle;
+        const bool has_size = area != AreaLights::Off && (light->radius_m > 0.0f || light->shaped);
+        const bool sized = has_size && (area == AreaLights::Ltc || !rectangle);
+        const bool nearest = has_size && area == AreaLights::Nearest && !rectangle;
+        table.rectangles = table.rectangles || (rectangle && !sized);
+        if (sized && !nearest) table.ways |= LIGHTS_LTC;
+        if (nearest) table.ways |= LIGHTS_NEAREST;
+        if (light->specular != 1.0f && light->kind != LightKind::Directional)
+            table.ways |= LIGHTS_FILL;
+        if (light->profile >= 0) table.ways |= LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT
                            : light->both_sides ? LIGHT_BOTH_SIDES
                                                : LIGHT_ONE_SIDE;
         texels.emplace_back(light->position_m, light_radius_m(*light));
-        texels.emplace_back(light->color * light->intensity, kind);
+        texels.emplace_back(light->color * strength_of(*light, sized && !nearest), kind);
         texels.emplace_back(rectangle ? light->half_u_m : light->direction,
                             std::cos(light->inner_cone_rad));
-        texels.emplace_back(light->half_v_m, -1.0f);
+        texels.emplace_back(rectangle               ? light->half_v_m
+                            : light->length_m > 0.0f ? light->up
+                                                     : up_of(*light),
+                            -1.0f);
+        texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
+                            0.5f * light->length_m, light->specular,
+                            static_cast<float>(light->profile));
     }
     for (const std::size_t i : brightest(ordered, kBrightestLamps, eye_m))
         table.brightest.push_back(*ordered[i]);

@@ -6,6 +6,7 @@
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/constants_range.h"
+#include "gpu/frame/frame.h"
 #include "gpu/frame/targets.h"
 #include "gpu/upload/scene_names.h"
 
@@ -17,7 +18,8 @@ struct LightTable {
     std::unique_ptr<GpuBuffer> texels;
     std::uint32_t count = 0;
     std::uint32_t directional = 0;
-    bool rectangles = false;         ///< some are
+    bool rectangles = false;         ///< some are surfaces that glow
+    std::uint32_t ways = 0;          ///< LIGHTS_... that some need
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
     std::vector<Light> brightest;    ///< at most kBrightestLamps, as the eye sees them
 
@@ -39,9 +41,10 @@ void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights,
                        int height);
 
 /// `shadows`: so many lamps own a shadow: those that give most light at the eye, by intensity over
-/// squared distance (at least a metre), the earlier of equals.
+/// squared distance (at least a metre), the earlier of equals. `area`: how their size is lit.
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m);
+                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m,
+                            AreaLights area = AreaLights::Ltc);
 
 // Finds, for each tile of 16 x 16 pixels, the lights that can reach what is seen there.
 //

@@ -7,12 +7,21 @@
 //   1   colour, cd (lux of a directional light, cd/m2 of a rectangle); the cosine of a spot's outer
 //       cone, or one of the kinds below
 //   2   axis (rectangle: half of an edge); cosine of the inner cone
-//   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; the number of its
-//       shadow, or -1
-#define LIGHT_TEXELS 4
+//   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; else across the axis;
+//       the number of its shadow, or -1
+//   4   of lamps that have a size (with LIGHTS_... below): radius, 0 none, of a rectangle 1; half the
+//       length of a tube; share of highlights; the number of its profile, or -1
+#define LIGHT_TEXELS 5
+#define LIGHT_PROFILE_SIDE 128  // texels a side of a profile
 #define LIGHT_POINT -2.0f
 #define LIGHT_ONE_SIDE -3.0f
 #define LIGHT_BOTH_SIDES -4.0f
+
+// What some light of a table has.
+#define LIGHTS_LTC 1u       // a size, lit by linearly transformed cosines
+#define LIGHTS_NEAREST 2u   // a size, lit from the point nearest to what is mirrored
+#define LIGHTS_FILL 4u      // less than all of its highlights
+#define LIGHTS_PROFILE 8u   // a distribution or picture
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64

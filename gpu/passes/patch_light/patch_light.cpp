@@ -9,6 +9,7 @@
 #include "formulas/light/brdf.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
 #include "gpu/passes/patch_light/patch_light_io.h"
+#include "scene/light_shape.h"
 #include "scene/patches/lookup.h"
 
 namespace petrichor::gpu {
@@ -34,7 +35,7 @@ std::unique_ptr<GpuBuffer> host_texels(MemoryArena& arena, const char* name, std
 void add_lamp(const scene::Patches& p, const Light& light, const std::vector<std::uint8_t>* reach,
               std::vector<glm::vec3>& direct)
 {
-    const glm::vec3 color = light.color * light.intensity;
+    const glm::vec3 color = light.color * scene::light_candela(light);
     if (light.kind == LightKind::Directional) {
         scene::add_sun(p, -light.direction, color, direct);
         return;

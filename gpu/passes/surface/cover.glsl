@@ -5,6 +5,7 @@
 #include "gpu/passes/surface/frost.glsl"
 #include "gpu/passes/surface/local_weather.glsl"
 #include "gpu/passes/surface/snow.glsl"
+#include "gpu/passes/surface/tracks.glsl"
 #include "gpu/passes/surface/water.glsl"
 
 struct Cover {
@@ -34,8 +35,24 @@ Cover no_cover(SurfaceInput at)
 Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
 {
     Cover c = no_cover(at);
-    const LocalWeather here = local_weather(at);
+    LocalWeather here;
+    if ((SNOW & SNOW_GRASS) != 0u) {
+        // What falls among blades meets them, however steep they stand.
+        SurfaceInput above = at;
+        above.normal = vec3(0.0, 1.0, 0.0);
+        here = local_weather(above);
+    } else {
+        here = local_weather(at);
+    }
     const float open = here.open;
+    Trodden trodden;
+    trodden.pressed = 0.0;
+    trodden.slope = vec2(0.0);
+    if ((SNOW & SNOW_TRACKS) != 0u) {
+        // What is pressed to a third of its depth covers as a third of it does.
+        trodden = trodden_at(at);
+        here.snow = cover_of_share(here.snow, 1.0 - trodden.pressed);
+    }
 
     const float amount_raw = snow_amount_raw(at, here.snow);
     const float amount = saturate(amount_raw);
@@ -84,7 +101,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
                        flow.lean * material.flow_refraction;
     c.refraction = vec2(dot(shift, f.tangent), dot(shift, f.bitangent)) * water.deep *
                    (1.0 - saturate(2.0 * snow.snow)) *
-                   saturate(1.0 - here.frozen + material.water_accumulation.z) *
+                   saturate(1.0 - here.frozen + water_accumulation(at).z) *
                    fade;
     // Water that stands is level, whatever the ground below; what runs follows it.
     const vec3 still = normalize(
@@ -96,7 +113,13 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     if (SNOW != 0u) {
         c.water = melt_wetness(water.anywhere, snow.melt, frame.weather.melt_exp);
         const float snow_share = snow.snow / max(snow.snow + c.water, 1.0e-4);
-        const SnowRelief relief = snow_relief(at, amount, smoothed, fade);
+        SnowRelief relief = snow_relief(at, f, amount, smoothed, fade);
+        if (has(TEXTURE_SNOW_MASK_NORMAL)) tread(relief, at, f, here.frozen);
+        if ((SNOW & SNOW_TRACKS) != 0u) {
+            const vec3 lean = vec3(trodden.slope.x, 0.0, trodden.slope.y);
+            relief.normal = normalize(relief.normal - lean * amount);
+            c.snow *= 1.0 - 0.12 * trodden.pressed;  // dense snow is darker
+        }
         c.snow_smoothness = relief.smoothness;
         c.normal = normalize(mix(c.normal, relief.normal, saturate(snow_share)));
     }

@@ -14,17 +14,12 @@
 #include "gpu/passes/surface/holes.glsl"
 #include "gpu/passes/surface/parallax.glsl"
 
-vec3 mapped_normal(SurfaceInput at, vec2 shift)
-{
-    return unpack_normal(texel(normal_texture, coordinates(TEXTURE_NORMAL, at, shift)).xy,
-                         material.normal_scale);
-}
-
 // Curvature of the geometry inside a pixel widens the lobe (Tokuyoshi and Kaplanyan 2019).
 float widened_by_curvature(float roughness, SurfaceInput at)
 {
     const float variance =
-        min(0.5 * (dot(at.normal_dx, at.normal_dx) + dot(at.normal_dy, at.normal_dy)), 0.18);
+        min(frame.specular_aa * (dot(at.normal_dx, at.normal_dx) + dot(at.normal_dy, at.normal_dy)),
+            frame.specular_aa_limit);
     const float alpha = roughness * roughness;
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
 }
@@ -50,11 +45,12 @@ SurfaceData evaluate_surface(SurfaceInput at)
 {
     share_footprint(at);
     if (PARALLAX != PARALLAX_NONE) sink(at);
+    read_sets(at);
     const TangentFrame f = tangent_frame(at);
     Cover cover = no_cover(at);
     vec3 mapped = vec3(0.0, 0.0, 1.0);
     if (SURFACE_WEATHER != 0) {
-        if (has(TEXTURE_NORMAL)) mapped = mapped_normal(at, vec2(0.0));
+        if (has_mapped_normal()) mapped = mapped_normal(at, f, vec2(0.0));
         if (material.sheltered == 0u) cover = cover_on(at, f, mapped);
     }
 
@@ -64,6 +60,17 @@ SurfaceData evaluate_surface(SurfaceInput at)
     vec3 base = material.base_color_factor.rgb * at.color.rgb;
     if (has(TEXTURE_BASE_COLOR)) {
         base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift)).rgb;
+    }
+    if (SECOND != SECOND_NONE) {
+        vec3 other = material.second_color_factor;
+        if (has(TEXTURE_SECOND_BASE_COLOR)) {
+            other *= texel(second_base_color_texture,
+                           coordinates(TEXTURE_SECOND_BASE_COLOR, at, shift)).rgb;
+        }
+        if (MIXED) base = base * at.shares.x + other * at.color.rgb * at.shares.y;
+        if (SECOND == SECOND_DETAIL && has(TEXTURE_SECOND_BASE_COLOR)) {
+            base = detail_color(base, other, detail_share(at));
+        }
     }
     data.hole = HOLES != 0u && hole_in(at, alpha_at(at));
 
@@ -80,11 +87,23 @@ SurfaceData evaluate_surface(SurfaceInput at)
         occlusion = mix(1.0, texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift)).r,
                         material.occlusion_strength);
     }
+    if (MIXED) {
+        vec3 other =
+            vec3(1.0, material.second_roughness_factor, material.second_metallic_factor);
+        if (has(TEXTURE_SECOND_METALLIC_ROUGHNESS)) {
+            other *= texel(second_metallic_roughness_texture,
+                           coordinates(TEXTURE_SECOND_METALLIC_ROUGHNESS, at, shift)).rgb;
+        }
+        const vec3 both = vec3(occlusion, roughness, metallic) * at.shares.x + other * at.shares.y;
+        occlusion = both.x;
+        roughness = both.y;
+        metallic = both.z;
+    }
     vec3 normal = at.normal;
-    if (has(TEXTURE_NORMAL)) {
+    if (has_mapped_normal()) {
         // Seen through water: at another place.
         const bool again = SURFACE_WEATHER == 0 || WATER != 0u;
-        normal = normalize(to_world(f, again ? mapped_normal(at, shift) : mapped));
+        normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {
@@ -124,6 +143,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;
+    data.texel.first_share = at.shares.x;
     return data;
 }
 

@@ -3,7 +3,7 @@
 #define PETRICHOR_SURFACE_FROST_GLSL
 
 #include "formulas/weather/surface_weather.h"
-#include "gpu/passes/surface/textures.glsl"
+#include "gpu/passes/surface/sets.glsl"
 
 // How far the point stands out: the curvature of the geometry, what the normal map adds, the top of the
 // relief, and how rough the material is. mapped: tangent normal of the normal map.
@@ -13,9 +13,7 @@ float frost_edge(SurfaceInput at, vec3 mapped)
     const float bend = length(at.normal_dx) + length(at.normal_dy);
     const float curvature = min(0.02 * bend / max(size_m, 1.0e-5), 0.6);
     float edge = curvature + 1.6 * (1.0 - mapped.z);
-    if (has(TEXTURE_HEIGHT)) {
-        edge += 0.5 * (number_at(height_texture, TEXTURE_HEIGHT, at) - 0.5);
-    }
+    if (has_relief()) edge += 0.5 * (relief_height(at) - 0.5);
     return saturate(edge + 0.25 * (material.roughness_factor - 0.5));
 }
 

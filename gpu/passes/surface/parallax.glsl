@@ -4,7 +4,7 @@
 #define PETRICHOR_SURFACE_PARALLAX_GLSL
 
 #include "formulas/weather/parallax.h"
-#include "gpu/passes/surface/textures.glsl"
+#include "gpu/passes/surface/sets.glsl"
 
 // Height to which water and snow fill the relief, 0..1: they are seen where they lie.
 float filled_relief(SurfaceInput at)
@@ -12,8 +12,14 @@ float filled_relief(SurfaceInput at)
     if (material.sheltered != 0u) return 0.0;
     float fill = 0.0;
     if (WATER != 0u) {
-        const vec2 flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) *
-                               material.water_accumulation.yw + material.water_accumulation.xz;
+        // The shares are not known before the relief is met: those of the vertices.
+        vec4 holds = material.water_accumulation;
+        if (MIXED) {
+            holds = mix(material.second_water_accumulation, holds,
+                        saturate(material.mix_factor * at.weather.r));
+        }
+        const vec2 flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) * holds.yw +
+                           holds.xz;
         fill = saturate(max(flood.x, flood.y - (1.0 - at.weather.g))) *
                smooth_edge(0.55, 0.9, at.normal.y);
     }
@@ -25,11 +31,42 @@ float filled_relief(SurfaceInput at)
     return fill;
 }
 
-// How deep the relief lies where the ray has gone a share `t` of its reach: 0 geometry .. 1 bottom.
-float relief_depth(Uv uv, vec2 reach, float t, float fill)
+// A map along the ray: reach is how far its coordinates move until the bottom of the relief.
+struct Along {
+    Uv uv;
+    vec2 reach;
+};
+
+Along along(int slot, SurfaceInput at, vec2 pixels)
 {
-    const vec4 heights = textureGrad(height_texture, uv.at + reach * t, uv.dx, uv.dy);
-    return 1.0 - max(dot(heights, material.slots[TEXTURE_HEIGHT].channel), fill);
+    Along a;
+    a.uv = coordinates(slot, at, vec2(0.0));
+    a.reach = a.uv.dx * pixels.x + a.uv.dy * pixels.y;
+    return a;
+}
+
+float number_along(sampler2D map, int slot, Along a, float t)
+{
+    return channel_of(textureGrad(map, a.uv.at + a.reach * t, a.uv.dx, a.uv.dy), slot);
+}
+
+// How deep the relief lies where the ray has gone a share `t` of its reach: 0 geometry .. 1 bottom. Of
+// two sets each is read at its own coordinates, and they are mixed anew at every step.
+float relief_depth(SurfaceInput at, Along first, Along second, Along mask, float t, float fill)
+{
+    float height = number_along(height_texture, TEXTURE_HEIGHT, first, t);
+    if (MIXED) {
+        vec2 heights = vec2(height, material.default_height);
+        if (has(TEXTURE_SECOND_HEIGHT)) {
+            heights.y = number_along(second_height_texture, TEXTURE_SECOND_HEIGHT, second, t);
+        }
+        float share = 1.0;
+        if (has(TEXTURE_MIX_MASK)) {
+            share = number_along(mix_mask_texture, TEXTURE_MIX_MASK, mask, t);
+        }
+        height = dot(shares_of(at, share, heights), heights);
+    }
+    return 1.0 - max(height, fill);
 }
 
 // Moves the point along the surface to what is seen of the relief.
@@ -42,21 +79,26 @@ void sink(inout SurfaceInput at)
     const float fade = pow(saturate(left_m / max(frame.look.detail_fade_m, 1.0e-3)), 2.0);
     const vec2 pixels = pixels_along(parallax_reach(at.normal, to_eye, material.height_scale_m * fade),
                                      at.position_dx, at.position_dy);
-    const Uv uv = coordinates(TEXTURE_HEIGHT, at, vec2(0.0));
-    const vec2 reach = uv.dx * pixels.x + uv.dy * pixels.y;
+    const Along first_set = along(TEXTURE_HEIGHT, at, pixels);
+    Along second_set = first_set;
+    Along mask = first_set;
+    if (MIXED) {
+        second_set = along(TEXTURE_SECOND_HEIGHT, at, pixels);
+        mask = along(TEXTURE_MIX_MASK, at, pixels);
+    }
     const float fill = filled_relief(at);
     float t;
     if (PARALLAX == PARALLAX_SIMPLE) {
-        const float first = relief_depth(uv, reach, 0.0, fill);
-        t = 0.5 * (first + relief_depth(uv, reach, first, fill));
+        const float first = relief_depth(at, first_set, second_set, mask, 0.0, fill);
+        t = 0.5 * (first + relief_depth(at, first_set, second_set, mask, first, fill));
     } else {
         const float step_t = 1.0 / material.parallax_steps;
         float low = 0.0;  // the ray is above the relief there ..
-        float above = relief_depth(uv, reach, 0.0, fill);
+        float above = relief_depth(at, first_set, second_set, mask, 0.0, fill);
         float high = 0.0;  // .. and below it here
         float below = 0.0;
         for (float s = step_t; s < 1.0 + 0.5 * step_t; s += step_t) {
-            const float gap = relief_depth(uv, reach, s, fill) - s;
+            const float gap = relief_depth(at, first_set, second_set, mask, s, fill) - s;
             high = s;
             if (gap <= 0.0) {
                 below = -gap;
@@ -67,7 +109,7 @@ void sink(inout SurfaceInput at)
         }
         t = above > 0.0 ? secant_depth(low, above, high, below) : 0.0;
         for (int i = 0; i < 3; ++i) {
-            const float gap = relief_depth(uv, reach, t, fill) - t;
+            const float gap = relief_depth(at, first_set, second_set, mask, t, fill) - t;
             if (gap > 0.0) {
                 low = t;
                 above = gap;

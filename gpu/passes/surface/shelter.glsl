@@ -29,9 +29,9 @@ Exposure exposure_to_sky(SurfaceInput at)
         const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
         const float seen =
             inside ? textureGrad(shelter_map, vec4(map.xy, fall.x, map.z), vec2(0.0), vec2(0.0)) : 1.0;
-        const vec2 share = fall.yz * (seen * facing_share(at.normal, from.xyz));
-        open.rain += share.x;
-        open.snow += share.y;
+        const float facing = facing_share(at.normal, from.xyz);
+        open.rain += fall.y * seen * facing;
+        open.snow += fall.z * seen * snow_facing_share(facing);
     }
     return open;
 }

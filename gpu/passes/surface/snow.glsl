@@ -9,25 +9,56 @@
 float snow_amount_raw(SurfaceInput at, float lies)
 {
     // What falls does not cling to walls, whatever the slope damp of the material.
-    const float clinging = smooth_edge(0.0, 0.4, at.normal.y);
+    const float clinging =
+        (SNOW & SNOW_GRASS) != 0u ? 1.0 : smooth_edge(0.0, 0.4, at.normal.y);
     return lies * clinging * material.snow_accumulation.y +
            material.snow_accumulation.x;
 }
 
-// smoothed_up: y of the pixel normal, smoothed by the snow's amount.
-SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
+// Numbers of the maps of the snow, in the order of their tilings.
+const int kSnowRelief = 0;
+const int kSnowDetail = 1;
+const int kSnowMask = 2;
+const int kSnowMaskDetail = 3;
+
+vec4 snow_map_at(SurfaceInput at, int number)
+{
+    if ((SNOW & SNOW_LOCAL) != 0u) {
+        const float tiling = material.snow_local_tiling[number];
+        return textureGrad(snow_map, at.uv.xy * tiling, at.uv_dx.xy * tiling, at.uv_dy.xy * tiling);
+    }
+    return texel_from_above(snow_map, at, frame.look.snow_tiling[number], vec2(0.0));
+}
+
+// The material's own mask: 1 snow may lie .. 0 never.
+float unique_mask(SurfaceInput at)
 {
     float unique = at.weather.b;
     if (has(TEXTURE_SNOW_MASK)) {
         unique *= number_at(snow_mask_texture, TEXTURE_SNOW_MASK, at);
     }
-    const float mask = texel_from_above(snow_map, at, frame.look.snow_tiling.z, vec2(0.0)).b;
-    const float detail = texel_from_above(snow_map, at, frame.look.snow_tiling.w, vec2(0.0)).b;
-    return snow_cover(amount,
-                      snow_height_factor(at.position.y, frame.weather.snow_start_height_m,
-                                         frame.weather.snow_height_blend_m),
-                      smoothed_up, material.snow_slope_damp, unique, mask, detail,
-                      frame.weather.melt * material.snow_accumulation.y);
+    return unique;
+}
+
+// smoothed_up: y of the pixel normal, smoothed by the snow's amount.
+SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
+{
+    const float mask = snow_map_at(at, kSnowMask).b;
+    const float melt = frame.weather.melt * material.snow_accumulation.y;
+    const float height = snow_height_factor(at.position.y, frame.weather.snow_start_height_m,
+                                            frame.weather.snow_height_blend_m);
+    if ((SNOW & SNOW_GRASS) != 0u) {
+        SnowCover blade;
+        blade.snow = snow_on_grass(amount, height, mask, at.color.r) * unique_mask(at);
+        blade.melt = blade.snow;
+        return blade;
+    }
+    const float detail = snow_map_at(at, kSnowMaskDetail).b;
+    if ((SNOW & SNOW_VERTEX) != 0u) {
+        return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt);
+    }
+    return snow_cover(amount, height, smoothed_up, material.snow_slope_damp, unique_mask(at), mask,
+                      detail, melt);
 }
 
 struct SnowRelief {
@@ -36,19 +67,34 @@ struct SnowRelief {
 };
 
 // A snow cover has its own, softer relief over that of the ground. smoothed: world.
-SnowRelief snow_relief(SurfaceInput at, float amount, vec3 smoothed, float fade)
+SnowRelief snow_relief(SurfaceInput at, TangentFrame f, float amount, vec3 smoothed, float fade)
 {
-    const vec4 snow = texel_from_above(snow_map, at, frame.look.snow_tiling.x, vec2(0.0));
-    const vec2 detail_xy = texel_from_above(snow_map, at, frame.look.snow_tiling.y, vec2(0.0)).xy;
+    const vec4 snow = snow_map_at(at, kSnowRelief);
+    const vec2 detail_xy = snow_map_at(at, kSnowDetail).xy;
     const vec3 coarse =
         unpack_normal(snow.xy, material.snow_normal_strength * frame.look.snow_strength.x);
     const vec3 detail = unpack_normal(
         detail_xy, material.snow_detail_strength * frame.look.snow_strength.y * fade);
     SnowRelief relief;
-    relief.normal = normalize(vec3(coarse.x + detail.x, 0.0, coarse.y + detail.y) +
+    const vec2 slope = vec2(coarse.x + detail.x, coarse.y + detail.y);
+    const vec3 lean = (SNOW & SNOW_LOCAL) != 0u ? f.tangent * slope.x + f.bitangent * slope.y
+                                                : vec3(slope.x, 0.0, slope.y);
+    relief.normal = normalize(lean +
                               mix(smoothed, at.normal, 0.3 + 0.7 * amount) * (coarse.z * detail.z));
     relief.smoothness = snow.a;
     return relief;
+}
+
+// Footprints and tyre tracks: what the material's mask takes away has a normal of its own. It is lost
+// as the snow melts.
+void tread(inout SnowRelief relief, SurfaceInput at, TangentFrame f, float frozen)
+{
+    const vec3 n = unpack_normal(
+        texel(snow_mask_normal_texture, coordinates(TEXTURE_SNOW_MASK_NORMAL, at, vec2(0.0))).xy,
+        material.snow_mask_normal_scale);
+    const float trodden =
+        (1.0 - unique_mask(at)) * saturate(frozen + material.snow_accumulation.x);
+    relief.normal = normalize(mix(relief.normal, to_world(f, n), trodden));
 }
 
 #endif

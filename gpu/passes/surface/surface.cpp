@@ -36,6 +36,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     if (layer) {
@@ -43,6 +44,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
     }
     const bool layered = layer != nullptr;
+    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = gbuffer_attachments(g, parts),
@@ -106,9 +108,11 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
-                        {SURFACE_SPEC_SNOW, weather.snow},
+                        {SURFACE_SPEC_SNOW,
+                         weather.snow ? scene.materials()[draw->material].snow | tracks : 0u},
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
+                        {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     shaded.depth_equal = depth_first && !holes;

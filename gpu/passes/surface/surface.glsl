@@ -83,7 +83,7 @@ void main()
     data.texel.baked_sky = l.whole;
 #endif
     data.texel.emission = data.emission;
-    const GBufferCode code = encode_gbuffer(data.texel);
+    const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
 #define ROW(name, location_, format_, when_, meaning_) out_##name = code.name;
     TARGETS(ROW)
 #undef ROW

@@ -7,11 +7,12 @@
 #include "gpu/upload/material_io.h"
 
 layout(constant_id = SURFACE_SPEC_HOLES) const uint HOLES = 1u;
-layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = 511u;
+layout(constant_id = SURFACE_SPEC_SLOTS) const uint SLOTS = (1u << TEXTURE_SLOTS) - 1u;
 layout(constant_id = SURFACE_SPEC_WATER) const uint WATER = 7u;
 layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
 layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
+layout(constant_id = SURFACE_SPEC_SECOND) const uint SECOND = SECOND_NONE;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -23,6 +24,7 @@ layout(set = 0, binding = SURFACE_PLACE_TABLE) uniform usamplerBuffer place_tabl
 layout(set = 0, binding = SURFACE_PLACE_STATES) uniform samplerBuffer place_states;
 layout(set = 0, binding = SURFACE_PLACE_LABELS) uniform usamplerBuffer place_labels;
 layout(set = 0, binding = SURFACE_PLACE_LEVELS) uniform samplerBuffer place_levels;
+layout(set = 0, binding = SURFACE_TRACKS) uniform sampler2D track_map;
 layout(set = 1, binding = 0, scalar) uniform Material { MaterialConstants material; };
 #define MATERIAL_TEXTURE(slot, name) layout(set = 1, binding = 1 + slot) uniform sampler2D name;
 MATERIAL_TEXTURES(MATERIAL_TEXTURE)

@@ -7,9 +7,10 @@
 #define SURFACE_SPEC_HOLES 1  // 0: opaque, so that hidden pixels are never shaded
 #define SURFACE_SPEC_SLOTS 2  // texture slots that the material has, one bit each
 #define SURFACE_SPEC_WATER 3  // WATER_... bits; 0: no water stands on the material in this frame
-#define SURFACE_SPEC_SNOW 4   // 0: no snow lies anywhere in this frame
+#define SURFACE_SPEC_SNOW 4   // SNOW_... bits; 0: no snow lies anywhere in this frame
 #define SURFACE_SPEC_FROST 9  // 0: no frost anywhere in this frame
 #define SURFACE_SPEC_PARALLAX 10  // PARALLAX_... of the material
+#define SURFACE_SPEC_SECOND 14  // SECOND_... of the material
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
@@ -22,7 +23,8 @@
 #define SURFACE_PLACE_STATES 6
 #define SURFACE_PLACE_LABELS 7
 #define SURFACE_PLACE_LEVELS 8
-#define SURFACE_BINDINGS 9  // how many there are
+#define SURFACE_TRACKS 9
+#define SURFACE_BINDINGS 10  // how many there are
 
 // A layer of what lets light through: what it lies between, behind those of all surfaces.
 #define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS

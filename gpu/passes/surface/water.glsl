@@ -5,7 +5,7 @@
 #include "formulas/weather/ground_relief.h"
 #include "formulas/weather/ripple.h"
 #include "formulas/weather/surface_weather.h"
-#include "gpu/passes/surface/textures.glsl"
+#include "gpu/passes/surface/sets.glsl"
 
 struct StandingWater {
     float anywhere;  // as WaterCover
@@ -18,14 +18,15 @@ struct StandingWater {
 // to 30 degrees. Others have a relief of the world's own that holds it where they are level.
 StandingWater water_on(SurfaceInput at, vec2 level)
 {
-    const bool mapped = has(TEXTURE_HEIGHT);
-    const vec2 weather = level * material.water_accumulation.yw;
+    const bool mapped = has_relief();
+    const vec4 holds = water_accumulation(at);
+    const vec2 weather = level * holds.yw;
     const float levelness =
         mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
-    const vec2 flood = weather * levelness + material.water_accumulation.xz;
+    const vec2 flood = weather * levelness + holds.xz;
     float height = material.default_height;
     if (mapped) {
-        height = number_at(height_texture, TEXTURE_HEIGHT, at);
+        height = relief_height(at);
     } else {
         height += kGroundRelief * ground_relief(at.position.xz);
     }
@@ -72,7 +73,7 @@ Wave flow_wave(SurfaceInput at, StandingWater water, float still)
     const vec3 n = at.normal;
     // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
     const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed *
-                   saturate(1.0 - still + material.water_accumulation.z);
+                   saturate(1.0 - still + water_accumulation(at).z);
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
     const vec3 sides = max(n * n * n * n - 0.01, vec3(0.0));
     const vec3 share = sides / (sides.x + sides.y + sides.z);

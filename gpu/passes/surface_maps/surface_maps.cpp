@@ -1,5 +1,6 @@
 #include "gpu/passes/surface_maps/surface_maps.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "gpu/passes/surface_maps/surface_maps_io.h"
@@ -40,6 +41,37 @@ void add_mips(FrameGraph& graph, const char* name, GpuImage& image)
         .record = [&image](VkCommandBuffer commands) { record_mips(commands, image); }});
 }
 
+// Texels of snow that nothing has pressed.
+std::vector<std::byte> untouched(std::size_t count)
+{
+    std::vector<std::byte> texels;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const int code : {0, 128, 128, 255}) texels.push_back(static_cast<std::byte>(code));
+    }
+    return texels;
+}
+
+// Mean of every four texels; width and height are even.
+std::vector<std::byte> halved(const std::vector<std::byte>& texels, int width, int height)
+{
+    std::vector<std::byte> half;
+    half.reserve(texels.size() / 4);
+    const auto row = static_cast<std::size_t>(width) * 4;
+    for (int y = 0; y + 1 < height; y += 2) {
+        for (int x = 0; x + 1 < width; x += 2) {
+            const std::size_t at =
+                static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x) * 4;
+            for (std::size_t c = at; c < at + 4; ++c) {
+                int sum = 2;
+                for (const std::size_t i : {c, c + 4, c + row, c + row + 4})
+                    sum += static_cast<int>(texels[i]);
+                half.push_back(static_cast<std::byte>(sum / 4));
+            }
+        }
+    }
+    return half;
+}
+
 }  // namespace
 
 SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
@@ -57,9 +89,33 @@ SurfaceMaps::SurfaceMaps(const Device& device, MemoryArena& arena, int size,
       trilinear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                              VK_SAMPLER_ADDRESS_MODE_REPEAT))
 {
+    make_tracks(device, arena, given.tracks);
     if (drops_given) upload_image(device, *ripple_source, {given.drops.rgba});
     if (snow_given) upload_image(device, *snow, {given.snow.rgba});
     if (water_given) upload_image(device, *flow, {given.water.rgba});
+}
+
+void SurfaceMaps::make_tracks(const Device& device, MemoryArena& arena, const TrackMap& given)
+{
+    clamped = make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    track_area = given;
+    track_area.rgba.clear();
+    const bool any = given.width > 0;
+    std::vector<std::vector<std::byte>> levels{any ? given.rgba : untouched(1)};
+    int width = std::max(given.width, 1);
+    int height = std::max(given.height, 1);
+    while (any && levels.size() < 6) {
+        levels.push_back(halved(levels.back(), width, height));
+        width /= 2;
+        height /= 2;
+    }
+    tracks = arena.image({.name = "tracks",
+                          .width = std::max(given.width, 1),
+                          .height = std::max(given.height, 1),
+                          .mips = static_cast<int>(levels.size()),
+                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    upload_image(device, *tracks, levels);
 }
 
 void add_surface_map_sources(FrameGraph& graph, SurfaceMaps& maps)

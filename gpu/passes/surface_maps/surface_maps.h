@@ -15,12 +15,18 @@ struct SurfaceMaps {
     std::unique_ptr<GpuImage> ripple;         ///< normals of the rings at this moment
     std::unique_ptr<GpuImage> flow;           ///< normals of small waves at this moment
     std::unique_ptr<GpuImage> snow;           ///< normal xy, mask, smoothness
+    std::unique_ptr<GpuImage> tracks;         ///< as TrackMap; one texel of nothing without any
+    TrackMap track_area;                      ///< without its texels
+    SamplerHandle clamped;
     int ripple_size = 0;
     bool drops_given = false;
     bool snow_given = false;
     bool water_given = false;
     SamplerHandle trilinear;
     bool generated = false;  ///< what is made once is
+
+private:
+    void make_tracks(const Device& device, MemoryArena& arena, const TrackMap& given);
 };
 
 // Draws the drops and the snow mask where none are given, and the mips of those that are; once.

@@ -158,7 +158,7 @@ void main()
 
     SurfaceData data = evaluate_surface(s);
     data.texel.emission = data.emission;
-    const GBufferCode code = encode_gbuffer(data.texel);
+    const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
     const bool ALWAYS = true;
     const bool WEATHER = SURFACE_WEATHER != 0u;
     const bool EMISSION = SURFACE_EMISSION != 0u;

@@ -127,6 +127,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
+                      {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
                       {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
@@ -140,14 +141,16 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    const auto variant = [parts, weather](const GpuMaterial& material) {
+    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const auto variant = [parts, weather, tracks](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
             {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
-            {SURFACE_SPEC_SNOW, weather.snow},
+            {SURFACE_SPEC_SNOW, weather.snow ? material.snow | tracks : 0u},
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_PARALLAX, material.parallax},
+            {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, parts.emission},

@@ -96,7 +96,7 @@ void main()
         // Without what curvature adds: a pixel of a round body is no rough one.
         const float roughness = min(
             texelFetch(material_map, texel, 0).x,
-            texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 2).x);
+            texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3).x);
         if (look.y > 0.0 && (look.w > 0.0 || roughness > kClear)) {
             const vec3 normal = octahedral_decode(texelFetch(normals_map, texel, 0).xy);
             const float layer_m = linear_depth(frame, depth);

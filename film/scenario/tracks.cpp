@@ -1,0 +1,32 @@
+#include "film/scenario/tracks.h"
+
+namespace petrichor::film {
+
+std::vector<ScenarioTrack> read_tracks(const TomlValue& value)
+{
+    std::vector<ScenarioTrack> tracks;
+    for (const TomlValue& one : value.elements()) {
+        ScenarioTrack track;
+        for (const auto& [name, entry] :
+             one.entries({"kind", "points_m", "width_m", "gauge_m", "depth"})) {
+            if (name == "kind") {
+                track.tyre = entry.choice({"tyre", "feet"}) == 0;
+            } else if (name == "points_m") {
+                for (const TomlValue& point : entry.elements())
+                    track.points_m.push_back(point.point());
+            } else if (name == "width_m") {
+                track.width_m = entry.number(0.02, 5.0);
+            } else if (name == "gauge_m") {
+                track.gauge_m = entry.number(0.0, 20.0);
+            } else {
+                track.depth = entry.number(0.0, 1.0);
+            }
+        }
+        if (track.points_m.size() < 2)
+            one.refuse("a table with kind and points_m of two points or more");
+        tracks.push_back(std::move(track));
+    }
+    return tracks;
+}
+
+}  // namespace petrichor::film

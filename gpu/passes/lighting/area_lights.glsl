@@ -1,0 +1,312 @@
+// Lamps that have a size, and what materials have beside their lobes. Included by the lighting pass behind
+// model_light(); all of it is left out where nothing in the picture asks for it.
+#ifndef PETRICHOR_AREA_LIGHTS_GLSL
+#define PETRICHOR_AREA_LIGHTS_GLSL
+
+// Something answers to light from behind.
+const bool BLEEDS = (LAYERS & (LAYERS_TRANSLUCENT | LAYERS_SKIN)) != 0u;
+
+vec3 skin_lookup(float nl, float curvature)
+{
+    const float last = float(SKIN_TABLE_SIDE - 1);
+    const vec2 at = clamp(vec2(0.5 * nl + 0.5, curvature), vec2(0.0), vec2(1.0)) * last;
+    const vec2 low = min(floor(at), vec2(last - 1.0));
+    const vec2 part = at - low;
+    const int first = int(low.y) * SKIN_TABLE_SIDE + int(low.x);
+    const vec3 a = mix(texelFetch(skin_table, first).rgb, texelFetch(skin_table, first + 1).rgb, part.x);
+    const vec3 b = mix(texelFetch(skin_table, first + SKIN_TABLE_SIDE).rgb,
+                       texelFetch(skin_table, first + SKIN_TABLE_SIDE + 1).rgb, part.x);
+    return mix(a, b, part.y);
+}
+
+// The answer to a light of which so much is seen, and what comes through.
+vec3 shadowed_light(LitPoint p, vec3 l, float visible)
+{
+    vec3 radiance = model_light(p, l) * visible;
+    if (BLEEDS && p.translucency.strength > 0.0) {
+        radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, l) *
+                                            shadow_through(p.translucency, visible));
+    }
+    return radiance;
+}
+
+vec4 ltc_matrix(float roughness, float nv)
+{
+    const float last = float(LTC_TABLE_SIDE - 1);
+    const vec2 at = ltc_place(roughness, nv) * last;
+    const vec2 low = min(floor(at), vec2(last - 1.0));
+    const vec2 part = at - low;
+    const int first = int(low.x) * LTC_TABLE_SIDE + int(low.y);
+    const vec4 a = mix(texelFetch(ltc_matrices, first), texelFetch(ltc_matrices, first + 1), part.y);
+    const vec4 b = mix(texelFetch(ltc_matrices, first + LTC_TABLE_SIDE),
+                       texelFetch(ltc_matrices, first + LTC_TABLE_SIDE + 1), part.y);
+    return mix(a, b, part.x);
+}
+
+// How a lamp shines that way, of its profile; `away` points from the lamp.
+vec3 light_profile(int light, vec3 away)
+{
+    const float number = texelFetch(lights, light * LIGHT_TEXELS + 4).w;
+    if (number < 0.0) return vec3(1.0);
+    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
+    const vec3 up = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    const vec3 right = cross(axis.xyz, up);
+    const int first = int(number) * LIGHT_PROFILE_SIDE * LIGHT_PROFILE_SIDE;
+    const vec3 at = vec3(dot(away, right), dot(away, up), dot(away, axis.xyz));
+    vec2 place;
+    int wrap = 0;
+    if (texelFetch(light_profiles, first).w > 0.5) {
+        const float outer = texelFetch(lights, light * LIGHT_TEXELS + 1).w;
+        const float half_m = sqrt(max(1.0 - outer * outer, 0.0)) / max(outer, 1.0e-3);
+        if (at.z <= 0.0) return vec3(0.0);
+        place = (vec2(at.x, -at.y) / (at.z * half_m) * 0.5 + 0.5) * float(LIGHT_PROFILE_SIDE - 1);
+    } else {
+        const float turn = atan(at.x, at.y) * (0.5 / kPi);
+        place = vec2((turn - floor(turn)) * float(LIGHT_PROFILE_SIDE),
+                     arc_cosine(at.z) / kPi * float(LIGHT_PROFILE_SIDE - 1));
+        wrap = 1;
+    }
+    place = clamp(place, vec2(0.0), vec2(float(LIGHT_PROFILE_SIDE) - 0.001));
+    const ivec2 low = ivec2(place);
+    const vec2 part = place - vec2(low);
+    const ivec2 last = ivec2(LIGHT_PROFILE_SIDE - 1);
+    ivec2 high = min(low + 1, last);
+    if (wrap != 0 && low.x == last.x) high.x = 0;
+    const int row = first + low.y * LIGHT_PROFILE_SIDE;
+    const int below = first + high.y * LIGHT_PROFILE_SIDE;
+    const vec3 a = mix(texelFetch(light_profiles, row + low.x).rgb,
+                       texelFetch(light_profiles, row + high.x).rgb, part.x);
+    const vec3 b = mix(texelFetch(light_profiles, below + low.x).rgb,
+                       texelFetch(light_profiles, below + high.x).rgb, part.x);
+    return mix(a, b, part.y);
+}
+
+// The same surface without its highlight.
+LitPoint matt_part(LitPoint p)
+{
+    LitPoint q = p;
+    q.specular = vec3(0.0);
+    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), vec3(0.0),
+                       p.roughness * p.roughness);
+    return q;
+}
+
+// A lobe of GGX is what the model mirrors.
+bool mirrors_as_ggx(uint model)
+{
+    return model == uint(LIGHTING_MODEL_STANDARD) || model == uint(LIGHTING_MODEL_LAYERED) ||
+           model == uint(LIGHTING_MODEL_BURLEY) || model == uint(LIGHTING_MODEL_SKIN);
+}
+
+// By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are
+// those of a light in the direction of the irradiance, blurred by its size.
+vec3 shape_light(LitPoint p, Outline o, float specular, float visible)
+{
+    const Frame3 surface = surface_frame(p.normal, p.view);
+    const vec3 f = outline_irradiance(o, surface);
+    const float size = length(f);
+    if (size < 1.0e-7) return vec3(0.0);
+    const float seen = cosine_share(f);
+    const vec3 to_it = (surface.x * f.x + surface.y * f.y + surface.z * f.z) / size;
+    // Where the horizon cuts it, from the middle of what is left.
+    const float wide = sqrt(min(size, 1.0));
+    const float nl = dot(p.normal, to_it);
+    const float cosine = max(nl, 0.25 * wide);
+    vec3 l = to_it;
+    if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
+    const float irradiance = kPi * seen / max(dot(p.normal, l), 1.0e-3);
+    const bool ggx = mirrors_as_ggx(p.model) && p.layers.anisotropy <= 0.0;
+    const float alpha = min(p.roughness * p.roughness + 0.5 * wide, 1.0);
+    LitPoint q = matt_part(p);
+    if (!ggx) {
+        q.roughness = sqrt(alpha);
+        q.specular = p.specular * specular;
+        q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular, alpha);
+    }
+    if (p.layers.coat > 0.0) {
+        const float coat = p.layers.coat_roughness * p.layers.coat_roughness;
+        q.layers.coat_roughness = sqrt(min(coat + 0.5 * wide, 1.0));
+    }
+    vec3 radiance = model_light(q, l) * irradiance;
+    if (p.layers.transmitted > 0.0) {
+        radiance += p.albedo * (p.layers.transmitted * cosine_share(vec3(f.xy, -f.z)));
+    }
+    if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
+        const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
+        const vec3 g = outline_irradiance(o, lobe_frame(surface, ltc_matrix(p.roughness, nv)));
+        const vec2 sum = split_sum(p.normal, p.view, p.roughness);
+        const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
+        radiance += (p.specular * sum.x + vec3(sum.y)) *
+                    (cosine_share(g) * specular * kept * kept);
+    }
+    radiance *= visible;
+    if (BLEEDS && p.translucency.strength > 0.0) {
+        radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
+                                            shadow_through(p.translucency, visible) * kPi * size);
+    }
+    return radiance;
+}
+
+// From the point that is nearest to what is mirrored, as Lux 2.02: `strength` is that of the middle.
+vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3 strength, float visible)
+{
+    const vec3 mirrored = reflect(-p.view, p.normal);
+    const float alpha = max(p.roughness * p.roughness, 0.05);
+    const NearestLight at = nearest_light(centre, half_axis, size.x, mirrored, alpha);
+    LitPoint bright = p;
+    bright.albedo = vec3(0.0);
+    bright.diffuse = vec3(0.0);
+    bright.layers.sheen = vec3(0.0);
+    bright.roughness = sqrt(alpha);
+    bright.lobe = make_lobe(p.normal, p.view, vec3(0.0), p.specular, alpha);
+    return (shadowed_light(matt_part(p), nearest_on_axis(centre, half_axis), visible) +
+            model_light(bright, at.direction) * (at.energy * size.z * visible)) *
+           strength;
+}
+
+// A lamp with a size: `size` is its texel 4.
+vec3 area_light(LitPoint p, int light, vec3 centre, float reach_m, vec4 size, float visible)
+{
+    const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
+    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
+    const vec3 across = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    const float far = length(centre);
+    const vec3 l = centre / max(far, 1.0e-4);
+    const bool spot = color.w > -1.5;
+    float cone = 1.0;
+    if (spot) cone = spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
+    vec3 shines = color.rgb * cone;
+    if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
+    const vec3 half_axis = spot ? vec3(0.0) : across * size.y;
+    if ((WAYS & LIGHTS_NEAREST) != 0u) {
+        return nearest_area_light(p, centre, half_axis, size,
+                                  shines * light_attenuation(far, reach_m), visible);
+    }
+    Outline o;
+    if (color.w < LIGHT_POINT - 0.5) {
+        vec3 half_v = across;
+        if (dot(centre, cross(axis.xyz, half_v)) >= 0.0) {  // it is turned away
+            if (color.w > LIGHT_BOTH_SIDES + 0.5) return vec3(0.0);
+            half_v = -half_v;
+        }
+        o = rectangle_outline(centre, axis.xyz, half_v);
+    } else if (spot) {
+        if (dot(centre, axis.xyz) >= 0.0) return vec3(0.0);
+        o = disc_outline(centre, across * size.x, cross(axis.xyz, across) * size.x);
+    } else {
+        o = tube_outline(centre - half_axis, centre + half_axis, size.x);
+    }
+    const float q = far / reach_m;
+    const float window = clamp(1.0 - q * q * q * q, 0.0, 1.0);
+    return shape_light(p, o, size.z, visible) * shines * window;
+}
+
+// A glowing rectangle: exact for a matt surface that sees all of it; what is mirrored, as of a light in
+// the direction of the irradiance, blurred by its size. Surfaces that mirror the picture itself have it
+// from there.
+vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
+{
+    const vec3 half_u = texelFetch(lights, light * LIGHT_TEXELS + 2).xyz;
+    vec3 half_v = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    if (dot(centre, cross(half_u, half_v)) >= 0.0) {  // it is turned away
+        if (color.w > LIGHT_BOTH_SIDES + 0.5) return vec3(0.0);
+        half_v = -half_v;
+    }
+    const vec3 f = rectangle_irradiance(centre, half_u, half_v);
+    const float size = length(f);
+    if (size < 1.0e-7) return vec3(0.0);
+    vec3 l = f / size;
+    const float nl = dot(p.normal, l);
+    const float seen = sphere_form_factor(size, nl);
+    if (seen <= 0.0) return vec3(0.0);
+    // Where the horizon cuts it, from the middle of what is left.
+    const float wide = sqrt(min(size, 1.0));
+    const float cosine = max(nl, 0.25 * wide);
+    if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
+    const float alpha = p.roughness * p.roughness;
+    const float blurred = min(alpha + 0.5 * wide, 1.0);
+    const float mirrored =
+        IMAGE_BASED_LIGHT != 0u ? smoothstep(kMirrorRoughness, kMirrorRoughness + 0.1, p.roughness) : 1.0;
+    LitPoint q = p;
+    q.roughness = sqrt(blurred);
+    q.specular = p.specular * mirrored;
+    q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
+                       blurred);
+    return model_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+}
+
+// Place of the surface that a neighbour sees; the own one where it sees none.
+vec3 place_beside(ivec2 texel, ivec2 offset, vec3 own)
+{
+    const ivec2 at = clamp(texel + offset, ivec2(0), frame.size - 1);
+    const float depth = texelFetch(depth_map, at, 0).r;
+    return depth > 0.0 ? pixel_position(frame, vec2(at) + 0.5, depth) : own;
+}
+
+// Change of the normal a metre, from the pixels beside: of skin that has no map of it.
+float seen_curvature(ivec2 texel, vec3 position, vec3 normal)
+{
+    float bends = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const ivec2 offset = k == 0 ? ivec2(1, 0) : ivec2(0, 1);
+        const ivec2 at = clamp(texel + offset, ivec2(0), frame.size - 1);
+        const vec3 way = place_beside(texel, offset, position) - position;
+        const vec3 other = octahedral_decode(texelFetch(gbuffer_normals, at, 0).xy);
+        const float apart = length(way);
+        // Not over an edge.
+        if (apart > 0.0 && apart < 0.05) bends = max(bends, length(other - normal) / apart);
+    }
+    return bends;
+}
+
+// The rows of a material behind those of coat, sheen and anisotropy.
+void later_layers(inout LitPoint p, int at, float metallic, float bare, float open, float view_m,
+                  ivec2 texel)
+{
+    const vec4 third = texelFetch(layers_table, at + 2);
+    const vec4 sixth = texelFetch(layers_table, at + 5);
+    if ((LAYERS & LAYERS_SCATTER) != 0u) {
+        const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
+        p.albedo = scattered_albedo(p.albedo, sixth.rgb * ((1.0 - metallic) * open), third.y, third.z, nv);
+        p.diffuse = p.albedo *
+                    (1.0 - max(p.specular.r, max(p.specular.g, p.specular.b)));
+    }
+    float near = 1.0;
+    if ((LAYERS & LAYERS_SKIN) != 0u && p.model == uint(LIGHTING_MODEL_SKIN)) {
+        // At 20 m it is the standard model.
+        near = clamp((20.0 - view_m) / 8.0, 0.0, 1.0);
+        const float scale = texelFetch(layers_table, at + 6).x;
+        float curvature = sixth.w;
+        if (scale > 0.0) curvature += scale * seen_curvature(texel, p.position, p.normal);
+        p.curvature = clamp(curvature, 0.0, 1.0) * near * bare;
+    }
+    if ((LAYERS & LAYERS_HAIR) != 0u) p.hair_shift = third.w;
+    if ((LAYERS & LAYERS_TRANSLUCENT) != 0u) {
+        const vec4 fourth = texelFetch(layers_table, at + 3);
+        const vec4 fifth = texelFetch(layers_table, at + 4);
+        const bool skin = p.model == uint(LIGHTING_MODEL_SKIN);
+        p.translucency = Translucency(fourth.x * bare * near, fourth.y, fourth.z, fourth.w, fifth.w,
+                                      skin ? fifth.rgb : fifth.rgb * p.diffuse);
+    }
+}
+
+// What of the mirrored sky the mesh itself hides, though the normal map would show it (Russell 2014; with
+// the fade of Lux 2.02).
+float horizon_occlusion(LitPoint p, vec3 mirror_normal, ivec2 texel)
+{
+    const vec3 right = place_beside(texel, ivec2(1, 0), p.position) - p.position;
+    const vec3 left = p.position - place_beside(texel, ivec2(-1, 0), p.position);
+    const vec3 down = place_beside(texel, ivec2(0, 1), p.position) - p.position;
+    const vec3 up = p.position - place_beside(texel, ivec2(0, -1), p.position);
+    // The nearer neighbour of each pair lies on the same surface.
+    const vec3 u = dot(right, right) < dot(left, left) || dot(left, left) == 0.0 ? right : left;
+    const vec3 v = dot(down, down) < dot(up, up) || dot(up, up) == 0.0 ? down : up;
+    vec3 flat_normal = cross(v, u);
+    const float size = length(flat_normal);
+    if (size < 1.0e-12) return 1.0;
+    flat_normal /= size;
+    if (dot(flat_normal, p.view) < 0.0) flat_normal = -flat_normal;
+    return clamp(1.0 + frame.horizon_fade * dot(reflect(-p.view, mirror_normal), flat_normal), 0.0, 1.0);
+}
+
+#endif

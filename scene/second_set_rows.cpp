@@ -1,0 +1,67 @@
+#include "scene/detail/material_row.h"
+
+namespace petrichor::scene::detail {
+
+using S = SecondSet;
+
+// Lux 2.02, "mix mapping" and "detail".
+void add_second_set_rows(std::vector<Row>& t)
+{
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(choice<&M::second, &S::use>(
+        "second_set", {"none", "mix", "detail"}, place("secondSet"),
+        "second textures: unused, another material mixed with the first, or fine detail on it: its "
+        "colour doubled in sRGB codes (128 leaves the first as it is), within detail_distance_m"));
+    t.push_back(number<&M::second, &S::mix_factor>(
+        "mix_factor", 0, 1, place("mixFactor"),
+        "1 the first set .. 0 the second, times red of _WEATHER and the mask; with heights the higher "
+        "set wins. Of detail: its strength, times the mask"));
+    t.push_back(number<&M::second, &S::mix_mask_tiling>(
+        "mix_mask_tiling", 0, 1000, place("mixMaskTiling"), "repeats of the mask, times its own"));
+    t.push_back(channel<&M::second, &S::mix_mask, &TextureUse::channel>(
+        "mix_mask_channel", "mixMaskTexture", "channel of the mask that is read"));
+    t.push_back(number<&M::second, &S::tiling>("second_tiling", 0, 1000, place("secondTiling"),
+                                               "repeats of the second set's textures, times their own"));
+    t.push_back(number<&M::second, &S::color>("second_color_factor", 0, 1, place("secondColorFactor"),
+                                              "linear red, green and blue, times the second texture"));
+    t.push_back(number<&M::second, &S::metallic>(
+        "second_metallic_factor", 0, 1, place("secondMetallicFactor"),
+        "0 dielectric .. 1 metal, times the second texture; of mix alone"));
+    t.push_back(number<&M::second, &S::roughness>(
+        "second_roughness_factor", 0, 1, place("secondRoughnessFactor"),
+        "perceptual: 0 mirror .. 1 matt, times the second texture; of mix alone"));
+    t.push_back(number<&M::second, &S::normal_scale>(
+        "second_normal_scale", -kLargest, kLargest, {kWeather, "secondNormalTexture", "scale"},
+        "of the second normal map's x and y; 0 flat"));
+    t.push_back(channel<&M::second, &S::height, &TextureUse::channel>(
+        "second_height_channel", "secondHeightTexture", "channel of the second height map"));
+    t.push_back(flag<&M::second, &S::own_water>(
+        "second_own_water", place("secondOwnWater"),
+        "water on the second set follows the two keys below, not those of the first"));
+    t.push_back(number<&M::second, &S::water_accumulation>(
+        "second_water_accumulation", glm::vec4(0.0f), {2.0f, 4.0f, 2.0f, 4.0f},
+        place("secondWaterAccumulation"), "as water_accumulation, of the second set"));
+    t.push_back(number<&M::second, &S::water_color>("second_water_color", 0, 1,
+                                                    place("secondWaterColor"),
+                                                    "as water_color, of the second set"));
+}
+
+void add_second_set_textures(std::vector<MaterialTexture>& t)
+{
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(texture<&M::second, &S::mix_mask>(
+        "mix_mask_texture", place("mixMaskTexture"),
+        "1 the first set, 0 the second; of detail 1 all of it; mix_mask_channel"));
+    t.push_back(texture<&M::second, &S::base_color_texture>(
+        "second_base_color_texture", place("secondBaseColorTexture"),
+        "sRGB colour; alpha and emission are the first set's"));
+    t.push_back(texture<&M::second, &S::normal_texture>(
+        "second_normal_texture", place("secondNormalTexture"), "tangent space, green up"));
+    t.push_back(texture<&M::second, &S::metallic_roughness_texture>(
+        "second_metallic_roughness_texture", place("secondMetallicRoughnessTexture"),
+        "red occlusion, green roughness, blue metallic; of mix alone"));
+    t.push_back(texture<&M::second, &S::height>("second_height_texture", place("secondHeightTexture"),
+                                                "0 low .. 1 high; second_height_channel; of mix alone"));
+}
+
+}  // namespace petrichor::scene::detail
