@@ -177,7 +177,8 @@ TEST_F(TransparentTest, AThickPlateShiftsAndARoughOneBlurs)
     const auto thin = row(0.0f, 0.0f);
     const auto rough = row(0.0f, 0.6f);
     EXPECT_LE(between(thin), 2);
-    EXPECT_GE(between(rough), 8);
+    // Of a disc of 5.8 pixels the step has 1.1 radii between these values.
+    EXPECT_GE(between(rough), 6);
     EXPECT_NEAR(bright(rough), bright(thin), 0.1f * bright(thin));
 }
 
