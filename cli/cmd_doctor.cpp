@@ -20,6 +20,7 @@
 #include "film/weather/packed.h"
 #include "gpu/device/specialize.h"
 #include "gpu/renderer.h"
+#include "scene/gltf/gltf.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/readers/formats.h"
 
@@ -182,12 +183,19 @@ void print_text(const std::vector<Finding>& findings, const std::vector<gpu::Dev
               << (can_render ? "ready to render\n" : "cannot render: see above\n");
 }
 
+Finding check_draco()
+{
+    const bool works = scene::reads_draco();
+    return {"Draco meshes", works, false, works ? "read" : "scenes with them are refused",
+            "Install libdraco-dev and build again."};
+}
+
 void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
     const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
                                         check_decoder(), check_cache(),
-                                        check_shaders()};
+                                        check_shaders(), check_draco()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {

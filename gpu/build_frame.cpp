@@ -1,6 +1,7 @@
 // The frame: which passes run, in which order. Read it as a table of contents.
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "gpu/build_frame.h"
 #include "gpu/frame/falls.h"
@@ -223,6 +224,31 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
                 settings.shadows && sun.illuminance != glm::vec3(0.0f));
 }
 
+// What lets light through, over the solid picture: the same passes, on the targets of a layer.
+void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& constants,
+                const shared::FrameConstants& c, const VisibleWeather& weather,
+                LightingVariant variant, int layers, bool more)
+{
+    FrameTargets& layer = r.transparent->layer;
+    variant.emission = true;
+    variant.baked = false;
+    variant.fog = false;
+    variant.background = false;
+    const auto draw = [&](const SurfaceLayer& between) {
+        add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
+                    c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
+    };
+    const auto light = [&] {
+        add_light_lists(graph, layer, *r.lights, constants);
+        if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
+        add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
+                     *r.lamp_shadows, constants, variant);
+        if (variant.image_based_light) add_reflections(graph, layer, *r.sky, constants);
+    };
+    add_transparent(graph, *r.targets, *r.transparent, *r.scene, *r.sky, constants, layers, more,
+                    draw, light);
+}
+
 }  // namespace
 
 FrameGraph build_sky(const Frame& frame, FrameResources& r)
@@ -290,14 +316,17 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         constants.offset = i * r.constants_stride;
         std::memcpy(r.constants->mapped + constants.offset, &c, sizeof(c));
 
+        const int needed = r.transparent ? transparent_layers(*r.scene, c.world_to_clip) : 0;
+        const int layers = std::min(needed, settings.transparent_layers);
+        const Draws solid = layers > 0 ? Draws::Solid : Draws::All;
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
-                           c.world_to_clip, c.camera_m);
+                           c.world_to_clip, c.camera_m, solid);
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
                                 *r.depth_maps, *r.place, constants, weather);
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
-                        constants, c.world_to_clip, c.camera_m, weather);
+                        constants, c.world_to_clip, c.camera_m, weather, solid);
         }
         if (i == 0) {
             const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
@@ -309,6 +338,11 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants);
         }
+        if (layers > 0) {
+            // The solid picture of this sample is lit into an image of its own.
+            begin_transparent(graph, *r.transparent, constants);
+            std::swap(r.targets->accumulated, r.transparent->solid);
+        }
         if (i == 0 && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
@@ -316,6 +350,10 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, constants);
+        }
+        if (layers > 0) {
+            std::swap(r.targets->accumulated, r.transparent->solid);
+            add_layers(graph, r, constants, c, weather, variant, layers, needed > layers);
         }
     }
     constants.offset = 0;

@@ -9,6 +9,7 @@
 #include "gpu/passes/patch_light/patch_light.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
+#include "gpu/passes/transparent/transparent.h"
 #include "gpu/upload/gpu_scene.h"
 #include "gpu/place/gpu_place.h"
 
@@ -25,6 +26,7 @@ struct FrameResources {
     LampShadows* lamp_shadows = nullptr;
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
+    TransparentTargets* transparent = nullptr;  ///< null: what lets light through goes by chance
     LightTable* lights = nullptr;
     LampGlow* lamp_glow = nullptr;
     FallingTable* falling = nullptr;

@@ -46,6 +46,11 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
                         " lamps are possible, got " + std::to_string(s.lamp_shadows),
                     "Choose another lamp_shadows.");
     }
+    if (s.transparent_layers < 0 || s.transparent_layers > 8) {
+        throw Error("render: 0 to 8 transparent layers are possible, got " +
+                        std::to_string(s.transparent_layers),
+                    "Choose another transparent_layers.");
+    }
     if (!(s.bloom >= 0.0f && s.bloom <= 1.0f)) {
         throw Error("render: bloom must be 0 to 1, got " + std::to_string(s.bloom),
                     "It is the share of the light that is scattered.");
@@ -75,6 +80,9 @@ struct TargetSet {
     int words = 0;
     std::unique_ptr<MemoryArena> resolve_arena;
     ResolveTables resolve;
+    std::unique_ptr<MemoryArena> transparent_arena;
+    TransparentTargets transparent;
+    int transparent_words = 0;
 };
 
 struct Renderer::Impl {
@@ -170,6 +178,25 @@ struct Renderer::Impl {
             resolve = make_resolve_tables(device, *set.resolve_arena, *scene, s.width, s.height);
         }
         update_draws(device, resolve, *scene);
+        return true;
+    }
+
+    // True when this frame blends what lets light through in layers.
+    bool prepare_transparent(TargetSet& set, const FrameSettings& s)
+    {
+        const auto& materials = scene->materials();
+        const bool any = std::any_of(materials.begin(), materials.end(),
+                                     [](const GpuMaterial& m) { return m.blended; });
+        if (!any || s.transparent_layers == 0) return false;
+        const int words = static_cast<int>(light_table.words());
+        const FrameTargets& now = set.transparent.layer;
+        if (now.width != s.width || now.height != s.height || words > set.transparent_words) {
+            set.transparent = {};
+            set.transparent_arena = std::make_unique<MemoryArena>(device);
+            set.transparent = make_transparent_targets(device, *set.transparent_arena, s.width,
+                                                       s.height, words);
+            set.transparent_words = words;
+        }
         return true;
     }
 
@@ -306,6 +333,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.patches = &patches;
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
+    if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
     resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;

@@ -40,6 +40,11 @@ void add_gltf_rows(std::vector<Row>& t)
                                        "what alpha does: nothing, cut out, let through"));
     t.push_back(number<&M::alpha_cutoff>("alpha_cutoff", 0, kLargest, {"", "", "alphaCutoff"},
                                          "MASK: less alpha than this is a hole"));
+    t.push_back(flag<&M::premultiplied_alpha>(
+        "premultiplied_alpha", {"", "extras", "premultipliedAlpha"},
+        "BLEND: only the matt part fades with alpha, as of glass; false: reflections fade too"));
+    t.push_back(flag<&M::casts_shadows>("casts_shadows", {"", "extras", "castShadows"},
+                                        "of sun, sky and lamps; what lets light through casts in part"));
     t.push_back(
         flag<&M::double_sided>("double_sided", {"", "", "doubleSided"}, "back faces are seen too"));
     t.push_back(flag<&M::cull_front>("cull_front", {"", "extras", "cullFront"},
@@ -60,7 +65,16 @@ void add_gltf_rows(std::vector<Row>& t)
         "share of the diffuse light that thin things such as leaves let through"));
     t.push_back(number<&M::transmission>(
         "transmission_factor", 0, 1, {"KHR_materials_transmission", "", "transmissionFactor"},
-        "light that passes; shown as transparency of the surface, up to nine tenths"));
+        "light that passes: what is behind shows, tinted, blurred by the roughness"));
+    t.push_back(number<&M::thickness>(
+        "thickness_factor", 0, kLargest, {"KHR_materials_volume", "", "thicknessFactor"},
+        "of the body below the surface, metres: bends what is seen through it; 0: a thin pane"));
+    t.push_back(number<&M::attenuation_distance_m>(
+        "attenuation_distance", 0, kLargest, {"KHR_materials_volume", "", "attenuationDistance"},
+        "metres in the body after which attenuation_color is left of white light; 0: it is clear"));
+    t.push_back(number<&M::attenuation_color>(
+        "attenuation_color", 0, 1, {"KHR_materials_volume", "", "attenuationColor"},
+        "linear; see attenuation_distance"));
     t.push_back(number<&M::clearcoat>("clearcoat_factor", 0, 1,
                                                  {"KHR_materials_clearcoat", "", "clearcoatFactor"},
                                                  "strength of a clear coat"));

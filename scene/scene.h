@@ -145,6 +145,9 @@ struct Material {
     glm::vec3 specular_color{1.0f};  ///< KHR_materials_specular colour
     float diffuse_transmission = 0.0f;  ///< KHR_materials_diffuse_transmission factor
     float transmission = 0.0f;       ///< KHR_materials_transmission factor
+    float thickness = 0.0f;          ///< KHR_materials_volume: of what light passes, mesh units
+    float attenuation_distance_m = 0.0f;  ///< in it; 0: it is clear
+    glm::vec3 attenuation_color{1.0f};    ///< what is left of white light after that distance
     float clearcoat = 0.0f;
     float clearcoat_roughness = 0.0f;
     glm::vec3 sheen_color{0.0f};
@@ -165,6 +168,8 @@ struct Material {
     float hair_shift = 0.1f;  ///< of the model "hair"
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
+    bool premultiplied_alpha = false;  ///< Blend: what is mirrored does not fade with alpha
+    bool casts_shadows = true;
     bool double_sided = false;
     bool cull_front = false;
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named

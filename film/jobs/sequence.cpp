@@ -130,6 +130,7 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.white_balance_k);
     hasher.add(settings.bloom);
     hasher.add(settings.lamp_shadows);
+    hasher.add(settings.transparent_layers);
     for (const std::string& aov : settings.aovs) hasher.add(aov);
 }
 
@@ -385,6 +386,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.specular_aa_limit = narrow(scenario.render.specular_aa_limit);
     settings.gamma = scenario.render.gamma;
     settings.lamp_shadows = scenario.render.lamp_shadows;
+    settings.transparent_layers = scenario.render.transparent_layers;
     settings.tone_map = scenario.render.tone_map;
     settings.white_balance_k = narrow(value_at(camera.white_balance_k, time_s, 0.0));
     settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));

@@ -25,6 +25,7 @@ using scene::PropertyKind;
 
 constexpr const char* kLightingModel = "lighting_model";
 constexpr const char* kSurface = "surface";
+constexpr const char* kPreset = "preset";
 constexpr std::uint64_t kLargestTexture = 1ull << 30;  // bytes of a file
 constexpr double kAny = std::numeric_limits<float>::max();
 
@@ -157,6 +158,43 @@ void apply(const MaterialOverride& override, const std::filesystem::path& folder
     }
 }
 
+// What the words of `preset` stand for.
+struct Preset {
+    const char* word;
+    scene::AlphaMode alpha;
+    bool premultiplied, casts_shadows, double_sided;
+};
+constexpr Preset kPresets[] = {
+    {"opaque", scene::AlphaMode::Opaque, false, true, false},
+    {"clip", scene::AlphaMode::Mask, false, true, false},
+    {"clip double-sided", scene::AlphaMode::Mask, false, true, true},
+    {"fade", scene::AlphaMode::Blend, false, false, false},
+    {"fade with shadows", scene::AlphaMode::Blend, false, true, false},
+    {"transparent", scene::AlphaMode::Blend, true, false, false},
+    {"transparent with shadows", scene::AlphaMode::Blend, true, true, false},
+};
+
+std::vector<std::string> preset_words()
+{
+    std::vector<std::string> words;
+    for (const Preset& preset : kPresets) words.emplace_back(preset.word);
+    return words;
+}
+
+// Keys beside it win.
+void put_preset(const TomlValue& value, MaterialOverride& one)
+{
+    const Preset& preset = kPresets[value.choice(preset_words())];
+    const std::pair<const char*, double> rows[] = {
+        {"alpha_mode", static_cast<double>(preset.alpha)},
+        {"premultiplied_alpha", preset.premultiplied ? 1.0 : 0.0},
+        {"casts_shadows", preset.casts_shadows ? 1.0 : 0.0},
+        {"double_sided", preset.double_sided ? 1.0 : 0.0}};
+    std::vector<std::pair<std::string, std::vector<KeyedNumber>>> values;
+    for (const auto& [name, number] : rows) values.emplace_back(name, constant(number));
+    one.values.insert(one.values.begin(), values.begin(), values.end());
+}
+
 std::string no_match(const MaterialOverride& one, const std::vector<scene::Material>& materials)
 {
     std::vector<std::string> names;
@@ -202,6 +240,12 @@ std::vector<ScenarioKey> material_keys()
                     .example = "\"moss.glsl\"",
                     .meaning = "a GLSL file of your own that changes the dry surface or its masks, as "
                                "data/shaders/moss.glsl"});
+    keys.push_back({.table = "materials",
+                    .name = kPreset,
+                    .example = "\"opaque\"",
+                    .meaning = "alpha_mode, premultiplied_alpha, casts_shadows and double_sided in one "
+                               "word: " +
+                               join_words(preset_words(), " | ") + "; keys beside it win"});
     return keys;
 }
 
@@ -216,6 +260,7 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
         known.emplace_back(slot.name);
     known.emplace_back(kLightingModel);
     known.emplace_back(kSurface);
+    known.emplace_back(kPreset);
     std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
     for (const auto& [glob, node] : materials) {
         const TomlValue value(node, file, "[materials.\"" + std::string(glob.str()) + "\"]");
@@ -226,6 +271,8 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
             } else if (name == kSurface) {
                 one.surface = entry.text();
                 if (!one.surface.ends_with(".glsl")) entry.refuse("a file that ends in .glsl");
+            } else if (name == kPreset) {
+                put_preset(entry, one);
             } else if (find_slot(name)) {
                 one.textures.emplace_back(name, entry.text());
             } else {

@@ -373,6 +373,10 @@ const std::vector<Rule>& rules()
         {{"render", "lamp_shadows", "4",
           "so many lamps throw shadows, 0 to 16: those that give most light at the camera"},
          [](Scenario& s, const TomlValue& v) { s.render.lamp_shadows = v.integer(0, 16); }},
+        {{"render", "transparent_layers", "4",
+          "so many surfaces behind each other that let light through are blended, 0 to 8; what lies "
+          "deeper, with 0 all of it, is seen or not by chance, a sample at a time"},
+         [](Scenario& s, const TomlValue& v) { s.render.transparent_layers = v.integer(0, 8); }},
         {{"render", "falling_budget", "20000",
           "about so many drops and flakes are drawn one by one, those that hide most, 0 to 1000000; "
           "the others dim what lies behind them"},

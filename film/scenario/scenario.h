@@ -156,6 +156,7 @@ struct WeatherTextures {
 
 struct ScenarioRender : gpu::FrameSwitches {
     int lamp_shadows = 4;
+    int transparent_layers = 4;
     gpu::ToneMap tone_map = gpu::ToneMap::Filmic;
     WeatherTextures weather_textures;  ///< relative to the scenario
     int falling_budget = 20000;

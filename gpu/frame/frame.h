@@ -112,6 +112,7 @@ struct FrameSettings : FrameSwitches {
     float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off
     float specular_aa_limit = 0.18f;
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
+    int transparent_layers = 4;  ///< of what lets light through, exact; what is behind goes by chance
     int lamp_shadows =
         4;  ///< so many lamps throw shadows, 0 to 16: the brightest as the eye sees them
     ToneMap tone_map = ToneMap::Filmic;

@@ -53,12 +53,14 @@ bool has_holes(const GpuScene& scene, const Draw& draw)
 }
 
 std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m)
+                                       const glm::vec3& camera_m, Draws which)
 {
     const Frustum frustum(world_to_clip);
     std::vector<std::tuple<bool, float, const Draw*>> keyed;
     for (const Draw& draw : scene.draws()) {
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
+        const bool blended = scene.materials()[draw.material].blended;
+        if (which != Draws::All && blended != (which == Draws::LetLightThrough)) continue;
         const float nearest = glm::length(draw.centre_m - camera_m) - draw.radius_m;
         keyed.emplace_back(has_holes(scene, draw), nearest, &draw);
     }

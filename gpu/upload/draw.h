@@ -19,10 +19,13 @@ shared::DrawConstants draw_constants(const Draw& draw);
 /// Cut out by the alpha test, or let through by chance.
 bool has_holes(const GpuScene& scene, const Draw& draw);
 
+/// Which draws a pass wants.
+enum class Draws { All, Solid, LetLightThrough };
+
 /// Draws inside the view: opaque ones first and near to far, so that early depth tests save
 /// shading.
 std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m);
+                                       const glm::vec3& camera_m, Draws which = Draws::All);
 
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
 void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored);

@@ -334,11 +334,14 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
-                                                  {c.snow_opacity, 0.0f, 0.0f, 0.0f},
-                                                  c.second_water_color};
+                                                  {c.snow_opacity, c.transmission_factor, c.ior,
+                                                   c.thickness_factor},
+                                                  c.second_water_color,
+                                                  {c.roughness_factor, 0.0f, 0.0f, 0.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source);
+    materials_[index].casts_shadows = source.casts_shadows;
     materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);
 }
 

@@ -40,6 +40,7 @@ struct GpuMaterial {
     bool masked = false;
     bool blended = false;
     bool glows = false;
+    bool casts_shadows = true;
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness

@@ -21,6 +21,10 @@
     X(float, specular_factor)      \
     X(vec3, specular_color_factor) \
     X(float, transmission_factor)  \
+    X(float, thickness_factor)     \
+    X(float, attenuation_distance) \
+    X(vec3, attenuation_color)     \
+    X(uint, premultiplied_alpha)   \
     X(float, clearcoat_factor)     \
     X(float, clearcoat_roughness_factor) \
     X(vec3, sheen_color_factor)    \
@@ -123,9 +127,10 @@
 
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color
-//   1  snow_opacity, -, -, -
+//   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-#define MATERIAL_LOOK_TEXELS 3
+//   3  roughness_factor, -, -, -
+#define MATERIAL_LOOK_TEXELS 4
 
 // Layers of those materials that have some, by number:
 //   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/limited_child.h"
+#include "scene/gltf/gltf.h"
 
 namespace petrichor::scene {
 namespace {
@@ -72,6 +73,15 @@ DracoMesh mesh_of(Answer& answer)
 }
 
 }  // namespace
+
+bool reads_draco()
+{
+#ifdef PETRICHOR_DRACO_HELPER_BUILT
+    return true;
+#else
+    return false;
+#endif
+}
 
 std::vector<DracoMesh> unpack_draco(const std::vector<std::span<const std::byte>>& packed,
                                     const std::string& name)

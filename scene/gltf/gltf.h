@@ -43,6 +43,9 @@ struct GltfOptions {
 Scene load_gltf(std::span<const std::byte> asset, const std::string& name,
                 const ResourceReader& read_resource, const GltfOptions& options = {});
 
+/// Whether this build unpacks KHR_draco_mesh_compression.
+bool reads_draco();
+
 }  // namespace petrichor::scene
 
 #endif

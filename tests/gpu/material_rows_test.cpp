@@ -97,6 +97,16 @@ void make_visible(std::string_view row, Material& m)
         m.weather.height = use_of("height_texture");
         m.weather.parallax = scene::Parallax::Occlusion;
     }
+    if (row == "premultiplied_alpha") {
+        m.alpha_mode = AlphaMode::Blend;
+        m.base_color.a = 0.4f;
+    }
+    if (row == "thickness_factor" || row.starts_with("attenuation")) m.transmission = 0.9f;
+    if (row.starts_with("attenuation")) {
+        m.thickness = 0.5f;
+        m.attenuation_distance_m = 0.2f;
+        m.attenuation_color = glm::vec3(0.3f, 0.6f, 0.9f);
+    }
     if (row.starts_with("second_") || row.starts_with("mix_")) {
         m.second.use = scene::SecondSetUse::Mix;
         m.second.mix_factor = 0.5f;

@@ -45,6 +45,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         const GpuMaterial& material = scene.materials()[draw.material];
         if (material.blended && falls == Falls::Rain) continue;
         if (material.glows && falls == Falls::Lamp) continue;
+        if (!material.casts_shadows && falls != Falls::Rain) continue;
         const bool holes = material.masked || material.blended;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);

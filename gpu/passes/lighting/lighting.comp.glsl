@@ -36,6 +36,7 @@ layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
+layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
@@ -329,8 +330,9 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        radiance = (frame.flags & FRAME_SKY) != 0u ? background(pixel_view_direction(frame, pixel))
-                                                   : vec3(0.0);
+        radiance = BACKGROUND != 0u && (frame.flags & FRAME_SKY) != 0u
+                       ? background(pixel_view_direction(frame, pixel))
+                       : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
     } else {
         const GBufferTexel g =

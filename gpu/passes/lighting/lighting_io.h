@@ -23,7 +23,8 @@
 #define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
 #define LIGHTING_SPEC_HORIZON 16
 #define LIGHTING_SPEC_SNOW_SCATTER 17
-#define LIGHTING_SPEC_MODEL 18    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_BACKGROUND 18  // 0: nothing where there is no surface
+#define LIGHTING_SPEC_MODEL 19    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1

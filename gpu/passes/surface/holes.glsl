@@ -6,14 +6,19 @@
 #include "gpu/passes/surface/textures.glsl"
 
 // Not where water shifts the lookup to: a hole stays where it is.
-float alpha_at(SurfaceInput at)
+float surface_alpha(SurfaceInput at)
 {
     float alpha = material.base_color_factor.a * at.color.a;
     if (has(TEXTURE_BASE_COLOR)) {
         alpha *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, vec2(0.0))).a;
     }
-    // What passes through a clear body is seen as transparency of its surface.
-    return alpha * (1.0 - 0.9 * material.transmission_factor);
+    return alpha;
+}
+
+// Without layers, what passes through a clear body is seen as transparency of its surface.
+float alpha_at(SurfaceInput at)
+{
+    return surface_alpha(at) * (1.0 - 0.9 * material.transmission_factor);
 }
 
 // Cut out by the alpha test, or let through by chance: as often as it is transparent.

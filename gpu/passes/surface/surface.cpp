@@ -24,10 +24,14 @@ const char* fragment_shader(const GBufferParts& parts)
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
-                 const VisibleWeather& weather)
+                 const VisibleWeather& weather, Draws which, const SurfaceLayer* layer)
 {
     GBuffer& g = targets.gbuffer;
-    const GBufferParts parts = gbuffer_parts(scene, weather.any);
+    const GBufferParts parts =
+        layer ? GBufferParts{true, true, true} : gbuffer_parts(scene, weather.any);
+    const bool chance = layer ? layer->by_chance : true;
+    const std::uint32_t first = layer && layer->first ? 1 : 0;
+    const std::string fragment = layer ? "transparent.frag" : fragment_shader(parts);
     Bindings bindings{{SURFACE_FRAME, frame_binding(constants)},
                       {SURFACE_RIPPLE, sampled(*maps.ripple, maps.trilinear)},
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
@@ -35,9 +39,14 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
+    if (layer) {
+        bindings.push_back({SURFACE_LAYER_SOLID_DEPTH, sampled(*layer->solid_depth, targets.nearest)});
+        bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
+    }
+    const bool layered = layer != nullptr;
     const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
     graph.add(DrawPass{
-        .name = "surface",
+        .name = layer ? "transparent" : "surface",
         .colors = gbuffer_attachments(g, parts),
         .depth = Attachment(*g.depth),
         .width = targets.width,
@@ -47,7 +56,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
             [=, &scene](PassContext& pass) {
                 GraphicsDesc desc;
                 desc.vertex = "surface.vert";
-                desc.fragment = fragment_shader(parts);
+                desc.fragment = fragment;
                 desc.stride = sizeof(Vertex);
                 desc.attributes = vertex_attributes();
                 desc.colors = pass.color_formats();
@@ -60,7 +69,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 const VkDescriptorSetLayout material_layout =
                     pass.pipelines().set_layout(desc.sets[1]);
                 bind_geometry(commands, scene);
-                const auto draws = visible_draws(scene, world_to_clip, camera_m);
+                const auto draws = visible_draws(scene, world_to_clip, camera_m, which);
                 const Pipeline* bound = nullptr;
                 std::uint32_t bound_material = UINT32_MAX;
                 const auto record = [&](const GraphicsDesc& wanted, const Draw& draw, bool shaded) {
@@ -82,7 +91,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
                 // shaded once.
-                const bool depth_first = parts.weather;
+                const bool depth_first = parts.weather && !layered;
                 GraphicsDesc depth_only = desc;
                 depth_only.vertex = "surface_depth.vert";
                 depth_only.fragment.clear();
@@ -95,7 +104,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     const bool holes = has_holes(scene, *draw);
                     GraphicsDesc shaded = desc;
                     shaded.specialization = {
-                        {SURFACE_SPEC_HOLES, holes},
+                        {SURFACE_SPEC_HOLES, holes && chance},
                         {SURFACE_SPEC_SLOTS, scene.materials()[draw->material].slots},
                         {SURFACE_SPEC_WATER,
                          weather.water ? scene.materials()[draw->material].water : 0u},
@@ -105,6 +114,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
                         {SURFACE_SPEC_PLACE, weather.place}};
+                    if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     shaded.depth_equal = depth_first && !holes;
                     record(shaded, *draw, true);
                 }

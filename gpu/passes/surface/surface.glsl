@@ -4,7 +4,19 @@
 //   SURFACE_WEATHER   1: masks of water, snow and frost
 //   SURFACE_EMISSION  1: radiance of materials that glow
 //   SURFACE_BAKED     1: light of light maps, with SURFACE_EMISSION only
+//   SURFACE_LAYER     1: a layer of what lets light through (passes/transparent); what it lets through
+//                     stands where light maps would
+#ifndef SURFACE_LAYER
+#define SURFACE_LAYER 0
+#endif
 #include "gpu/passes/surface/evaluate_surface.glsl"
+
+#if SURFACE_LAYER
+#include "gpu/passes/surface/let_through.glsl"
+layout(constant_id = SURFACE_SPEC_LAYER_FIRST) const uint FIRST = 1u;
+layout(set = 0, binding = SURFACE_LAYER_SOLID_DEPTH) uniform sampler2D solid_depth;
+layout(set = 0, binding = SURFACE_LAYER_BEFORE) uniform sampler2D depth_before;
+#endif
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
@@ -25,7 +37,7 @@ layout(location = 5) in vec4 in_weather;
 #else
 #define EMISSION_TARGETS(ROW)
 #endif
-#if SURFACE_BAKED
+#if SURFACE_BAKED || SURFACE_LAYER
 #define BAKED_TARGETS(ROW) GBUFFER_BAKED(ROW)
 #else
 #define BAKED_TARGETS(ROW)
@@ -59,6 +71,17 @@ void main()
 
     SurfaceData data = evaluate_surface(at);
     if (HOLES != 0u && data.hole) discard;
+#if SURFACE_LAYER
+    if (gl_FragCoord.z <= texelFetch(solid_depth, at.pixel, 0).r) discard;
+    if (FIRST == 0u && gl_FragCoord.z >= texelFetch(depth_before, at.pixel, 0).r) discard;
+    if (material.alpha_mode == ALPHA_MASK && surface_alpha(at) < material.alpha_cutoff) discard;
+    LetThrough l = let_through(at, data.texel.base_color, data.texel.metallic, data.texel.f0,
+                               data.texel.base_normal);
+    if (HOLES != 0u) l = LetThrough(1.0, 1.0, vec3(0.0));  // by chance: it is here, or it is not
+    data.texel.base_color *= l.matt;
+    data.texel.baked = l.through;
+    data.texel.baked_sky = l.whole;
+#endif
     data.texel.emission = data.emission;
     const GBufferCode code = encode_gbuffer(data.texel, frame.flags);
 #define ROW(name, location_, format_, when_, meaning_) out_##name = code.name;

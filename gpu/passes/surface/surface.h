@@ -7,10 +7,18 @@
 #include "gpu/frame/targets.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
-#include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/draw.h"
 #include "gpu/place/gpu_place.h"
 
 namespace petrichor::gpu {
+
+/// What a layer of transparent surfaces is drawn between (passes/transparent).
+struct SurfaceLayer {
+    GpuImage* solid_depth = nullptr;  ///< nothing behind it is drawn
+    GpuImage* before = nullptr;       ///< depth of the layer before: nothing as near is
+    bool first = true;                ///< there is none
+    bool by_chance = false;           ///< surfaces are seen or not, a sample at a time
+};
 
 // Draws the scene into the G-buffer: dry material and weather.
 //
@@ -20,7 +28,8 @@ namespace petrichor::gpu {
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
-                 const VisibleWeather& weather);
+                 const VisibleWeather& weather, Draws draws = Draws::All,
+                 const SurfaceLayer* layer = nullptr);
 
 }  // namespace petrichor::gpu
 

@@ -27,4 +27,9 @@
 #define SURFACE_TRACKS 9
 #define SURFACE_BINDINGS 10  // how many there are
 
+// A layer of what lets light through: what it lies between, behind those of all surfaces.
+#define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS
+#define SURFACE_LAYER_BEFORE (SURFACE_BINDINGS + 1)  // depth of the layer before
+#define SURFACE_SPEC_LAYER_FIRST 20                  // 1: there is none
+
 #endif

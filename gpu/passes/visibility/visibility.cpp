@@ -23,7 +23,7 @@ shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
 
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
-                    const glm::vec3& camera_m)
+                    const glm::vec3& camera_m, Draws draws)
 {
     graph.add(DrawPass{
         .name = "visibility",
@@ -47,7 +47,7 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                 masked.attributes = {vertex_attributes()[0], vertex_attributes()[3],
                                      vertex_attributes()[4], vertex_attributes()[5]};
                 bind_geometry(pass.commands(), scene);
-                for (const Draw* draw : visible_draws(scene, world_to_clip, camera_m)) {
+                for (const Draw* draw : visible_draws(scene, world_to_clip, camera_m, draws)) {
                     const GpuMaterial& material = scene.materials()[draw->material];
                     if (has_holes(scene, *draw)) {
                         GraphicsDesc desc = masked;

@@ -1,0 +1,45 @@
+#ifndef PETRICHOR_GPU_PASSES_TRANSPARENT_TRANSPARENT_H
+#define PETRICHOR_GPU_PASSES_TRANSPARENT_TRANSPARENT_H
+
+#include <functional>
+#include <utility>
+
+#include "gpu/frame/frame_constants.h"
+#include "gpu/frame/targets.h"
+#include "gpu/passes/sky/sky.h"
+#include "gpu/passes/surface/surface.h"
+
+namespace petrichor::gpu {
+
+/// Images of the layers of one frame size.
+struct TransparentTargets {
+    FrameTargets layer;                     ///< of the layer that is at work
+    std::unique_ptr<GpuImage> other_depth;  ///< of the layer before
+    std::unique_ptr<GpuImage> solid;        ///< the picture of this sample behind all layers
+    std::unique_ptr<GpuImage> front;        ///< light of the layers so far
+    std::unique_ptr<GpuImage> left;         ///< what they let through
+};
+TransparentTargets make_transparent_targets(const Device& device, MemoryArena& arena, int width,
+                                            int height, int light_words);
+
+/// Layers that a view of the scene may need; 0: nothing in view lets light through.
+int transparent_layers(const GpuScene& scene, const glm::mat4& world_to_clip);
+
+// What lets light through is peeled into layers, nearest first (Everitt 2001): each is a G-buffer of
+// its own that is lit as the solid picture is, by the same passes. Where there are `more` than `layers`,
+// those of the last one are seen or not by chance.
+//
+//   before the solid picture is lit: call begin_transparent(), and light into `solid` instead of the sum
+//   then add_transparent(): `draw_layer` adds the surfaces of a layer, `light_layer` lights it
+//
+//   reads    depth, solid, the layers' G-buffers
+//   edits    accumulated
+void begin_transparent(FrameGraph& graph, TransparentTargets& own, const ConstantsRange& constants);
+void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,
+                     const GpuScene& scene, SkyMaps& sky, const ConstantsRange& constants,
+                     int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
+                     const std::function<void()>& light_layer);
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,25 @@
+#version 460
+// All layers before the solid picture of this sample, added to the sum of the samples.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/frame/frame_io.h"
+#include "gpu/passes/transparent/transparent_io.h"
+
+layout(local_size_x = TRANSPARENT_TILE, local_size_y = TRANSPARENT_TILE) in;
+layout(binding = TRANSPARENT_DONE_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = TRANSPARENT_DONE_SOLID) uniform sampler2D solid_map;
+layout(binding = TRANSPARENT_DONE_FRONT) uniform sampler2D front;
+layout(binding = TRANSPARENT_DONE_LEFT) uniform sampler2D left;
+layout(binding = TRANSPARENT_DONE_ACCUMULATED, rgba32f) uniform image2D accumulated;
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, frame.size))) return;
+    const vec4 solid = texelFetch(solid_map, texel, 0);
+    const vec4 layers = texelFetch(front, texel, 0);
+    vec4 result = vec4(layers.rgb + texelFetch(left, texel, 0).rgb * solid.rgb,
+                       max(solid.a, layers.a));
+    if (frame.sample_index > 0u) result += imageLoad(accumulated, texel);
+    imageStore(accumulated, texel, result);
+}

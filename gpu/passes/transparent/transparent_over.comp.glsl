@@ -1,0 +1,127 @@
+#version 460
+// Puts a layer behind those before it: its own light, and what it lets through of the rest. What is
+// seen through a body is bent at its surface and blurred by its roughness: a disc around the pixel where
+// the bent ray leaves it, as wide as the lobe is at what lies there. Such a layer is the last: it shows
+// the solid picture, not other layers behind it.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/fog.h"
+#include "formulas/weather/falling.h"
+#include "gpu/frame/gbuffer.glsl"
+#include "gpu/passes/transparent/transparent_io.h"
+#include "gpu/upload/material_io.h"
+
+layout(local_size_x = TRANSPARENT_TILE, local_size_y = TRANSPARENT_TILE) in;
+layout(constant_id = TRANSPARENT_OVER_SPEC_FIRST) const uint FIRST = 1u;
+layout(binding = TRANSPARENT_OVER_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = TRANSPARENT_OVER_DEPTH) uniform sampler2D depth_map;
+layout(binding = TRANSPARENT_OVER_LIT) uniform sampler2D lit_map;
+layout(binding = TRANSPARENT_OVER_THROUGH) uniform sampler2D through_map;
+layout(binding = TRANSPARENT_OVER_MATERIAL) uniform sampler2D material_map;
+layout(binding = TRANSPARENT_OVER_NORMALS) uniform sampler2D normals_map;
+layout(binding = TRANSPARENT_OVER_IDENTITY) uniform sampler2D identity_map;
+layout(binding = TRANSPARENT_OVER_LOOKS) uniform samplerBuffer material_looks;
+layout(binding = TRANSPARENT_OVER_SOLID) uniform sampler2D solid_map;
+layout(binding = TRANSPARENT_OVER_SOLID_DEPTH) uniform sampler2D solid_depth;
+layout(binding = TRANSPARENT_OVER_SKY) uniform samplerCube sky_map;
+layout(binding = TRANSPARENT_OVER_FRONT, rgba32f) uniform image2D front;
+layout(binding = TRANSPARENT_OVER_LEFT, rgba16f) uniform image2D left;
+
+const int kTaps = 32;
+const float kGoldenAngle = 2.39996323;
+const float kClear = 0.08;  // smoother surfaces blur nothing
+
+float solid_m(ivec2 texel)
+{
+    const float d = texelFetch(solid_depth, texel, 0).r;
+    return d > 0.0 ? linear_depth(frame, d) : 1.0e5;
+}
+
+// The mean of a disc, without what stands before the layer.
+vec3 solid_around(vec2 pixel, float radius, ivec2 here, float layer_m)
+{
+    vec3 sum = vec3(0.0);
+    float count = 0.0;
+    for (int i = 0; i < kTaps; ++i) {
+        const float r = radius * sqrt((float(i) + 0.5) / float(kTaps));
+        const float turn = kGoldenAngle * float(i);
+        const vec2 at = pixel + r * vec2(cos(turn), sin(turn));
+        const ivec2 texel = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
+        const float behind = solid_m(texel) >= layer_m * 0.999 ? 1.0 : 0.0;
+        sum += min(texelFetch(solid_map, texel, 0).rgb, vec3(60000.0)) * behind;
+        count += behind;
+    }
+    return count > 0.0 ? sum / count : texelFetch(solid_map, here, 0).rgb;
+}
+
+// Where the solid picture is seen through a body: pixel of the point where the bent ray leaves it.
+vec2 bent_pixel(vec2 pixel, vec3 position, vec3 view, vec3 normal, float ior, float thickness_m)
+{
+    const vec3 bent = refract(view, normal, 1.0 / max(ior, 1.0));
+    const vec4 clip = frame.world_to_clip * vec4(position + bent * thickness_m, 1.0);
+    if (clip.w <= 0.0) return pixel;
+    return (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size);
+}
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, frame.size))) return;
+    vec4 sum = FIRST != 0u ? vec4(0.0) : imageLoad(front, texel);
+    vec3 rest = FIRST != 0u ? vec3(1.0) : imageLoad(left, texel).rgb;
+    const float depth = texelFetch(depth_map, texel, 0).r;
+    if (depth > 0.0) {
+        const vec4 code = texelFetch(through_map, texel, 0);
+        vec3 light = texelFetch(lit_map, texel, 0).rgb * code.a;
+        const vec2 pixel = vec2(texel) + 0.5;
+        const vec3 position = pixel_position(frame, pixel, depth);
+        const vec3 view = pixel_view_direction(frame, pixel);
+        if (frame.fog_per_m > 0.0) {
+            // As the lighting does it; what shines through has its fog already.
+            const float distance_m = length(position - frame.camera_m);
+            const float path =
+                fog_path(distance_m, frame.camera_m.y - frame.fog_base_m,
+                         position.y - frame.fog_base_m, frame.fog_height_m);
+            float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
+                                  frame.fog_end_m);
+            kept = min(kept * exp(drawn_depth(distance_m, frame.drawn_per_m, frame.drawn_reach_m)),
+                       1.0);
+            const vec3 level = normalize(vec3(view.x, max(view.y, 0.05), view.z));
+            const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
+            light = light * kept + veil * (1.0 - kept) * (1.0 - min(code.rgb, vec3(1.0)));
+        }
+        sum.rgb += rest * light;
+        const uint material = uint(texelFetch(identity_map, texel, 0).x * 65535.0 + 0.5);
+        const vec4 look = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 1);
+        // Without what curvature adds: a pixel of a round body is no rough one.
+        const float roughness = min(
+            texelFetch(material_map, texel, 0).x,
+            texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3).x);
+        if (look.y > 0.0 && (look.w > 0.0 || roughness > kClear)) {
+            const vec3 normal = octahedral_decode(texelFetch(normals_map, texel, 0).xy);
+            const float layer_m = linear_depth(frame, depth);
+            vec2 at = pixel;
+            if (look.w > 0.0) at = bent_pixel(pixel, position, view, normal, look.z, look.w);
+            const ivec2 there = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
+            // What stands before the layer is not seen through it.
+            const float there_m = solid_m(there);
+            if (there_m < layer_m * 0.999) at = pixel;
+            const float behind_m = max(solid_m(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1)),
+                                       layer_m);
+            // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends.
+            const float alpha = roughness * roughness * clamp(2.0 * look.z - 2.0, 0.0, 1.0);
+            const float wide_m = alpha * (behind_m - layer_m + look.w);
+            const bool level = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+            const float pixel_m = level ? length(frame.ray_dx) : behind_m * frame.pixel_angle;
+            const float radius =
+                clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
+            sum.rgb += rest * code.rgb * solid_around(at, radius, texel, layer_m);
+            rest = vec3(0.0);
+        } else {
+            rest *= code.rgb;
+        }
+        sum.a = 1.0;
+    }
+    imageStore(front, texel, sum);
+    imageStore(left, texel, vec4(rest, 1.0));
+}
