@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x07230203;  // SPIR-V's first word
 constexpr std::size_t kLargest = 16u << 20;   // bytes of a compiled shader
+constexpr const char* kCacheKind = "own_shaders";
 
 // The extensions of a shader must stand before its first statement, so the preamble goes behind
 // them.
@@ -52,7 +53,7 @@ std::vector<std::uint32_t> compile_shader(const std::string& main, const std::st
     texts.insert(texts.end(), own.begin(), own.end());
     const std::vector<std::byte> packed = pack_texts(texts);
     const std::string key = fingerprint(packed);
-    if (const auto kept = cache.find("shaders", key)) {
+    if (const auto kept = cache.find(kCacheKind, key)) {
         if (auto words = words_of(*kept); !words.empty()) return words;
     }
     HelperJob job;
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> compile_shader(const std::string& main, const std::st
     std::vector<std::uint32_t> words = words_of(answer);
     if (words.empty()) throw Error(job.name + ": the compiler gave no SPIR-V", "Report this.");
     try {
-        cache.keep("shaders", key, {answer});
+        cache.keep(kCacheKind, key, {answer});
     } catch (const Error&) {  // costs the next start a second, and is said for the scene's textures
     }
     return words;

@@ -36,9 +36,9 @@ protected:
     std::size_t cached_shaders() const
     {
         std::size_t count = 0;
-        if (!fs::exists(folder / "cache" / "shaders")) return 0;
-        for (const auto& entry : fs::directory_iterator(folder / "cache" / "shaders")) {
-            count += entry.path().extension() == ".spv" ? 1u : 0u;
+        if (!fs::exists(folder / "cache" / "own_shaders")) return 0;
+        for (const auto& entry : fs::directory_iterator(folder / "cache" / "own_shaders")) {
+            count += entry.path().extension() == ".bin" ? 1u : 0u;
         }
         return count;
     }

@@ -191,7 +191,7 @@ TEST(Gltf, SuggestsTheNearestWeatherKey)
     EXPECT_EQ(fix_for("porocity"), "Did you mean porosity?");
     EXPECT_EQ(fix_for("flow_speed"), "Did you mean flowSpeed?");
     EXPECT_EQ(fix_for("heightmap"), "Did you mean heightScale?");
-    EXPECT_THAT(fix_for("x"), HasSubstr("the keys are lightingModel lightMapTexture heightTexture puddleMaskTexture"));
+    EXPECT_THAT(fix_for("x"), HasSubstr("the keys are lightingModel surface lightMapTexture heightTexture"));
 }
 
 TEST(Gltf, RefusesGeometryThatIsNotANumber)
