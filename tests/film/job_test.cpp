@@ -105,11 +105,13 @@ TEST(Look, EveryKeyReachesTheFrame)
     const shared::WeatherLook plain = look_at({}, 0.0);
     std::size_t bytes = 0;
     for (const LookKey& key : look_keys()) {
-        const float top = key.high < 0.75 ? 0.5f : 0.75f;
+        // Two numbers that a float holds exactly, in the key's range.
+        const float bottom = static_cast<float>(key.low) + 0.25f;
+        const float top = key.high < static_cast<double>(bottom) + 0.5 ? bottom + 0.125f : bottom + 0.5f;
         std::string low, high;
         for (std::size_t i = 0; i < key.count; ++i) {
-            low += (i ? ", 0.25" : "0.25");
-            high += std::string(i ? ", " : "") + (top == 0.5f ? "0.5" : "0.75");
+            low += (i ? ", " : "") + std::to_string(bottom);
+            high += (i ? ", " : "") + std::to_string(top);
         }
         if (key.count > 1) {
             low = "[" + low + "]";
@@ -123,7 +125,7 @@ TEST(Look, EveryKeyReachesTheFrame)
                 return *reinterpret_cast<float*>(reinterpret_cast<char*>(&look) + key.offset +
                                                  i * sizeof(float));
             };
-            EXPECT_EQ(number(looks[0]), 0.25f) << key.name;
+            EXPECT_EQ(number(looks[0]), bottom) << key.name;
             EXPECT_EQ(number(looks[1]), top) << key.name;
         }
         bytes += key.count * sizeof(float);
