@@ -332,6 +332,19 @@ std::string refusal(const std::string& text, const ReadOptions& options = {})
     return "read";
 }
 
+// Where the zone is taken from the longitude, no number of a damaged file becomes a time.
+TEST(ReadWeather, ALongitudeBeyondTheGlobeIsRefused)
+{
+    for (const auto& [name, place] : {std::pair{"environment_canada.csv", "-75.67"},
+                                      std::pair{"lcd.csv", "-73.88"}}) {
+        std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
+        ASSERT_NE(text.find(place), std::string::npos) << name;
+        for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += 8)
+            text.replace(at, std::string(place).size(), "1.74e+200");
+        EXPECT_THAT(refusal(text), HasSubstr("longitude 1.74e+200 is outside -180..360")) << name;
+    }
+}
+
 TEST(NeverMisread, AColumnThatSpeaksOfWeatherIsUnderstoodOrAnError)
 {
     const std::string text = "time,air_temp_c,snow_melt_rate\n2024-01-01T00:00,-1,3\n";

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/tables.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -258,7 +259,7 @@ static void read_ghcn_daily(std::string_view text, RowCollector& rows, const Rea
     share_totals(rows, days);
     const double longitude = std::isnan(options.site.longitude_deg) ? rows.site().longitude_deg
                                                                     : options.site.longitude_deg;
-    const double zone_h = std::isnan(longitude) ? 0.0 : std::round(longitude / 15.0);
+    const double zone_h = zone_of_longitude_h(longitude);
     rows.note(ReadNote::Kind::Info, 0, "",
               "daily values: temperature swings from its minimum at 6 to its maximum at 15 "
               "o'clock, precipitation is spread over the day");

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/metar.h"
 
@@ -82,6 +84,12 @@ double station_pressure_pa(double sea_level_pa, double elevation_m, double air_k
 double zone_of_longitude_h(double longitude_deg)
 {
     if (std::isnan(longitude_deg)) return 0.0;
+    if (!(longitude_deg >= -180.0 && longitude_deg <= 360.0)) {
+        char said[120];
+        std::snprintf(said, sizeof said, "weather: longitude %g is outside -180..360",
+                      longitude_deg);
+        throw Error(said, "Mend the file, or give the place with --longitude.");
+    }
     if (longitude_deg > -59.5 && longitude_deg < -52.0) return -3.5;
     return std::round(longitude_deg / 15.0);
 }

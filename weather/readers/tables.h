@@ -66,7 +66,7 @@ void read_table_rows(Lines& lines, const TableHeader& header, const TableRows& h
 double station_pressure_pa(double sea_level_pa, double elevation_m, double air_k);
 
 /// Standard time of the zone that a longitude lies in, whole hours east (Newfoundland's half hour
-/// kept): for files that name local standard time and not the zone.
+/// kept): for files that name local standard time and not the zone. Throws Error outside -180..360.
 double zone_of_longitude_h(double longitude_deg);
 
 /// What present weather in METAR words ("-SN BR", "FZRA") falls as, mm/h.
