@@ -138,9 +138,9 @@ IesLight read_ies(std::string_view text, const std::string& name)
             }
             const auto [h, part_h] = between(horizontal, around);
             const std::size_t other = std::min(h + 1, columns - 1);
-            const auto at = [&](std::size_t column) {
-                return candela[column * rows + v] * (1.0 - part_v) +
-                       candela[column * rows + v + 1] * part_v;
+            const auto at = [&, row = v, part = part_v](std::size_t column) {
+                return candela[column * rows + row] * (1.0 - part) +
+                       candela[column * rows + row + 1] * part;
             };
             const double value = measured ? at(h) * (1.0 - part_h) + at(other) * part_h : 0.0;
             light.profile.texels.emplace_back(static_cast<float>(value / peak));
