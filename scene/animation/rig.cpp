@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/animation/transform.h"
+#include "scene/light_shape.h"
 
 namespace petrichor::scene {
 namespace {
@@ -186,6 +187,8 @@ Light carried(const Light& light, const Posture& posture)
     Light out = light;
     out.position_m = glm::vec3(frame[3]);
     out.direction = -glm::vec3(frame[2]);
+    out.up = glm::vec3(frame[1]);
+    turn_shape(out);
     return out;
 }
 

@@ -185,6 +185,15 @@ TEST(Animation, CarriesCamerasAndLights)
     const Light light = carried(scene.lights[0], posture);
     expect_near(light.position_m, {5, 0, 0}, 1e-4f);
     expect_near(light.direction, {-1, 0, 0}, 1e-4f);
+    // A lamp with a face turns it along.
+    Light panel = scene.lights[0];
+    panel.kind = LightKind::Rectangle;
+    panel.shaped = true;
+    panel.half_u_m = {0.5f, 0, 0};
+    panel.half_v_m = {0, -0.25f, 0};
+    panel = carried(panel, posture);
+    expect_near(panel.half_u_m, {0, 0, -0.5f}, 1e-4f);
+    expect_near(panel.half_v_m, {0, -0.25f, 0}, 1e-4f);
 }
 
 TEST(Animation, NodesCanBeHiddenByPointer)
