@@ -212,14 +212,16 @@ TEST(PatchWeatherOfAScene, TwoTenAndFortyMillimetresStandAsTheyFell)
             if (depth > 0.0f) below += static_cast<double>(depth) * field.cell_m * field.cell_m;
         }
         EXPECT_NEAR(below, sums.ponds_m3, 1e-4 * capacity) << mm;
-        EXPECT_GE(sums.ponds_m3, before) << mm;
+        // Film and cracks take the first two.
+        if (mm > 2.0) {
+            EXPECT_GT(sums.ponds_m3, before) << mm;
+        }
         EXPECT_LE(sums.ponds_m3, capacity * (1.0 + 1e-9)) << mm;
         EXPECT_GT(sums.books.out, out_before) << mm;
         EXPECT_LT(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen) << mm;
         before = sums.ponds_m3;
         out_before = sums.books.out;
     }
-    EXPECT_GT(before, 0.0);  // film and cracks take the first of it
 }
 
 TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)

@@ -64,7 +64,6 @@ protected:
 
 TEST_F(AnimationTest, ATurningNodeIsWhereItsKeysSay)
 {
-    if (!renderer) GTEST_SKIP();
     const Scene moving = settled(testing_gltf::turning_quad());
     GltfBuilder there = testing_gltf::turning_quad();
     there.document.erase("animations");
@@ -77,7 +76,6 @@ TEST_F(AnimationTest, ATurningNodeIsWhereItsKeysSay)
 
 TEST_F(AnimationTest, ABendingBarIsDrawnAsOneThatIsBent)
 {
-    if (!renderer) GTEST_SKIP();
     GltfBuilder b = testing_gltf::bending_bar();
     // Ends bent, so that the end is a key.
     Scene moving = scene::load_gltf(b.glb(), "bar.glb", nullptr);
@@ -88,7 +86,6 @@ TEST_F(AnimationTest, ABendingBarIsDrawnAsOneThatIsBent)
 
 TEST_F(AnimationTest, AMorphedQuadIsDrawnInItsShape)
 {
-    if (!renderer) GTEST_SKIP();
     const Scene moving = settled(testing_gltf::morphing_quad());
     GltfBuilder there = testing_gltf::morphing_quad();
     there.document.erase("animations");
@@ -99,7 +96,6 @@ TEST_F(AnimationTest, AMorphedQuadIsDrawnInItsShape)
 // A plate that slides over the ground: its shadow is below it in every frame, in any order.
 TEST_F(AnimationTest, ShadowsAndShelterFollow)
 {
-    if (!renderer) GTEST_SKIP();
     GltfBuilder b;
     const int mesh = b.mesh(testing_gltf::quad_of(b));
     const double s = std::sqrt(0.5);
@@ -141,7 +137,6 @@ TEST_F(AnimationTest, ShadowsAndShelterFollow)
 
 TEST_F(AnimationTest, ALampOnANodeLightsWhereItIs)
 {
-    if (!renderer) GTEST_SKIP();
     GltfBuilder b;
     const int mesh = b.mesh(testing_gltf::quad_of(b));
     const double s = std::sqrt(0.5);

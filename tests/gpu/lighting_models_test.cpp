@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/own_text_fixture.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -13,26 +13,8 @@ namespace fs = std::filesystem;
 
 const std::string kMinnaert = PETRICHOR_SOURCE_DIR "/data/shaders/minnaert.glsl";
 
-class LightingModelsTest : public GpuTest {
+class LightingModelsTest : public OwnTextTest {
 protected:
-    void SetUp() override
-    {
-        folder = fs::temp_directory_path() / ("petrichor-models-" + std::to_string(getpid()));
-        fs::create_directories(folder);
-        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
-        GpuTest::SetUp();
-    }
-    void TearDown() override
-    {
-        GpuTest::TearDown();
-        unsetenv("PETRICHOR_CACHE");
-        fs::remove_all(folder);
-    }
-    std::string write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(folder / name) << text;
-        return (folder / name).string();
-    }
     std::size_t cached_shaders() const
     {
         std::size_t count = 0;
@@ -47,15 +29,8 @@ protected:
     {
         Material material = plain_material(glm::vec3(0.5f));
         material.lighting_model = model;
-        try {
-            renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {material}), {});
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return refusal_of(material);
     }
-
-    fs::path folder;
 };
 
 constexpr float kLux = 1000.0f;

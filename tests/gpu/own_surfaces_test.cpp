@@ -1,11 +1,9 @@
 // Surfaces of users' own: what their two functions may change, and what is said of wrong ones.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
-#include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/own_text_fixture.h"
 
 namespace petrichor::gpu {
 namespace {
@@ -14,36 +12,18 @@ namespace fs = std::filesystem;
 
 constexpr int kSize = 48;
 
-class OwnSurface : public GpuTest {
+class OwnSurface : public OwnTextTest {
 protected:
-    void SetUp() override
-    {
-        folder = fs::temp_directory_path() / ("petrichor-surfaces-" + std::to_string(getpid()));
-        fs::create_directories(folder);
-        setenv("PETRICHOR_CACHE", (folder / "cache").c_str(), 1);
-        GpuTest::SetUp();
-    }
-    void TearDown() override
-    {
-        GpuTest::TearDown();
-        unsetenv("PETRICHOR_CACHE");
-        fs::remove_all(folder);
-    }
     std::string write(const std::string& name, const std::string& text) const
     {
-        std::ofstream(folder / name) << "#include \"gpu/passes/surface/own_surface.glsl\"\n" << text;
-        return (folder / name).string();
+        return OwnTextTest::write(
+            name, "#include \"gpu/passes/surface/own_surface.glsl\"\n" + text);
     }
     std::string refusal(const std::string& surface) const
     {
         Material material = plain_material(glm::vec3(0.5f));
         material.surface = surface;
-        try {
-            renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {material}), {});
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return refusal_of(material);
     }
     // Two floors side by side, the left of the given surface; 2 m straight from above.
     RenderResult seen(const std::string& surface, const shared::WeatherMoment& weather,
@@ -81,7 +61,6 @@ protected:
         return std::string(PETRICHOR_SOURCE_DIR) + "/data/shaders/" + name;
     }
 
-    fs::path folder;
 };
 
 TEST_F(OwnSurface, ChangesWhatItsFunctionsSay)

@@ -56,7 +56,6 @@ protected:
 
 TEST_F(TransparentTest, LayersBlendInTheirOrderWhateverTheOrderOfTheScene)
 {
-    if (!renderer) GTEST_SKIP();
     const glm::vec3 ground(1, 1, 1), red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1);
     // From below: ground, red at 0.5, green at 0.25, blue at 0.75.
     glm::vec3 wanted = ground;
@@ -82,7 +81,6 @@ TEST_F(TransparentTest, LayersBlendInTheirOrderWhateverTheOrderOfTheScene)
 
 TEST_F(TransparentTest, WhatLiesDeeperThanTheLayersGoesByChance)
 {
-    if (!renderer) GTEST_SKIP();
     const std::vector<Material> materials{glowing({1, 1, 1}), glowing({1, 0, 0}, 0.5f),
                                           glowing({0, 1, 0}, 0.25f), glowing({0, 0, 1}, 0.75f)};
     // Chance is an instance's own.
@@ -109,7 +107,6 @@ TEST_F(TransparentTest, WhatLiesDeeperThanTheLayersGoesByChance)
 
 TEST_F(TransparentTest, PremultipliedGlassKeepsItsReflection)
 {
-    if (!renderer) GTEST_SKIP();
     Material glass = plain_material(glm::vec3(0.0f), 0.1f);
     glass.base_color.a = 0.0f;
     glass.alpha_mode = AlphaMode::Blend;
@@ -132,7 +129,6 @@ TEST_F(TransparentTest, PremultipliedGlassKeepsItsReflection)
 
 TEST_F(TransparentTest, ABodyTintsByBeersLaw)
 {
-    if (!renderer) GTEST_SKIP();
     Material body = plain_material({0.5f, 1.0f, 1.0f}, 0.0f);
     body.transmission = 1.0f;
     body.thickness = 0.2f;
@@ -146,7 +142,6 @@ TEST_F(TransparentTest, ABodyTintsByBeersLaw)
 // A step of light below a plate, seen aslant: a thick one shifts it by Snell's law, a rough one blurs it.
 TEST_F(TransparentTest, AThickPlateShiftsAndARoughOneBlurs)
 {
-    if (!renderer) GTEST_SKIP();
     Material plate = plain_material(glm::vec3(1.0f), 0.0f);
     plate.transmission = 1.0f;
     plate.ior = 1.5f;
@@ -184,7 +179,6 @@ TEST_F(TransparentTest, AThickPlateShiftsAndARoughOneBlurs)
 
 TEST_F(TransparentTest, ARoundBodyBendsWhatIsBehind)
 {
-    if (!renderer) GTEST_SKIP();
     // Level glass seen straight on bends nothing; tilted, it shifts the step.
     Material plate = plain_material(glm::vec3(1.0f), 0.0f);
     plate.transmission = 1.0f;
@@ -207,7 +201,6 @@ TEST_F(TransparentTest, ARoundBodyBendsWhatIsBehind)
 
 TEST_F(TransparentTest, CastersCanBeSwitchedOff)
 {
-    if (!renderer) GTEST_SKIP();
     Material pane = plain_material(glm::vec3(0.5f));
     pane.alpha_mode = AlphaMode::Blend;
     pane.base_color.a = 0.5f;

@@ -68,6 +68,7 @@ layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
 
+#include "gpu/frame/air.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
 #include "gpu/passes/patch_light/patch_spread.glsl"
 #include "gpu/passes/sky/night.glsl"
@@ -515,17 +516,8 @@ void main()
             }
         }
         if (FOG != 0u) {
-            const float distance_m = length(position - frame.camera_m);
-            const float path =
-                fog_path(distance_m, frame.camera_m.y - frame.fog_base_m,
-                         position.y - frame.fog_base_m, frame.fog_height_m);
-            float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
-                                  frame.fog_end_m);
-            // Drops that are drawn one by one are no haze.
-            kept = min(kept * exp(drawn_depth(distance_m, frame.drawn_per_m, frame.drawn_reach_m)),
-                       1.0);
-            const vec3 level = normalize(vec3(-v.x, max(-v.y, 0.05), -v.z));
-            const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
+            const float kept = air_kept(position);
+            const vec3 veil = textureLod(sky_map, air_level(-v), kAirMip).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);
             mirror.rgb *= kept;
         }

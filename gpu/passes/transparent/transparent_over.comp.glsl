@@ -27,6 +27,8 @@ layout(binding = TRANSPARENT_OVER_SKY) uniform samplerCube sky_map;
 layout(binding = TRANSPARENT_OVER_FRONT, rgba32f) uniform image2D front;
 layout(binding = TRANSPARENT_OVER_LEFT, rgba16f) uniform image2D left;
 
+#include "gpu/frame/air.glsl"
+
 const int kTaps = 32;
 const float kGoldenAngle = 2.39996323;
 const float kClear = 0.08;  // smoother surfaces blur nothing
@@ -78,16 +80,8 @@ void main()
         const vec3 view = pixel_view_direction(frame, pixel);
         if (frame.fog_per_m > 0.0) {
             // As the lighting does it; what shines through has its fog already.
-            const float distance_m = length(position - frame.camera_m);
-            const float path =
-                fog_path(distance_m, frame.camera_m.y - frame.fog_base_m,
-                         position.y - frame.fog_base_m, frame.fog_height_m);
-            float kept = fog_kept(frame.fog_mode, path, frame.fog_per_m, frame.fog_start_m,
-                                  frame.fog_end_m);
-            kept = min(kept * exp(drawn_depth(distance_m, frame.drawn_per_m, frame.drawn_reach_m)),
-                       1.0);
-            const vec3 level = normalize(vec3(view.x, max(view.y, 0.05), view.z));
-            const vec3 veil = textureLod(sky_map, level, 5.0).rgb * frame.ambient_scale;
+            const float kept = air_kept(position);
+            const vec3 veil = textureLod(sky_map, air_level(view), kAirMip).rgb * frame.ambient_scale;
             light = light * kept + veil * (1.0 - kept) * (1.0 - min(code.rgb, vec3(1.0)));
         }
         sum.rgb += rest * light;
