@@ -83,6 +83,8 @@ struct TargetSet {
     std::unique_ptr<MemoryArena> transparent_arena;
     TransparentTargets transparent;
     int transparent_words = 0;
+    std::unique_ptr<MemoryArena> decal_arena;
+    DecalTargets decals;
 };
 
 struct Renderer::Impl {
@@ -196,6 +198,19 @@ struct Renderer::Impl {
             set.transparent = make_transparent_targets(device, *set.transparent_arena, s.width,
                                                        s.height, words);
             set.transparent_words = words;
+        }
+        return true;
+    }
+
+    // True when the scene has decals; their targets are then made for the frame's size.
+    bool prepare_decals(TargetSet& set, const FrameSettings& s)
+    {
+        if (scene->decals().empty()) return false;
+        const GpuImage* now = set.decals.color.get();
+        if (!now || now->width != s.width || now->height != s.height) {
+            set.decals = {};
+            set.decal_arena = std::make_unique<MemoryArena>(device);
+            set.decals = make_decal_targets(*set.decal_arena, s.width, s.height);
         }
         return true;
     }
@@ -334,6 +349,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
+    if (prepare_decals(set, frame.settings)) resources.decals = &set.decals;
     resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;

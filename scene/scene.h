@@ -122,6 +122,16 @@ struct SecondSet {
     glm::vec4 water_color{0.0f};
 };
 
+/// Of a material that is laid over what lies below it instead of being a surface of its own. Ranges and
+/// meanings: material_table.h.
+struct DecalLook {
+    bool on = false;
+    glm::vec4 weights{1.0f, 1.0f, 1.0f, 0.0f};  ///< colour; normal; roughness and the like; weather
+    float order = 0.0f;                         ///< higher ones lie over lower ones
+    float reach_m = 0.05f;
+    bool received = true;  ///< of what lies below: it takes decals
+};
+
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
     std::string name;
@@ -177,6 +187,7 @@ struct Material {
     std::string surface;  ///< path of a GLSL file that changes the dry surface; empty: none
     MaterialWeather weather;
     SecondSet second;
+    DecalLook decal;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
@@ -236,6 +247,18 @@ struct Instance {
     std::int32_t node = kNoNode;  ///< of the rig, that carries it; read while it `moves`
     std::int32_t skin = -1;       ///< of the rig; joints alone place it then
     glm::mat4 in_node{1.0f};      ///< from the mesh to the node
+};
+
+/// A material that is projected onto all that lies in a box: along its -z, u along its x, v down its y.
+struct ProjectedDecal {
+    std::string name;
+    std::uint32_t material = 0;        ///< index into Scene::materials
+    glm::mat4 to_world{1.0f};          ///< from the cube of -0.5 to 0.5, at rest
+    float full_angle_rad = 0.8f;       ///< to faces turned no more than so from its z; then it fades ..
+    float none_angle_rad = 1.3f;       ///< .. and ends here
+    float edge_fade = 0.0f;            ///< share of the half box over which it fades at all sides
+    std::int32_t node = kNoNode;       ///< of the rig, that carries it
+    glm::mat4 in_node{1.0f};           ///< from the cube to the node
 };
 
 enum class LightKind { Directional, Point, Spot, Rectangle };
@@ -310,6 +333,7 @@ struct Scene {
     std::vector<Material> materials;  ///< never empty once loaded; index 0 may be the default
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
+    std::vector<ProjectedDecal> decals;
     std::vector<Light> lights;
     std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;

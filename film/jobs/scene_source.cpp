@@ -15,6 +15,7 @@
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
 #include "film/scenes/lamps.h"
+#include "film/scenes/decals.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/ground_plane.h"
 #include "film/scenes/snow_tracks.h"
@@ -106,6 +107,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
     sequence.notes = std::move(loaded.notes);
+    const std::string decals = add_decals(scenario.decals, scenario.materials, sequence.scene);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
@@ -117,6 +119,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
     Hasher content;
     content.add(loaded.fingerprint);
     if (!lamps.content.empty()) content.add(lamps.content);
+    if (!decals.empty()) content.add(decals);
     content.add(applied.textures);
     content.add(ground);
     content.add(scenario.scene.variant);

@@ -120,6 +120,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
     upload_textures(device, textures);
     make_materials(device, scene);
     upload_geometry(device, scene);
+    sum_up_materials();
 }
 
 void place_sphere(Draw& draw, const Bounds& box)
@@ -190,9 +191,23 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                 }
                 moving_.push_back(std::move(moving));
             }
-            draws_.push_back(draw);
+            const Material& material = scene.materials[draw.material];
+            if (material.decal.on) {
+                decals_.push_back({material.decal.order, draw, {}});
+            } else {
+                draws_.push_back(draw);
+            }
         }
     }
+    for (const ProjectedDecal& box : scene.decals) {
+        Decal decal{scene.materials[box.material].decal.order, {}, box};
+        decal.draw.material = box.material;
+        decal.draw.to_world = box.to_world;
+        place_sphere(decal.draw, kDecalBox);
+        decals_.push_back(std::move(decal));
+    }
+    std::stable_sort(decals_.begin(), decals_.end(),
+                     [](const Decal& a, const Decal& b) { return a.order < b.order; });
     vertices.insert(vertices.end(), bending_.begin(), bending_.end());
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
@@ -318,7 +333,6 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         materials_.push_back(std::move(material));
         set_material(i, source);
     }
-    sum_up_materials();
 }
 
 // What of a material is not a matter of pipelines, textures and lists.
@@ -337,10 +351,12 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                                                   {c.snow_opacity, c.transmission_factor, c.ior,
                                                    c.thickness_factor},
                                                   c.second_water_color,
-                                                  {c.roughness_factor, 0.0f, 0.0f, 0.0f}};
+                                                  {c.roughness_factor,
+                                                   source.decal.received ? 1.0f : 0.0f, 0.0f, 0.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
-    materials_[index].blended = is_blended(source);
+    materials_[index].blended = is_blended(source) && !source.decal.on;
+    materials_[index].decal_weather = source.decal.weights.w > 0.0f;
     materials_[index].casts_shadows = source.casts_shadows;
     materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);
 }
@@ -381,6 +397,7 @@ void GpuScene::sum_up_materials()
         return m.emissive * m.emissive_strength != glm::vec3(0.0f);
     });
     baked_ = any([](const Material& m) { return m.light_map.present(); });
+    decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);
     two_sets_ = any([](const Material& m) {
         return m.second.use == scene::SecondSetUse::Mix &&

@@ -32,6 +32,14 @@ struct Draw {
     bool mirrored = false;
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
 };
+/// What is laid over the surfaces: triangles, or a box that projects.
+struct Decal {
+    float order = 0.0f;
+    Draw draw;  ///< of a box: its material and place alone
+    std::optional<ProjectedDecal> box;
+};
+inline constexpr Bounds kDecalBox{glm::vec3(-0.5f), glm::vec3(0.5f)};
+
 /// The bounding sphere of a draw, from the box of its vertices.
 void place_sphere(Draw& draw, const Bounds& box);
 
@@ -41,6 +49,7 @@ struct GpuMaterial {
     bool blended = false;
     bool glows = false;
     bool casts_shadows = true;
+    bool decal_weather = false;        ///< as a decal it brings its own
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
@@ -77,6 +86,8 @@ public:
     GpuBuffer& vertex_texels() const { return *vertices_; }
     GpuBuffer& index_texels() const { return *indices_; }
     const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
+    const std::vector<Decal>& decals() const { return decals_; }  ///< lower ones first
+    bool decals_refused() const { return decals_refused_; }  ///< some material takes none
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
     GpuBuffer& layers() const { return *layers_; }  ///< LAYERS_TEXELS each
@@ -112,6 +123,7 @@ private:
     std::vector<const SamplerHandle*> image_samplers_;
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
+    std::vector<Decal> decals_;
     std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
     std::vector<MovingDraw> moving_;
     std::vector<Vertex> bending_;  // the last vertices of the buffer
@@ -135,6 +147,7 @@ private:
     Bounds bounds_;
     bool emissive_ = false;
     bool baked_ = false;
+    bool decals_refused_ = false;
     bool constant_weather_ = false;
     bool two_sets_ = false;
     bool as_texels_ = false;

@@ -61,7 +61,9 @@
     X(vec4, second_water_color)    \
     X(uint, sheltered)             \
     X(float, light_map_scale)      \
-    X(float, light_map_sky)
+    X(float, light_map_sky)        \
+    X(vec4, decal_weights)         \
+    X(float, decal_reach_m)
 
 // X(slot, name): the name is that of the row in material_textures() and of the sampler, whose
 // binding in the material's set is 1 + slot.
@@ -129,7 +131,7 @@
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-//   3  roughness_factor, -, -, -
+//   3  roughness_factor, receives_decals, -, -
 #define MATERIAL_LOOK_TEXELS 4
 
 // Layers of those materials that have some, by number:

@@ -89,18 +89,27 @@ bool GpuScene::pose(const Device& device, double time_s)
     ++poses_;
     const scene::Posture posture = scene::posture_at(*rig_, time_s);
     bounds_ = rest_bounds_;
-    for (Draw& draw : draws_) {
-        if (draw.moving < 0) continue;
+    const auto move = [&](Draw& draw) {
+        if (draw.moving < 0) return;
         const MovingDraw& moving = moving_[static_cast<std::size_t>(draw.moving)];
         const PosedDraw here = posed(moving, *rig_, posture, bending_);
         draw.index_count = here.visible ? moving.index_count : 0;
         draw.to_world = here.to_world;
         draw.mirrored = here.mirrored;
         place_sphere(draw, here.box);
-        if (!here.visible) continue;
+        if (!here.visible) return;
         const Bounds box = box_in_world(here.box, here.to_world);
         bounds_.low = glm::min(bounds_.low, box.low);
         bounds_.high = glm::max(bounds_.high, box.high);
+    };
+    for (Draw& draw : draws_) move(draw);
+    for (Decal& decal : decals_) {
+        move(decal.draw);
+        if (!decal.box || decal.box->node == scene::kNoNode) continue;
+        const auto node = static_cast<std::size_t>(decal.box->node);
+        decal.box->to_world = glm::mat4(posture.to_world[node]) * decal.box->in_node;
+        decal.draw.to_world = decal.box->to_world;
+        place_sphere(decal.draw, kDecalBox);
     }
     upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
                   first_bending_ * sizeof(Vertex));

@@ -81,6 +81,9 @@ SurfaceData evaluate_surface(SurfaceInput at)
             base = detail_color(base, other, detail_share(at));
         }
     }
+#ifdef SURFACE_ALPHA
+    data.alpha = surface_alpha(at);
+#endif
     data.hole = HOLES != 0u && hole_in(at, alpha_at(at));
 
     float roughness = material.roughness_factor;

@@ -30,6 +30,7 @@ struct SurfaceData {
     GBufferTexel texel;
     vec3 emission;  // radiance
     bool hole;      // nothing is here: cut out, or let through by chance
+    float alpha;    // with SURFACE_ALPHA: where parallax has moved the point
 };
 
 // Unit axes of the texture coordinates on the surface.
