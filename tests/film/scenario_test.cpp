@@ -91,6 +91,16 @@ TEST(Scenario, FogEndsBehindItsBeginning)
     EXPECT_NO_THROW(read("start_m = 5\nend_m = 60\n"));
 }
 
+TEST(Scenario, ATrackLeadsSomewhere)
+{
+    const auto with = [](const std::string& points) {
+        return error_of("[ground]\ntracks = [{ kind = \"feet\", points_m = " + points + " }]\n");
+    };
+    for (const char* points : {"[]", "[[0, 0, 1]]", "[[0, 0, 1], [0, 0, 1]]"})
+        EXPECT_THAT(with(points).problem, HasSubstr("two different points")) << points;
+    EXPECT_EQ(with("[[0, 0, 1], [2, 0, 1]]").problem, "no error");
+}
+
 TEST(Scenario, AMisspeltKeyNamesLineAndNearest)
 {
     const Message message = error_of("[output]\nframes = 3\nwidht = 64\n");
