@@ -312,7 +312,9 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
                        static_cast<std::size_t>(frame.settings.height),
                    device.limits().maxStorageBufferRange);
 
-    const bool moved = scene->pose(device, frame.animation_s);
+    const bool moved = scene->pose(
+        device, frame.animation_s,
+        {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
     if (scene->set_materials(frame.materials) || moved) {
         depth_maps.forget();
         lamp_shadows.forget();

@@ -288,6 +288,7 @@ const std::vector<MaterialProperty>& material_table()
         add_weather_rows(rows);
         add_second_set_rows(rows);
         add_decal_rows(rows);
+        add_wind_rows(rows);
         return rows;
     }();
     return table;

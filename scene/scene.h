@@ -122,6 +122,24 @@ struct SecondSet {
     glm::vec4 water_color{0.0f};
 };
 
+/// Where a plant's vertices learn how far they are from its root, 0 .. 1.
+enum class WindWeight {
+    Height,  ///< above the lowest point of the mesh
+    Uv,      ///< v of the first coordinates: roots at 1, tops at 0
+    Mask,    ///< alpha of _WEATHER
+};
+
+/// How a material bends in the wind (scene/animation/wave.h). Ranges and meanings: material_table.h.
+struct WindLook {
+    float bend = 0.0f;
+    float flutter_m = 0.0f;
+    float sway_hz = 0.8f;
+    float height_m = 0.0f;
+    WindWeight weight = WindWeight::Height;
+
+    bool moves() const { return bend > 0.0f || flutter_m > 0.0f; }
+};
+
 /// Of a material that is laid over what lies below it instead of being a surface of its own. Ranges and
 /// meanings: material_table.h.
 struct DecalLook {
@@ -188,6 +206,7 @@ struct Material {
     MaterialWeather weather;
     SecondSet second;
     DecalLook decal;
+    WindLook wind;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
@@ -214,7 +233,7 @@ struct Primitive {
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;  ///< COLOR_0, linear; multiplies the base colour
     std::vector<glm::vec4>
-        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
+        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a how far wind moves it
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
     std::vector<MorphTarget> targets;    ///< empty: it is not morphed
@@ -227,6 +246,16 @@ struct Primitive {
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+};
+
+/// What one instance has instead of its materials' own values.
+struct InstanceLook {
+    std::optional<glm::vec3> color;  ///< linear, for base_color_factor
+    std::optional<float> metallic;   ///< for metallic_factor
+    std::optional<float> roughness;  ///< for roughness_factor
+    std::optional<float> emission;   ///< times what its materials send out
+
+    bool operator==(const InstanceLook&) const = default;
 };
 
 /// Nodes, skins and animations of a scene: scene/animation/rig.h.
@@ -247,6 +276,7 @@ struct Instance {
     std::int32_t node = kNoNode;  ///< of the rig, that carries it; read while it `moves`
     std::int32_t skin = -1;       ///< of the rig; joints alone place it then
     glm::mat4 in_node{1.0f};      ///< from the mesh to the node
+    InstanceLook look = {};
 };
 
 /// A material that is projected onto all that lies in a box: along its -z, u along its x, v down its y.

@@ -14,6 +14,7 @@
 #include "base/words.h"
 #include "film/jobs/camera.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenario/node_keys.h"
 #include "film/scenes/lamps.h"
 #include "film/scenes/decals.h"
 #include "film/scenes/demo_scene.h"
@@ -107,6 +108,8 @@ void load_sequence_scene(Sequence& sequence, int threads)
     say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
     sequence.notes = std::move(loaded.notes);
+    const auto unnamed = apply_node_overrides(scenario.nodes, sequence.scene);
+    sequence.scene.warnings.insert(sequence.scene.warnings.end(), unnamed.begin(), unnamed.end());
     const std::string decals = add_decals(scenario.decals, scenario.materials, sequence.scene);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
@@ -119,6 +122,14 @@ void load_sequence_scene(Sequence& sequence, int threads)
     Hasher content;
     content.add(loaded.fingerprint);
     if (!lamps.content.empty()) content.add(lamps.content);
+    for (const NodeOverride& one : scenario.nodes) {
+        content.add(one.glob);
+        const scene::InstanceLook& look = one.look;
+        const glm::vec3 color = look.color.value_or(glm::vec3(-1.0f));
+        for (const float v : {color.r, color.g, color.b, look.metallic.value_or(-1.0f),
+                              look.roughness.value_or(-1.0f), look.emission.value_or(-1.0f)})
+            content.add(v);
+    }
     if (!decals.empty()) content.add(decals);
     content.add(applied.textures);
     content.add(ground);

@@ -201,6 +201,13 @@ struct MaterialOverride {
     std::string surface = {};         ///< likewise
 };
 
+/// What the instances of nodes whose name matches have instead of their materials' own.
+struct NodeOverride {
+    std::string glob;
+    std::string place;  ///< "file:line", for messages
+    scene::InstanceLook look;
+};
+
 /// A box that projects a material onto what lies in it.
 struct ScenarioDecal {
     std::string name;
@@ -282,6 +289,7 @@ struct Scenario : Conditions {
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;
+    std::vector<NodeOverride> nodes;
     std::vector<ScenarioDecal> decals;
     std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions

@@ -1,6 +1,7 @@
 #include "gpu/upload/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -120,6 +121,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
     upload_textures(device, textures);
     make_materials(device, scene);
     upload_geometry(device, scene);
+    upload_looks(device, scene);
     sum_up_materials();
 }
 
@@ -192,6 +194,21 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                 moving_.push_back(std::move(moving));
             }
             const Material& material = scene.materials[draw.material];
+            if (material.wind.moves() && !primitives[p].deforms() && !instance.backdrop) {
+                auto& shape = shapes[&primitives[p]];
+                if (!shape) shape = std::make_shared<const Primitive>(primitives[p]);
+                draw.waving = static_cast<std::int32_t>(waving_.size());
+                draw.vertex_offset = static_cast<std::int32_t>(first_bending_ + bending_.size());
+                waving_.push_back({shape, {range.low, range.high}, material.wind, bending_.size()});
+                for (std::size_t v = 0; v < shape->positions.size(); ++v)
+                    bending_.push_back(vertex_of(*shape, v));
+                if (bending_.size() > kMostWaving) {
+                    throw Error("scene: wind bends more than " + std::to_string(kMostWaving) +
+                                    " vertices, those of every instance counted",
+                                "Give wind_bend and wind_flutter_m to fewer materials, or thin the "
+                                "plants out.");
+                }
+            }
             if (material.decal.on) {
                 decals_.push_back({material.decal.order, draw, {}});
             } else {
@@ -234,6 +251,43 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
          .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED});
     upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
+}
+
+// Instances that look alike share a row; row 0 is nobody's.
+void GpuScene::upload_looks(const Device& device, const Scene& scene)
+{
+    std::vector<glm::vec4> texels(INSTANCE_LOOK_TEXELS, glm::vec4(-1.0f));
+    std::map<std::array<float, 6>, std::uint32_t> rows;
+    const auto row_of = [&](const InstanceLook& look) -> std::uint32_t {
+        if (look == InstanceLook{}) return 0;
+        const glm::vec3 color = look.color.value_or(glm::vec3(-1.0f));
+        const std::array<float, 6> key{color.r,
+                                       color.g,
+                                       color.b,
+                                       look.metallic.value_or(-1.0f),
+                                       look.roughness.value_or(-1.0f),
+                                       look.emission.value_or(-1.0f)};
+        const auto [row, is_new] = rows.try_emplace(key, static_cast<std::uint32_t>(rows.size() + 1));
+        if (is_new) {
+            texels.emplace_back(key[0], key[1], key[2], key[3]);
+            texels.emplace_back(key[4], key[5], 0.0f, 0.0f);
+        }
+        return row->second;
+    };
+    const auto give = [&](Draw& draw) {
+        draw.look = row_of(scene.instances[draw.instance_id].look);
+        materials_[draw.material].looks = materials_[draw.material].looks || draw.look != 0;
+    };
+    for (Draw& draw : draws_) give(draw);
+    for (Decal& decal : decals_) {
+        if (!decal.box) give(decal.draw);
+    }
+    instance_looks_ = arena_.buffer(
+        {.name = "instance_looks",
+         .size = texels.size() * sizeof(glm::vec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
 }
 
 void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)

@@ -26,11 +26,13 @@ struct Draw {
     std::int32_t vertex_offset = 0;
     std::uint32_t material = 0;
     std::uint32_t instance_id = 0;
+    std::uint32_t look = 0;  ///< number of its instance's look, from 1; 0: none
     glm::mat4 to_world{1.0f};
     glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
     float radius_m = 0.0f;
     bool mirrored = false;
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
+    std::int32_t waving = -1;  ///< likewise of how wind bends it
 };
 /// What is laid over the surfaces: triangles, or a box that projects.
 struct Decal {
@@ -50,6 +52,7 @@ struct GpuMaterial {
     bool glows = false;
     bool casts_shadows = true;
     bool decal_weather = false;        ///< as a decal it brings its own
+    bool looks = false;                ///< some instance has other values than it
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
@@ -73,9 +76,9 @@ public:
     /// Throws Error for a material or property that is not there, or one that cannot change.
     bool set_materials(const std::vector<MaterialChange>& changes);
 
-    /// Brings what moves to where it is at this moment of its clips, for the frames that follow. True
-    /// when anything may have moved. The device must not be drawing.
-    bool pose(const Device& device, double time_s);
+    /// Brings what moves to where it is at this moment of its clips and in this wind, for the frames that
+    /// follow. True when anything may have moved. The device must not be drawing.
+    bool pose(const Device& device, double time_s, const scene::Wind& wind = {});
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -90,6 +93,7 @@ public:
     bool decals_refused() const { return decals_refused_; }  ///< some material takes none
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
+    GpuBuffer& instance_looks() const { return *instance_looks_; }  ///< INSTANCE_LOOK_TEXELS each, from 1
     GpuBuffer& layers() const { return *layers_; }  ///< LAYERS_TEXELS each
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<Light>& glows() const { return glows_; }  ///< glowing surfaces as lights
@@ -103,6 +107,9 @@ public:
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
+    void upload_looks(const Device& device, const Scene& scene);
+    bool pose_rig(double time_s);
+    bool bend(const scene::Wind& wind, bool moved);
     void upload_geometry(const Device& device, const Scene& scene);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
     void make_materials(const Device& device, const Scene& scene);
@@ -117,6 +124,7 @@ private:
     std::unique_ptr<GpuBuffer> constants_;
     std::unique_ptr<GpuBuffer> looks_;
     std::unique_ptr<GpuBuffer> layers_;
+    std::unique_ptr<GpuBuffer> instance_looks_;
     std::uint32_t layers_used_ = 0;
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;
@@ -126,6 +134,8 @@ private:
     std::vector<Decal> decals_;
     std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
     std::vector<MovingDraw> moving_;
+    std::vector<WavingDraw> waving_;
+    scene::Wind wind_;  // that the vertices are bent in
     std::vector<Vertex> bending_;  // the last vertices of the buffer
     std::size_t first_bending_ = 0;
     std::vector<Light> rest_lights_;

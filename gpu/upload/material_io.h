@@ -134,6 +134,11 @@
 //   3  roughness_factor, receives_decals, -, -
 #define MATERIAL_LOOK_TEXELS 4
 
+// What an instance has instead of its materials' own, by Draw's number, from 1; negative: their own.
+//   0  base colour, metallic
+//   1  roughness, emission (a factor), -, -
+#define INSTANCE_LOOK_TEXELS 2
+
 // Layers of those materials that have some, by number:
 //   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor
 //   1  sheen_color_factor, sheen_roughness_factor
@@ -180,7 +185,8 @@ struct DrawConstants {
     vec4 normal_to_world[3];  // rows; xyz used
     uint instance_id;
     uint material_id;
-    uint padding[2];
+    uint look;     // of the instance, in the table of looks; 0: its materials' own
+    uint padding;
 };
 
 SHARED_END

@@ -82,11 +82,47 @@ PosedDraw posed(const MovingDraw& draw, const scene::Rig& rig, const scene::Post
     return out;
 }
 
-bool GpuScene::pose(const Device& device, double time_s)
+bool GpuScene::pose(const Device& device, double time_s, const scene::Wind& wind)
+{
+    const bool posed = pose_rig(time_s);
+    const bool bent = bend(wind, posed);
+    if (!posed && !bent) return false;
+    ++poses_;
+    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
+                  first_bending_ * sizeof(Vertex));
+    return true;
+}
+
+// Vertices that bend, in the wind; all calm moments are one.
+bool GpuScene::bend(const scene::Wind& wind, bool moved)
+{
+    const scene::Wind now = wind.velocity_m_s == glm::vec2(0.0f) ? scene::Wind{} : wind;
+    if (waving_.empty() || (now == wind_ && !moved)) return false;
+    wind_ = now;
+    const auto wave = [&](Draw& draw) {
+        if (draw.waving < 0) return;
+        const WavingDraw& waving = waving_[static_cast<std::size_t>(draw.waving)];
+        const scene::Shape shape =
+            scene::waved(*waving.shape, waving.box, draw.to_world, waving.look, now);
+        for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+            Vertex& v = bending_[waving.first_vertex + i];
+            v.position = shape.positions[i];
+            v.normal = shape.normals[i];
+            if (!shape.tangents.empty()) v.tangent = shape.tangents[i];
+        }
+        place_sphere(draw, waving.box);
+        if (now.velocity_m_s != glm::vec2(0.0f))
+            draw.radius_m += scene::wave_reach_m(waving.box, draw.to_world, waving.look);
+    };
+    for (Draw& draw : draws_) wave(draw);
+    for (Decal& decal : decals_) wave(decal.draw);
+    return true;
+}
+
+bool GpuScene::pose_rig(double time_s)
 {
     if (!rig_ || posed_s_ == time_s) return false;
     posed_s_ = time_s;
-    ++poses_;
     const scene::Posture posture = scene::posture_at(*rig_, time_s);
     bounds_ = rest_bounds_;
     const auto move = [&](Draw& draw) {
@@ -111,8 +147,6 @@ bool GpuScene::pose(const Device& device, double time_s)
         decal.draw.to_world = decal.box->to_world;
         place_sphere(decal.draw, kDecalBox);
     }
-    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
-                  first_bending_ * sizeof(Vertex));
     for (std::size_t i = 0; i < lights_.size(); ++i)
         lights_[i] = scene::carried(rest_lights_[i], posture);
     for (std::size_t i = 0; i < glow_sources_.size(); ++i) {

@@ -135,6 +135,7 @@ MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view 
 /// Rows of the second set of textures.
 void add_second_set_rows(std::vector<MaterialProperty>& table);
 void add_decal_rows(std::vector<MaterialProperty>& table);
+void add_wind_rows(std::vector<MaterialProperty>& table);
 void add_second_set_textures(std::vector<MaterialTexture>& table);
 
 }  // namespace petrichor::scene::detail

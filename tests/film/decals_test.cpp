@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "film/scenario/node_keys.h"
 
 namespace petrichor::film {
 namespace {
@@ -90,6 +91,28 @@ TEST(DecalKeys, RefuseWhatCannotBe)
     EXPECT_THAT(said("[decals.brick]\ndirection = [0, 0, 0]\n"), HasSubstr("a direction"));
     EXPECT_THAT(said("[decals.brick]\nfade_degrees = [60, 30]\n"), HasSubstr("the second larger"));
     EXPECT_THAT(said("[decals.brick]\ncentre_m = [1, 1, 1]\n"), HasSubstr("center_m"));
+}
+
+TEST(NodeKeys, GiveThingsValuesOfTheirOwn)
+{
+    scene::Scene scene = two_things();
+    scene.instances.push_back(scene.instances[0]);
+    scene.instances[1].name = "cart 2";
+    const Scenario scenario = parse_scenario(
+        "[nodes.\"cart*\"]\ncolor = [1, 0.5, 0]\nroughness = 0.25\n"
+        "[nodes.\"*2\"]\nroughness = 0.75\nemission = 3\nmetallic = 1\n"
+        "[nodes.\"wheel\"]\nmetallic = 1\n",
+        "s.toml");
+    const auto unmatched = apply_node_overrides(scenario.nodes, scene);
+    EXPECT_EQ(scene.instances[0].look.color, glm::vec3(1, 0.5f, 0));
+    EXPECT_EQ(scene.instances[0].look.roughness, 0.25f);
+    EXPECT_FALSE(scene.instances[0].look.metallic.has_value());
+    EXPECT_EQ(scene.instances[1].look.color, glm::vec3(1, 0.5f, 0));
+    EXPECT_EQ(scene.instances[1].look.roughness, 0.75f);
+    EXPECT_EQ(scene.instances[1].look.emission, 3.0f);
+    ASSERT_EQ(unmatched.size(), 1u);
+    EXPECT_THAT(unmatched[0], HasSubstr("cart, cart 2"));
+    EXPECT_THROW(parse_scenario("[nodes.a]\ncolor = [2, 0, 0]\n", "s.toml"), Error);
 }
 
 }  // namespace

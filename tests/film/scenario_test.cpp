@@ -202,7 +202,8 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
     for (const ScenarioKey& key : scenario_keys()) {
         EXPECT_TRUE(seen.insert(key.table + "." + key.name).second)
             << key.name << " is there twice";
-        const bool by_name = key.table == "materials" || key.table == "lamps" || key.table == "decals";
+        const bool by_name = key.table == "materials" || key.table == "lamps" || key.table == "decals" ||
+                             key.table == "nodes";
         const std::string table = by_name ? key.table + ".\"*\"" : key.table;
         std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";

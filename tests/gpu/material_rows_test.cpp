@@ -122,6 +122,7 @@ void make_visible(std::string_view row, Material& m)
     if (row == "snow_local_tiling") m.weather.snow_mapping = scene::SnowMapping::Local;
     if (row == "snow_mask_normal_scale")
         m.weather.snow_mask_normal = use_of("snow_mask_normal_texture");
+    if (row.starts_with("wind_") && row != "wind_bend") m.wind.bend = 0.6f;
     if (row.starts_with("decal_")) {
         m.decal.on = true;
         m.decal.weights.w = row == "decal_weights" ? 0.0f : 1.0f;

@@ -83,6 +83,7 @@ void main()
     at.color = vec4(1.0);
     at.weather = vec4(1.0);
     at.instance_id = 0u;
+    at.look = 0u;
 #else
     const float side = gl_FrontFacing ? 1.0 : -1.0;
     at.position = in_position;
@@ -98,6 +99,7 @@ void main()
     at.color = in_color;
     at.weather = in_weather;
     at.instance_id = draw.instance_id;
+    at.look = draw.look;
     // Onto what lies near the plane and looks the same way: not onto what stands in it.
     if (abs(dot(at.normal, seen - in_position)) > material.decal_reach_m) share = 0.0;
     share *= smoothstep(0.2, 0.5, dot(seen_normal, at.normal));

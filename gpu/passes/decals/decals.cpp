@@ -60,6 +60,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_FROST, 0u},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
+            {SURFACE_SPEC_LOOKS, draw.look != 0},
             {SURFACE_SPEC_PLACE, weather.place},
             {DECAL_SPEC_WEATHER, own_weather},
             {DECAL_SPEC_EMISSION, parts.emission}};
@@ -120,6 +121,7 @@ void add_decals(FrameGraph& graph, FrameTargets& targets, DecalTargets& own, con
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
+                      {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
                       {DECAL_DEPTH, sampled(*g.depth, targets.nearest)},
                       {DECAL_NORMALS, sampled(*g.normals, targets.nearest)}};

@@ -37,6 +37,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
+                      {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     if (layer) {
@@ -113,6 +114,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
+                        {SURFACE_SPEC_LOOKS, draw->look != 0},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     shaded.depth_equal = depth_first && !holes;

@@ -28,7 +28,7 @@ std::vector<glm::uvec4> draw_table(const GpuScene& scene)
         for (const glm::vec4& row : c.normal_to_world) table.push_back(bits_of(row));
         table.emplace_back(draw.first_index, static_cast<std::uint32_t>(draw.vertex_offset),
                            draw.material, draw.instance_id);
-        table.emplace_back(draw.mirrored ? 1u : 0u, 0u, 0u, 0u);
+        table.emplace_back(draw.mirrored ? 1u : 0u, draw.look, 0u, 0u);
     }
     if (table.empty()) table.emplace_back(0u);
     return table;
@@ -128,6 +128,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
+                      {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
                       {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
@@ -151,6 +152,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
+            {SURFACE_SPEC_LOOKS, material.looks},
             {SURFACE_SPEC_OWN, material.own_surface},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
