@@ -47,6 +47,7 @@ SHARED_FN vec3 fringe_color(float opd_nm, vec3 shift)
 // it. A film of no thickness is none.
 SHARED_FN vec3 thin_film_fresnel(float film_ior, float thickness_nm, vec3 f0, float cosine)
 {
+    if (thickness_nm <= 0.0f) return schlick_fresnel(f0, cosine);
     const float t = clamp(thickness_nm / 0.03f, 0.0f, 1.0f);
     const float n = mix(1.0f, film_ior, t * t * (3.0f - 2.0f * t));
     const float inside2 = 1.0f - (1.0f - cosine * cosine) / (n * n);

@@ -97,6 +97,15 @@ void make_visible(std::string_view row, Material& m)
         m.transmission = 0.9f;
         m.thickness = 0.5f;
     }
+    if (row == "dispersion") {
+        m.name = "before stripes";
+        m.roughness = 0.02f;
+        m.ior = 2.0f;
+    }
+    if (row == "thickness_texture") {
+        m.attenuation_distance_m = 0.2f;
+        m.attenuation_color = glm::vec3(0.3f, 0.6f, 0.9f);
+    }
     if (row.starts_with("workflow_") || row == "glossiness_factor" ||
         row == "specular_glossiness_texture") {
         m.specular_workflow = true;
@@ -160,6 +169,13 @@ Scene stage(const Material& material)
         {material});
     if (material.name == "coloured") {
         for (Primitive& p : scene.meshes[0].primitives) p.colors.assign(4, {1.0f, 0.5f, 1.0f, 1.0f});
+    }
+    if (material.name == "before stripes") {
+        scene.materials.push_back(plain_material(glm::vec3(0.9f)));
+        for (int k = 0; k < 8; ++k) {
+            scene.meshes[0].primitives.push_back(
+                quad({-2.0f + 0.5f * static_cast<float>(k), -0.4f, 2}, {0.25f, 0, 0}, {0, 0, -4}, 1));
+        }
     }
     return scene;
 }
