@@ -13,6 +13,7 @@
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
+#include "formulas/light/iridescence.h"
 #include "formulas/light/layers.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
@@ -31,7 +32,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 40;
+SHARED_CONST int kProbeKinds = 41;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -185,6 +186,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         layers.anisotropy = 0.5f * c.z;
         layers.tangent = tangent_at(n, 3.0f * c.x);
         layers.transmitted = 0.5f * c.y;
+        layers.other_normal = normalize(n + 0.3f * layers.tangent * c.w);
         const vec3 r = shade_layers(n, probe_direction(a.z, a.w), probe_direction(b.x, b.y),
                                     vec3(b.z), vec3(0.9f * b.z), vec3(0.04f), 0.3f + 0.7f * b.w, layers);
         return vec4(r.x, r.y, r.z, sheen_albedo(a.z, b.w));
@@ -295,6 +297,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         look.snow_scatter_contraction = 1.0f + 9.0f * c.x;
         return vec4(s.snow, s.melt, snow_on_grass(a.x, a.y, a.z, a.w),
                     snow_scattered(vec3(c.y), look, 2.0f * c.z - 1.0f, c.w).x);
+    }
+    if (kind == 40) {
+        const vec3 film = thin_film_f0(1.0f + a.x, 200.0f * a.y, vec3(0.9f * b.x, 0.9f * b.y, 0.9f * b.z),
+                                       0.1f + 0.9f * a.z);
+        const vec3 fringe = fringe_color(2000.0f * a.w, vec3(0.0f, kPi, 2.0f * kPi));
+        return vec4(film.x, film.z, fringe.x, fringe.y + fringe.z);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

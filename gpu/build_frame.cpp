@@ -233,6 +233,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.emission = true;
     variant.baked = false;
     variant.fog = false;
+    variant.shares = nullptr;
     variant.background = false;
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
@@ -297,6 +298,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.ways = r.lights->ways;
     variant.all_lights = settings.all_lights;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
+    if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {

@@ -174,7 +174,9 @@ struct Renderer::Impl {
             SurfacePath::Visibility) {
             return false;
         }
-        if (!resolve.ids || resolve.ids->width != s.width || resolve.ids->height != s.height) {
+        const bool shares = scene->layer_shares();
+        if (!resolve.ids || resolve.ids->width != s.width || resolve.ids->height != s.height ||
+            (shares && (resolve.shares->width != s.width || resolve.shares->height != s.height))) {
             resolve = {};
             set.resolve_arena = std::make_unique<MemoryArena>(device);
             resolve = make_resolve_tables(device, *set.resolve_arena, *scene, s.width, s.height);

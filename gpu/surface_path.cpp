@@ -6,8 +6,8 @@ SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const G
                                 int width, int height)
 {
     if (!device.primitive_ids() || !scene.as_texels()) return SurfacePath::Fragment;
-    // Users' own surfaces are compiled into the resolve alone.
-    if (scene.own_surfaces().any()) return SurfacePath::Visibility;
+    // Users' own surfaces and textures of layers are the resolve's alone.
+    if (scene.own_surfaces().any() || scene.layer_shares()) return SurfacePath::Visibility;
     if (asked != SurfacePath::Auto) return asked;
     if (device.info().kind != "cpu") return SurfacePath::Fragment;
     // From about a triangle for every 8 pixels on; set after seeing the scenes of the page.

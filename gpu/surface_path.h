@@ -10,7 +10,8 @@ namespace petrichor::gpu {
 /// The way in which a scene's surfaces are shaded at a picture size: what was asked for, or with Auto
 /// the faster one. It follows from device, scene and size alone, so that all frames of a film take
 /// the same. Never Auto; Fragment where the other is not possible; Visibility for scenes with users' own
-/// surfaces.
+/// surfaces
+/// or with textures of coats, sheen and other layers.
 ///
 /// On a CPU, fragments are shaded in blocks of two by two whatever a triangle covers: where triangles
 /// are small the resolve wins, where they are large it pays for fetching corners at every pixel.

@@ -75,6 +75,36 @@ void add_gltf_rows(std::vector<Row>& t)
     t.push_back(number<&M::attenuation_color>(
         "attenuation_color", 0, 1, {"KHR_materials_volume", "", "attenuationColor"},
         "linear; see attenuation_distance"));
+    t.push_back(number<&M::dispersion>(
+        "dispersion", 0, kLargest, {"KHR_materials_dispersion", "", "dispersion"},
+        "of a body: 20 / Abbe number; colours are bent apart"));
+    t.push_back(flag<&M::specular_workflow>(
+        "specular_workflow", {kWeather, "", "specularWorkflow"},
+        "workflow_specular_factor and glossiness_factor instead of metallic and roughness; the base "
+        "colour is that of the diffuse light; KHR_materials_pbrSpecularGlossiness"));
+    t.push_back(number<&M::workflow_specular>("workflow_specular_factor", 0, 1,
+                                              {kSpecularGlossiness, "", "specularFactor"},
+                                              "linear reflectance at normal incidence"));
+    t.push_back(number<&M::glossiness>("glossiness_factor", 0, 1,
+                                       {kSpecularGlossiness, "", "glossinessFactor"},
+                                       "0 matt .. 1 mirror"));
+    t.push_back(number<&M::iridescence>("iridescence_factor", 0, 1,
+                                        {kIridescence, "", "iridescenceFactor"},
+                                        "how strongly a thin film colours what is mirrored"));
+    t.push_back(number<&M::iridescence_ior>("iridescence_ior", 1, 10,
+                                            {kIridescence, "", "iridescenceIor"},
+                                            "index of refraction of the film"));
+    t.push_back(number<&M::iridescence_thickness_min_nm>(
+        "iridescence_thickness_minimum", 0, kLargest,
+        {kIridescence, "", "iridescenceThicknessMinimum"}, "nanometres where its texture is 0"));
+    t.push_back(number<&M::iridescence_thickness_max_nm>(
+        "iridescence_thickness_maximum", 0, kLargest,
+        {kIridescence, "", "iridescenceThicknessMaximum"},
+        "nanometres where its texture is 1, or is none"));
+    t.push_back(number<&M::clearcoat_normal_scale>(
+        "clearcoat_normal_scale", -kLargest, kLargest,
+        {"KHR_materials_clearcoat", "clearcoatNormalTexture", "scale"},
+        "of the x and y of the coat's normal map; 0 flat"));
     t.push_back(number<&M::clearcoat>("clearcoat_factor", 0, 1,
                                                  {"KHR_materials_clearcoat", "", "clearcoatFactor"},
                                                  "strength of a clear coat"));
@@ -132,6 +162,17 @@ void add_light_rows(std::vector<Row>& t)
     t.push_back(number<&M::skin_curvature_scale>(
         "skin_curvature_scale", 0, 1, place("skinCurvatureScale"),
         "of \"skin\": metres times the bend of the normals a metre, added to it; Lux has 0.02"));
+    t.push_back(number<&M::skin_blur>(
+        "skin_blur", 0, 1, place("skinBlur"),
+        "of \"skin\": how far its normal map is blurred for diffuse light; Lux has 1"));
+    t.back().keyed = false;
+    t.push_back(channel<&M::maps, &T::translucency, &TextureUse::channel>(
+        "translucency_channel", "translucencyTexture", "channel of the translucency map that is read"));
+    t.push_back(channel<&M::maps, &T::skin_curvature, &TextureUse::channel>(
+        "skin_curvature_channel", "skinCurvatureTexture", "channel of the curvature map that is read"));
+    t.push_back(number<&M::vertex_occlusion>(
+        "vertex_occlusion", 0, 1, place("vertexOcclusion"),
+        "how far green of COLOR_0 darkens light from all around too: roots of hair, feet of grass"));
     t.push_back(number<&M::hair_shift>(
         "hair_shift", 0, 0.3f, place("hairShift"),
         "of lighting_model \"hair\": radians by which its highlights are tilted apart"));
@@ -348,6 +389,7 @@ const std::vector<MaterialTexture>& material_textures()
             "snow_mask_normal_texture", {kWeather, "", "snowMaskNormalTexture"},
             "tangent space, green up: footprints and tyre tracks, seen where the snow mask is below 1"),
         };
+        add_layer_textures(rows);
         add_second_set_textures(rows);
         return rows;
     }();
@@ -364,9 +406,23 @@ GltfPlace surface_place()
     return {kWeather, "", "surface"};
 }
 
+GltfPlace diffuse_color_place()
+{
+    return {kSpecularGlossiness, "", "diffuseFactor"};
+}
+
+GltfPlace diffuse_texture_place()
+{
+    return {kSpecularGlossiness, "", "diffuseTexture"};
+}
+
 std::vector<std::string_view> extension_members(std::string_view extension)
 {
     std::vector<std::string_view> members;
+    if (extension == kSpecularGlossiness) {
+        members.push_back(diffuse_color_place().member);
+        members.push_back(diffuse_texture_place().member);
+    }
     if (extension == kWeather) {
         members.push_back(lighting_model_place().member);
         members.push_back(surface_place().member);
@@ -398,6 +454,7 @@ std::vector<std::string> unshaded_properties(const Scene& scene)
         lines.push_back(std::string(property.name) + " is set by " +
                         counted(count, "material", first) + ": not shaded yet");
     }
+    add_layer_limits(scene, lines);
     add_mesh_masks(scene, lines);
     return lines;
 }

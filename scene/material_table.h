@@ -83,6 +83,10 @@ GltfPlace lighting_model_place();
 /// Where glTF keeps Material::surface: the name of a file beside the scene.
 GltfPlace surface_place();
 
+/// Where glTF keeps the base colour of a material with Material::specular_workflow.
+GltfPlace diffuse_color_place();
+GltfPlace diffuse_texture_place();
+
 /// Members of an extension that the tables know; empty: a foreign extension.
 std::vector<std::string_view> extension_members(std::string_view extension);
 

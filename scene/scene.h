@@ -150,6 +150,28 @@ struct DecalLook {
     bool received = true;  ///< of what lies below: it takes decals
 };
 
+/// Textures of what lies over, in and beside the base: a share each of the factor of its name. At most
+/// kMostLayerTextures of a material are shown.
+inline constexpr int kMostLayerTextures = 6;
+struct LayerTextures {
+    TextureUse clearcoat;              ///< R
+    TextureUse clearcoat_roughness;    ///< G
+    TextureUse clearcoat_normal;       ///< of the coat alone
+    TextureUse sheen_color;            ///< sRGB
+    TextureUse sheen_roughness;        ///< A
+    TextureUse anisotropy;             ///< RG direction in the tangent frame, B strength
+    TextureUse diffuse_transmission;   ///< A
+    TextureUse transmission;           ///< R
+    TextureUse thickness;              ///< G
+    TextureUse specular;               ///< A
+    TextureUse specular_color;         ///< sRGB
+    TextureUse iridescence;            ///< R
+    TextureUse iridescence_thickness;  ///< G
+    TextureUse specular_glossiness;    ///< sRGB reflectance, A smoothness
+    TextureUse translucency;
+    TextureUse skin_curvature;
+};
+
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
     std::string name;
@@ -176,8 +198,17 @@ struct Material {
     float thickness = 0.0f;          ///< KHR_materials_volume: of what light passes, mesh units
     float attenuation_distance_m = 0.0f;  ///< in it; 0: it is clear
     glm::vec3 attenuation_color{1.0f};    ///< what is left of white light after that distance
+    float dispersion = 0.0f;              ///< 20 / Abbe number
+    bool specular_workflow = false;  ///< reflectance and smoothness instead of metallic and roughness
+    glm::vec3 workflow_specular{1.0f};  ///< of it: reflectance at normal incidence
+    float glossiness = 1.0f;            ///< of it: 1 - perceptual roughness
+    float iridescence = 0.0f;           ///< of a thin film
+    float iridescence_ior = 1.3f;
+    float iridescence_thickness_min_nm = 100.0f;  ///< where its texture is 0
+    float iridescence_thickness_max_nm = 400.0f;  ///< .. and 1, or is none
     float clearcoat = 0.0f;
     float clearcoat_roughness = 0.0f;
+    float clearcoat_normal_scale = 1.0f;
     glm::vec3 sheen_color{0.0f};
     float sheen_roughness = 0.0f;
     float anisotropy = 0.0f;
@@ -193,7 +224,10 @@ struct Material {
     float scatter_power = 8.0f;
     float skin_curvature = 0.1f;  ///< of the model "skin"
     float skin_curvature_scale = 0.0f;
+    float skin_blur = 0.0f;  ///< .. how far normals are blurred for its diffuse light
     float hair_shift = 0.1f;  ///< of the model "hair"
+    float vertex_occlusion = 0.0f;  ///< how far green of COLOR_0 is occlusion too
+    LayerTextures maps;
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool premultiplied_alpha = false;  ///< Blend: what is mirrored does not fade with alpha

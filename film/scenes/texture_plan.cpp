@@ -94,8 +94,8 @@ void plan_color(scene::Material& material, const scene::Scene& scene, Planner& p
         fits(material.normal_texture) && !planner.prepared(material.normal_texture)) {
         color.normal_image = material.normal_texture.texture;
         color.normal_scale = material.normal_scale;
-        color.metallic_factor = material.metallic;
-        if (material.metallic > 0.0f && fits(material.metallic_roughness_texture))
+        color.metallic_factor = material.specular_workflow ? 0.0f : material.metallic;
+        if (color.metallic_factor > 0.0f && fits(material.metallic_roughness_texture))
             color.surface_image = material.metallic_roughness_texture.texture;
     }
     planner.use(material.base_color_texture, color);
@@ -165,6 +165,30 @@ void plan_second(scene::SecondSet& second, const scene::Scene& scene, Planner& p
     plan_scalar(second.height, planner);
 }
 
+void plan_layers(scene::LayerTextures& maps, Planner& planner)
+{
+    const auto scalar = [&](scene::TextureUse& use, scene::Channel channel) {
+        use.channel = channel;  // as the extensions have it
+        plan_scalar(use, planner);
+    };
+    scalar(maps.clearcoat, scene::Channel::R);
+    scalar(maps.clearcoat_roughness, scene::Channel::G);
+    scalar(maps.sheen_roughness, scene::Channel::A);
+    scalar(maps.diffuse_transmission, scene::Channel::A);
+    scalar(maps.transmission, scene::Channel::R);
+    scalar(maps.thickness, scene::Channel::G);
+    scalar(maps.specular, scene::Channel::A);
+    scalar(maps.iridescence, scene::Channel::R);
+    scalar(maps.iridescence_thickness, scene::Channel::G);
+    plan_scalar(maps.translucency, planner);
+    plan_scalar(maps.skin_curvature, planner);
+    for (scene::TextureUse* color :
+         {&maps.sheen_color, &maps.specular_color, &maps.specular_glossiness})
+        planner.use(*color, {.kind = Kind::Color});
+    planner.use(maps.clearcoat_normal, {.kind = Kind::Normal});
+    planner.use(maps.anisotropy, {.kind = Kind::Surface});
+}
+
 }  // namespace
 
 std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<bool>& moving)
@@ -180,6 +204,7 @@ std::vector<TextureRecipe> plan_textures(scene::Scene& scene, const std::vector<
         plan_scalar(material.weather.snow_mask, planner);
         planner.use(material.weather.snow_mask_normal, {.kind = Kind::Normal});
         plan_second(material.second, scene, planner);
+        plan_layers(material.maps, planner);
     }
     return planner.take();
 }

@@ -77,7 +77,8 @@ std::string surfaces_key(const scene::Scene& scene, const std::string& patches_k
             hasher.add(v);
     };
     for (const scene::Material& m : scene.materials) {
-        for (const float v : {m.base_color.r, m.base_color.g, m.base_color.b, m.metallic,
+        for (const float v : {m.base_color.r, m.base_color.g, m.base_color.b,
+                              m.specular_workflow ? 0.0f : m.metallic,
                               m.roughness, m.emissive.r, m.emissive.g, m.emissive.b,
                               m.emissive_strength})
             hasher.add(v);

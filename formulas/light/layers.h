@@ -21,6 +21,7 @@ struct Layers {
     float anisotropy;       // 0 round .. 1
     vec3 tangent;           // along which highlights are long; unit, in the surface
     float transmitted;      // share of the diffuse light that comes out on the other side
+    vec3 other_normal;      // unit: of the coat; of skin's diffuse light
 };
 
 // Smoother fibres than this are a needle that no smooth law could follow.
@@ -114,15 +115,16 @@ SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughnes
                layers.sheen * (sheen_kept(nl, lobe.nv, nh, layers.sheen_roughness) * nl);
     }
     if (layers.coat > 0.0f) {
-        const float nl = max(facing, 0.0f);
+        const float nl = max(dot(layers.other_normal, l), 0.0f);
+        const float nv = clamp(abs(dot(layers.other_normal, v)), 1.0e-4f, 1.0f);
         const vec3 h = normalize(v + l);
         const float coat_alpha = max(layers.coat_roughness * layers.coat_roughness, 0.002f);
-        const float coat_here = ggx_distribution(clamp(dot(n, h), 0.0f, 1.0f), coat_alpha) *
-                                ggx_visibility(nl, lobe.nv, coat_alpha);
+        const float coat_here = ggx_distribution(clamp(dot(layers.other_normal, h), 0.0f, 1.0f), coat_alpha) *
+                                ggx_visibility(nl, nv, coat_alpha);
         // What passes on the way in and on the way out. (The extension's own factor, of the half
         // vector, lets a grazing coat send out a quarter more than comes in.)
         const float below = (1.0f - layers.coat * coat_fresnel(nl)) *
-                            (1.0f - layers.coat * coat_fresnel(lobe.nv));
+                            (1.0f - layers.coat * coat_fresnel(nv));
         const float mirrored =
             layers.coat * coat_fresnel(clamp(dot(l, h), 0.0f, 1.0f)) * coat_here * nl;
         base = base * below + vec3(mirrored);

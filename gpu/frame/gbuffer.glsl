@@ -22,6 +22,7 @@ struct GBufferTexel {
     float snow_smoothness;  // of the snow here
     float first_share;      // of the first of two sets of textures; kept with FRAME_TWO_SETS
     vec3 emission; // radiance
+    float body;    // of a layer that light passes: share of its thickness
     vec3 baked;    // of the light map: what a white Lambert surface sends out
     float baked_sky;  // share of skylight that is in it
 };
@@ -60,7 +61,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
                            ? two_in_one(texel.snow_smoothness, texel.first_share)
                            : texel.snow_smoothness;
     code.identity = vec4(float(texel.material) / 65535.0, snow, 0.0, 0.0);
-    code.emission = vec4(texel.emission, 1.0);
+    code.emission = vec4(texel.emission, texel.body);
     code.baked = vec4(texel.baked, texel.baked_sky);
     return code;
 }
@@ -88,6 +89,7 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
         texel.first_share = both.y;
     }
     texel.emission = code.emission.rgb;
+    texel.body = code.emission.a;
     texel.baked = code.baked.rgb;
     texel.baked_sky = code.baked.a;
     return texel;

@@ -72,6 +72,12 @@ std::uint32_t layers_of(const Material& m)
            (m.scatter_color != glm::vec3(0.0f) ? LAYERS_SCATTER : 0u);
 }
 
+// Skin whose diffuse light has a normal of its own.
+bool softens(const Material& m)
+{
+    return m.lighting_model == "skin" && m.skin_blur > 0.0f && m.normal_texture.present();
+}
+
 std::string lighting_model_of(const Material& material)
 {
     if (!material.lighting_model.empty()) return material.lighting_model;
@@ -382,6 +388,18 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
                 material.bindings.push_back(sampled(*white_, plain));
             }
         }
+        const LayerSlots layers = layer_slots_of(source, loaded_);
+        for (std::size_t slot = 0; slot < LAYER_TEXTURE_SLOTS; ++slot) {
+            if (slot < layers.uses.size()) {
+                const auto t = static_cast<std::size_t>(layers.uses[slot]->texture);
+                material.bindings.push_back(sampled(*images_[t], *image_samplers_[t]));
+            } else {
+                material.bindings.push_back(sampled(*white_, plain));
+            }
+        }
+        material.layer_roles = layers.roles;
+        material.light_textures = layers.of_light;
+        body_shares_ = body_shares_ || source.maps.thickness.present();
         if ((material.slots & 1u << TEXTURE_HEIGHT) != 0u)
             material.parallax = static_cast<std::uint32_t>(source.weather.parallax);
         materials_.push_back(std::move(material));
@@ -399,6 +417,9 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     material.layers = layers_of(source, lighting_model_of(source));
     // Its strands lie along the tangent.
     if ((material.layers & LAYERS_HAIR) != 0u) c.anisotropy_strength = 1.0f;
+    material.besides = (source.specular_workflow ? BESIDES_SPECULAR_WORKFLOW : 0u) |
+                       (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
+                       (softens(source) ? BESIDES_SOFT_NORMAL : 0u);
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
@@ -406,7 +427,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                                                    c.thickness_factor},
                                                   c.second_water_color,
                                                   {c.roughness_factor,
-                                                   source.decal.received ? 1.0f : 0.0f, 0.0f, 0.0f}};
+                                                   source.decal.received ? 1.0f : 0.0f, c.dispersion,
+                                                   0.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source) && !source.decal.on;
@@ -450,6 +472,14 @@ void GpuScene::sum_up_materials()
     emissive_ = any([](const Material& m) {
         return m.emissive * m.emissive_strength != glm::vec3(0.0f);
     });
+    layer_shares_ = false;
+    for (std::size_t i = 0; i < current_.size(); ++i) {
+        // A coat is as smooth as the mesh unless it has a normal map of its own.
+        const Material& m = current_[i];
+        const bool smooth_coat = m.clearcoat > 0.0f && m.normal_texture.present();
+        const bool shown = materials_[i].layers != 0 && (materials_[i].light_textures || smooth_coat);
+        layer_shares_ = layer_shares_ || shown || softens(m);
+    }
     baked_ = any([](const Material& m) { return m.light_map.present(); });
     decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);

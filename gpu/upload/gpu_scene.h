@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
 #define PETRICHOR_GPU_UPLOAD_GPU_SCENE_H
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -62,6 +63,9 @@ struct GpuMaterial {
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has
     std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
+    std::array<std::uint32_t, 2> layer_roles{};  ///< of its textures of layers
+    bool light_textures = false;       ///< some of them are shares that lighting reads
+    std::uint32_t besides = 0;         ///< BESIDES_... of its surface
     std::vector<Binding> bindings;     ///< constants, then the texture slots
 };
 
@@ -101,6 +105,10 @@ public:
     bool emissive() const { return emissive_; }  ///< any material emits light
     bool baked() const { return baked_; }        ///< any has a light map
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
+    /// Lighting reads shares of layers a pixel: some material has textures of them.
+    bool layer_shares() const { return layer_shares_; }
+    /// Some body that light passes has a texture of its thickness.
+    bool body_shares() const { return body_shares_; }
     /// Some material mixes two sets that water or light that passes treats differently.
     bool two_sets() const { return two_sets_; }
     const OwnSurfaces& own_surfaces() const { return own_surfaces_; }
@@ -160,6 +168,8 @@ private:
     bool decals_refused_ = false;
     bool constant_weather_ = false;
     bool two_sets_ = false;
+    bool layer_shares_ = false;
+    bool body_shares_ = false;
     bool as_texels_ = false;
 };
 

@@ -9,6 +9,9 @@
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
+
+static_assert(LAYER_TEXTURE_SLOTS == scene::kMostLayerTextures);
+
 namespace {
 
 using shared::MaterialConstants;
@@ -71,6 +74,25 @@ std::vector<const TextureUse*> slots_of(const Material& material)
     return slots;
 }
 
+LayerSlots layer_slots_of(const Material& material, const std::vector<bool>& loaded)
+{
+    LayerSlots slots;
+    const auto take = [&](std::uint32_t role, std::string_view name) {
+        const TextureUse& use = row_of(name).get(material);
+        const auto texture = static_cast<std::size_t>(use.texture);
+        if (!use.present() || texture >= loaded.size() || !loaded[texture] ||
+            slots.uses.size() == LAYER_TEXTURE_SLOTS) return;
+        slots.uses.push_back(&use);
+        slots.roles[role / LAYER_ROLES_A_WORD] |= static_cast<std::uint32_t>(slots.uses.size())
+                                                  << 4 * (role % LAYER_ROLES_A_WORD);
+        slots.of_light = slots.of_light || role < LAYER_TEXTURES_OF_LIGHT;
+    };
+#define LAYER_ROLE(role, name) take(role, #name);
+    LAYER_TEXTURES(LAYER_ROLE)
+#undef LAYER_ROLE
+    return slots;
+}
+
 MaterialConstants material_constants(const Material& material, const std::vector<bool>& loaded)
 {
     MaterialConstants constants{};
@@ -88,6 +110,9 @@ MaterialConstants material_constants(const Material& material, const std::vector
     for (std::size_t i = 0; i < slots.size(); ++i) {
         constants.slots[i] = slot_constants(*slots[i], loaded);
     }
+    const LayerSlots layers = layer_slots_of(material, loaded);
+    for (std::size_t i = 0; i < layers.uses.size(); ++i)
+        constants.slots[TEXTURE_SLOTS + i] = slot_constants(*layers.uses[i], loaded);
     const auto tile = [&constants](int slot, const glm::vec2& tiling) {
         constants.slots[slot].row0 *= tiling.x;
         constants.slots[slot].row1 *= tiling.y;

@@ -1,6 +1,8 @@
 #ifndef PETRICHOR_GPU_UPLOAD_MATERIAL_CONSTANTS_H
 #define PETRICHOR_GPU_UPLOAD_MATERIAL_CONSTANTS_H
 
+#include <array>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,14 @@ const std::vector<MaterialField>& material_fields();
 
 /// The texture of each slot.
 std::vector<const TextureUse*> slots_of(const Material& material);
+
+/// The textures of its layers that have pixels, in their slots behind the others.
+struct LayerSlots {
+    std::vector<const TextureUse*> uses;
+    std::array<std::uint32_t, 2> roles{};  ///< LAYER_TEXTURES by four bits each
+    bool of_light = false;                 ///< some are shares that lighting reads
+};
+LayerSlots layer_slots_of(const Material& material, const std::vector<bool>& loaded);
 
 /// Constants from the rows of the material table. loaded[t]: texture t has pixels.
 /// Throws Error when a field has no row: a mistake in this program.

@@ -25,6 +25,16 @@
     X(float, attenuation_distance) \
     X(vec3, attenuation_color)     \
     X(uint, premultiplied_alpha)   \
+    X(float, dispersion)           \
+    X(vec3, workflow_specular_factor) \
+    X(float, glossiness_factor)    \
+    X(float, iridescence_factor)   \
+    X(float, iridescence_ior)      \
+    X(float, iridescence_thickness_minimum) \
+    X(float, iridescence_thickness_maximum) \
+    X(float, clearcoat_normal_scale) \
+    X(float, skin_blur)            \
+    X(float, vertex_occlusion)     \
     X(float, clearcoat_factor)     \
     X(float, clearcoat_roughness_factor) \
     X(vec3, sheen_color_factor)    \
@@ -100,6 +110,55 @@
 #define TEXTURE_SECOND_HEIGHT 14
 #define TEXTURE_SLOTS 15
 
+// Textures of layers share a few slots behind those: a device may have no more than 32 samplers a stage.
+// A material's are in the slots in this order; which is where its roles say.
+// X(role, name): the name is that of the row in material_textures().
+#define LAYER_TEXTURES(X)                \
+    X(0, clearcoat_texture)              \
+    X(1, clearcoat_roughness_texture)    \
+    X(2, clearcoat_normal_texture)       \
+    X(3, sheen_color_texture)            \
+    X(4, sheen_roughness_texture)        \
+    X(5, anisotropy_texture)             \
+    X(6, diffuse_transmission_texture)   \
+    X(7, translucency_texture)           \
+    X(8, skin_curvature_texture)         \
+    X(9, transmission_texture)           \
+    X(10, thickness_texture)             \
+    X(11, specular_texture)              \
+    X(12, specular_color_texture)        \
+    X(13, iridescence_texture)           \
+    X(14, iridescence_thickness_texture) \
+    X(15, specular_glossiness_texture)
+#define LAYER_TEXTURE_CLEARCOAT 0
+#define LAYER_TEXTURE_CLEARCOAT_ROUGHNESS 1
+#define LAYER_TEXTURE_CLEARCOAT_NORMAL 2
+#define LAYER_TEXTURE_SHEEN_COLOR 3
+#define LAYER_TEXTURE_SHEEN_ROUGHNESS 4
+#define LAYER_TEXTURE_ANISOTROPY 5
+#define LAYER_TEXTURE_DIFFUSE_TRANSMISSION 6
+#define LAYER_TEXTURE_TRANSLUCENCY 7
+#define LAYER_TEXTURE_SKIN_CURVATURE 8
+#define LAYER_TEXTURE_TRANSMISSION 9
+#define LAYER_TEXTURE_THICKNESS 10
+#define LAYER_TEXTURE_SPECULAR 11
+#define LAYER_TEXTURE_SPECULAR_COLOR 12
+#define LAYER_TEXTURE_IRIDESCENCE 13
+#define LAYER_TEXTURE_IRIDESCENCE_THICKNESS 14
+#define LAYER_TEXTURE_SPECULAR_GLOSSINESS 15
+#define LAYER_TEXTURE_ROLES 16
+#define LAYER_ROLES_A_WORD 8  // four bits a role: 0 none, else the number of the slot from 1
+#define LAYER_TEXTURE_SLOTS 6
+#define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
+// Roles up to here are shares that lighting reads a pixel.
+#define LAYER_TEXTURES_OF_LIGHT 9
+
+// What else a material's surface does, SURFACE_SPEC_BESIDES.
+#define BESIDES_SPECULAR_WORKFLOW 1u
+#define BESIDES_IRIDESCENT 2u
+#define BESIDES_SOFT_NORMAL 4u  // of skin
+#define BESIDES_SHARES 8u       // lighting reads shares in this scene
+
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u
 #define ALPHA_MASK 1u
@@ -131,7 +190,7 @@
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-//   3  roughness_factor, receives_decals, -, -
+//   3  roughness_factor, receives_decals, dispersion, -
 #define MATERIAL_LOOK_TEXELS 4
 
 // What an instance has instead of its materials' own, by Draw's number, from 1; negative: their own.
@@ -175,7 +234,7 @@ struct TextureSlot {
 struct MaterialConstants {
     MATERIAL_FIELDS(MATERIAL_FIELD)
     uint lighting_model;  // its number (gpu/lighting/models_io.h)
-    TextureSlot slots[TEXTURE_SLOTS];
+    TextureSlot slots[MATERIAL_TEXTURE_SLOTS];
 };
 #undef MATERIAL_FIELD
 

@@ -4,6 +4,7 @@
 // How rows of the material table are written.
 
 #include <limits>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -15,10 +16,13 @@ namespace petrichor::scene::detail {
 
 using M = Material;
 using W = MaterialWeather;
+using T = LayerTextures;
 using Row = MaterialProperty;
 
 inline constexpr float kLargest = std::numeric_limits<float>::max();
 inline constexpr std::string_view kWeather = "PETRICHOR_materials_weather";
+inline constexpr std::string_view kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+inline constexpr std::string_view kIridescence = "KHR_materials_iridescence";
 inline constexpr std::string_view kPbr = "pbrMetallicRoughness";
 
 // The member at the end of a chain of pointers to members.
@@ -132,6 +136,9 @@ MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view 
             [](Material& m) -> TextureUse& { return follow<Path...>(m); }};
 }
 
+/// Textures of layers (scene/layer_texture_rows.cpp), and what of a scene's no shader shows.
+void add_layer_textures(std::vector<MaterialTexture>& table);
+void add_layer_limits(const Scene& scene, std::vector<std::string>& lines);
 /// Rows of the second set of textures.
 void add_second_set_rows(std::vector<MaterialProperty>& table);
 void add_decal_rows(std::vector<MaterialProperty>& table);

@@ -151,6 +151,22 @@ void read_shader(const JsonObject& material, const GltfPlace& place, std::string
         out = decode_relative_uri(out, holder->path_to(place.member), holder->log());
 }
 
+// Archived, but files have it: another base colour, reflectance instead of metallic.
+void read_specular_workflow(const JsonObject& material, TextureCollector& textures, Material& out)
+{
+    const auto holder = material.extension(diffuse_color_place().extension);
+    if (!holder) return;
+    out.specular_workflow = true;
+    if (const MaterialProperty* flag = find_property("specular_workflow"))
+        read_property(*flag, material, out);
+    if (!out.specular_workflow) return;
+    out.base_color = glm::vec4(1.0f);
+    MaterialProperty color = *find_property("base_color_factor");
+    color.gltf = diffuse_color_place();
+    read_property(color, material, out);
+    out.base_color_texture = textures.use(*holder, diffuse_texture_place().member);
+}
+
 Material read_material(const JsonObject& json, std::size_t number, TextureCollector& textures)
 {
     Material out;
@@ -161,6 +177,7 @@ Material read_material(const JsonObject& json, std::size_t number, TextureCollec
         if (holder) texture.edit(out) = textures.use(*holder, texture.gltf.member);
     }
     for (const MaterialProperty& property : material_table()) read_property(property, json, out);
+    read_specular_workflow(json, textures, out);
     read_shader(json, lighting_model_place(), out.lighting_model);
     read_shader(json, surface_place(), out.surface);
     return out;

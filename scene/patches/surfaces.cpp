@@ -72,7 +72,7 @@ std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles
                 texel(triangles, sample, m.metallic_roughness_texture, images);
             mean.base_color +=
                 surface_color(triangles, sample.triangle, sample.at, images) * kShare;
-            mean.metallic += m.metallic * gloss.z * kShare;
+            mean.metallic += (m.specular_workflow ? 0.0f : m.metallic * gloss.z) * kShare;
             mean.roughness += m.roughness * gloss.y * kShare;
             if (luminance(m.emissive) > 0.0f) {
                 mean.emission += m.emissive * m.emissive_strength *

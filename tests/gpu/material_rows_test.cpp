@@ -37,7 +37,9 @@ std::vector<Texture> textures()
     std::vector<Texture> all;
     for (const scene::MaterialTexture& row : scene::material_textures()) {
         const std::string name(row.name);
-        const bool color = name.find("base_color") != name.npos || name.starts_with("emissive");
+        const bool color = name.find("base_color") != name.npos || name.starts_with("emissive") ||
+                           name.find("_color_texture") != name.npos ||
+                           name == "specular_glossiness_texture";
         const bool normal = name.find("normal_") != name.npos;
         all.push_back(
             chequers(row.name.data(), color ? TexelFormat::Rgba8Srgb : TexelFormat::Rgba8Unorm,
@@ -81,13 +83,45 @@ Material rich_material()
 // What a row needs of the others to be seen.
 void make_visible(std::string_view row, Material& m)
 {
-    if (row == "clearcoat_roughness_factor") m.clearcoat = 1.0f;
-    if (row == "sheen_roughness_factor") m.sheen_color = glm::vec3(0.8f);
-    if (row == "anisotropy_rotation") m.anisotropy = 0.9f;
+    if (row.starts_with("clearcoat_") && row != "clearcoat_factor") {
+        m.clearcoat = 1.0f;
+        m.clearcoat_roughness = 0.5f;
+    }
+    if (row == "clearcoat_normal_scale") m.maps.clearcoat_normal = use_of("clearcoat_normal_texture");
+    if (row.starts_with("sheen_") && row != "sheen_color_factor") m.sheen_color = glm::vec3(0.8f);
+    if (row == "sheen_roughness_texture") m.sheen_roughness = 1.0f;
+    if (row == "anisotropy_rotation" || row == "anisotropy_texture") m.anisotropy = 0.9f;
+    if (row == "diffuse_transmission_texture") m.diffuse_transmission = 0.8f;
+    if (row == "transmission_texture") m.transmission = 0.9f;
+    if (row == "thickness_texture" || row == "dispersion") {
+        m.transmission = 0.9f;
+        m.thickness = 0.5f;
+    }
+    if (row == "dispersion") {
+        m.name = "before stripes";
+        m.roughness = 0.02f;
+        m.ior = 2.0f;
+    }
+    if (row == "thickness_texture") {
+        m.attenuation_distance_m = 0.2f;
+        m.attenuation_color = glm::vec3(0.3f, 0.6f, 0.9f);
+    }
+    if (row.starts_with("workflow_") || row == "glossiness_factor" ||
+        row == "specular_glossiness_texture") {
+        m.specular_workflow = true;
+        m.workflow_specular = glm::vec3(0.2f);
+    }
+    if (row.starts_with("iridescence_") && row != "iridescence_factor") m.iridescence = 1.0f;
+    if (row == "iridescence_thickness_minimum")
+        m.maps.iridescence_thickness = use_of("iridescence_thickness_texture");
     if (row.starts_with("translucency_")) m.translucency = 0.6f;
+    if (row == "translucency_channel") m.maps.translucency = use_of("translucency_texture");
+    if (row == "skin_curvature_channel") m.maps.skin_curvature = use_of("skin_curvature_texture");
+    if (row == "skin_curvature_channel" || row == "skin_curvature_texture") m.skin_curvature = 1.0f;
     if (row.starts_with("scatter_")) m.scatter_color = glm::vec3(0.3f);
     if (row.starts_with("skin_")) m.lighting_model = "skin";
     if (row.starts_with("hair_")) m.lighting_model = "hair";
+    if (row == "vertex_occlusion") m.name = "coloured";
     if (row == "alpha_cutoff") m.alpha_mode = AlphaMode::Mask;
     if (row.starts_with("flow_")) m.weather.flow_speed = 1.0f;
     if (row == "water_slope_damp") m.weather.porosity = 1.0f;  // what a film darkens
@@ -148,11 +182,22 @@ Scene stage(const Material& material, std::string_view row = "")
         return scene_of({ground(0, 1), ground(height_m, 0), quad({-2, 0, 0}, {2, 0, 0}, {0, 0, -2}, 2)},
                         {material, other, paint});
     }
-    return scene_of(
+    Scene scene = scene_of(
         {quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), quad({-2, 0, 0}, {2, 0, 0}, {0, 1, -1}),
          quad({0.5f, 0, -1}, {1, 0, 0}, {0, 1.2f, 0}),
          quad({2.0f, 0, 0}, {-0.8f, 0, -0.3f}, {0, 1, 0})},
         {material});
+    if (material.name == "coloured") {
+        for (Primitive& p : scene.meshes[0].primitives) p.colors.assign(4, {1.0f, 0.5f, 1.0f, 1.0f});
+    }
+    if (material.name == "before stripes") {
+        scene.materials.push_back(plain_material(glm::vec3(0.9f)));
+        for (int k = 0; k < 8; ++k) {
+            scene.meshes[0].primitives.push_back(
+                quad({-2.0f + 0.5f * static_cast<float>(k), -0.4f, 2}, {0.25f, 0, 0}, {0, 0, -4}, 1));
+        }
+    }
+    return scene;
 }
 
 // Rain on standing water, and snow that melts: a bit of each.

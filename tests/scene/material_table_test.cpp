@@ -155,6 +155,49 @@ TEST(MaterialTable, WhatIsNotShadedIsSaidOnceForAScene)
     EXPECT_THAT(unshaded_properties(scene)[0], HasSubstr("1 mesh (triangle)"));
 }
 
+// The archived extension: its diffuse colour is the base colour, whatever stands beside it.
+TEST(SpecularWorkflow, ReadsDiffuseAndSpecularInsteadOfMetal)
+{
+    const std::string gltf =
+        R"({"asset":{"version":"2.0"},"materials":[{"name":"m","pbrMetallicRoughness":)"
+        R"({"baseColorFactor":[1,0,0,1]},"extensions":{"KHR_materials_pbrSpecularGlossiness":)"
+        R"({"diffuseFactor":[0.1,0.2,0.3,1],"specularFactor":[0.5,0.4,0.3],"glossinessFactor":0.7}}},)"
+        R"({"name":"bare","extensions":{"KHR_materials_pbrSpecularGlossiness":{}}}]})";
+    const Scene scene = load_gltf(std::as_bytes(std::span(gltf)), "scene.gltf", nullptr);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const Material& m = scene.materials[0];
+    EXPECT_TRUE(m.specular_workflow);
+    EXPECT_EQ(m.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 1.0f));
+    EXPECT_EQ(m.workflow_specular, glm::vec3(0.5f, 0.4f, 0.3f));
+    EXPECT_FLOAT_EQ(m.glossiness, 0.7f);
+    EXPECT_EQ(scene.materials[1].base_color, glm::vec4(1.0f));
+    EXPECT_EQ(scene.materials[1].workflow_specular, glm::vec3(1.0f));
+    const Material again = through_gltf(m);
+    EXPECT_TRUE(again.specular_workflow);
+    EXPECT_EQ(again.base_color, m.base_color);
+}
+
+TEST(LayerTextures, MoreThanFitAreSaid)
+{
+    Scene scene = scene_with({});
+    int given = 0;
+    for (const MaterialTexture& texture : material_textures()) {
+        const bool layer = texture.gltf.extension.starts_with("KHR_materials");
+        if (layer && given < 7) {
+            texture.edit(scene.materials[0]).texture = 0;
+            ++given;
+        }
+    }
+    ASSERT_EQ(unshaded_properties(scene).size(), 1u);
+    EXPECT_THAT(unshaded_properties(scene)[0], HasSubstr("7 textures of layers; 6 are shown"));
+    scene.materials[0] = {};
+    scene.materials[0].maps.clearcoat.texture = 0;
+    EXPECT_THAT(unshaded_properties(scene), IsEmpty());
+    scene.materials[0].alpha_mode = AlphaMode::Blend;
+    ASSERT_EQ(unshaded_properties(scene).size(), 1u);
+    EXPECT_THAT(unshaded_properties(scene)[0], HasSubstr("lets light through"));
+}
+
 TEST(LightingModel, IsKeptByGltf)
 {
     Material material;

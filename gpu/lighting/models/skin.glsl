@@ -8,7 +8,8 @@ vec3 skin_light(LitPoint p, vec3 to_light)
 {
     const float nl = dot(p.normal, to_light);
     const vec3 all = shade_lobe(p.lobe, to_light);
-    return all + p.lobe.diffuse * (skin_lookup(nl, p.curvature) - vec3(clamp(nl, 0.0, 1.0)));
+    const float soft = dot(p.layers.other_normal, to_light);
+    return all + p.lobe.diffuse * (skin_lookup(soft, p.curvature) - vec3(clamp(nl, 0.0, 1.0)));
 }
 
 Reflected skin_surround(LitPoint p, Surroundings s)

@@ -282,7 +282,7 @@ float seen_curvature(ivec2 texel, vec3 position, vec3 normal)
 }
 
 // The rows of a material behind those of coat, sheen and anisotropy.
-void later_layers(inout LitPoint p, int at, float metallic, float bare, float open, float view_m,
+void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, float bare, float open, float view_m,
                   ivec2 texel)
 {
     const vec4 third = texelFetch(layers_table, at + 2);
@@ -298,7 +298,7 @@ void later_layers(inout LitPoint p, int at, float metallic, float bare, float op
         // At 20 m it is the standard model.
         near = clamp((20.0 - view_m) / 8.0, 0.0, 1.0);
         const float scale = texelFetch(layers_table, at + 6).x;
-        float curvature = sixth.w;
+        float curvature = sixth.w * share.curvature;
         if (scale > 0.0) curvature += scale * seen_curvature(texel, p.position, p.normal);
         p.curvature = clamp(curvature, 0.0, 1.0) * near * bare;
     }
@@ -307,7 +307,7 @@ void later_layers(inout LitPoint p, int at, float metallic, float bare, float op
         const vec4 fourth = texelFetch(layers_table, at + 3);
         const vec4 fifth = texelFetch(layers_table, at + 4);
         const bool skin = p.model == uint(LIGHTING_MODEL_SKIN);
-        p.translucency = Translucency(fourth.x * bare * near, fourth.y, fourth.z, fourth.w, fifth.w,
+        p.translucency = Translucency(fourth.x * bare * near * share.translucency, fourth.y, fourth.z, fourth.w, fifth.w,
                                       skin ? fifth.rgb : fifth.rgb * p.diffuse);
     }
 }

@@ -47,6 +47,9 @@ LightTables::LightTables(const Device& device) : device_(&device), arena_(device
     ltc_ = table(arena_, "ltc", LTC_TABLE_SIDE * LTC_TABLE_SIDE);
     fill(*ltc_, ltc_table());
     skin_ = table(arena_, "skin", SKIN_TABLE_SIDE * SKIN_TABLE_SIDE);
+    no_shares_ = arena_.image({.name = "no_shares",
+                               .format = VK_FORMAT_R32G32B32A32_UINT,
+                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
     load({});
 }
 

@@ -26,12 +26,14 @@ public:
     GpuBuffer& ltc() const { return *ltc_; }
     GpuBuffer& profiles() const { return *profiles_; }
     GpuBuffer& skin() const { return *skin_; }
+    GpuImage& no_shares() const { return *no_shares_; }  ///< stands in where none are read
 
 private:
     const Device* device_;
     MemoryArena arena_;
     std::unique_ptr<MemoryArena> profile_arena_;
     std::unique_ptr<GpuBuffer> ltc_, skin_, profiles_;
+    std::unique_ptr<GpuImage> no_shares_;
     bool has_skin_ = false;
 };
 

@@ -13,6 +13,7 @@
 #include "gpu/passes/lighting/lighting_io.h"
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
+#include "gpu/frame/layer_shares.glsl"
 #include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
@@ -36,6 +37,7 @@ layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
+layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
 layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
@@ -60,6 +62,7 @@ layout(binding = LIGHTING_LAYERS) uniform samplerBuffer layers_table;
 layout(binding = LIGHTING_LTC) uniform samplerBuffer ltc_matrices;
 layout(binding = LIGHTING_PROFILES) uniform samplerBuffer light_profiles;
 layout(binding = LIGHTING_SKIN) uniform samplerBuffer skin_table;
+layout(binding = LIGHTING_SHARES) uniform usampler2D layer_shares;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
@@ -393,7 +396,7 @@ void main()
         p.emission = g.emission * m.emission_scale;
         p.exposure = sky_light.exposure;
         p.model = g.model;
-        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0);
+        p.layers = Layers(0.0, 0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0, n);
         p.translucency = Translucency(0.0, 1.0, 0.0, 0.0, 0.0, vec3(0.0));
         p.curvature = 0.0;
         p.hair_shift = 0.0;
@@ -409,17 +412,25 @@ void main()
             // Snow lies over all of it; standing water over fibres.
             const float bare = WEATHER != 0u ? 1.0 - g.weather.z : 1.0;
             const float open = WEATHER != 0u ? bare * (1.0 - g.weather.y) : 1.0;
-            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare * g.first_share;
+            LayerShares share = all_shares(n);
+            if (SHARES != 0u) {
+                share = unpack_shares(texelFetch(layer_shares, texel, 0));
+                // Under snow and standing water it is what they cover all with.
+                p.layers.other_normal = share.other_normal;
+                if (WEATHER != 0u)
+                    p.layers.other_normal = normalize(mix(share.other_normal, g.cover_normal, m.normal_mix));
+            }
+            if ((LAYERS & LAYERS_TRANSMISSION) != 0u) p.layers.transmitted = first.y * bare * g.first_share * share.transmitted;
             if ((LAYERS & LAYERS_COAT) != 0u) {
-                p.layers.coat = first.z * bare;
-                p.layers.coat_roughness = clamp(first.w, 0.045, 1.0);
+                p.layers.coat = first.z * bare * share.coat;
+                p.layers.coat_roughness = clamp(first.w * share.coat_roughness, 0.045, 1.0);
             }
             if ((LAYERS & LAYERS_SHEEN) != 0u) {
                 const vec4 second = texelFetch(layers_table, at + 1);
-                p.layers.sheen = second.rgb * open;
-                p.layers.sheen_roughness = second.w;
+                p.layers.sheen = second.rgb * share.sheen * open;
+                p.layers.sheen_roughness = second.w * share.sheen_roughness;
             }
-            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, g.metallic, bare, open, view_m, texel);
+            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.metallic, bare, open, view_m, texel);
             if ((LAYERS & (LAYERS_ANISOTROPY | LAYERS_HAIR)) != 0u) {
                 // Along the surface as it is seen.
                 const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);
@@ -427,7 +438,7 @@ void main()
                 const float size = length(level);
                 p.layers.tangent = level / max(size, 1.0e-3);
                 p.layers.anisotropy =
-                    size < 1.0e-3 ? 0.0 : texelFetch(layers_table, at + 2).x * open;
+                    size < 1.0e-3 ? 0.0 : texelFetch(layers_table, at + 2).x * open * share.anisotropy;
                 if (p.layers.anisotropy > 0.0) {
                     // What is mirrored is smeared along the tangent: as of a normal bent to the eye
                     // across it (KHR_materials_anisotropy).
@@ -491,7 +502,8 @@ void main()
             Reflected reflected = model_surround(p, s);
             vec3 coat = vec3(0.0);
             if (p.layers.coat > 0.0) {  // it mirrors first, what is left goes on
-                const float kept = p.layers.coat * coat_fresnel(nv);
+                const float coat_nv = clamp(dot(p.layers.other_normal, v), 0.0, 1.0);
+                const float kept = p.layers.coat * coat_fresnel(coat_nv);
                 reflected.radiance *= 1.0 - kept;
                 reflected.mirror *= 1.0 - kept;
                 coat = vec3(kept * s.specular_occlusion * s.scale);
@@ -501,10 +513,10 @@ void main()
             const bool coated = p.layers.coat > 0.0 && p.layers.coat_roughness < kMirrorRoughness;
             if (coated) {
                 mirror = vec4(coat, closed);
-                shape = vec4(octahedral_encode(n), p.layers.coat_roughness, sky_open);
+                shape = vec4(octahedral_encode(p.layers.other_normal), p.layers.coat_roughness, sky_open);
             } else if (p.layers.coat > 0.0) {
                 const float lod = p.layers.coat_roughness * float(SKY_PREFILTER_MIPS - 1);
-                radiance += coat * textureLod(specular_map, reflect(-v, n), lod).rgb * seen;
+                radiance += coat * textureLod(specular_map, reflect(-v, p.layers.other_normal), lod).rgb * seen;
             }
             if (p.roughness < kMirrorRoughness && !coated) {
                 mirror = vec4(reflected.mirror, closed);

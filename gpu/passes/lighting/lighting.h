@@ -34,6 +34,7 @@ struct LightingVariant {
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
+    GpuImage* shares = nullptr;      ///< of textures of layers; null: there are none
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
     std::vector<bool> models{true};  ///< by number: something in the picture has it
 };

@@ -24,7 +24,8 @@
 #define LIGHTING_SPEC_HORIZON 16
 #define LIGHTING_SPEC_SNOW_SCATTER 17
 #define LIGHTING_SPEC_BACKGROUND 18  // 0: nothing where there is no surface
-#define LIGHTING_SPEC_MODEL 19    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_SHARES 19      // textures of layers: gpu/frame/layer_shares.glsl
+#define LIGHTING_SPEC_MODEL 20    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -47,6 +48,7 @@
 #define LIGHTING_LTC 18
 #define LIGHTING_PROFILES 19
 #define LIGHTING_SKIN 20
-#define LIGHTING_GBUFFER 21  // depth, then the targets
+#define LIGHTING_SHARES 21
+#define LIGHTING_GBUFFER 22  // depth, then the targets
 
 #endif

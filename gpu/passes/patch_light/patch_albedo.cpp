@@ -115,6 +115,7 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
             std::clamp(surface.metallic * over(material.metallic, before.metallic), 0.0f, 1.0f);
         const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
         dry.f0 = glm::min(root * root * material.specular_color, glm::vec3(1.0f)) * material.specular;
+        if (material.specular_workflow) dry.f0 = material.workflow_specular;
         dry.roughness =
             std::clamp(surface.roughness * over(material.roughness, before.roughness), 0.0f, 1.0f);
         dry.occlusion = 1.0f;

@@ -13,6 +13,7 @@
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
 #include "gpu/passes/surface/instance_look.glsl"
+#include "gpu/passes/surface/layer_textures.glsl"
 #include "gpu/passes/surface/parallax.glsl"
 #ifdef OWN_SURFACES
 #include "gpu/passes/surface/own_surfaces.glsl"
@@ -26,13 +27,6 @@ float widened_by_curvature(float roughness, SurfaceInput at)
             frame.specular_aa_limit);
     const float alpha = roughness * roughness;
     return sqrt(sqrt(saturate(alpha * alpha + variance)));
-}
-
-// At normal incidence (KHR_materials_ior, KHR_materials_specular).
-vec3 dielectric_reflectance()
-{
-    const float root = (material.ior - 1.0) / (material.ior + 1.0);
-    return min(root * root * material.specular_color_factor, vec3(1.0)) * material.specular_factor;
 }
 
 // The samples of a pixel share its footprint: each may read finer levels.
@@ -113,6 +107,10 @@ SurfaceData evaluate_surface(SurfaceInput at)
         roughness = both.y;
         metallic = both.z;
     }
+    occlusion *= mix(1.0, at.color.g, material.vertex_occlusion);
+    data.texel.metallic = metallic;
+    data.texel.f0 = dielectric_reflectance(at, shift);
+    if ((BESIDES & BESIDES_SPECULAR_WORKFLOW) != 0u) specular_workflow(data.texel, roughness, at, shift);
     vec3 normal = at.normal;
     if (has_mapped_normal()) {
         // Seen through water: at another place.
@@ -145,16 +143,21 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.base_normal = normal;
     data.texel.cover_normal = SURFACE_WEATHER != 0 ? cover.normal : normal;
     data.texel.roughness = widened_by_curvature(roughness, at);
-    data.texel.metallic = metallic;
     data.texel.porosity = porosity;
-    data.texel.f0 = dielectric_reflectance();
     data.texel.model = material.lighting_model;
     data.texel.tangent = 0.0;
     if (material.anisotropy_strength > 0.0) {
-        const float turn = material.anisotropy_rotation;
+        float turn = material.anisotropy_rotation;
+        if (has_layer(LAYER_TEXTURE_ANISOTROPY)) {
+            const vec2 d = layer_texel(LAYER_TEXTURE_ANISOTROPY, at, shift, 1.0).rg * 2.0 - 1.0;
+            turn += dot(d, d) > 1.0e-4 ? atan(d.y, d.x) : 0.0;
+        }
         data.texel.tangent =
             tangent_code(normal, f.tangent * cos(turn) + f.bitangent * sin(turn));
     }
+    data.texel.body = 1.0;
+    if ((BESIDES & BESIDES_IRIDESCENT) != 0u) add_thin_film(data.texel, at, shift);
+    if ((BESIDES & BESIDES_SHARES) != 0u) data.shares = layer_shares(at, f, normal, shift);
     data.texel.weather = vec4(cover.film, cover.water, cover.snow, cover.frost);
     data.texel.material = at.material_id;
     data.texel.snow_smoothness = cover.snow_smoothness;

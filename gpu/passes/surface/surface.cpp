@@ -63,7 +63,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                 desc.colors = pass.color_formats();
                 desc.sets.push_back(pass.set_types());
                 BindingTypes material_types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-                material_types.resize(1 + TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+                material_types.resize(1 + MATERIAL_TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
                 desc.sets.push_back(material_types);
 
                 const VkCommandBuffer commands = pass.commands();
@@ -115,6 +115,9 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
                         {SURFACE_SPEC_LOOKS, draw->look != 0},
+                        {SURFACE_SPEC_LAYER_ROLES_A, scene.materials()[draw->material].layer_roles[0]},
+                        {SURFACE_SPEC_LAYER_ROLES_B, scene.materials()[draw->material].layer_roles[1]},
+                        {SURFACE_SPEC_BESIDES, scene.materials()[draw->material].besides},
                         {SURFACE_SPEC_PLACE, weather.place}};
                     if (layered) shaded.specialization.push_back({SURFACE_SPEC_LAYER_FIRST, first});
                     shaded.depth_equal = depth_first && !holes;

@@ -15,6 +15,9 @@ layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
 layout(constant_id = SURFACE_SPEC_SECOND) const uint SECOND = SECOND_NONE;
 layout(constant_id = SURFACE_SPEC_LOOKS) const uint LOOKS = 0u;
 layout(constant_id = SURFACE_SPEC_OWN) const uint OWN = 0u;
+layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
+layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;
+layout(constant_id = SURFACE_SPEC_BESIDES) const uint BESIDES = 0u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 
 layout(set = 0, binding = SURFACE_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -32,5 +35,9 @@ layout(set = 1, binding = 0, scalar) uniform Material { MaterialConstants materi
 #define MATERIAL_TEXTURE(slot, name) layout(set = 1, binding = 1 + slot) uniform sampler2D name;
 MATERIAL_TEXTURES(MATERIAL_TEXTURE)
 #undef MATERIAL_TEXTURE
+#define LAYER_SLOT(slot) \
+    layout(set = 1, binding = 1 + TEXTURE_SLOTS + slot) uniform sampler2D layer_texture_##slot;
+LAYER_SLOT(0) LAYER_SLOT(1) LAYER_SLOT(2) LAYER_SLOT(3) LAYER_SLOT(4) LAYER_SLOT(5)
+#undef LAYER_SLOT
 
 #endif

@@ -4,6 +4,7 @@
 #define PETRICHOR_SURFACE_DATA_GLSL
 
 #include "gpu/frame/gbuffer.glsl"
+#include "gpu/frame/layer_shares.glsl"
 
 // dx, dy: change to the next pixel to the right and below.
 struct SurfaceInput {
@@ -30,6 +31,7 @@ struct SurfaceInput {
 struct SurfaceData {
     GBufferTexel texel;
     vec3 emission;  // radiance
+    LayerShares shares;
     bool hole;      // nothing is here: cut out, or let through by chance
     float alpha;    // with SURFACE_ALPHA: where parallax has moved the point
 };

@@ -26,6 +26,7 @@ layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
         uniform writeonly image2D out_##name;
 GBUFFER_TABLE(ROW)
 #undef ROW
+layout(set = 0, binding = RESOLVE_SHARES, rgba32ui) uniform writeonly uimage2D out_shares;
 layout(push_constant, scalar) uniform Push { SurfaceResolveParams params; };
 
 struct Corner {
@@ -169,4 +170,5 @@ void main()
     if (when_) imageStore(out_##name, pixel, code.name);
     GBUFFER_TABLE(ROW)
 #undef ROW
+    if ((BESIDES & BESIDES_SHARES) != 0u) imageStore(out_shares, pixel, pack_shares(data.shares));
 }

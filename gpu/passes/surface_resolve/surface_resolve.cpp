@@ -51,6 +51,12 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
                      .width = width,
                      .height = height,
                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    const bool shares = scene.layer_shares();
+    tables.shares = arena.image({.name = "layer_shares",
+                                 .format = VK_FORMAT_R32G32B32A32_UINT,
+                                 .width = shares ? width : 1,
+                                 .height = shares ? height : 1,
+                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
     const std::vector<glm::uvec4> draws = draw_table(scene);
     tables.draws = arena.buffer(
         {.name = "draw_table",
@@ -137,13 +143,15 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {RESOLVE_TILES, texels(*tables.tiles)},
                       {RESOLVE_COUNTS, texels(counts)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
+    bindings.push_back({RESOLVE_SHARES, storage(*tables.shares)});
 #define ROW(name, location, format, when, meaning) \
     bindings.push_back({RESOLVE_TARGETS + location, storage(*targets.gbuffer.name)});
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
     const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
-    const auto variant = [parts, weather, tracks](const GpuMaterial& material) {
+    const std::uint32_t shares = scene.layer_shares() ? BESIDES_SHARES : 0u;
+    const auto variant = [parts, weather, tracks, shares](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
             {SURFACE_SPEC_SLOTS, material.slots},
@@ -154,6 +162,9 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_LOOKS, material.looks},
             {SURFACE_SPEC_OWN, material.own_surface},
+            {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
+            {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
+            {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
             {RESOLVE_SPEC_EMISSION, parts.emission},

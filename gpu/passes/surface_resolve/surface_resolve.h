@@ -22,6 +22,7 @@ struct ResolveTables {
     std::unique_ptr<GpuBuffer> counts;  ///< a word a material
     std::unique_ptr<GpuBuffer> tiles;   ///< tiles, material after material
     std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a material
+    std::unique_ptr<GpuImage> shares;   ///< gpu/frame/layer_shares.glsl
     std::uint64_t poses = 0;            ///< GpuScene::poses() that `draws` is of
 };
 

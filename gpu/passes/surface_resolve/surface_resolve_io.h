@@ -34,7 +34,8 @@
 #define RESOLVE_DRAWS (SURFACE_BINDINGS + 3)
 #define RESOLVE_TILES (SURFACE_BINDINGS + 4)
 #define RESOLVE_COUNTS (SURFACE_BINDINGS + 5)
-#define RESOLVE_TARGETS (SURFACE_BINDINGS + 6)  // of the G-buffer, by location
+#define RESOLVE_SHARES (SURFACE_BINDINGS + 6)  // of layers a pixel; in scenes that have textures of them
+#define RESOLVE_TARGETS (SURFACE_BINDINGS + 7)  // of the G-buffer, by location
 #define RESOLVE_SPEC_WEATHER 5
 #define RESOLVE_SPEC_EMISSION 6
 #define RESOLVE_SPEC_BAKED 7

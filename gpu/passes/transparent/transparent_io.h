@@ -11,6 +11,7 @@
 
 // transparent_over
 #define TRANSPARENT_OVER_SPEC_FIRST 0  // 1: no layer is before
+#define TRANSPARENT_OVER_SPEC_BODY 1   // 1: some thicknesses have a texture
 #define TRANSPARENT_OVER_FRAME 0
 #define TRANSPARENT_OVER_DEPTH 1
 #define TRANSPARENT_OVER_LIT 2
@@ -24,6 +25,7 @@
 #define TRANSPARENT_OVER_SKY 10
 #define TRANSPARENT_OVER_FRONT 11
 #define TRANSPARENT_OVER_LEFT 12
+#define TRANSPARENT_OVER_EMISSION 13
 
 // transparent_done
 #define TRANSPARENT_DONE_FRAME 0

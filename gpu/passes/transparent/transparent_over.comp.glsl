@@ -19,6 +19,8 @@ layout(binding = TRANSPARENT_OVER_LIT) uniform sampler2D lit_map;
 layout(binding = TRANSPARENT_OVER_THROUGH) uniform sampler2D through_map;
 layout(binding = TRANSPARENT_OVER_MATERIAL) uniform sampler2D material_map;
 layout(binding = TRANSPARENT_OVER_NORMALS) uniform sampler2D normals_map;
+layout(constant_id = TRANSPARENT_OVER_SPEC_BODY) const uint BODY = 0u;
+layout(binding = TRANSPARENT_OVER_EMISSION) uniform sampler2D emission_map;
 layout(binding = TRANSPARENT_OVER_IDENTITY) uniform sampler2D identity_map;
 layout(binding = TRANSPARENT_OVER_LOOKS) uniform samplerBuffer material_looks;
 layout(binding = TRANSPARENT_OVER_SOLID) uniform sampler2D solid_map;
@@ -65,6 +67,27 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 view, vec3 normal, float ior, fl
     return (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.size);
 }
 
+// The solid picture through a layer, at one index of refraction.
+vec3 seen_through(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 normal, float ior,
+                  float thickness_m, float roughness, float layer_m)
+{
+    vec2 at = pixel;
+    if (thickness_m > 0.0) at = bent_pixel(pixel, position, view, normal, ior, thickness_m);
+    const ivec2 there = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
+    // What stands before the layer is not seen through it.
+    const float there_m = solid_m(there);
+    if (there_m < layer_m * 0.999) at = pixel;
+    const float behind_m =
+        max(solid_m(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1)), layer_m);
+    // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends.
+    const float alpha = roughness * roughness * clamp(2.0 * ior - 2.0, 0.0, 1.0);
+    const float wide_m = alpha * (behind_m - layer_m + thickness_m);
+    const bool level = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    const float pixel_m = level ? length(frame.ray_dx) : behind_m * frame.pixel_angle;
+    const float radius = clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
+    return solid_around(at, radius, texel, layer_m);
+}
+
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -86,30 +109,28 @@ void main()
         }
         sum.rgb += rest * light;
         const uint material = uint(texelFetch(identity_map, texel, 0).x * 65535.0 + 0.5);
-        const vec4 look = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 1);
+        vec4 look = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 1);
+        if (BODY != 0u) look.w *= texelFetch(emission_map, texel, 0).a;
+        const vec4 more = texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3);
         // Without what curvature adds: a pixel of a round body is no rough one.
         const float roughness = min(
             texelFetch(material_map, texel, 0).x,
-            texelFetch(material_looks, int(material) * MATERIAL_LOOK_TEXELS + 3).x);
+            more.x);
         if (look.y > 0.0 && (look.w > 0.0 || roughness > kClear)) {
             const vec3 normal = octahedral_decode(texelFetch(normals_map, texel, 0).xy);
             const float layer_m = linear_depth(frame, depth);
-            vec2 at = pixel;
-            if (look.w > 0.0) at = bent_pixel(pixel, position, view, normal, look.z, look.w);
-            const ivec2 there = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
-            // What stands before the layer is not seen through it.
-            const float there_m = solid_m(there);
-            if (there_m < layer_m * 0.999) at = pixel;
-            const float behind_m = max(solid_m(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1)),
-                                       layer_m);
-            // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends.
-            const float alpha = roughness * roughness * clamp(2.0 * look.z - 2.0, 0.0, 1.0);
-            const float wide_m = alpha * (behind_m - layer_m + look.w);
-            const bool level = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
-            const float pixel_m = level ? length(frame.ray_dx) : behind_m * frame.pixel_angle;
-            const float radius =
-                clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
-            sum.rgb += rest * code.rgb * solid_around(at, radius, texel, layer_m);
+            // Colours are bent apart (KHR_materials_dispersion): three views of one channel each.
+            const bool prism = look.w > 0.0 && more.z > 0.0;
+            const float spread = 0.025 * (look.z - 1.0) * more.z;
+            vec3 behind = vec3(0.0);
+            for (int view_of = 0; view_of < (prism ? 3 : 1); ++view_of) {
+                const float ior = prism ? max(look.z + spread * float(view_of - 1), 1.0) : look.z;
+                const vec3 seen = seen_through(pixel, texel, position, view, normal, ior, look.w,
+                                               roughness, layer_m);
+                if (!prism) behind = seen;
+                else behind[view_of] = seen[view_of];
+            }
+            sum.rgb += rest * code.rgb * behind;
             rest = vec3(0.0);
         } else {
             rest *= code.rgb;

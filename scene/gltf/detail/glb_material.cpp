@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <tuple>
 
 #include "base/error.h"
@@ -73,6 +74,26 @@ scene::Material with_dim_factor(scene::Material material)
     return material;
 }
 
+// The extension says by being there that its workflow is the material's: what is otherwise is said.
+void write_specular_workflow(GlbDocument& glb, const scene::Scene& scene, const scene::Material& m,
+                             json& out)
+{
+    const std::string extension(diffuse_color_place().extension);
+    const bool there = out.contains("extensions") && out["extensions"].contains(extension);
+    if (!m.specular_workflow) {
+        const MaterialProperty& flag = *find_property("specular_workflow");
+        if (there) holder_of(out, flag.gltf)[std::string(flag.gltf.member)] = false;
+        return;
+    }
+    json& holder = holder_of(out, diffuse_color_place());
+    const MaterialProperty& color = *find_property("base_color_factor");
+    holder[std::string(diffuse_color_place().member)] = value_of(color, color.get(m));
+    if (m.base_color_texture.present()) {
+        holder[std::string(diffuse_texture_place().member)] =
+            texture_info(glb, scene, m.base_color_texture);
+    }
+}
+
 }  // namespace
 
 void add_textures(GlbDocument& glb, const scene::Scene& scene)
@@ -123,6 +144,7 @@ void add_material(GlbDocument& glb, const scene::Scene& scene, const scene::Mate
             holder[std::string(property.gltf.member)] = value_of(property, value);
         }
     }
+    write_specular_workflow(glb, scene, m, out);
     const auto add_shader = [&](const GltfPlace& place, const std::string& name) {
         // Of a file its name: it lies beside the scene.
         if (!name.empty())

@@ -1,0 +1,353 @@
+// Textures of coats, sheen and other layers: where one is 1 the factor counts, where it is 0 none does.
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr int kSize = 48;
+
+// Left half `low`, right half `high`.
+Texture halves(std::array<int, 4> low, std::array<int, 4> high,
+               TexelFormat format = TexelFormat::Rgba8Unorm)
+{
+    Texture texture;
+    texture.name = "halves";
+    texture.format = format;
+    texture.width = texture.height = 16;
+    texture.nearest = true;
+    texture.mips.emplace_back();
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            for (const int byte : x < 8 ? low : high)
+                texture.mips[0].push_back(static_cast<std::byte>(byte));
+        }
+    }
+    return texture;
+}
+
+Texture zeros_and_ones(TexelFormat format = TexelFormat::Rgba8Unorm)
+{
+    return halves({0, 0, 0, 0}, {255, 255, 255, 255}, format);
+}
+
+scene::TextureUse first_texture()
+{
+    scene::TextureUse use;
+    use.texture = 0;
+    return use;
+}
+
+// A plate from above at a slant, in the sun and under the sky.
+Frame over_a_plate()
+{
+    Frame frame;
+    frame.camera = look({0, 1.4f, 1.4f}, {0, 0, 0}, 0.7f);
+    frame.settings.width = frame.settings.height = kSize;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1e-4f;
+    frame.settings.ambient_occlusion = false;
+    frame.sky.sun_elevation_rad = 0.9f;
+    frame.sky.sun_azimuth_rad = 0.2f;
+    frame.weather.visibility_m = 1e9f;
+    return frame;
+}
+
+Scene plate(const Material& material)
+{
+    return scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {material});
+}
+
+class LayerTextures : public GpuTest {
+protected:
+    RenderResult shot(const Material& material, const std::vector<Texture>& textures = {})
+    {
+        renderer->load(plate(material), textures);
+        return renderer->render(frame);
+    }
+    Frame frame = over_a_plate();
+};
+
+float difference(const glm::vec3& a, const glm::vec3& b)
+{
+    return glm::length(a - b) / std::max(glm::length(a) + glm::length(b), 1e-6f);
+}
+
+struct Share {
+    const char* name;
+    scene::TextureUse scene::LayerTextures::*texture;
+    std::function<void(Material&, float)> factor;
+    TexelFormat format = TexelFormat::Rgba8Unorm;
+};
+
+TEST_F(LayerTextures, AreSharesOfTheirFactors)
+{
+    using L = scene::LayerTextures;
+    const Share shares[] = {
+        {"clearcoat", &L::clearcoat, [](Material& m, float f) { m.clearcoat = f; }},
+        {"sheen_color", &L::sheen_color,
+         [](Material& m, float f) {
+             m.sheen_color = glm::vec3(0.9f, 0.7f, 0.5f) * f;
+             m.sheen_roughness = 0.4f;
+         },
+         TexelFormat::Rgba8Srgb},
+        {"diffuse_transmission", &L::diffuse_transmission,
+         [](Material& m, float f) { m.diffuse_transmission = 0.8f * f; }},
+        {"specular", &L::specular, [](Material& m, float f) { m.specular = f; }},
+        {"specular_color", &L::specular_color,
+         [](Material& m, float f) {
+             m.ior = 2.5f;
+             m.specular_color = glm::vec3(1.0f, 0.6f, 0.3f) * f;
+         },
+         TexelFormat::Rgba8Srgb},
+        {"iridescence", &L::iridescence,
+         [](Material& m, float f) {
+             m.metallic = 1.0f;
+             m.iridescence = f;
+             m.iridescence_thickness_max_nm = 350.0f;
+         }},
+        {"transmission", &L::transmission, [](Material& m, float f) { m.transmission = 0.9f * f; }},
+        {"translucency", &L::translucency,
+         [](Material& m, float f) {
+             m.translucency = f;
+             m.translucency_power = 0.5f;
+         }},
+        {"skin_curvature", &L::skin_curvature,
+         [](Material& m, float f) {
+             m.lighting_model = "skin";
+             m.skin_curvature = f;
+         }},
+    };
+    for (const Share& share : shares) {
+        Material material = plain_material({0.6f, 0.4f, 0.3f}, 0.45f);
+        share.factor(material, 0.0f);
+        const RenderResult none = shot(material);
+        share.factor(material, 1.0f);
+        const RenderResult all = shot(material);
+        material.maps.*share.texture = first_texture();
+        const RenderResult mixed = shot(material, {zeros_and_ones(share.format)});
+        float seen = 0.0f;
+        for (int y = 8; y < kSize - 8; ++y) {
+            for (int x = 8; x < kSize - 8; ++x) {
+                if (std::abs(x - kSize / 2) < 2) continue;
+                const RenderResult& wanted = x < kSize / 2 ? none : all;
+                EXPECT_LT(difference(pixel(mixed, x, y), pixel(wanted, x, y)), 0.004f)
+                    << share.name << " at " << x << " " << y;
+                seen = std::max(seen, difference(pixel(none, x, y), pixel(all, x, y)));
+            }
+        }
+        EXPECT_GT(seen, 0.01f) << share.name << " shows nothing";
+    }
+}
+
+// Glossy metal said in either workflow.
+TEST_F(LayerTextures, ASpecularWorkflowIsTheSameMaterialToldOtherwise)
+{
+    const glm::vec3 gold(0.9f, 0.7f, 0.3f);
+    const RenderResult metal = shot(plain_material(gold, 0.4f, 1.0f));
+    Material told = plain_material(glm::vec3(0.0f), 1.0f, 1.0f);
+    told.specular_workflow = true;
+    told.workflow_specular = gold;
+    told.glossiness = 0.6f;
+    const RenderResult workflow = shot(told);
+    told.workflow_specular = glm::vec3(1.0f);
+    told.glossiness = 1.0f;
+    told.maps.specular_glossiness = first_texture();
+    const auto code = [](float linear) {
+        return static_cast<int>(std::lround(255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055)));
+    };
+    const std::array<int, 4> texel{code(gold.r), code(gold.g), code(gold.b), 153};
+    const RenderResult textured = shot(told, {halves(texel, texel, TexelFormat::Rgba8Srgb)});
+    for (int y = 8; y < kSize - 8; y += 3) {
+        for (int x = 8; x < kSize - 8; x += 3) {
+            EXPECT_LT(difference(pixel(metal, x, y), pixel(workflow, x, y)), 0.01f);
+            EXPECT_LT(difference(pixel(metal, x, y), pixel(textured, x, y)), 0.01f);
+        }
+    }
+}
+
+// A coat lies smooth over a bumpy base: its highlight is that of the mesh, or of its own normal map.
+TEST_F(LayerTextures, ACoatHasItsOwnNormals)
+{
+    frame.settings.image_based_light = false;
+    frame.settings.shadows = false;
+    Material material = plain_material(glm::vec3(0.0f), 1.0f);
+    material.specular = 0.0f;
+    material.clearcoat = 1.0f;
+    material.clearcoat_roughness = 0.3f;
+    const RenderResult plain = shot(material);
+    material.normal_texture = first_texture();
+    const Texture tilted = halves({200, 128, 230, 255}, {60, 128, 230, 255});
+    const RenderResult bumpy_base = shot(material, {tilted});
+    material.maps.clearcoat_normal = first_texture();
+    const RenderResult bumpy_coat = shot(material, {tilted});
+    float same = 0.0f, other = 0.0f;
+    for (int y = 8; y < kSize - 8; ++y) {
+        for (int x = 8; x < kSize - 8; ++x) {
+            same = std::max(same, glm::length(pixel(plain, x, y) - pixel(bumpy_base, x, y)));
+            other = std::max(other, glm::length(pixel(plain, x, y) - pixel(bumpy_coat, x, y)));
+        }
+    }
+    const float bright = luminance(pixel(plain, kSize / 2, kSize / 2));
+    EXPECT_GT(bright, 0.0f);
+    EXPECT_LT(same, 0.02f * bright);
+    EXPECT_GT(other, 0.2f * bright);
+}
+
+// The direction is the texture's: turned by a quarter, as anisotropy_rotation would.
+TEST_F(LayerTextures, AnAnisotropyTextureTurnsTheHighlight)
+{
+    frame.settings.image_based_light = false;
+    Material material = plain_material(glm::vec3(0.9f), 0.3f, 1.0f);
+    material.anisotropy = 0.9f;
+    const RenderResult along = shot(material);
+    material.anisotropy_rotation_rad = 1.5707963f;
+    const RenderResult across = shot(material);
+    material.anisotropy_rotation_rad = 0.0f;
+    material.maps.anisotropy = first_texture();
+    // Left along the tangent, right along the bitangent, both at full strength.
+    const RenderResult both = shot(material, {halves({255, 128, 255, 255}, {128, 255, 255, 255})});
+    float apart = 0.0f;
+    for (int y = 8; y < kSize - 8; ++y) {
+        for (int x = 8; x < kSize - 8; ++x) {
+            if (std::abs(x - kSize / 2) < 2) continue;
+            const RenderResult& wanted = x < kSize / 2 ? along : across;
+            EXPECT_LT(difference(pixel(both, x, y), pixel(wanted, x, y)), 0.03f) << x << " " << y;
+            apart = std::max(apart, difference(pixel(along, x, y), pixel(across, x, y)));
+        }
+    }
+    EXPECT_GT(apart, 0.2f);
+}
+
+// Colours behind a body of glass come apart at an edge, red bent least.
+TEST_F(LayerTextures, DispersionBendsColoursApart)
+{
+    Material pane = plain_material(glm::vec3(1.0f), 0.0f);
+    pane.transmission = 1.0f;
+    pane.thickness = 0.6f;
+    pane.ior = 1.6f;
+    Material ground = plain_material(glm::vec3(0.0f));
+    ground.emissive = glm::vec3(1.0f);
+    ground.specular = 0.0f;
+    ground.emissive_texture = first_texture();
+    frame.settings.exposure = 1.0f;
+    frame.settings.image_based_light = false;
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.camera = look({0.8f, 1.6f, 0.0f}, {0, 0, 0}, 0.7f);
+    const auto fringes = [&](float dispersion) {
+        pane.dispersion = dispersion;
+        renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0),
+                                 quad({-1, 0.5f, 1}, {2, 0, 0}, {0, 0, -2}, 1)},
+                                {ground, pane}),
+                       {zeros_and_ones(TexelFormat::Rgba8Srgb)});
+        const RenderResult r = renderer->render(frame);
+        glm::vec3 sum(0.0f);
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) sum += pixel(r, x, y);
+        }
+        return sum;
+    };
+    const glm::vec3 white = fringes(0.0f);
+    const glm::vec3 apart = fringes(20.0f);
+    ASSERT_GT(white.r, 1.0f);
+    EXPECT_NEAR(white.r, white.b, 0.01f * white.r);
+    EXPECT_NEAR(apart.g, white.g, 0.001f * white.g);
+    EXPECT_GT(std::abs(apart.r - apart.b), 0.02f * white.r);
+    EXPECT_GT((apart.r - apart.g) * (apart.g - apart.b), 0.0f) << "green is between";
+}
+
+TEST_F(LayerTextures, AThicknessTextureIsTheBodysDepth)
+{
+    Material pane = plain_material(glm::vec3(1.0f), 0.0f);
+    pane.transmission = 1.0f;
+    pane.attenuation_distance_m = 0.5f;
+    pane.attenuation_color = {0.2f, 0.5f, 0.9f};
+    pane.ior = 1.0f;
+    Material ground = plain_material(glm::vec3(0.0f));
+    ground.emissive = glm::vec3(1.0f);
+    frame.settings.exposure = 1.0f;
+    frame.settings.image_based_light = false;
+    frame.sky.sun_elevation_rad = -1.0f;
+    frame.emissive_lights = false;
+    const auto seen = [&](float thickness, bool textured) {
+        pane.thickness = thickness;
+        pane.maps.thickness = textured ? first_texture() : scene::TextureUse{};
+        pane.maps.thickness.channel = scene::Channel::G;
+        renderer->load(scene_of({quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0),
+                                 quad({-1, 0.1f, 1}, {2, 0, 0}, {0, 0, -2}, 1)},
+                                {ground, pane}),
+                       {halves({0, 0, 0, 0}, {0, 128, 0, 0})});
+        return renderer->render(frame);
+    };
+    const RenderResult textured = seen(1.0f, true);
+    const RenderResult none = seen(0.0f, false);
+    const RenderResult half = seen(128.0f / 255.0f, false);
+    for (const int y : {16, 24, 32}) {
+        EXPECT_LT(difference(pixel(textured, 14, y), pixel(none, 14, y)), 0.01f);
+        EXPECT_LT(difference(pixel(textured, 34, y), pixel(half, 34, y)), 0.01f);
+    }
+    EXPECT_GT(difference(pixel(none, 34, 24), pixel(half, 34, 24)), 0.2f);
+}
+
+// Skin's diffuse light sees blurred bumps, its highlight all of them.
+TEST_F(LayerTextures, SkinIsSofterThanItsBumps)
+{
+    frame.settings.image_based_light = false;
+    Material skin = plain_material({0.8f, 0.5f, 0.4f}, 1.0f);
+    skin.specular = 0.0f;
+    skin.lighting_model = "skin";
+    skin.skin_curvature = 0.3f;
+    skin.normal_texture = first_texture();
+    skin.normal_texture.scale = {6.0f, 6.0f};
+    Texture bumps = halves({200, 128, 230, 255}, {56, 128, 230, 255});
+    bumps.nearest = false;
+    // Levels of their own: the mean is flat.
+    for (int side = 8; side >= 1; side /= 2) {
+        bumps.mips.emplace_back();
+        for (int i = 0; i < side * side; ++i) {
+            const bool left = side > 1 && i % side < side / 2;
+            const int lean = side > 4 ? 72 : side > 2 ? 30 : 0;
+            for (const int byte : {128 + (left ? lean : -lean), 128, 250, 255})
+                bumps.mips.back().push_back(static_cast<std::byte>(byte));
+        }
+    }
+    const auto contrast = [&](float blur) {
+        skin.skin_blur = blur;
+        const RenderResult r = shot(skin, {bumps});
+        float low = 1e9f, high = 0.0f;
+        for (int x = 10; x < kSize - 10; ++x) {
+            const float l = luminance(pixel(r, x, kSize / 2));
+            low = std::min(low, l);
+            high = std::max(high, l);
+        }
+        return (high - low) / (high + low);
+    };
+    const float sharp = contrast(0.0f);
+    const float soft = contrast(1.0f);
+    EXPECT_GT(sharp, 0.02f);
+    EXPECT_LT(soft, 0.6f * sharp);
+}
+
+TEST_F(LayerTextures, GreenOfTheVerticesIsOcclusionAsFarAsTold)
+{
+    frame.sky.sun_elevation_rad = -0.02f;  // skylight alone
+    frame.settings.exposure = 1e-2f;
+    const auto seen = [&](float strength) {
+        Material material = plain_material(glm::vec3(0.5f), 1.0f);
+        material.vertex_occlusion = strength;
+        Scene scene = plate(material);
+        scene.meshes[0].primitives[0].colors.assign(4, {1.0f, 0.4f, 1.0f, 1.0f});
+        renderer->load(scene, {});
+        return pixel(renderer->render(frame), kSize / 2, kSize / 2).r;
+    };
+    const float open = seen(0.0f);
+    EXPECT_LT(seen(1.0f), 0.75f * open);
+    EXPECT_LT(seen(0.5f), 0.95f * open);
+    EXPECT_GT(seen(0.5f), 0.75f * open);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
