@@ -287,6 +287,7 @@ const std::vector<MaterialProperty>& material_table()
         add_light_rows(rows);
         add_weather_rows(rows);
         add_second_set_rows(rows);
+        add_displacement_rows(rows);
         return rows;
     }();
     return table;

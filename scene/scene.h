@@ -122,6 +122,17 @@ struct SecondSet {
     glm::vec4 water_color{0.0f};
 };
 
+/// The height map as geometry: the mesh is cut when it is loaded, and its points are moved along their
+/// normals. Ranges and meanings: material_table.h.
+struct Displacement {
+    float height_m = 0.0f;  ///< height 1 above height 0; what is half high stays; 0: off
+    float edge_m = 0.05f;
+    float near_m = 7.0f;
+    float far_m = 25.0f;
+    float phong = 0.0f;
+    float most = 64.0f;
+};
+
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
     std::string name;
@@ -177,6 +188,7 @@ struct Material {
     std::string surface;  ///< path of a GLSL file that changes the dry surface; empty: none
     MaterialWeather weather;
     SecondSet second;
+    Displacement displacement;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()

@@ -132,6 +132,9 @@ MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view 
             [](Material& m) -> TextureUse& { return follow<Path...>(m); }};
 }
 
+/// Rows of displacement.
+void add_displacement_rows(std::vector<MaterialProperty>& table);
+
 /// Rows of the second set of textures.
 void add_second_set_rows(std::vector<MaterialProperty>& table);
 void add_second_set_textures(std::vector<MaterialTexture>& table);
