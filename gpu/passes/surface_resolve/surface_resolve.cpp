@@ -141,7 +141,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
+                                 (scene.overlaid() ? SNOW_BODY : 0u);
     const auto variant = [parts, weather, tracks](const GpuMaterial& material) {
         return std::vector<Specialization>{
             {SURFACE_SPEC_HOLES, 0},
