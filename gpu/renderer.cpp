@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gpu/build_frame.h"
 #include "gpu/frame/metering.h"
+#include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
 
 namespace petrichor::gpu {
@@ -242,6 +243,7 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> environment_arena;
     std::unique_ptr<GpuImage> environment;
     std::unique_ptr<GpuScene> scene;
+    std::unique_ptr<SnowBody> snow;
     bool own_lighting = false;
     std::string graph_text;
 };
@@ -254,7 +256,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
+void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
+                    std::shared_ptr<const scene::SnowCaps> snow)
 {
     for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
@@ -262,7 +265,9 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->depth_maps.forget();
     impl_->lamp_shadows.forget();
     impl_->light_tables.load(scene.light_profiles);
-    impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
+    impl_->snow = snow && !snow->empty() ? std::make_unique<SnowBody>(std::move(snow)) : nullptr;
+    impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures,
+                                              impl_->snow ? impl_->snow->overlay() : Overlay{});
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
@@ -319,6 +324,11 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
     if (scene->set_materials(frame.materials) || moved) {
         depth_maps.forget();
+        lamp_shadows.forget();
+    }
+    if (snow && snow->lay(frame)) {
+        scene->lay(device, snow->vertices());
+        depth_maps.shadow_valid = false;
         lamp_shadows.forget();
     }
     const Light* scene_sun = nullptr;

@@ -330,6 +330,7 @@ const std::vector<MaterialProperty>& material_table()
         add_second_set_rows(rows);
         add_decal_rows(rows);
         add_wind_rows(rows);
+        add_displacement_rows(rows);
         return rows;
     }();
     return table;

@@ -172,6 +172,17 @@ struct LayerTextures {
     TextureUse skin_curvature;
 };
 
+/// The height map as geometry: the mesh is cut when it is loaded, and its points are moved along their
+/// normals. Ranges and meanings: material_table.h.
+struct Displacement {
+    float height_m = 0.0f;  ///< height 1 above height 0; what is half high stays; 0: off
+    float edge_m = 0.05f;
+    float near_m = 7.0f;
+    float far_m = 25.0f;
+    float phong = 0.0f;
+    float most = 64.0f;
+};
+
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
 struct Material {
     std::string name;
@@ -241,6 +252,7 @@ struct Material {
     SecondSet second;
     DecalLook decal;
     WindLook wind;
+    Displacement displacement;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()

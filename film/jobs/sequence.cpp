@@ -489,6 +489,13 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         hasher.add(scenario.scene.north_degrees);
         hasher.add(what.moment.utc_us.value_or(0));
     });
+    if (frame.settings.snow_body && frame.weather.snow_amount > 0.0f) {
+        // Finer where a camera stands at some time of the film.
+        parts["snow"] = part([&](Hasher& hasher) {
+            for (const glm::vec3& eye : sequence.eyes_m)
+                hasher.add_numbers(std::span<const float>(&eye[0], 3));
+        });
+    }
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
                       sizeof(shared::WeatherLook) % sizeof(float) == 0,
                   "all floats: hashed as one run");

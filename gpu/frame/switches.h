@@ -11,6 +11,7 @@
     ROW(image_based_light, true, "light from the sky or the HDR picture")                        \
     ROW(shelter, true, "roofs keep rain and snow off")                                           \
     ROW(falling, true, "rain and snow in the air; orthographic views show none")                 \
+    ROW(snow_body, true, "deep snow has a shape: it rounds edges, stands over them, throws shadows") \
     ROW(lamp_glow, true, "fog, rain and snow glow around lamps")                                 \
     ROW(draw_sky, true, "false: black where the scene ends")                                     \
     ROW(dither, true, "of the PNG: hides steps in soft gradients")

@@ -114,7 +114,8 @@ const std::vector<VertexAttribute>& vertex_attributes()
     return attributes;
 }
 
-GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures)
+GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
+                   const Overlay& overlay)
     : arena_(device),
       lights_(scene.lights),
       glow_sources_(glow_sources(scene, textures)),
@@ -126,7 +127,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
     rest_bounds_ = bounds_;
     upload_textures(device, textures);
     make_materials(device, scene);
-    upload_geometry(device, scene);
+    upload_geometry(device, scene, overlay);
     upload_looks(device, scene);
     sum_up_materials();
 }
@@ -141,7 +142,7 @@ void place_sphere(Draw& draw, const Bounds& box)
                                 glm::abs(linear[2]) * half.z);
 }
 
-void GpuScene::upload_geometry(const Device& device, const Scene& scene)
+void GpuScene::upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay)
 {
     struct Range {
         std::uint32_t first_index, index_count;
@@ -232,6 +233,20 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
     std::stable_sort(decals_.begin(), decals_.end(),
                      [](const Decal& a, const Decal& b) { return a.order < b.order; });
     vertices.insert(vertices.end(), bending_.begin(), bending_.end());
+    first_overlay_ = vertices.size();
+    for (const Overlay::Part& part : overlay.parts) {
+        Draw draw;
+        draw.first_index = static_cast<std::uint32_t>(indices.size()) + part.first_index;
+        draw.index_count = part.index_count;
+        draw.vertex_offset = static_cast<std::int32_t>(first_overlay_);
+        draw.material = part.material;
+        draw.instance_id = part.instance_id;
+        draw.overlay = true;
+        place_sphere(draw, part.box);
+        draws_.push_back(draw);
+    }
+    vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
+    indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
             const GpuMaterial& m = materials_[d.material];
@@ -239,6 +254,9 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
         };
         return key(a) < key(b);
     });
+    for (Draw& draw : draws_) {
+        if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
+    }
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
     const std::size_t texels = std::max(vertices.size() * (sizeof(Vertex) / 16), indices.size());
     as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;
@@ -294,6 +312,17 @@ void GpuScene::upload_looks(const Device& device, const Scene& scene)
          .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
     upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
+}
+
+void GpuScene::lay(const Device& device, std::span<const Vertex> overlay)
+{
+    overlaid_ = !overlay.empty();
+    std::size_t next = 0;
+    for (Draw& draw : draws_) {
+        if (draw.overlay) draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
+    }
+    if (overlaid_)
+        upload_buffer(device, *vertices_, std::as_bytes(overlay), first_overlay_ * sizeof(Vertex));
 }
 
 void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/device/pipelines.h"
@@ -34,7 +35,9 @@ struct Draw {
     bool mirrored = false;
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
     std::int32_t waving = -1;  ///< likewise of how wind bends it
+    bool overlay = false;
 };
+
 /// What is laid over the surfaces: triangles, or a box that projects.
 struct Decal {
     float order = 0.0f;
@@ -42,6 +45,21 @@ struct Decal {
     std::optional<ProjectedDecal> box;
 };
 inline constexpr Bounds kDecalBox{glm::vec3(-0.5f), glm::vec3(0.5f)};
+
+/// What lies on a scene in some frames, and is shaped anew for each: in the world, under the materials
+/// and the names of what it lies on.
+struct Overlay {
+    struct Part {
+        std::uint32_t material = 0;
+        std::uint32_t instance_id = 0;
+        std::uint32_t first_index = 0;
+        std::uint32_t index_count = 0;
+        Bounds box;  ///< that it never leaves
+    };
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Part> parts;
+};
 
 /// The bounding sphere of a draw, from the box of its vertices.
 void place_sphere(Draw& draw, const Bounds& box);
@@ -73,7 +91,8 @@ struct GpuMaterial {
 class GpuScene {
 public:
     /// Throws Error when a material names a lighting model that does not exist.
-    GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures);
+    GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
+             const Overlay& overlay = {});
 
     /// Gives the materials the values of a frame; those that it does not name are as loaded again.
     /// True when holes, and with them shadows, may have changed. The device must not be drawing.
@@ -83,6 +102,10 @@ public:
     /// Brings what moves to where it is at this moment of its clips and in this wind, for the frames that
     /// follow. True when anything may have moved. The device must not be drawing.
     bool pose(const Device& device, double time_s, const scene::Wind& wind = {});
+    /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
+    /// be drawing.
+    void lay(const Device& device, std::span<const Vertex> overlay);
+    bool overlaid() const { return overlaid_; }
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -118,7 +141,7 @@ private:
     void upload_looks(const Device& device, const Scene& scene);
     bool pose_rig(double time_s);
     bool bend(const scene::Wind& wind, bool moved);
-    void upload_geometry(const Device& device, const Scene& scene);
+    void upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
     void make_materials(const Device& device, const Scene& scene);
     void set_material(std::size_t index, const Material& source);
@@ -146,6 +169,9 @@ private:
     scene::Wind wind_;  // that the vertices are bent in
     std::vector<Vertex> bending_;  // the last vertices of the buffer
     std::size_t first_bending_ = 0;
+    std::size_t first_overlay_ = 0;
+    std::vector<std::uint32_t> overlay_counts_;  // indices of the overlay's draws, in their order
+    bool overlaid_ = false;
     std::vector<Light> rest_lights_;
     std::vector<GlowSource> rest_glow_sources_;
     Bounds rest_bounds_;

@@ -185,6 +185,7 @@
 #define SNOW_VERTEX 4u
 #define SNOW_LOCAL 8u
 #define SNOW_TRACKS 16u  // feet and tyres have trodden it somewhere
+#define SNOW_BODY 32u    // some of what is seen is snow itself (gpu/snow)
 
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color

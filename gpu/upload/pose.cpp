@@ -41,6 +41,7 @@ Vertex vertex_of(const scene::Primitive& p, std::size_t i)
     v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
     set_bytes(v.color, p.colors);
     set_bytes(v.weather, p.weather);
+    v.weather[3] = 255;  // a vertex of snow has less
     return v;
 }
 

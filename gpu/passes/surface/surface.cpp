@@ -45,7 +45,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
     }
     const bool layered = layer != nullptr;
-    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
+                                 (scene.overlaid() ? SNOW_BODY : 0u);
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = gbuffer_attachments(g, parts),

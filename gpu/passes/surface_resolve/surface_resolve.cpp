@@ -149,7 +149,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
+                                 (scene.overlaid() ? SNOW_BODY : 0u);
     const std::uint32_t shares = scene.layer_shares() ? BESIDES_SHARES : 0u;
     const auto variant = [parts, weather, tracks, shares](const GpuMaterial& material) {
         return std::vector<Specialization>{
