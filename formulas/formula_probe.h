@@ -17,6 +17,7 @@
 #include "formulas/light/layers.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
+#include "formulas/light/reflection_probe.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
 #include "formulas/light/spherical_harmonics.h"
@@ -32,7 +33,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 41;
+SHARED_CONST int kProbeKinds = 42;
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -303,6 +304,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                                        0.1f + 0.9f * a.z);
         const vec3 fringe = fringe_color(2000.0f * a.w, vec3(0.0f, kPi, 2.0f * kPi));
         return vec4(film.x, film.z, fringe.x, fringe.y + fringe.z);
+    }
+    if (kind == 41) {
+        const vec3 p = 4.0f * vec3(a.x, a.y, a.z) - vec3(2.0f);
+        const vec3 low = -vec3(b.x, b.y, b.z) - vec3(0.1f);
+        const vec3 high = vec3(b.y, b.z, b.w) + vec3(0.1f);
+        const vec3 way = box_projected(p, probe_direction(c.x, c.y), low, high, 0.5f * (low + high));
+        const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
+        const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
+        return vec4(way.x + way.y, way.z, reflection_probe_weight(share, 1.0f + a.w, p), blend.y);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

@@ -244,7 +244,9 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
-        if (variant.image_based_light) add_reflections(graph, layer, *r.sky, constants);
+        if (variant.image_based_light) {
+            add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants);
+        }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.scene, *r.sky, constants, layers, more,
                     draw, light);
@@ -357,7 +359,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
-            add_reflections(graph, *r.targets, *r.sky, constants);
+            add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

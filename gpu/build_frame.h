@@ -8,6 +8,7 @@
 #include "gpu/passes/lamp_glow/lamp_glow.h"
 #include "gpu/passes/lighting/lighting.h"
 #include "gpu/passes/patch_light/patch_light.h"
+#include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/surface/surface.h"
 #include "gpu/passes/surface_resolve/surface_resolve.h"
 #include "gpu/passes/transparent/transparent.h"
@@ -34,6 +35,7 @@ struct FrameResources {
     FallingTable* falling = nullptr;
     FallingTable* splashes = nullptr;
     PatchLights* patches = nullptr;
+    ProbeTable* probes = nullptr;
     GpuPlace* place = nullptr;
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample

@@ -103,6 +103,7 @@ struct Renderer::Impl {
           falling(device),
           splashes(device),
           patches(device),
+          probes(device),
           pictures(device),
           metering(device),
           place(device),
@@ -235,6 +236,7 @@ struct Renderer::Impl {
     FallingTable falling;
     FallingTable splashes;
     PatchLights patches;
+    ProbeTable probes;
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
     GpuPlace place;
@@ -360,6 +362,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.falling = &falling;
     resources.splashes = &splashes;
     resources.patches = &patches;
+    resources.probes = &probes;
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
@@ -375,6 +378,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         first_passes = before.execute(device, pipelines, descriptors);
         patches.relight(frame, sun, scene_sun, scene->lights());
         first_passes.push_back({"patch_light", patches.relight_ms()});
+        probes.relight(patches);
+        if (probes.count() > 0) first_passes.push_back({"probes", probes.relight_ms()});
     }
     RenderResult result;
     FrameGraph graph = build_frame(frame, sun, resources, aov_groups, result.falling);

@@ -21,6 +21,7 @@
 #include "film/scenario/material_keys.h"
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
+#include "film/scenes/scene_probes.h"
 #include "film/scenes/scene_textures.h"
 #include "film/scenes/snow_scene.h"
 #include "film/scenes/snow_tracks.h"
@@ -271,7 +272,10 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         transport.patches.stop = request.stop;
         transport.patches.progress = tracing_progress(request);
         transport.cache = user_cache();
-        patches = prepare_patch_scene(sequence.scene, transport, report.notes);
+        const auto made = prepare_patch_scene(sequence.scene, transport, report.notes);
+        made->probes =
+            prepare_probes(sequence.scene, *made, scenario.render.probes, transport, report.notes);
+        patches = made;
     } else if (sequence.scenario.render.image_based_light) {
         std::string why = "([render] indirect)";
         if (sequence.scenario.render.indirect != IndirectLight::Ambient) {

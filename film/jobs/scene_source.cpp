@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -156,6 +157,8 @@ void load_sequence_scene(Sequence& sequence, int threads)
     content.add(scenario.scene.variant);
     content.add(scenario.scene.animation);
     content.add(scenario.scene.animation_loop);
+    content.add(scenario.render.probes.automatic);
+    content.add_bytes(std::as_bytes(std::span(scenario.render.probes.places)));
     if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.eyes_m = eyes_of(sequence);
     add_displacement(sequence, content);

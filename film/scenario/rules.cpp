@@ -1,6 +1,7 @@
 #include "film/scenario/rules.h"
 
 #include <array>
+#include "film/scenario/probe_keys.h"
 #include "film/scenario/tracks.h"
 
 namespace petrichor::film {
@@ -444,6 +445,12 @@ const std::vector<Rule>& rules()
              s.render.indirect =
                  static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));
          }},
+        {{"render", "probes", "\"auto\"",
+          "what smooth surfaces mirror of the scene beyond the picture, with light of patches: auto (up "
+          "to 4 reflection probes, placed over the ground), off (the sky), or up to 8 of your own: "
+          "[{ position_m = [0.0, 1.6, 0.0], low_m = [-4.0, 0.0, -3.0], high_m = [4.0, 3.0, 3.0], "
+          "blend_m = 1.0, importance = 0.0, intensity = 1.0 }]; low_m and high_m are the walls around"},
+         [](Scenario& s, const TomlValue& v) { s.render.probes = read_probes(v); }},
         {{"render", "surface_path", "\"auto\"",
           "how surfaces are shaded: fragment, visibility (a buffer of triangle numbers, resolved), "
           "or auto, the faster on this device"},

@@ -13,6 +13,7 @@
 #include "film/scenario/weather_script.h"
 #include "film/toml/keyed.h"
 #include "gpu/frame/frame.h"
+#include "scene/probes/probes.h"
 
 namespace petrichor::film {
 
@@ -154,6 +155,12 @@ struct WeatherTextures {
     bool operator==(const WeatherTextures&) const = default;
 };
 
+/// What mirrors see of a scene beyond the picture.
+struct ScenarioProbes {
+    bool automatic = true;                 ///< a few, placed by what the scene is; else these
+    std::vector<scene::ProbePlace> places;  ///< none and not automatic: mirrors see the sky alone
+};
+
 struct ScenarioRender : gpu::FrameSwitches {
     int lamp_shadows = 4;
     int transparent_layers = 4;
@@ -169,6 +176,7 @@ struct ScenarioRender : gpu::FrameSwitches {
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too
     bool gamma = false;             ///< color_space = "gamma"
     IndirectLight indirect = IndirectLight::Auto;
+    ScenarioProbes probes;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
 };
 

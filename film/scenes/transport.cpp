@@ -261,9 +261,9 @@ std::string lights_key(const gpu::PatchScene& made, const std::vector<scene::Lig
 
 }  // namespace
 
-std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
-                                                           const TransportOptions& options,
-                                                           std::vector<std::string>& notes)
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes)
 {
     const auto start = std::chrono::steady_clock::now();
     SceneTransport transport = prepare_transport(scene, options);

@@ -38,9 +38,9 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
 /// The same with what the scene's lamps reach and where its glowing surfaces shine, as the renderer
 /// wants it; one note says what was chosen and how long it took. Surfaces within half a metre of a
 /// lamp do not glow: a lantern's glass and the lamp in it are the same light.
-std::shared_ptr<const gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
-                                                           const TransportOptions& options,
-                                                           std::vector<std::string>& notes);
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes);
 
 /// Share 0..1 of all tracing, from what scene::PatchOptions::progress is told.
 double traced_share(std::string_view stage, float share);

@@ -7,8 +7,12 @@
 #include "scene/patches/patches.h"
 #include "scene/patches/radiosity.h"
 #include "scene/patches/surfaces.h"
+#include "scene/probes/probes.h"
 
 namespace petrichor::gpu {
+
+/// Probes that a scene may have.
+inline constexpr std::size_t kMostProbes = 8;
 
 /// What light between the surfaces of a scene needs: its patches, what they are made of, and what
 /// was traced to its lamps.
@@ -20,6 +24,7 @@ struct PatchScene {
     /// A light of Scene::lights each: share of 255 of a leaf that it reaches; empty where it reaches
     /// all that it faces (directional lights go by the visibility bits).
     std::vector<std::vector<std::uint8_t>> lamp_reach;
+    std::vector<scene::TracedProbe> probes;  ///< what mirrors see of the scene; at most kMostProbes
 };
 
 }  // namespace petrichor::gpu

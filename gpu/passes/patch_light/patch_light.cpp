@@ -97,6 +97,7 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
 {
     scene_ = std::move(scene);
     lit_by_.clear();
+    radiosity_.clear();
     grid_ = {};
     if (!loaded()) {
         make_buffers(1, 1, 1);
@@ -185,6 +186,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                 lit.irradiance.size() * sizeof(lit.irradiance[0]));
     std::memcpy(gradient_->mapped, lit.gradient.data(),
                 lit.gradient.size() * sizeof(lit.gradient[0]));
+    radiosity_ = lit.radiosity;
     lit_by_ = lit_by;
     relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                       .count();

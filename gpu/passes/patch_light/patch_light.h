@@ -28,6 +28,11 @@ public:
     /// when all that decides it is as it was. lights: of the loaded scene.
     void relight(const Frame& frame, const Sun& sun, const Light* scene_sun,
                  const std::vector<Light>& lights);
+    /// Of the last relight, a patch each: what it sends out. Empty before the first.
+    const std::vector<glm::vec3>& radiosity() const { return radiosity_; }
+    const PatchScene* scene() const { return scene_.get(); }
+    /// Changes with the light; empty before the first relight.
+    const std::string& lit_by() const { return lit_by_; }
     /// Milliseconds of the last relight; 0 when nothing had changed.
     double relight_ms() const { return relight_ms_; }
 
@@ -47,6 +52,7 @@ private:
     std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, sky_bins_;
     std::shared_ptr<const PatchScene> scene_;
     shared::PatchGrid grid_{};
+    std::vector<glm::vec3> radiosity_;
     std::string lit_by_;  // fingerprint of what the light was solved from
     double relight_ms_ = 0.0;
 };

@@ -1,7 +1,7 @@
 #version 460
-// What smooth surfaces mirror: the picture itself where the reflected ray meets it, else the sky.
-// The ray is walked through the depth of this sample; where it leaves the picture the sky stands in,
-// dimmed by how much of the sky the place sees.
+// What smooth surfaces mirror: the picture itself where the reflected ray meets it, else the probes
+// around, else the sky. The ray is walked through the depth of this sample; where no probe serves, the sky
+// stands in, dimmed by how much of it the place sees.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
@@ -16,6 +16,11 @@ layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
 layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
 layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
+layout(binding = REFLECTIONS_PROBES) uniform samplerBuffer probe_rows;
+layout(binding = REFLECTIONS_PROBE_LIGHT) uniform samplerBuffer probe_light;
+layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
+
+#include "gpu/passes/reflections/probes.glsl"
 
 const int kSteps = 32;
 const int kRefinements = 5;
@@ -157,6 +162,14 @@ void main()
         // A ray that met nothing saw the sky if the place sees much of it.
         const float open = clamp(shape.w * 1.3 - 0.05, 0.0, 1.0);
         vec3 mirrored = sky * mix(frame.bounce * 0.7, 1.0, open);
+        if (PROBES != 0u) {
+            const Probed probed = probes_around(int(PROBES), position, reflected, roughness);
+            // What stands near here and not around the probe hides its sky.
+            const float here = clamp(open / max(probed.open, 0.1), 0.0, 1.0);
+            const vec3 around = probed.light.rgb * frame.ambient_scale +
+                                sky * (probed.light.a * mix(frame.bounce * 0.7, 1.0, here));
+            mirrored = mix(mirrored, around, probed.share);
+        }
         // Few samples cannot tell what a wide lobe meets.
         hit.confidence *= 1.0 - smoothstep(0.16, kWide, roughness);
         if (hit.confidence > 0.0) {

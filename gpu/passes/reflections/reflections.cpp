@@ -5,20 +5,22 @@
 namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                     const ConstantsRange& constants)
+                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants)
 {
     const SamplerHandle& nearest = targets.nearest;
     graph.add(ComputePass{
         .name = "reflections",
         .shader = "reflections.comp",
-        .constants = {},
+        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u}},
         .bindings = {{REFLECTIONS_FRAME, frame_binding(constants)},
                      {REFLECTIONS_DEPTH, sampled(*targets.gbuffer.depth, nearest)},
                      {REFLECTIONS_RADIANCE, sampled(*targets.radiance, nearest)},
                      {REFLECTIONS_MIRROR_WEIGHT, sampled(*targets.mirror_weight, nearest)},
                      {REFLECTIONS_MIRROR_SHAPE, sampled(*targets.mirror_shape, nearest)},
                      {REFLECTIONS_SPECULAR, sampled(*sky.specular, sky.linear)},
-                     {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)}},
+                     {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
+                     {REFLECTIONS_PROBES, texels(probes.rows())},
+                     {REFLECTIONS_PROBE_LIGHT, texels(probes.light())}},
         .push = {},
         .groups = groups_over(targets.width, targets.height, REFLECTIONS_TILE)});
 }

@@ -11,5 +11,12 @@
 #define REFLECTIONS_MIRROR_SHAPE 4
 #define REFLECTIONS_SPECULAR 5
 #define REFLECTIONS_ACCUMULATED 6
+#define REFLECTIONS_PROBES 7        // PROBE_ROWS entries a probe
+#define REFLECTIONS_PROBE_LIGHT 8   // levels of each probe, one after the other
+
+#define REFLECTIONS_SPEC_PROBES 0   // how many
+
+// Of a probe: position, boost; low corner, blend; high corner, share of sky above.
+#define PROBE_ROWS 3
 
 #endif

@@ -1,0 +1,75 @@
+// Reflection probes: what surfaces mirror of a scene that the picture does not show. A probe holds the light
+// that arrives at one point, by direction; elsewhere in its box it is turned to where the ray meets the
+// walls of the box (Lagarde & Zanuttini 2012).
+#ifndef PETRICHOR_FORMULAS_LIGHT_REFLECTION_PROBE_H
+#define PETRICHOR_FORMULAS_LIGHT_REFLECTION_PROBE_H
+
+#include "base/interop.h"
+
+SHARED_BEGIN
+
+// Levels of a probe, the first a mirror's, each other rougher by kProbeRoughness: up to where surfaces are
+// too rough for a mirror of their own. Texels a side of the octahedral map of the first level. Every level
+// has a border of one texel, so that neighbours need no case of their own.
+SHARED_CONST int kProbeLevels = 3;
+SHARED_CONST int kProbeSide = 128;
+SHARED_CONST float kProbeRoughness = 0.16f;
+
+SHARED_FN int reflection_probe_side(int level)
+{
+    return kProbeSide >> level;
+}
+
+// Where a level begins; of kProbeLevels: how many texels a probe has.
+SHARED_FN int reflection_probe_offset(int level)
+{
+    int at = 0;
+    for (int i = 0; i < level; ++i) {
+        const int wide = reflection_probe_side(i) + 2;
+        at += wide * wide;
+    }
+    return at;
+}
+
+// 1 in the box low .. high, 0 from blend_m outside it on.
+SHARED_FN float reflection_probe_share(vec3 position, vec3 low, vec3 high, float blend_m)
+{
+    const vec3 beyond = max(max(low - position, position - high), vec3(0.0f));
+    return clamp(1.0f - length(beyond) / max(blend_m, 1.0e-3f), 0.0f, 1.0f);
+}
+
+// How much a probe counts beside others at the same place: the nearer the more. boost: 1000 to the power
+// of its importance.
+SHARED_FN float reflection_probe_weight(float share, float boost, vec3 way)
+{
+    return share * boost / (dot(way, way) + 0.25f);
+}
+
+// Of the three heaviest weights, in order: what the first two count, so that nothing jumps where the
+// second and the third change places.
+SHARED_FN vec2 reflection_probe_blend(vec3 heaviest)
+{
+    const vec2 w = vec2(heaviest.x, heaviest.y) - vec2(0.98f * heaviest.z);
+    return w / max(w.x + w.y, 1.0e-20f);
+}
+
+// Distance along `ray` to the wall between low and high, from a place inside.
+SHARED_FN float distance_to_wall(float from, float ray, float low, float high)
+{
+    if (abs(ray) < 1.0e-6f) return 1.0e9f;
+    return max((ray > 0.0f ? high - from : low - from) / ray, 0.0f);
+}
+
+// The direction from `centre` to where a ray from `position` meets the box; not unit.
+SHARED_FN vec3 box_projected(vec3 position, vec3 ray, vec3 low, vec3 high, vec3 centre)
+{
+    const vec3 from = clamp(position, low, high);
+    const float t = min(distance_to_wall(from.x, ray.x, low.x, high.x),
+                        min(distance_to_wall(from.y, ray.y, low.y, high.y),
+                            distance_to_wall(from.z, ray.z, low.z, high.z)));
+    return from + ray * t - centre;
+}
+
+SHARED_END
+
+#endif

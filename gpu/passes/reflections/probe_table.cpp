@@ -1,0 +1,88 @@
+#include "gpu/passes/reflections/probe_table.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "base/parallel.h"
+#include "formulas/codec/octahedral.h"
+#include "formulas/light/reflection_probe.h"
+#include "gpu/passes/reflections/reflections_io.h"
+
+namespace petrichor::gpu {
+namespace {
+
+// Cosine-weighted share of sky above, of the roughest level, borders left out.
+float sky_above(const std::vector<glm::vec4>& light)
+{
+    const int level = shared::kProbeLevels - 1;
+    const int side = shared::reflection_probe_side(level);
+    const auto first = static_cast<std::size_t>(shared::reflection_probe_offset(level));
+    float sky = 0.0f, all = 0.0f;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) * (2.0f / static_cast<float>(side)) - 1.0f;
+            const float up = std::max(shared::octahedral_decode(at).y, 0.0f);
+            sky += up * light[first + static_cast<std::size_t>((y + 1) * (side + 2) + x + 1)].a;
+            all += up;
+        }
+    }
+    return sky / all;
+}
+
+}  // namespace
+
+ProbeTable::ProbeTable(const Device& device) : device_(&device)
+{
+    make_buffers(0);
+}
+
+void ProbeTable::make_buffers(std::size_t probes)
+{
+    for (auto* buffer : {&rows_, &light_}) *buffer = nullptr;
+    arena_ = std::make_unique<MemoryArena>(*device_);
+    const auto texels = [&](const char* name, std::size_t count) {
+        return arena_->buffer({.name = name,
+                               .size = std::max<std::size_t>(count, 1) * sizeof(glm::vec4),
+                               .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                               .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                               .host = true});
+    };
+    rows_ = texels("reflection_probes", probes * PROBE_ROWS);
+    light_ = texels("reflection_probe_light",
+                    probes * static_cast<std::size_t>(
+                                 shared::reflection_probe_offset(shared::kProbeLevels)));
+    count_ = static_cast<std::uint32_t>(probes);
+}
+
+void ProbeTable::relight(const PatchLights& patches)
+{
+    relight_ms_ = 0.0;
+    const PatchScene* scene = patches.scene();
+    const std::size_t wanted = scene ? scene->probes.size() : 0;
+    if (scene == scene_ && patches.lit_by() == lit_by_) return;
+    const auto start = std::chrono::steady_clock::now();
+    if (wanted != count_) make_buffers(wanted);
+    scene_ = scene;
+    lit_by_ = patches.lit_by();
+    parallel_for(wanted, 0, [&](std::size_t i) {
+        const scene::TracedProbe& probe = scene->probes[i];
+        const std::vector<glm::vec4> light = scene::lit_probe(probe, patches.radiosity());
+        std::memcpy(light_->mapped + i * light.size() * sizeof(light[0]), light.data(),
+                    light.size() * sizeof(light[0]));
+        const scene::ProbePlace& p = probe.place;
+        const glm::vec4 rows[PROBE_ROWS] = {
+            glm::vec4(p.position_m, std::pow(1000.0f, p.importance)),
+            glm::vec4(p.low_m, p.blend_m), glm::vec4(p.high_m, sky_above(light))};
+        std::memcpy(rows_->mapped + i * sizeof rows, rows, sizeof rows);
+    });
+    if (wanted > 0) {
+        relight_ms_ = std::chrono::duration<double, std::milli>(
+                          std::chrono::steady_clock::now() - start)
+                          .count();
+    }
+}
+
+}  // namespace petrichor::gpu

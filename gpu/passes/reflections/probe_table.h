@@ -1,0 +1,42 @@
+#ifndef PETRICHOR_GPU_PASSES_REFLECTIONS_PROBE_TABLE_H
+#define PETRICHOR_GPU_PASSES_REFLECTIONS_PROBE_TABLE_H
+
+#include <memory>
+#include <string>
+
+#include "gpu/device/resources.h"
+#include "gpu/passes/patch_light/patch_light.h"
+
+namespace petrichor::gpu {
+
+/// Reflection probes on the device, lit by the patches that they see. Without any the buffers hold one
+/// empty entry.
+class ProbeTable {
+public:
+    explicit ProbeTable(const Device& device);
+
+    /// Takes the probes of the scene that `patches` holds, and lights them as it is lit. Does nothing when
+    /// neither has changed.
+    void relight(const PatchLights& patches);
+    std::uint32_t count() const { return count_; }
+    /// Milliseconds of the last relight; 0 when nothing had changed.
+    double relight_ms() const { return relight_ms_; }
+
+    GpuBuffer& rows() const { return *rows_; }
+    GpuBuffer& light() const { return *light_; }
+
+private:
+    void make_buffers(std::size_t probes);
+
+    const Device* device_;
+    std::unique_ptr<MemoryArena> arena_;
+    std::unique_ptr<GpuBuffer> rows_, light_;
+    const PatchScene* scene_ = nullptr;
+    std::string lit_by_;
+    std::uint32_t count_ = 0;
+    double relight_ms_ = 0.0;
+};
+
+}  // namespace petrichor::gpu
+
+#endif

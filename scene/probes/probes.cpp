@@ -1,0 +1,160 @@
+#include "scene/probes/probes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "formulas/codec/octahedral.h"
+#include "formulas/light/reflection_probe.h"
+
+namespace petrichor::scene {
+namespace {
+
+constexpr float kEye_m = 1.6f;
+constexpr float kFar_m = 1.0e4f;
+constexpr float kLeastScene_m = 1.0f;
+
+glm::vec3 direction_of(int x, int y)
+{
+    const float step = 2.0f / static_cast<float>(shared::kProbeSide);
+    return shared::octahedral_decode({(static_cast<float>(x) + 0.5f) * step - 1.0f,
+                                      (static_cast<float>(y) + 0.5f) * step - 1.0f});
+}
+
+std::uint8_t tint_of(float now, float mean)
+{
+    const float tint = mean > 1e-4f ? now / mean : 1.0f;
+    return static_cast<std::uint8_t>(std::clamp(tint * ProbeTexel::kTintScale + 0.5f, 0.0f, 255.0f));
+}
+
+// Directions that a place is judged by: the six axes and the eight corners between.
+std::vector<glm::vec3> around()
+{
+    std::vector<glm::vec3> ways;
+    for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+            for (int z = -1; z <= 1; ++z) {
+                if (x != 0 || y != 0 || z != 0)
+                    ways.push_back(glm::normalize(glm::vec3(x, y, z)));
+            }
+        }
+    }
+    return ways;
+}
+
+// Nothing stands closer than this, and no surface shows its back.
+bool has_room(const Tracer& tracer, glm::vec3 at, float least_m)
+{
+    for (const glm::vec3& way : around()) {
+        const RayHit hit = tracer.nearest({at, way});
+        if (!hit.hit()) continue;
+        if (hit.distance_m < least_m) return false;
+        if (hit.back && !tracer.triangles().double_sided(hit.triangle)) return false;
+    }
+    return true;
+}
+
+// How far the wall is that faces one side: the median over a fan of rays; kFar_m where most see the sky.
+float wall_m(const Tracer& tracer, glm::vec3 at, int axis, float sign)
+{
+    std::vector<float> found;
+    for (int u = -2; u <= 2; ++u) {
+        for (int v = -2; v <= 2; ++v) {
+            glm::vec3 way(0.0f);
+            way[axis] = sign;
+            way[(axis + 1) % 3] = 0.2f * static_cast<float>(u);
+            way[(axis + 2) % 3] = 0.2f * static_cast<float>(v);
+            way = glm::normalize(way);
+            const RayHit hit = tracer.nearest({at, way});
+            found.push_back(hit.hit() ? hit.distance_m * std::abs(way[axis]) : kFar_m);
+        }
+    }
+    std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2),
+                     found.end());
+    return found[found.size() / 2];
+}
+
+}  // namespace
+
+TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
+                        std::span<const PatchSurface> surfaces, std::span<const ColorImage> images,
+                        const ProbePlace& place, int threads)
+{
+    constexpr int kSide = shared::kProbeSide;
+    TracedProbe probe{place, std::vector<ProbeTexel>(static_cast<std::size_t>(kSide) * kSide)};
+    parallel_for(static_cast<std::size_t>(kSide), threads, [&](std::size_t row) {
+        for (int x = 0; x < kSide; ++x) {
+            ProbeTexel& texel = probe.texels[row * kSide + static_cast<std::size_t>(x)];
+            const glm::vec3 way = direction_of(x, static_cast<int>(row));
+            const RayHit hit = tracer.nearest({place.position_m, way});
+            if (!hit.hit()) continue;
+            const Triangles& triangles = tracer.triangles();
+            glm::vec3 normal = triangles.normal(hit.triangle);
+            if (glm::dot(normal, way) > 0.0f) normal = -normal;
+            const auto patch = patch_at(patches, triangles.point(hit.triangle, hit.at), normal);
+            texel.patch = patch.value_or(ProbeTexel::kBlack);
+            if (!patch || *patch >= surfaces.size()) continue;
+            const glm::vec3 color = surface_color(triangles, hit.triangle, hit.at, images);
+            for (int c = 0; c < 3; ++c)
+                texel.tint[c] = tint_of(color[c], surfaces[*patch].base_color[c]);
+        }
+    });
+    return probe;
+}
+
+std::vector<ProbePlace> place_probes(const Patches& patches, const Tracer& tracer, std::size_t most)
+{
+    std::vector<ProbePlace> places;
+    const Triangles& triangles = tracer.triangles();
+    if (patches.empty() || most == 0) return places;
+    const glm::vec3 size = triangles.high() - triangles.low();
+    const float wide = std::max(size.x, size.z);
+    if (!(wide >= kLeastScene_m)) return places;
+    const float spacing = std::max(3.0f, wide / 6.0f);
+    std::vector<glm::vec3> ground;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const glm::vec3 at = patches.position_m[i];
+        const bool near = at.x >= triangles.low().x && at.x <= triangles.high().x &&
+                          at.z >= triangles.low().z && at.z <= triangles.high().z;
+        if (near && patches.normal[i].y > 0.9f) ground.push_back(at);
+    }
+    if (ground.empty()) return places;
+    // The first is the lowest ground near the middle; each other the farthest from all before.
+    const glm::vec3 middle = 0.5f * (triangles.low() + triangles.high());
+    std::vector<float> apart(ground.size());
+    for (std::size_t i = 0; i < ground.size(); ++i) {
+        const glm::vec3 way = ground[i] - glm::vec3(middle.x, triangles.low().y, middle.z);
+        apart[i] = -glm::dot(way, way);
+    }
+    const float least = std::min(0.25f, 0.1f * spacing);
+    bool first = true;
+    for (std::size_t tried = 0; tried < 16 * most && places.size() < most; ++tried) {
+        const auto best = std::max_element(apart.begin(), apart.end());
+        if (!first && *best < spacing * spacing) break;
+        if (first && *best == -std::numeric_limits<float>::max()) break;
+        const std::size_t chosen = static_cast<std::size_t>(best - apart.begin());
+        const glm::vec3 at = ground[chosen] + glm::vec3(0.0f, kEye_m, 0.0f);
+        if (!has_room(tracer, at, least)) {
+            apart[chosen] = first ? -std::numeric_limits<float>::max() : 0.0f;
+            continue;
+        }
+        ProbePlace place;
+        place.position_m = at;
+        for (int axis = 0; axis < 3; ++axis) {
+            place.low_m[axis] = at[axis] - wall_m(tracer, at, axis, -1.0f);
+            place.high_m[axis] = at[axis] + wall_m(tracer, at, axis, 1.0f);
+        }
+        place.blend_m = std::max(spacing, 0.5f * wide);
+        places.push_back(place);
+        for (std::size_t i = 0; i < ground.size(); ++i) {
+            const glm::vec3 way = ground[i] - ground[chosen];
+            const float now = glm::dot(way, way);
+            apart[i] = first ? now : std::min(apart[i], now);
+        }
+        first = false;
+    }
+    return places;
+}
+
+}  // namespace petrichor::scene
