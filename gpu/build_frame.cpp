@@ -327,7 +327,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         const Draws solid = layers > 0 ? Draws::Solid : Draws::All;
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
-                           c.world_to_clip, c.camera_m, solid);
+                           c.world_to_clip, c.camera_m, weather, solid);
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
                                 *r.depth_maps, *r.place, constants, weather);
         } else {

@@ -324,7 +324,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     const bool moved = scene->pose(
         device, frame.animation_s,
         {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
-    if (scene->set_materials(frame.materials) || moved) {
+    const bool switched = scene->choose_levels(frame.camera, frame.settings.lod_scale);
+    if (scene->set_materials(frame.materials) || moved || switched) {
         depth_maps.forget();
         lamp_shadows.forget();
     }

@@ -210,6 +210,12 @@ void add_weather_rows(std::vector<Row>& t)
         "the height map's relief as seen: none, by two look-ups, by a ray through it"));
     t.push_back(number<&M::weather, &W::parallax_steps>(
         "parallax_steps", 4, 64, place("parallaxSteps"), "of the ray of parallax = \"occlusion\""));
+    t.push_back(or_also(
+        number<&M::weather, &W::parallax_level>(
+            "parallax_level", 0, 16, place("parallaxLevel"),
+            "level of the height map that parallax reads; -1: by how large a pixel is there"),
+        -1.0f));
+    t.back().keyed = false;
     t.push_back(number<&M::weather, &W::default_height>(
         "default_height", 0, 1, place("defaultHeight"),
         "height where the material has no height map: 0 low .. 1 high; low places fill first"));

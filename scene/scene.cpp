@@ -10,7 +10,7 @@ Bounds scene_bounds(const Scene& scene)
     Bounds bounds{glm::vec3(std::numeric_limits<float>::max()),
                   glm::vec3(std::numeric_limits<float>::lowest())};
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop || instance.moves) continue;
+        if (instance.backdrop || !instance.stands()) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             for (const glm::vec3& position : primitive.positions) {
                 const auto world = glm::vec3(instance.to_world * glm::vec4(position, 1.0f));

@@ -69,6 +69,7 @@ struct MaterialWeather {
     float height_scale_m = 0.02f;
     Parallax parallax = Parallax::None;
     float parallax_steps = 20.0f;
+    float parallax_level = -1.0f;  ///< of the height map's mips; negative: by the pixel's footprint
     float default_height = 0.25f;
     TextureUse puddle_mask;  ///< 1 puddles may stand, 0 never
     TextureUse snow_mask;    ///< 1 snow may lie, 0 never
@@ -116,6 +117,7 @@ struct SecondSet {
     glm::vec3 color{1.0f};   ///< linear
     float metallic = 0.0f;
     float roughness = 1.0f;
+    float specular = -1.0f;  ///< negative: as the first set
     float normal_scale = 1.0f;
     bool own_water = false;  ///< false: that of the first set
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
@@ -294,6 +296,18 @@ struct Mesh {
     std::vector<Primitive> primitives;
 };
 
+/// One of several shapes of a thing, finer and coarser: it is shown while the thing's sphere is so high in
+/// the picture, as a share of the picture's height.
+struct DetailLevel {
+    std::uint32_t level = 0;  ///< 0 the finest, which alone counts for light, water and bounds
+    float low = 0.0f;         ///< 0: however small
+    float high = 0.0f;        ///< of coarser levels
+    glm::vec3 centre_m{0.0f};
+    float radius_m = 0.0f;    ///< of the finest; 0: there are no others
+
+    bool operator==(const DetailLevel&) const = default;
+};
+
 /// What one instance has instead of its materials' own values.
 struct InstanceLook {
     std::optional<glm::vec3> color;  ///< linear, for base_color_factor
@@ -323,6 +337,10 @@ struct Instance {
     std::int32_t skin = -1;       ///< of the rig; joints alone place it then
     glm::mat4 in_node{1.0f};      ///< from the mesh to the node
     InstanceLook look = {};
+    DetailLevel detail = {};
+
+    /// It takes part in what is worked out once: bounds, patches, hollows.
+    bool stands() const { return !moves && detail.level == 0; }
 };
 
 /// A material that is projected onto all that lies in a box: along its -z, u along its x, v down its y.

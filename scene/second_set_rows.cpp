@@ -30,6 +30,10 @@ void add_second_set_rows(std::vector<Row>& t)
     t.push_back(number<&M::second, &S::roughness>(
         "second_roughness_factor", 0, 1, place("secondRoughnessFactor"),
         "perceptual: 0 mirror .. 1 matt, times the second texture; of mix alone"));
+    t.push_back(or_also(
+        number<&M::second, &S::specular>("second_specular_factor", 0, 1, place("secondSpecularFactor"),
+                                         "as specular_factor, of the second set; -1: as the first"),
+        -1.0f));
     t.push_back(number<&M::second, &S::normal_scale>(
         "second_normal_scale", -kLargest, kLargest, {kWeather, "secondNormalTexture", "scale"},
         "of the second normal map's x and y; 0 flat"));

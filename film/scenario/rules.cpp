@@ -432,6 +432,9 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa = v.number(0.0, 4.0); }},
         {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
+        {{"render", "lod_scale", "1.0",
+          "levels of detail (glTF MSFT_lod) are chosen as if things were so much larger, 0.01 to 100"},
+         [](Scenario& s, const TomlValue& v) { s.render.lod_scale = v.number(0.01, 100.0); }},
         {{"render", "color_space", "\"linear\"",
           "gamma: lights colours as the sRGB codes that they are stored as and shows the sums as "
           "codes, without tone mapping; to compare with engines that work so. The EXR holds codes"},

@@ -111,6 +111,7 @@ struct FrameSettings : FrameSwitches {
     float horizon_fade = 0.0f;  ///< > 0: mirrors darken below the horizon of the mesh, so fast
     float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off
     float specular_aa_limit = 0.18f;
+    float lod_scale = 1.0f;  ///< times the size by which levels of detail are chosen, > 0
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
     int transparent_layers = 4;  ///< of what lets light through, exact; what is behind goes by chance
     int lamp_shadows =

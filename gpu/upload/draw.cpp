@@ -44,13 +44,14 @@ shared::DrawConstants draw_constants(const Draw& draw)
     c.instance_id = draw.instance_id;
     c.material_id = draw.material;
     c.look = draw.look;
+    c.fade = draw.fade;
     return c;
 }
 
 bool has_holes(const GpuScene& scene, const Draw& draw)
 {
     const GpuMaterial& material = scene.materials()[draw.material];
-    return material.masked || material.blended;
+    return material.masked || material.blended || draw.fade != 0;
 }
 
 std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
@@ -59,6 +60,7 @@ std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& w
     const Frustum frustum(world_to_clip);
     std::vector<std::tuple<bool, float, const Draw*>> keyed;
     for (const Draw& draw : scene.draws()) {
+        if (!draw.shown) continue;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const bool blended = scene.materials()[draw.material].blended;
         if (which != Draws::All && blended != (which == Draws::LetLightThrough)) continue;

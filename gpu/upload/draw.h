@@ -16,7 +16,7 @@ struct Frustum {
 /// Transforms of a draw; normals stay right under any scale.
 shared::DrawConstants draw_constants(const Draw& draw);
 
-/// Cut out by the alpha test, or let through by chance.
+/// Cut out by the alpha test, let through by chance, or a level of detail that comes or goes.
 bool has_holes(const GpuScene& scene, const Draw& draw);
 
 /// Which draws a pass wants.

@@ -292,6 +292,7 @@ std::vector<GlowSource> glow_sources(const Scene& scene, const std::vector<Textu
 {
     std::vector<GlowSource> sources;
     for (const Instance& instance : scene.instances) {
+        if (instance.detail.level != 0) continue;
         const auto carrier = instance.moves ? std::make_shared<const Instance>(instance) : nullptr;
         for (const Primitive& p : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[p.material];

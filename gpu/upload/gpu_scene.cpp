@@ -183,6 +183,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
             draw.material = primitives[p].material;
             draw.instance_id = static_cast<std::uint32_t>(i);
             draw.to_world = instance.to_world;
+            draw.detail = instance.detail;
+            levels_ = levels_ || draw.detail.radius_m > 0.0f;
             place_sphere(draw, {range.low, range.high});
             draw.mirrored = glm::determinant(glm::mat3(instance.to_world)) < 0.0f;
             if (rig_ && instance.moves) {
@@ -431,6 +433,8 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         body_shares_ = body_shares_ || source.maps.thickness.present();
         if ((material.slots & 1u << TEXTURE_HEIGHT) != 0u)
             material.parallax = static_cast<std::uint32_t>(source.weather.parallax);
+        if (material.parallax != PARALLAX_NONE && source.weather.parallax_level >= 0.0f)
+            material.parallax |= PARALLAX_LEVEL;
         materials_.push_back(std::move(material));
         set_material(i, source);
     }

@@ -29,6 +29,10 @@ struct Draw {
     std::uint32_t material = 0;
     std::uint32_t instance_id = 0;
     std::uint32_t look = 0;  ///< number of its instance's look, from 1; 0: none
+    DetailLevel detail;
+    std::uint32_t fade = 0;  ///< DrawConstants::fade, of this frame
+    bool shown = true;       ///< in this frame, as its level of detail has it
+    bool casts = true;       ///< likewise
     glm::mat4 to_world{1.0f};
     glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
     float radius_m = 0.0f;
@@ -106,6 +110,9 @@ public:
     /// be drawing.
     void lay(const Device& device, std::span<const Vertex> overlay);
     bool overlaid() const { return overlaid_; }
+    /// Shows of every thing the level of detail that this camera wants. `scale` makes things count as
+    /// larger. True when what casts shadows has changed.
+    bool choose_levels(const Camera& camera, float scale);
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -197,6 +204,7 @@ private:
     bool layer_shares_ = false;
     bool body_shares_ = false;
     bool as_texels_ = false;
+    bool levels_ = false;  // some thing has several levels of detail
 };
 
 }  // namespace petrichor::gpu

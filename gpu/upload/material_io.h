@@ -46,6 +46,7 @@
     X(float, default_height)       \
     X(float, height_scale_m)       \
     X(float, parallax_steps)       \
+    X(float, parallax_level)       \
     X(float, water_slope_damp)     \
     X(vec4, water_accumulation)    \
     X(vec4, water_color)           \
@@ -66,6 +67,7 @@
     X(vec3, second_color_factor)   \
     X(float, second_metallic_factor) \
     X(float, second_roughness_factor) \
+    X(float, second_specular_factor) \
     X(float, second_normal_scale)  \
     X(vec4, second_water_accumulation) \
     X(vec4, second_water_color)    \
@@ -173,6 +175,7 @@
 #define PARALLAX_NONE 0u
 #define PARALLAX_SIMPLE 1u
 #define PARALLAX_OCCLUSION 2u
+#define PARALLAX_LEVEL 4u  // and: heights are read at a level of their own
 
 // What its second set of textures is for (scene::SecondSetUse).
 #define SECOND_NONE 0u
@@ -246,7 +249,7 @@ struct DrawConstants {
     uint instance_id;
     uint material_id;
     uint look;     // of the instance, in the table of looks; 0: its materials' own
-    uint padding;
+    uint fade;     // of a level of detail: shares of the pixels, from and to, in 16 bits each; 0: all
 };
 
 SHARED_END

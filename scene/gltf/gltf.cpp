@@ -15,10 +15,10 @@ namespace {
 
 bool is_known(std::string_view extension)
 {
-    static constexpr std::array<std::string_view, 13> others{
+    static constexpr std::array<std::string_view, 14> others{
         "PETRICHOR_lights_shape",
         "KHR_lights_punctual",     "KHR_texture_transform", "KHR_mesh_quantization",
-        "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_texture_basisu",
+        "EXT_mesh_gpu_instancing", "MSFT_lod", "EXT_texture_webp",      "KHR_texture_basisu",
         "MSFT_texture_dds",        "KHR_node_visibility",   "KHR_animation_pointer",
         "KHR_materials_variants",  "EXT_meshopt_compression", "KHR_draco_mesh_compression"};
     return !extension_members(extension).empty() ||

@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scene/animation/transform.h"
+#include "scene/gltf/detail/gltf_levels.h"
 #include "scene/gltf/detail/gltf_parts.h"
 #include "scene/light_shape.h"
 
@@ -287,22 +288,32 @@ void read_nodes(GltfSource& source, std::size_t mesh_count, Scene& scene)
     struct Visit {
         std::uint32_t node;
         glm::dmat4 parent_to_world;
+        DetailGroups::Place level = {};
     };
+    DetailGroups groups(nodes, parents);
     std::vector<Visit> open;  // a stack of our own: files may nest a million deep
     const auto roots = scene_roots(source.root, parents, scene.name);
-    for (auto n = roots.rbegin(); n != roots.rend(); ++n) open.push_back({*n, glm::dmat4(1.0)});
+    for (auto n = roots.rbegin(); n != roots.rend(); ++n) {
+        groups.take_root(*n);
+        open.push_back({*n, glm::dmat4(1.0)});
+    }
     while (!open.empty()) {
-        const Visit visit = open.back();
+        Visit visit = open.back();
         open.pop_back();
         const JsonObject node = nodes.object(visit.node);
+        for (const auto& [level, place] : groups.open(node, visit.level))
+            open.push_back({level, visit.parent_to_world, place});
         const glm::dmat4 to_world = visit.parent_to_world * local_matrix(node);
         if (!is_usable(to_world)) {
             node.fail("", "its place in the world is beyond 1e18", "Correct the node's transform.");
         }
+        const std::size_t first = scene.instances.size();
         reader.place(node, visit.node, to_world);
+        groups.placed(visit.level, scene.instances.size() - first);
         const auto& below = children[visit.node];
-        for (auto n = below.rbegin(); n != below.rend(); ++n) open.push_back({*n, to_world});
+        for (auto n = below.rbegin(); n != below.rend(); ++n) open.push_back({*n, to_world, visit.level});
     }
+    groups.finish(scene);
 }
 
 }  // namespace petrichor::scene

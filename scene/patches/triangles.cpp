@@ -47,7 +47,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
 {
     std::size_t expected = 0;
     for (const Instance& instance : scene.instances) {
-        if (instance.moves) continue;
+        if (!instance.stands()) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             expected += primitive.indices.size() / 3;
     }
@@ -67,7 +67,7 @@ Triangles::Triangles(const Scene& scene, std::span<const AlphaImage> alpha)
     const glm::vec3 across = content.high - content.low;
     const float reach = kBackdropReach * 0.5f * std::sqrt(glm::dot(across, across));
     for (const Instance& instance : scene.instances) {
-        if (instance.moves) continue;
+        if (!instance.stands()) continue;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             if (!stops_light(material)) {

@@ -30,6 +30,7 @@ constexpr int kSpread = 12;           // edges that a support is told over
 bool holds_snow(const Material& m)
 {
     return m.alpha_mode == AlphaMode::Opaque && m.transmission <= 0.0f && !m.weather.sheltered &&
+           !m.decal.on && !m.wind.moves() &&
            m.weather.snow_rule == SnowRule::Surface && m.weather.snow_accumulation.y > 0.0f;
 }
 
@@ -59,7 +60,7 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
     Ground ground;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (instance.moves) continue;
+        if (!instance.stands()) continue;
         const glm::mat3 linear(instance.to_world);
         const bool mirrored = glm::determinant(linear) < 0.0f;
         for (const Primitive& from : scene.meshes[instance.mesh].primitives) {

@@ -27,6 +27,14 @@ Texture chequers(const char* name, TexelFormat format, std::array<int, 4> low,
             for (const int byte : texel) texture.mips[0].push_back(static_cast<std::byte>(byte));
         }
     }
+    if (texture.name != "height_texture") return texture;
+    for (int side = 4; side > 0; side /= 2) {
+        texture.mips.emplace_back();
+        for (int i = 0; i < side * side; ++i) {
+            for (std::size_t c = 0; c < 4; ++c)
+                texture.mips.back().push_back(static_cast<std::byte>((low[c] + high[c]) / 2));
+        }
+    }
     return texture;
 }
 
@@ -153,6 +161,7 @@ void make_visible(std::string_view row, Material& m)
         m.second.water_color = {0.1f, 0.1f, 0.5f, 0.5f};
         m.second.water_accumulation = {0.5f, 1.0f, 0.5f, 1.0f};
     }
+    if (row == "second_specular_factor") m.specular = 0.0f;  // which the second has too
     if (row == "snow_local_tiling") m.weather.snow_mapping = scene::SnowMapping::Local;
     if (row == "snow_mask_normal_scale")
         m.weather.snow_mask_normal = use_of("snow_mask_normal_texture");

@@ -133,6 +133,47 @@ TEST_F(OwnSurface, MossGrowsWhereItIsDampAndKeepsPuddlesOff)
     EXPECT_LT(half(r, "water", false), half(r, "water", true));
 }
 
+// The example that uses everything: each of what a surface may change differs from the same one without it.
+TEST_F(OwnSurface, EmbersUseEverything)
+{
+    Material own = plain_material(glm::vec3(0.5f), 0.3f, 0.0f);
+    own.emissive = glm::vec3(0.01f, 0.0f, 0.0f);
+    own.surface = example("ember.glsl");
+    Material other = own;
+    other.surface = "";
+    renderer->load(scene_of({quad({-1, 0, 1}, {1, 0, 0}, {0, 0, -2}, 0),
+                             quad({0, 0, 1}, {1, 0, 0}, {0, 0, -2}, 1)},
+                            {own, other}),
+                   {});
+    Frame frame;
+    frame.camera = look({0, 2, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    frame.settings.width = frame.settings.height = kSize;
+    frame.settings.samples = 1;
+    frame.settings.shelter = false;
+    frame.settings.aovs = {"base_color", "normal",   "roughness", "metallic", "porosity",
+                           "occlusion",  "emission", "water",     "snow"};
+    frame.weather.flood_puddles = 1.5f;
+    frame.weather.snow_amount = 0.7f;
+    frame.weather.wind_m_s = {6.0f, 0.0f};
+    const RenderResult r = renderer->render(frame);
+    EXPECT_LT(half(r, "base_color", false), 0.5f * half(r, "base_color", true));
+    EXPECT_LT(half(r, "normal", false, 1), 0.999f);
+    EXPECT_GT(half(r, "roughness", false), half(r, "roughness", true) + 0.3f);
+    EXPECT_GT(half(r, "metallic", false), half(r, "metallic", true) + 0.005f);
+    EXPECT_GT(half(r, "porosity", false), half(r, "porosity", true) + 0.1f);
+    EXPECT_LT(half(r, "occlusion", false), half(r, "occlusion", true) - 0.02f);
+    EXPECT_GT(half(r, "emission", false), half(r, "emission", true) + 50.0f);
+    EXPECT_LT(half(r, "water", false), half(r, "water", true));
+    EXPECT_LT(half(r, "snow", false), half(r, "snow", true));
+    // It pulses with the time and is fanned by the wind.
+    frame.settings.time_s = 0.9;
+    EXPECT_NE(half(renderer->render(frame), "emission", false), half(r, "emission", false));
+    frame.settings.time_s = 0.0;
+    frame.weather.wind_m_s = {0.0f, 0.0f};
+    EXPECT_LT(half(renderer->render(frame), "emission", false), half(r, "emission", false));
+}
+
 TEST_F(OwnSurface, RustIsNoMetal)
 {
     const auto r = seen(example("rust.glsl"), {}, {"metallic", "roughness"}, 0.3f, 1.0f);

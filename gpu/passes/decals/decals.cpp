@@ -1,13 +1,35 @@
 #include "gpu/passes/decals/decals.h"
 
 #include <cmath>
+#include <iterator>
 
 #include "gpu/passes/surface/surface_io.h"
+#include "gpu/passes/surface_resolve/surface_resolve_io.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
 
 namespace {
+
+// No two specialization constants of a surface have one number.
+constexpr int kSpecialized[] = {
+    SURFACE_SPEC_HOLES,    SURFACE_SPEC_SLOTS,         SURFACE_SPEC_WATER,
+    SURFACE_SPEC_SNOW,     SURFACE_SPEC_FROST,         SURFACE_SPEC_PARALLAX,
+    SURFACE_SPEC_SECOND,   SURFACE_SPEC_LOOKS,         SURFACE_SPEC_FADE,
+    SURFACE_SPEC_OWN,      SURFACE_SPEC_LAYER_ROLES_A, SURFACE_SPEC_LAYER_ROLES_B,
+    SURFACE_SPEC_BESIDES,  SURFACE_SPEC_PLACE,         SURFACE_SPEC_LAYER_FIRST,
+    DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
+    RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED};
+constexpr bool all_differ()
+{
+    for (std::size_t i = 0; i < std::size(kSpecialized); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (kSpecialized[i] == kSpecialized[k]) return false;
+        }
+    }
+    return true;
+}
+static_assert(all_differ());
 
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
@@ -38,7 +60,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.over_all = true;
     BindingTypes material_types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-    material_types.resize(1 + TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    material_types.resize(1 + MATERIAL_TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     desc.sets = {pass.set_types(), material_types};
     const VkDescriptorSetLayout material_layout = pass.pipelines().set_layout(material_types);
     bind_geometry(pass.commands(), scene);

@@ -22,8 +22,8 @@
 // Behind the bindings of set 0 that every evaluation of a surface reads:
 #define DECAL_DEPTH SURFACE_BINDINGS
 #define DECAL_NORMALS (SURFACE_BINDINGS + 1)
-#define DECAL_SPEC_WEATHER 16
-#define DECAL_SPEC_EMISSION 17
+#define DECAL_SPEC_WEATHER 23
+#define DECAL_SPEC_EMISSION 24
 
 // decals_over
 #define DECALS_OVER_FRAME 0

@@ -42,6 +42,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     const Pipeline* bound = nullptr;
     std::uint32_t bound_material = UINT32_MAX;
     for (const Draw& draw : scene.draws()) {
+        if (!draw.casts) continue;
         const GpuMaterial& material = scene.materials()[draw.material];
         if (draw.index_count == 0) continue;
         if (draw.overlay && (falls == Falls::Rain || falls == Falls::Sky)) continue;

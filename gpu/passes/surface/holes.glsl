@@ -37,4 +37,11 @@ bool hole_in(SurfaceInput at, float alpha)
            alpha <= chance(at);
 }
 
+// A level of detail shows at its share of the pixels; another level has the others.
+bool faded(uint fade, ivec2 pixel)
+{
+    const float d = dither(pixel, frame.sample_index) * 65535.0;
+    return d < float(fade & 65535u) || d >= float(fade >> 16);
+}
+
 #endif

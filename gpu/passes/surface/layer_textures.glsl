@@ -53,6 +53,8 @@ vec3 dielectric_reflectance(SurfaceInput at, vec2 shift)
     if (has_layer(LAYER_TEXTURE_SPECULAR_COLOR)) tint *= layer_color(LAYER_TEXTURE_SPECULAR_COLOR, at, shift);
     float strength = material.specular_factor;
     if (has_layer(LAYER_TEXTURE_SPECULAR)) strength *= layer_number(LAYER_TEXTURE_SPECULAR, at, shift);
+    if (MIXED && material.second_specular_factor >= 0.0)
+        strength = strength * at.shares.x + material.second_specular_factor * at.shares.y;
     return min(root * root * tint, vec3(1.0)) * strength;
 }
 

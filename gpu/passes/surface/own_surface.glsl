@@ -9,6 +9,11 @@
 //       occlusion, porosity), data.texel.weather the film, water, snow and frost here, data.emission
 //       the radiance. What weather does to the material is worked out from these, in the light.
 //
+// What a point is asked with (gpu/passes/surface/surface_data.glsl): at.position in the world, metres;
+// at.normal and at.tangent of the geometry; at.uv, both texture coordinates; at.color and at.weather of the
+// vertices, 1 where a mesh has none; at.instance_id and at.material_id; and how position, normal and uv
+// change to the next pixel (at.position_dx, at.position_dy, ..): the scale of what is seen.
+//
 // frame holds the time, the weather of the moment and the look (gpu/frame/frame_io.h), material the
 // constants of the material (gpu/upload/material_io.h). No derivative may be taken: at.position_dx and
 // the like are given. Random numbers are hashes of places (formulas/noise/noise.h).

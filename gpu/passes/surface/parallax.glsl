@@ -47,7 +47,10 @@ Along along(int slot, SurfaceInput at, vec2 pixels)
 
 float number_along(sampler2D map, int slot, Along a, float t)
 {
-    return channel_of(textureGrad(map, a.uv.at + a.reach * t, a.uv.dx, a.uv.dy), slot);
+    const vec2 at = a.uv.at + a.reach * t;
+    if ((PARALLAX & PARALLAX_LEVEL) != 0u)
+        return channel_of(textureLod(map, at, material.parallax_level), slot);
+    return channel_of(textureGrad(map, at, a.uv.dx, a.uv.dy), slot);
 }
 
 // How deep the relief lies where the ray has gone a share `t` of its reach: 0 geometry .. 1 bottom. Of
@@ -88,7 +91,7 @@ void sink(inout SurfaceInput at)
     }
     const float fill = filled_relief(at);
     float t;
-    if (PARALLAX == PARALLAX_SIMPLE) {
+    if ((PARALLAX & PARALLAX_SIMPLE) != 0u) {
         const float first = relief_depth(at, first_set, second_set, mask, 0.0, fill);
         t = 0.5 * (first + relief_depth(at, first_set, second_set, mask, first, fill));
     } else {

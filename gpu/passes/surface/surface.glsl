@@ -71,6 +71,7 @@ void main()
     at.look = draw.look;
 
     SurfaceData data = evaluate_surface(at);
+    if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (HOLES != 0u && data.hole) discard;
 #if SURFACE_LAYER
     if (gl_FragCoord.z <= texelFetch(solid_depth, at.pixel, 0).r) discard;

@@ -14,6 +14,7 @@ layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
 layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
 layout(constant_id = SURFACE_SPEC_SECOND) const uint SECOND = SECOND_NONE;
 layout(constant_id = SURFACE_SPEC_LOOKS) const uint LOOKS = 0u;
+layout(constant_id = SURFACE_SPEC_FADE) const uint FADE = 0u;
 layout(constant_id = SURFACE_SPEC_OWN) const uint OWN = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;

@@ -11,7 +11,8 @@
 #define SURFACE_SPEC_FROST 9  // 0: no frost anywhere in this frame
 #define SURFACE_SPEC_PARALLAX 10  // PARALLAX_... of the material
 #define SURFACE_SPEC_SECOND 14  // SECOND_... of the material
-#define SURFACE_SPEC_LOOKS 18   // 1: instances may have other values than the material
+#define SURFACE_SPEC_LOOKS 21   // 1: instances may have other values than the material
+#define SURFACE_SPEC_FADE 22    // 1: a level of detail comes or goes
 #define SURFACE_SPEC_OWN 15     // number of a user's own surface; 0: none
 #define SURFACE_SPEC_LAYER_ROLES_A 16  // where its textures of layers are, LAYER_TEXTURES
 #define SURFACE_SPEC_LAYER_ROLES_B 17

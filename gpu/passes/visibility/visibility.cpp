@@ -16,6 +16,7 @@ shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
     for (int row = 0; row < 3; ++row) c.to_world[row] = glm::row(draw.to_world, row);
     c.draw = static_cast<std::uint32_t>(&draw - scene.draws().data());
     c.instance_id = draw.instance_id;
+    c.fade = draw.fade;
     return c;
 }
 
@@ -23,7 +24,7 @@ shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
 
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
-                    const glm::vec3& camera_m, Draws draws)
+                    const glm::vec3& camera_m, const VisibleWeather& weather, Draws draws)
 {
     graph.add(DrawPass{
         .name = "visibility",
@@ -51,7 +52,12 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                     const GpuMaterial& material = scene.materials()[draw->material];
                     if (has_holes(scene, *draw)) {
                         GraphicsDesc desc = masked;
-                        desc.specialization = {{SURFACE_SPEC_SLOTS, material.slots}};
+                        desc.specialization = {{SURFACE_SPEC_SLOTS, material.slots},
+                                               {SURFACE_SPEC_PARALLAX, material.parallax},
+                                               {SURFACE_SPEC_SECOND, material.second},
+                                               {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
+                                               {SURFACE_SPEC_SNOW, weather.snow ? material.snow : 0u},
+                                               {SURFACE_SPEC_FADE, draw->fade != 0}};
                         desc.sets.push_back(types_of(material.bindings));
                         pass.bind(pass.pipelines().graphics(desc));
                         pass.bind_set(

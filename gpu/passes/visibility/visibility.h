@@ -3,6 +3,7 @@
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/constants_range.h"
+#include "gpu/frame/frame_constants.h"
 #include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
@@ -14,7 +15,8 @@ namespace petrichor::gpu {
 //   needs    Device::primitive_ids()
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
-                    const glm::vec3& camera_m, Draws draws = Draws::All);
+                    const glm::vec3& camera_m, const VisibleWeather& weather,
+                    Draws draws = Draws::All);
 
 }  // namespace petrichor::gpu
 

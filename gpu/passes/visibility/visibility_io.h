@@ -14,6 +14,7 @@ struct VisibilityDraw {
     vec4 to_world[3];  // rows of the affine transform
     uint draw;         // index into the scene's draws
     uint instance_id;
+    uint fade;  // as DrawConstants has it
 };
 
 SHARED_END

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/surface/holes.glsl"
+#include "gpu/passes/surface/parallax.glsl"
 #include "gpu/passes/visibility/visibility_io.h"
 
 layout(push_constant, scalar) uniform Push { VisibilityDraw draw; };
@@ -19,6 +20,17 @@ void main()
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
     at.color = vec4(0.0, 0.0, 0.0, in_alpha);
+    if (PARALLAX != PARALLAX_NONE) {
+        // Holes lie in the relief, as they do where it is shaded.
+        at.position = pixel_position(frame, gl_FragCoord.xy, gl_FragCoord.z);
+        at.position_dx = dFdx(at.position);
+        at.position_dy = dFdy(at.position);
+        at.normal = normalize(cross(at.position_dx, at.position_dy));
+        if (dot(at.normal, pixel_view_direction(frame, gl_FragCoord.xy)) > 0.0) at.normal = -at.normal;
+        at.weather = vec4(1.0);
+        sink(at);
+    }
+    if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (hole_in(at, alpha_at(at))) discard;
     out_id = uvec2(draw.draw + 1u, uint(gl_PrimitiveID));
 }

@@ -51,7 +51,7 @@ GroundTriangles ground_triangles(const Scene& scene, const GroundOptions& option
     std::vector<std::array<glm::dvec3, 3>> world;
     bool any_up = false;
     for (const Instance& instance : scene.instances) {
-        if (instance.backdrop || instance.moves) continue;
+        if (instance.backdrop || !instance.stands()) continue;
         const glm::dmat4 to_world(instance.to_world);
         const bool mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {

@@ -1,0 +1,111 @@
+// A leaf with everything: cut out, seen from both sides, with a relief and two sets of textures.
+#include <cmath>
+#include <functional>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+class Cutout : public GpuTest {};
+
+Texture texture_of(const std::function<glm::ivec4(int, int)>& texel)
+{
+    Texture texture;
+    texture.name = "made up";
+    texture.format = TexelFormat::Rgba8Unorm;
+    texture.width = texture.height = 64;
+    texture.mips.emplace_back();
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            for (int c = 0; c < 4; ++c)
+                texture.mips[0].push_back(static_cast<std::byte>(texel(x, y)[c]));
+        }
+    }
+    return texture;
+}
+
+// The left half of the texture is a hole; of the right half, the upper part is of the second set.
+std::vector<Texture> textures()
+{
+    return {texture_of([](int x, int) { return glm::ivec4(255, 255, 255, x < 32 ? 0 : 255); }),
+            texture_of([](int, int y) { return glm::ivec4(y < 32 ? 0 : 255); }),
+            texture_of([](int, int) { return glm::ivec4(0); })};
+}
+
+Material leaf()
+{
+    Material m = plain_material(glm::vec3(0.9f, 0.05f, 0.05f));
+    m.base_color_texture.texture = 0;
+    m.alpha_mode = AlphaMode::Mask;
+    m.double_sided = true;
+    m.second.use = scene::SecondSetUse::Mix;
+    m.second.mix_mask.texture = 1;
+    m.second.color = glm::vec3(0.05f, 0.05f, 0.9f);
+    return m;
+}
+
+Scene standing(const Material& material)
+{
+    return scene_of({quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})}, {material});
+}
+
+Frame seen_from(const glm::vec3& eye, SurfacePath path = SurfacePath::Fragment)
+{
+    Frame frame;
+    frame.camera = look(eye, {0, 0, 0}, 0.9f);
+    frame.settings.width = frame.settings.height = 64;
+    frame.settings.samples = 1;
+    frame.settings.surface_path = path;
+    frame.settings.aovs = {"base_color", "normal", "depth"};
+    return frame;
+}
+
+bool there(const RenderResult& r, int x, int y)
+{
+    return std::isfinite(aov(r, "depth", x, y));
+}
+
+TEST_F(Cutout, IsSeenFromBothSidesWithBothSets)
+{
+    renderer->load(standing(leaf()), textures());
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        for (const float side : {1.0f, -1.0f}) {
+            const RenderResult r = renderer->render(seen_from({0, 0, 3.0f * side}, path));
+            const int leafy = side > 0 ? 42 : 22, hole = side > 0 ? 22 : 42;
+            EXPECT_TRUE(there(r, leafy, 32)) << side;
+            EXPECT_FALSE(there(r, hole, 32)) << side;
+            // v grows upwards here: the mask of the first set lies above.
+            EXPECT_GT(aov(r, "base_color", leafy, 24, 0), 0.5f) << side;
+            EXPECT_GT(aov(r, "base_color", leafy, 40, 2), 0.5f) << side;
+            EXPECT_NEAR(aov(r, "normal", leafy, 32, 2), side, 0.01f) << "towards the eye";
+        }
+    }
+}
+
+// Seen aslant, the hole in the relief is seen where the relief is, on both surface paths.
+TEST_F(Cutout, HolesLieInTheRelief)
+{
+    Material m = leaf();
+    m.second.use = scene::SecondSetUse::None;
+    m.weather.height.texture = 2;  // 0.3 m below the quad everywhere
+    m.weather.height_scale_m = 0.3f;
+    const auto edge = [&](scene::Parallax parallax, SurfacePath path) {
+        m.weather.parallax = parallax;
+        renderer->load(standing(m), textures());
+        const RenderResult r = renderer->render(seen_from({2.0f, 0, 2.4f}, path));
+        int x = 0;  // where the leaf begins
+        while (x < 64 && !there(r, x, 32)) ++x;
+        return x;
+    };
+    const int flat = edge(scene::Parallax::None, SurfacePath::Fragment);
+    EXPECT_NEAR(edge(scene::Parallax::None, SurfacePath::Visibility), flat, 1);
+    for (const auto parallax : {scene::Parallax::Simple, scene::Parallax::Occlusion}) {
+        const int sunk = edge(parallax, SurfacePath::Fragment);
+        EXPECT_GT(std::abs(sunk - flat), 2);
+        EXPECT_NEAR(edge(parallax, SurfacePath::Visibility), sunk, 1);
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
