@@ -61,6 +61,18 @@ void add_camera(Hasher& hasher, const scene::Camera& camera)
     hasher.add(camera.orthographic_height_m);
 }
 
+void add_lens(Hasher& hasher, const gpu::Frame& frame)
+{
+    if (frame.lens.radius_m > 0.0f) {
+        hasher.add(frame.lens.radius_m);
+        hasher.add(frame.lens.focus_m);
+    }
+    for (const gpu::ShutterMoment& moment : frame.shutter) {
+        add_camera(hasher, moment.camera);
+        hasher.add(moment.animation_s);
+    }
+}
+
 void add_sky(Hasher& hasher, const gpu::Sky& sky)
 {
     static_assert(sizeof(gpu::Sky) == 16 * sizeof(float), "hash the new field too");
@@ -232,6 +244,26 @@ glm::dvec2 turned(const glm::dvec2& v, double north_rad)
     return {v.x * c - v.y * s, v.x * s + v.y * c};
 }
 
+gpu::Lens lens_at(const ScenarioCamera& camera, const scene::Camera& view, double time_s)
+{
+    gpu::Lens lens;
+    if (!camera.f_stop.given()) return lens;
+    if (view.orthographic_height_m > 0.0f) {
+        throw Error("[camera] f_stop: an orthographic camera has no lens",
+                    "Leave it out, or choose another camera.");
+    }
+    const double focal_m =
+        0.5e-3 * camera.sensor_mm / static_cast<double>(scene::half_extent_m(view, 1, 1).y);
+    lens.radius_m = narrow(0.5 * focal_m / value_at(camera.f_stop, time_s));
+    lens.focus_m = narrow(value_at(camera.focus_m, time_s, 5.0));
+    if (!(lens.focus_m > view.near_m)) {
+        throw Error("[camera] focus_m must be beyond near_m, " + std::to_string(view.near_m) +
+                        ", got " + std::to_string(lens.focus_m),
+                    "Focus farther away, or bring near_m closer.");
+    }
+    return lens;
+}
+
 // What falls, as far as the picture shows that.
 bool something_falls(const shared::WeatherMoment& w)
 {
@@ -291,6 +323,33 @@ const ScenarioCamera& camera_of(const Sequence& sequence, const Job& job)
     return named_part(sequence.views, job.view, "view").camera;
 }
 
+namespace {
+
+// Moments spread over the time that the shutter is open, around the frame's own. Time of a film may run
+// faster than that of its pictures: a camera blurs by its speed on the screen.
+void open_shutter(gpu::Frame& out, const Sequence& sequence, const ScenarioCamera& camera,
+                  double aspect, double time_s)
+{
+    const Scenario& scenario = sequence.scenario;
+    const double open_s = value_at(camera.shutter_s, time_s, kShutter_s);
+    const double clock = sequence.duration_s * scenario.output.fps / scenario.output.frames;
+    for (int i = 0; i < scenario.output.samples; ++i) {
+        const double u = 0.5 + 0.618033988749895 * i;
+        const double off_s = i == 0 ? 0.0 : (u - std::floor(u) - 0.5) * open_s;
+        gpu::ShutterMoment moment;
+        moment.camera =
+            camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s + off_s * clock);
+        if (sequence.scene.rig) {
+            moment.animation_s = out.animation_s + scenario.scene.animation_speed * off_s;
+            moment.camera = scene::carried(
+                moment.camera, scene::posture_at(*sequence.scene.rig, moment.animation_s));
+        }
+        out.shutter.push_back(moment);
+    }
+}
+
+}  // namespace
+
 SequenceFrame frame_at(const Sequence& sequence, const Job& job)
 {
     const Scenario& scenario = sequence.scenario;
@@ -315,6 +374,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
         posture = scene::posture_at(*sequence.scene.rig, out.animation_s);
         out.camera = scene::carried(out.camera, *posture);
     }
+    out.lens = lens_at(camera, out.camera, time_s);
+    if (scenario.render.motion_blur && scenario.output.samples > 1)
+        open_shutter(out, sequence, camera, aspect, time_s);
     out.weather = result.moment.values;
     out.look = look_at(here.look, time_s);
 
@@ -426,6 +488,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     hasher.add(frame.emissive_scale);
     hasher.add(frame.emissive_lights);
     hasher.add(frame.animation_s);
+    add_lens(hasher, frame);
     add_materials(hasher, frame);
     add_settings(hasher, frame.settings);
 }
@@ -471,7 +534,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     }
     if (sequence.scene.rig)
         parts["animation"] = part([&](Hasher& hasher) { hasher.add(frame.animation_s); });
-    parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
+    parts["camera"] = part([&](Hasher& hasher) {
+        add_camera(hasher, frame.camera);
+        add_lens(hasher, frame);
+    });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
     parts["falling"] = part([&](Hasher& hasher) { add_falling(hasher, frame.falling); });

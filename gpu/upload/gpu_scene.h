@@ -71,6 +71,8 @@ public:
     /// Brings what moves to where it is at this moment of its clips, for the frames that follow. True
     /// when anything may have moved. The device must not be drawing.
     bool pose(const Device& device, double time_s);
+    /// Something may be elsewhere at another moment.
+    bool moves() const { return rig_ != nullptr; }
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
