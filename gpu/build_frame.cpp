@@ -294,7 +294,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
-    const VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
+    VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
+    // Which material a pixel has is kept with the weather.
+    weather.any = weather.any || r.scene->decals_refused();
     const auto time_s = static_cast<float>(settings.time_s);
 
     if (!r.surface_maps->generated) {
@@ -362,6 +364,10 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
                         constants, c.world_to_clip, c.camera_m, weather, solid);
+        }
+        if (r.decals && decals_in_view(*r.scene, c.world_to_clip)) {
+            add_decals(graph, *r.targets, *r.decals, *r.scene, *r.surface_maps, *r.depth_maps,
+                       *r.place, constants, c.world_to_clip, weather);
         }
         if (i == 0) {
             const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gpu/build_frame.h"
 #include "gpu/frame/metering.h"
+#include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
 
 namespace petrichor::gpu {
@@ -91,7 +92,7 @@ std::vector<SampleRange> sample_ranges(const Frame& frame, const GpuScene& scene
     if (!scene.moves() || frame.shutter.empty()) return ranges;
     ranges.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
-        const bool same = i > 0 && frame.shutter[i].animation_s == frame.shutter[i - 1].animation_s;
+        const bool same = i > 0 && frame.shutter[i].off_s == frame.shutter[i - 1].off_s;
         if (same) {
             ranges.back().end = i + 1;
         } else {
@@ -114,6 +115,8 @@ struct TargetSet {
     std::unique_ptr<MemoryArena> transparent_arena;
     TransparentTargets transparent;
     int transparent_words = 0;
+    std::unique_ptr<MemoryArena> decal_arena;
+    DecalTargets decals;
 };
 
 struct Renderer::Impl {
@@ -233,6 +236,19 @@ struct Renderer::Impl {
         return true;
     }
 
+    // True when the scene has decals; their targets are then made for the frame's size.
+    bool prepare_decals(TargetSet& set, const FrameSettings& s)
+    {
+        if (scene->decals().empty()) return false;
+        const GpuImage* now = set.decals.color.get();
+        if (!now || now->width != s.width || now->height != s.height) {
+            set.decals = {};
+            set.decal_arena = std::make_unique<MemoryArena>(device);
+            set.decals = make_decal_targets(*set.decal_arena, s.width, s.height);
+        }
+        return true;
+    }
+
     RenderResult render(const Frame& frame, TargetSet& set);
 
     Device device;
@@ -258,6 +274,7 @@ struct Renderer::Impl {
     std::unique_ptr<MemoryArena> environment_arena;
     std::unique_ptr<GpuImage> environment;
     std::unique_ptr<GpuScene> scene;
+    std::unique_ptr<SnowBody> snow;
     bool own_lighting = false;
     std::string graph_text;
 };
@@ -270,7 +287,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
+void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
+                    std::shared_ptr<const scene::SnowCaps> snow)
 {
     for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
@@ -278,7 +296,9 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures)
     impl_->depth_maps.forget();
     impl_->lamp_shadows.forget();
     impl_->light_tables.load(scene.light_profiles);
-    impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures);
+    impl_->snow = snow && !snow->empty() ? std::make_unique<SnowBody>(std::move(snow)) : nullptr;
+    impl_->scene = std::make_unique<GpuScene>(impl_->device, scene, textures,
+                                              impl_->snow ? impl_->snow->overlay() : Overlay{});
     auto own_lighting = impl_->scene->lighting_models().compile_lighting();
     impl_->own_lighting = !own_lighting.empty();
     if (impl_->own_lighting)
@@ -330,9 +350,16 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
                        static_cast<std::size_t>(frame.settings.height),
                    device.limits().maxStorageBufferRange);
 
-    const bool moved = scene->pose(device, frame.animation_s);
+    const bool moved = scene->pose(
+        device, frame.animation_s,
+        {frame.weather.wind_m_s, frame.falling.air_m, frame.settings.time_s});
     if (scene->set_materials(frame.materials) || moved) {
         depth_maps.forget();
+        lamp_shadows.forget();
+    }
+    if (snow && snow->lay(frame)) {
+        scene->lay(device, snow->vertices());
+        depth_maps.shadow_valid = false;
         lamp_shadows.forget();
     }
     const Light* scene_sun = nullptr;
@@ -367,6 +394,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.place = &place;
     if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
+    if (prepare_decals(set, frame.settings)) resources.decals = &set.decals;
     resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;
@@ -385,7 +413,11 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     for (const SampleRange& range : sample_ranges(frame, *scene)) {
         if (range.first > 0) {  // what moves is elsewhere
             descriptors.reset();
-            scene->pose(device, frame.shutter[range.first].animation_s);
+            const ShutterMoment& now = frame.shutter[range.first];
+            const glm::vec2 wind = frame.weather.wind_m_s;
+            scene->pose(device, now.animation_s,
+                        {wind, frame.falling.air_m + glm::dvec2(wind) * now.off_s,
+                         frame.settings.time_s + now.off_s});
             depth_maps.forget();
             lamp_shadows.forget();
             prepare_lights(frame, scene_sun);

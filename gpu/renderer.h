@@ -17,6 +17,10 @@
 #include "gpu/outputs/aov_table.h"
 #include "gpu/upload/texture.h"
 
+namespace petrichor::scene {
+struct SnowCaps;
+}
+
 namespace petrichor::gpu {
 
 struct AovImage {
@@ -47,8 +51,9 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Uploads the scene. `textures[i]` belongs to scene.textures[i] (empty mips: white).
-    /// Replaces what was loaded before.
-    void load(const Scene& scene, const std::vector<Texture>& textures);
+    /// Replaces what was loaded before. With `snow` what lies deep has a body in frames that want it.
+    void load(const Scene& scene, const std::vector<Texture>& textures,
+              std::shared_ptr<const scene::SnowCaps> snow = nullptr);
 
     /// Lights the scene from an HDR environment; an empty map returns to the analytic sky.
     void set_environment(const EnvironmentMap& environment);

@@ -13,7 +13,7 @@ SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const G
     // From about a triangle for every 8 pixels on; set after seeing the scenes of the page.
     constexpr double kPixelsATriangle = 8.0;
     double triangles = 0.0;
-    for (const Draw& draw : scene.draws()) triangles += draw.index_count / 3.0;
+    for (const Draw& draw : scene.draws()) triangles += draw.overlay ? 0.0 : draw.index_count / 3.0;
     const double pixels = static_cast<double>(width) * static_cast<double>(height);
     return triangles * kPixelsATriangle > pixels ? SurfacePath::Visibility : SurfacePath::Fragment;
 }

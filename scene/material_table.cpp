@@ -328,6 +328,9 @@ const std::vector<MaterialProperty>& material_table()
         add_light_rows(rows);
         add_weather_rows(rows);
         add_second_set_rows(rows);
+        add_decal_rows(rows);
+        add_wind_rows(rows);
+        add_displacement_rows(rows);
         return rows;
     }();
     return table;

@@ -40,6 +40,7 @@ struct MaterialProperty {
     /// A value that means something though it is out of range; NaN: there is none.
     float also = std::numeric_limits<float>::quiet_NaN();
     bool shaded = true;  ///< false: read and kept, but no shader knows it yet (unshaded_properties)
+    bool at_load = false;  ///< shapes the mesh when a sequence is loaded; the renderer knows it not
     bool keyed = false;  ///< may have another value in every frame of a film
     glm::vec4 (*get)(const Material&) = nullptr;  ///< the first `count` components count
     void (*set)(Material&, const glm::vec4&) = nullptr;

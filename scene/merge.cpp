@@ -53,7 +53,7 @@ void merge_primitives(Scene& scene)
             const bool fits =
                 !is_new && merged[place->second].positions.size() + primitive.positions.size() <
                                std::numeric_limits<std::uint32_t>::max();
-            if (fits && !blends && !primitive.deforms()) {
+            if (fits && !blends && !material.decal.on && !primitive.deforms()) {
                 join(merged[place->second], primitive);
             } else {
                 place->second = merged.size();

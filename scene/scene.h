@@ -122,6 +122,34 @@ struct SecondSet {
     glm::vec4 water_color{0.0f};
 };
 
+/// Where a plant's vertices learn how far they are from its root, 0 .. 1.
+enum class WindWeight {
+    Height,  ///< above the lowest point of the mesh
+    Uv,      ///< v of the first coordinates: roots at 1, tops at 0
+    Mask,    ///< alpha of _WEATHER
+};
+
+/// How a material bends in the wind (scene/animation/wave.h). Ranges and meanings: material_table.h.
+struct WindLook {
+    float bend = 0.0f;
+    float flutter_m = 0.0f;
+    float sway_hz = 0.8f;
+    float height_m = 0.0f;
+    WindWeight weight = WindWeight::Height;
+
+    bool moves() const { return bend > 0.0f || flutter_m > 0.0f; }
+};
+
+/// Of a material that is laid over what lies below it instead of being a surface of its own. Ranges and
+/// meanings: material_table.h.
+struct DecalLook {
+    bool on = false;
+    glm::vec4 weights{1.0f, 1.0f, 1.0f, 0.0f};  ///< colour; normal; roughness and the like; weather
+    float order = 0.0f;                         ///< higher ones lie over lower ones
+    float reach_m = 0.05f;
+    bool received = true;  ///< of what lies below: it takes decals
+};
+
 /// Textures of what lies over, in and beside the base: a share each of the factor of its name. At most
 /// kMostLayerTextures of a material are shown.
 inline constexpr int kMostLayerTextures = 6;
@@ -142,6 +170,17 @@ struct LayerTextures {
     TextureUse specular_glossiness;    ///< sRGB reflectance, A smoothness
     TextureUse translucency;
     TextureUse skin_curvature;
+};
+
+/// The height map as geometry: the mesh is cut when it is loaded, and its points are moved along their
+/// normals. Ranges and meanings: material_table.h.
+struct Displacement {
+    float height_m = 0.0f;  ///< height 1 above height 0; what is half high stays; 0: off
+    float edge_m = 0.05f;
+    float near_m = 7.0f;
+    float far_m = 25.0f;
+    float phong = 0.0f;
+    float most = 64.0f;
 };
 
 /// A dry material: glTF 2.0 metallic-roughness and the extensions that we read (material_table.h).
@@ -211,6 +250,9 @@ struct Material {
     std::string surface;  ///< path of a GLSL file that changes the dry surface; empty: none
     MaterialWeather weather;
     SecondSet second;
+    DecalLook decal;
+    WindLook wind;
+    Displacement displacement;
 };
 
 /// What a shape that a mesh is morphed to adds at weight 1. Each is empty or has positions.size()
@@ -237,7 +279,7 @@ struct Primitive {
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;  ///< COLOR_0, linear; multiplies the base colour
     std::vector<glm::vec4>
-        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a unused
+        weather;  ///< _WEATHER, 0..1: r mix, g puddle mask, b snow mask, a how far wind moves it
     std::vector<std::uint32_t> indices;  ///< 3 a triangle, each < positions.size()
     std::uint32_t material = 0;          ///< index into Scene::materials
     std::vector<MorphTarget> targets;    ///< empty: it is not morphed
@@ -250,6 +292,16 @@ struct Primitive {
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+};
+
+/// What one instance has instead of its materials' own values.
+struct InstanceLook {
+    std::optional<glm::vec3> color;  ///< linear, for base_color_factor
+    std::optional<float> metallic;   ///< for metallic_factor
+    std::optional<float> roughness;  ///< for roughness_factor
+    std::optional<float> emission;   ///< times what its materials send out
+
+    bool operator==(const InstanceLook&) const = default;
 };
 
 /// Nodes, skins and animations of a scene: scene/animation/rig.h.
@@ -270,6 +322,19 @@ struct Instance {
     std::int32_t node = kNoNode;  ///< of the rig, that carries it; read while it `moves`
     std::int32_t skin = -1;       ///< of the rig; joints alone place it then
     glm::mat4 in_node{1.0f};      ///< from the mesh to the node
+    InstanceLook look = {};
+};
+
+/// A material that is projected onto all that lies in a box: along its -z, u along its x, v down its y.
+struct ProjectedDecal {
+    std::string name;
+    std::uint32_t material = 0;        ///< index into Scene::materials
+    glm::mat4 to_world{1.0f};          ///< from the cube of -0.5 to 0.5, at rest
+    float full_angle_rad = 0.8f;       ///< to faces turned no more than so from its z; then it fades ..
+    float none_angle_rad = 1.3f;       ///< .. and ends here
+    float edge_fade = 0.0f;            ///< share of the half box over which it fades at all sides
+    std::int32_t node = kNoNode;       ///< of the rig, that carries it
+    glm::mat4 in_node{1.0f};           ///< from the cube to the node
 };
 
 enum class LightKind { Directional, Point, Spot, Rectangle };
@@ -344,6 +409,7 @@ struct Scene {
     std::vector<Material> materials;  ///< never empty once loaded; index 0 may be the default
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
+    std::vector<ProjectedDecal> decals;
     std::vector<Light> lights;
     std::vector<LightProfile> light_profiles;
     std::vector<Camera> cameras;

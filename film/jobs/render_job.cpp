@@ -22,6 +22,7 @@
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_textures.h"
+#include "film/scenes/snow_scene.h"
 #include "film/scenes/snow_tracks.h"
 #include "film/scenes/transport.h"
 #include "film/scenes/weather_textures.h"
@@ -163,6 +164,24 @@ scene::PatchProgress tracing_progress(const RenderRequest& request)
     };
 }
 
+// Whether any frame that is asked for may have snow with a body.
+bool may_snow(const Sequence& sequence, const RenderRequest& request)
+{
+    if (!sequence.scenario.render.snow_body) return false;
+    // In the shade it lies longer than in the open.
+    constexpr float kWarm_k = 283.15f;
+    for (const Job& job : jobs_of(sequence, request.range, request.shard)) {
+        const double time_s = frame_time_s(sequence, job.frame);
+        for (const SequenceVariant& variant : sequence.variants) {
+            if (variant.name != job.variant) continue;
+            const shared::WeatherMoment& w = variant.weather.at(time_s).values;
+            if (w.snow_amount > 0.0f || (variant.weather.table && w.air_temperature_k < kWarm_k))
+                return true;
+        }
+    }
+    return false;
+}
+
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
@@ -261,6 +280,9 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         }
         report.notes.push_back("light between surfaces: ambient " + why);
     }
+    std::shared_ptr<const scene::SnowCaps> snow;
+    if (may_snow(sequence, request))
+        snow = prepare_snow(sequence.scene, sequence.eyes_m, report.notes);
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
     options.threads = request.threads;
@@ -274,7 +296,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     }
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
-    renderer.load(sequence.scene, textures);
+    renderer.load(sequence.scene, textures, std::move(snow));
     renderer.set_patches(std::move(patches));
     return renderer;
 }

@@ -13,9 +13,13 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/eyes.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenario/node_keys.h"
 #include "film/scenes/lamps.h"
+#include "film/scenes/decals.h"
 #include "film/scenes/demo_scene.h"
+#include "film/scenes/displacement.h"
 #include "film/scenes/ground_plane.h"
 #include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
@@ -83,29 +87,50 @@ void say_odd_size(const Scenario& scenario, const scene::Bounds& bounds, bool gr
     warnings.push_back(scenario.scene.file + ": " + text);
 }
 
+std::size_t triangles_of(const scene::Scene& scene)
+{
+    std::size_t triangles = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives)
+            triangles += primitive.indices.size() / 3;
+    }
+    return triangles;
+}
+
+// Its shape follows from where the cameras of the whole film stand.
+void add_displacement(Sequence& sequence, Hasher& content)
+{
+    if (!wants_displacement(sequence.scene)) return;
+    content.add("displacement");
+    for (const glm::vec3& eye : sequence.eyes_m) content.add_numbers(std::span<const float>(&eye[0], 3));
+    for (std::string& note : displace(sequence.scene, sequence.eyes_m))
+        sequence.scene.warnings.push_back(std::move(note));
+    const std::size_t before = sequence.triangles;
+    sequence.triangles = triangles_of(sequence.scene);
+    sequence.notes.push_back("displacement: " + std::to_string(before) + " triangles became " +
+                             std::to_string(sequence.triangles));
+}
+
 }  // namespace
 
 void load_sequence_scene(Sequence& sequence, int threads)
 {
     const Scenario& scenario = sequence.scenario;
     LoadedScene loaded = load(scenario, threads);
-    std::size_t triangles = 0;
-    for (const scene::Instance& instance : loaded.scene.instances) {
-        for (const scene::Primitive& primitive : loaded.scene.meshes[instance.mesh].primitives) {
-            triangles += primitive.indices.size() / 3;
-        }
-    }
-    if (triangles == 0) {
+    sequence.triangles = triangles_of(loaded.scene);
+    if (sequence.triangles == 0) {
         throw Error("scene: " + loaded.scene.name + " shows no triangles",
                     "Export meshes with triangles, placed in the default scene.");
     }
-    sequence.triangles = triangles;
     sequence.bounds = content_bounds(loaded.scene);
     const bool ground = wants_ground(scenario, loaded.scene, sequence.bounds);
     if (ground) add_ground(loaded.scene, sequence.bounds);
     say_odd_size(scenario, sequence.bounds, ground, loaded.scene.warnings);
     sequence.scene = std::move(loaded.scene);
     sequence.notes = std::move(loaded.notes);
+    const auto unnamed = apply_node_overrides(scenario.nodes, sequence.scene);
+    sequence.scene.warnings.insert(sequence.scene.warnings.end(), unnamed.begin(), unnamed.end());
+    const std::string decals = add_decals(scenario.decals, scenario.materials, sequence.scene);
     const AppliedOverrides applied =
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
@@ -117,12 +142,23 @@ void load_sequence_scene(Sequence& sequence, int threads)
     Hasher content;
     content.add(loaded.fingerprint);
     if (!lamps.content.empty()) content.add(lamps.content);
+    for (const NodeOverride& one : scenario.nodes) {
+        content.add(one.glob);
+        const scene::InstanceLook& look = one.look;
+        const glm::vec3 color = look.color.value_or(glm::vec3(-1.0f));
+        for (const float v : {color.r, color.g, color.b, look.metallic.value_or(-1.0f),
+                              look.roughness.value_or(-1.0f), look.emission.value_or(-1.0f)})
+            content.add(v);
+    }
+    if (!decals.empty()) content.add(decals);
     content.add(applied.textures);
     content.add(ground);
     content.add(scenario.scene.variant);
     content.add(scenario.scene.animation);
     content.add(scenario.scene.animation_loop);
     if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
+    sequence.eyes_m = eyes_of(sequence);
+    add_displacement(sequence, content);
     sequence.content = content.text();
     sequence.weather_textures =
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);

@@ -12,6 +12,7 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/lens.h"
 #include "film/jobs/exposure.h"
 #include "film/jobs/night_sky.h"
 #include "film/jobs/sun.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
-constexpr double kShutter_s = 0.004;
 constexpr int kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = 64 << 20;
 
@@ -244,26 +244,6 @@ glm::dvec2 turned(const glm::dvec2& v, double north_rad)
     return {v.x * c - v.y * s, v.x * s + v.y * c};
 }
 
-gpu::Lens lens_at(const ScenarioCamera& camera, const scene::Camera& view, double time_s)
-{
-    gpu::Lens lens;
-    if (!camera.f_stop.given()) return lens;
-    if (view.orthographic_height_m > 0.0f) {
-        throw Error("[camera] f_stop: an orthographic camera has no lens",
-                    "Leave it out, or choose another camera.");
-    }
-    const double focal_m =
-        0.5e-3 * camera.sensor_mm / static_cast<double>(scene::half_extent_m(view, 1, 1).y);
-    lens.radius_m = narrow(0.5 * focal_m / value_at(camera.f_stop, time_s));
-    lens.focus_m = narrow(value_at(camera.focus_m, time_s, 5.0));
-    if (!(lens.focus_m > view.near_m)) {
-        throw Error("[camera] focus_m must be beyond near_m, " + std::to_string(view.near_m) +
-                        ", got " + std::to_string(lens.focus_m),
-                    "Focus farther away, or bring near_m closer.");
-    }
-    return lens;
-}
-
 // What falls, as far as the picture shows that.
 bool something_falls(const shared::WeatherMoment& w)
 {
@@ -322,33 +302,6 @@ const ScenarioCamera& camera_of(const Sequence& sequence, const Job& job)
 {
     return named_part(sequence.views, job.view, "view").camera;
 }
-
-namespace {
-
-// Moments spread over the time that the shutter is open, around the frame's own. Time of a film may run
-// faster than that of its pictures: a camera blurs by its speed on the screen.
-void open_shutter(gpu::Frame& out, const Sequence& sequence, const ScenarioCamera& camera,
-                  double aspect, double time_s)
-{
-    const Scenario& scenario = sequence.scenario;
-    const double open_s = value_at(camera.shutter_s, time_s, kShutter_s);
-    const double clock = sequence.duration_s * scenario.output.fps / scenario.output.frames;
-    for (int i = 0; i < scenario.output.samples; ++i) {
-        const double u = 0.5 + 0.618033988749895 * i;
-        const double off_s = i == 0 ? 0.0 : (u - std::floor(u) - 0.5) * open_s;
-        gpu::ShutterMoment moment;
-        moment.camera =
-            camera_at(camera, sequence.scene, sequence.bounds, aspect, time_s + off_s * clock);
-        if (sequence.scene.rig) {
-            moment.animation_s = out.animation_s + scenario.scene.animation_speed * off_s;
-            moment.camera = scene::carried(
-                moment.camera, scene::posture_at(*sequence.scene.rig, moment.animation_s));
-        }
-        out.shutter.push_back(moment);
-    }
-}
-
-}  // namespace
 
 SequenceFrame frame_at(const Sequence& sequence, const Job& job)
 {
@@ -555,6 +508,13 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         hasher.add(scenario.scene.north_degrees);
         hasher.add(what.moment.utc_us.value_or(0));
     });
+    if (frame.settings.snow_body && frame.weather.snow_amount > 0.0f) {
+        // Finer where a camera stands at some time of the film.
+        parts["snow"] = part([&](Hasher& hasher) {
+            for (const glm::vec3& eye : sequence.eyes_m)
+                hasher.add_numbers(std::span<const float>(&eye[0], 3));
+        });
+    }
     static_assert(std::is_trivially_copyable_v<shared::WeatherLook> &&
                       sizeof(shared::WeatherLook) % sizeof(float) == 0,
                   "all floats: hashed as one run");

@@ -54,6 +54,7 @@ struct Sequence {
     std::string lighting_models;  ///< of the scene's own ones, own_models_fingerprint()
     std::string weather_textures;  ///< of [render]'s, weather_textures_fingerprint()
     std::size_t triangles = 0;     ///< of all instances
+    std::vector<glm::vec3> eyes_m = {};  ///< eyes_of(), once the scene is loaded
     std::vector<std::string> notes = {};  ///< about the scene: which of its animations play
 };
 

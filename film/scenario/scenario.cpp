@@ -7,9 +7,11 @@
 
 #include "base/error.h"
 #include "base/words.h"
+#include "film/scenario/decal_keys.h"
 #include "film/scenario/lamp_keys.h"
 #include "film/scenario/look_keys.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenario/node_keys.h"
 #include "film/scenario/rules.h"
 #include "film/scenario/weather_table.h"
 #include "film/toml/toml_value.h"
@@ -23,7 +25,7 @@ std::vector<std::string> table_names()
     for (const Rule& rule : rules()) {
         if (names.empty() || names.back() != rule.key.table) names.push_back(rule.key.table);
     }
-    for (const char* name : {"look", "materials", "lamps", "variant", "view"}) names.emplace_back(name);
+    for (const char* name : {"look", "materials", "nodes", "decals", "lamps", "variant", "view"}) names.emplace_back(name);
     return names;
 }
 
@@ -143,6 +145,10 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
         read_weather(scenario, value, *node.as_table());
     } else if (table == "materials") {
         scenario.materials = read_material_overrides(*node.as_table(), scenario.name);
+    } else if (table == "nodes") {
+        scenario.nodes = read_node_overrides(*node.as_table(), scenario.name);
+    } else if (table == "decals") {
+        scenario.decals = read_decals(*node.as_table(), scenario.name);
     } else if (table == "lamps") {
         scenario.lamps = read_lamp_overrides(*node.as_table(), scenario.name);
     } else if (table == "look") {
@@ -264,6 +270,8 @@ const std::vector<ScenarioKey>& scenario_keys()
             all.push_back({"look", key.name, key.example, meaning, key.count == 1, false});
         }
         for (ScenarioKey& key : material_keys()) all.push_back(std::move(key));
+        for (ScenarioKey& key : node_keys()) all.push_back(std::move(key));
+        for (ScenarioKey& key : decal_keys()) all.push_back(std::move(key));
         for (ScenarioKey& key : lamp_keys()) all.push_back(std::move(key));
         return all;
     }();
@@ -288,6 +296,10 @@ std::string table_meaning(const std::string& table)
         {"output", "The sequence and its files."},
         {"weather", "What falls from the sky, and when: a preset, a weather file, or keys."},
         {"look", "How weather is drawn."},
+        {"nodes",
+         "Values of single things instead of their materials', by the names of their nodes; * stands for "
+         "any letters. Later tables win."},
+        {"decals", "Boxes that project a material onto what lies in them: posters, road marks, stains."},
         {"lamps", "Lamps of the scene, by their names; * stands for any letters. Later tables win."},
         {"materials",
          "Properties of materials, by their names; * stands for any letters. Later tables win."},

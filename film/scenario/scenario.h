@@ -204,6 +204,27 @@ struct MaterialOverride {
     std::string surface = {};         ///< likewise
 };
 
+/// What the instances of nodes whose name matches have instead of their materials' own.
+struct NodeOverride {
+    std::string glob;
+    std::string place;  ///< "file:line", for messages
+    scene::InstanceLook look;
+};
+
+/// A box that projects a material onto what lies in it.
+struct ScenarioDecal {
+    std::string name;
+    std::string place;     ///< "file:line", for messages
+    std::string material;  ///< by name; of the scene, or described by the scenario
+    glm::dvec3 center_m{0.0};
+    glm::dvec3 size_m{1.0, 1.0, 0.5};  ///< width, height, depth
+    glm::dvec3 direction{0.0, -1.0, 0.0};
+    double turn_degrees = 0.0;
+    double full_degrees = 46.0, none_degrees = 75.0;
+    double edge_fade = 0.0;
+    std::string node;  ///< that carries it; empty: none
+};
+
 /// What the lamps whose name matches have instead of their own.
 struct LampOverride {
     std::string glob;
@@ -271,6 +292,8 @@ struct Scenario : Conditions {
     ScenarioRender render;
     ScenarioOutput output;
     std::vector<MaterialOverride> materials;
+    std::vector<NodeOverride> nodes;
+    std::vector<ScenarioDecal> decals;
     std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
     std::vector<ScenarioView> views;        ///< empty: the scenario's own camera

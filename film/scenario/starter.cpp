@@ -11,6 +11,8 @@ namespace {
 std::string header_of(const std::string& table)
 {
     if (table == "materials") return "[materials.\"*cobble*\"]";
+    if (table == "nodes") return "[nodes.\"car*\"]";
+    if (table == "decals") return "[decals.\"poster\"]";
     return table == "lamps" ? "[lamps.\"*lantern*\"]" : "[" + table + "]";
 }
 
@@ -63,7 +65,9 @@ std::string starter_scenario(const std::string& name, const std::string& scene_f
         if (first_of_table && table == "weather") text += artist_table(all_active);
         if (first_of_table) {
             table = key.table;
-            const bool optional = (table == "materials" || table == "lamps") && !all_active;
+            const bool optional =
+                (table == "materials" || table == "nodes" || table == "decals" || table == "lamps") &&
+                !all_active;
             text += "\n# " + table_meaning(table) + "\n" + (optional ? "# " : "") +
                     header_of(table) + "\n";
         }

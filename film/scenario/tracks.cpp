@@ -1,5 +1,7 @@
 #include "film/scenario/tracks.h"
 
+#include <algorithm>
+
 namespace petrichor::film {
 
 std::vector<ScenarioTrack> read_tracks(const TomlValue& value)
@@ -22,8 +24,9 @@ std::vector<ScenarioTrack> read_tracks(const TomlValue& value)
                 track.depth = entry.number(0.0, 1.0);
             }
         }
-        if (track.points_m.size() < 2)
-            one.refuse("a table with kind and points_m of two points or more");
+        const auto first = track.points_m.begin();
+        if (std::all_of(first, track.points_m.end(), [&](const auto& p) { return p == *first; }))
+            one.refuse("a table with kind and points_m of two different points or more");
         tracks.push_back(std::move(track));
     }
     return tracks;

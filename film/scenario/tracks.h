@@ -8,8 +8,8 @@
 
 namespace petrichor::film {
 
-/// Reads `tracks` of [ground]. Throws Error for unknown keys, values out of range and ways of less
-/// than two points.
+/// Reads `tracks` of [ground]. Throws Error for unknown keys, values out of range and ways that
+/// lead nowhere: less than two different points.
 std::vector<ScenarioTrack> read_tracks(const TomlValue& value);
 
 }  // namespace petrichor::film

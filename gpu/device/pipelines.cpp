@@ -346,7 +346,8 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     std::string key = key_of(desc.vertex + "+" + desc.fragment, desc.specialization);
     for (const VkFormat format : desc.colors) key += "|" + std::to_string(format);
     key += "|" + std::to_string(desc.depth) + "|" + std::to_string(desc.color_write) +
-           std::to_string(desc.depth_equal) + std::to_string(desc.over);
+           std::to_string(desc.depth_equal) + std::to_string(desc.over) +
+           std::to_string(desc.over_all);
     auto& slot = pipelines_[key];
     if (slot) return *slot;
     auto made = std::make_unique<Pipeline>();
@@ -400,12 +401,14 @@ const Pipeline& PipelineCache::graphics(const GraphicsDesc& desc)
     for (std::size_t i = 0; i < attachments.size(); ++i) {
         const bool kept = desc.colors[i] != VK_FORMAT_UNDEFINED;
         attachments[i].colorWriteMask = desc.color_write && kept ? 0xfu : 0u;
-        if (!desc.over) continue;
+        if (!desc.over && !desc.over_all) continue;
         attachments[i].blendEnable = VK_TRUE;
         attachments[i].srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
         attachments[i].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-        attachments[i].srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-        attachments[i].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachments[i].srcAlphaBlendFactor =
+            desc.over_all ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+        attachments[i].dstAlphaBlendFactor =
+            desc.over_all ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
     }
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;

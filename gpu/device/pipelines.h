@@ -67,6 +67,7 @@ struct GraphicsDesc {
     std::vector<VertexAttribute> attributes;
     bool color_write = true;   ///< false: fills depth only
     bool over = false;         ///< colour is premultiplied and laid over what is there; its alpha stays
+    bool over_all = false;     ///< likewise, and its alpha too
     bool depth_equal = false;  ///< draws where depth is already its own; does not write it
 };
 

@@ -162,6 +162,7 @@ struct Lens {
 struct ShutterMoment {
     Camera camera;
     double animation_s = 0.0;
+    double off_s = 0.0;  ///< from the frame's own moment: what sways in the wind goes on
 };
 
 struct Frame {

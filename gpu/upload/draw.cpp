@@ -43,6 +43,7 @@ shared::DrawConstants draw_constants(const Draw& draw)
     }
     c.instance_id = draw.instance_id;
     c.material_id = draw.material;
+    c.look = draw.look;
     return c;
 }
 

@@ -1,6 +1,7 @@
 #include "gpu/upload/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -113,7 +114,8 @@ const std::vector<VertexAttribute>& vertex_attributes()
     return attributes;
 }
 
-GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures)
+GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
+                   const Overlay& overlay)
     : arena_(device),
       lights_(scene.lights),
       glow_sources_(glow_sources(scene, textures)),
@@ -125,7 +127,9 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, const std::vector<T
     rest_bounds_ = bounds_;
     upload_textures(device, textures);
     make_materials(device, scene);
-    upload_geometry(device, scene);
+    upload_geometry(device, scene, overlay);
+    upload_looks(device, scene);
+    sum_up_materials();
 }
 
 void place_sphere(Draw& draw, const Bounds& box)
@@ -138,7 +142,7 @@ void place_sphere(Draw& draw, const Bounds& box)
                                 glm::abs(linear[2]) * half.z);
 }
 
-void GpuScene::upload_geometry(const Device& device, const Scene& scene)
+void GpuScene::upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay)
 {
     struct Range {
         std::uint32_t first_index, index_count;
@@ -196,10 +200,53 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
                 }
                 moving_.push_back(std::move(moving));
             }
-            draws_.push_back(draw);
+            const Material& material = scene.materials[draw.material];
+            if (material.wind.moves() && !primitives[p].deforms() && !instance.backdrop) {
+                auto& shape = shapes[&primitives[p]];
+                if (!shape) shape = std::make_shared<const Primitive>(primitives[p]);
+                draw.waving = static_cast<std::int32_t>(waving_.size());
+                draw.vertex_offset = static_cast<std::int32_t>(first_bending_ + bending_.size());
+                waving_.push_back({shape, {range.low, range.high}, material.wind, bending_.size()});
+                for (std::size_t v = 0; v < shape->positions.size(); ++v)
+                    bending_.push_back(vertex_of(*shape, v));
+                if (bending_.size() > kMostWaving) {
+                    throw Error("scene: wind bends more than " + std::to_string(kMostWaving) +
+                                    " vertices, those of every instance counted",
+                                "Give wind_bend and wind_flutter_m to fewer materials, or thin the "
+                                "plants out.");
+                }
+            }
+            if (material.decal.on) {
+                decals_.push_back({material.decal.order, draw, {}});
+            } else {
+                draws_.push_back(draw);
+            }
         }
     }
+    for (const ProjectedDecal& box : scene.decals) {
+        Decal decal{scene.materials[box.material].decal.order, {}, box};
+        decal.draw.material = box.material;
+        decal.draw.to_world = box.to_world;
+        place_sphere(decal.draw, kDecalBox);
+        decals_.push_back(std::move(decal));
+    }
+    std::stable_sort(decals_.begin(), decals_.end(),
+                     [](const Decal& a, const Decal& b) { return a.order < b.order; });
     vertices.insert(vertices.end(), bending_.begin(), bending_.end());
+    first_overlay_ = vertices.size();
+    for (const Overlay::Part& part : overlay.parts) {
+        Draw draw;
+        draw.first_index = static_cast<std::uint32_t>(indices.size()) + part.first_index;
+        draw.index_count = part.index_count;
+        draw.vertex_offset = static_cast<std::int32_t>(first_overlay_);
+        draw.material = part.material;
+        draw.instance_id = part.instance_id;
+        draw.overlay = true;
+        place_sphere(draw, part.box);
+        draws_.push_back(draw);
+    }
+    vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
+    indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
         const auto key = [this](const Draw& d) {
             const GpuMaterial& m = materials_[d.material];
@@ -207,6 +254,9 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
         };
         return key(a) < key(b);
     });
+    for (Draw& draw : draws_) {
+        if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
+    }
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
     const std::size_t texels = std::max(vertices.size() * (sizeof(Vertex) / 16), indices.size());
     as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;
@@ -225,6 +275,54 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene)
          .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED});
     upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
+}
+
+// Instances that look alike share a row; row 0 is nobody's.
+void GpuScene::upload_looks(const Device& device, const Scene& scene)
+{
+    std::vector<glm::vec4> texels(INSTANCE_LOOK_TEXELS, glm::vec4(-1.0f));
+    std::map<std::array<float, 6>, std::uint32_t> rows;
+    const auto row_of = [&](const InstanceLook& look) -> std::uint32_t {
+        if (look == InstanceLook{}) return 0;
+        const glm::vec3 color = look.color.value_or(glm::vec3(-1.0f));
+        const std::array<float, 6> key{color.r,
+                                       color.g,
+                                       color.b,
+                                       look.metallic.value_or(-1.0f),
+                                       look.roughness.value_or(-1.0f),
+                                       look.emission.value_or(-1.0f)};
+        const auto [row, is_new] = rows.try_emplace(key, static_cast<std::uint32_t>(rows.size() + 1));
+        if (is_new) {
+            texels.emplace_back(key[0], key[1], key[2], key[3]);
+            texels.emplace_back(key[4], key[5], 0.0f, 0.0f);
+        }
+        return row->second;
+    };
+    const auto give = [&](Draw& draw) {
+        draw.look = row_of(scene.instances[draw.instance_id].look);
+        materials_[draw.material].looks = materials_[draw.material].looks || draw.look != 0;
+    };
+    for (Draw& draw : draws_) give(draw);
+    for (Decal& decal : decals_) {
+        if (!decal.box) give(decal.draw);
+    }
+    instance_looks_ = arena_.buffer(
+        {.name = "instance_looks",
+         .size = texels.size() * sizeof(glm::vec4),
+         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         .texel_format = VK_FORMAT_R32G32B32A32_SFLOAT});
+    upload_buffer(device, *instance_looks_, std::as_bytes(std::span(texels)));
+}
+
+void GpuScene::lay(const Device& device, std::span<const Vertex> overlay)
+{
+    overlaid_ = !overlay.empty();
+    std::size_t next = 0;
+    for (Draw& draw : draws_) {
+        if (draw.overlay) draw.index_count = overlaid_ ? overlay_counts_[next++] : 0;
+    }
+    if (overlaid_)
+        upload_buffer(device, *vertices_, std::as_bytes(overlay), first_overlay_ * sizeof(Vertex));
 }
 
 void GpuScene::upload_textures(const Device& device, const std::vector<Texture>& textures)
@@ -336,7 +434,6 @@ void GpuScene::make_materials(const Device& device, const Scene& scene)
         materials_.push_back(std::move(material));
         set_material(i, source);
     }
-    sum_up_materials();
 }
 
 // What of a material is not a matter of pipelines, textures and lists.
@@ -358,10 +455,13 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                                                   {c.snow_opacity, c.transmission_factor, c.ior,
                                                    c.thickness_factor},
                                                   c.second_water_color,
-                                                  {c.roughness_factor, c.dispersion, 0.0f, 0.0f}};
+                                                  {c.roughness_factor,
+                                                   source.decal.received ? 1.0f : 0.0f, c.dispersion,
+                                                   0.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
-    materials_[index].blended = is_blended(source);
+    materials_[index].blended = is_blended(source) && !source.decal.on;
+    materials_[index].decal_weather = source.decal.weights.w > 0.0f;
     materials_[index].casts_shadows = source.casts_shadows;
     materials_[index].glows = source.emissive * source.emissive_strength != glm::vec3(0.0f);
 }
@@ -410,6 +510,7 @@ void GpuScene::sum_up_materials()
         layer_shares_ = layer_shares_ || shown || softens(m);
     }
     baked_ = any([](const Material& m) { return m.light_map.present(); });
+    decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);
     two_sets_ = any([](const Material& m) {
         return m.second.use == scene::SecondSetUse::Mix &&

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/device/pipelines.h"
@@ -27,12 +28,39 @@ struct Draw {
     std::int32_t vertex_offset = 0;
     std::uint32_t material = 0;
     std::uint32_t instance_id = 0;
+    std::uint32_t look = 0;  ///< number of its instance's look, from 1; 0: none
     glm::mat4 to_world{1.0f};
     glm::vec3 centre_m{0.0f};  ///< bounding sphere, world
     float radius_m = 0.0f;
     bool mirrored = false;
     std::int32_t moving = -1;  ///< index of what moves it; negative: nothing does
+    std::int32_t waving = -1;  ///< likewise of how wind bends it
+    bool overlay = false;
 };
+
+/// What is laid over the surfaces: triangles, or a box that projects.
+struct Decal {
+    float order = 0.0f;
+    Draw draw;  ///< of a box: its material and place alone
+    std::optional<ProjectedDecal> box;
+};
+inline constexpr Bounds kDecalBox{glm::vec3(-0.5f), glm::vec3(0.5f)};
+
+/// What lies on a scene in some frames, and is shaped anew for each: in the world, under the materials
+/// and the names of what it lies on.
+struct Overlay {
+    struct Part {
+        std::uint32_t material = 0;
+        std::uint32_t instance_id = 0;
+        std::uint32_t first_index = 0;
+        std::uint32_t index_count = 0;
+        Bounds box;  ///< that it never leaves
+    };
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Part> parts;
+};
+
 /// The bounding sphere of a draw, from the box of its vertices.
 void place_sphere(Draw& draw, const Bounds& box);
 
@@ -42,6 +70,8 @@ struct GpuMaterial {
     bool blended = false;
     bool glows = false;
     bool casts_shadows = true;
+    bool decal_weather = false;        ///< as a decal it brings its own
+    bool looks = false;                ///< some instance has other values than it
     std::uint32_t slots = 0;           ///< texture slots present, one bit each
     std::uint32_t parallax = 0;        ///< PARALLAX_...; none without a height map
     std::uint32_t water = 0;           ///< WATER_... bits of its wetness
@@ -61,18 +91,23 @@ struct GpuMaterial {
 class GpuScene {
 public:
     /// Throws Error when a material names a lighting model that does not exist.
-    GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures);
+    GpuScene(const Device& device, const Scene& scene, const std::vector<Texture>& textures,
+             const Overlay& overlay = {});
 
     /// Gives the materials the values of a frame; those that it does not name are as loaded again.
     /// True when holes, and with them shadows, may have changed. The device must not be drawing.
     /// Throws Error for a material or property that is not there, or one that cannot change.
     bool set_materials(const std::vector<MaterialChange>& changes);
 
-    /// Brings what moves to where it is at this moment of its clips, for the frames that follow. True
-    /// when anything may have moved. The device must not be drawing.
-    bool pose(const Device& device, double time_s);
+    /// Brings what moves to where it is at this moment of its clips and in this wind, for the frames that
+    /// follow. True when anything may have moved. The device must not be drawing.
+    bool pose(const Device& device, double time_s, const scene::Wind& wind = {});
+    /// Shapes the overlay of the frames that follow; empty: there is none in them. The device must not
+    /// be drawing.
+    void lay(const Device& device, std::span<const Vertex> overlay);
+    bool overlaid() const { return overlaid_; }
     /// Something may be elsewhere at another moment.
-    bool moves() const { return rig_ != nullptr; }
+    bool moves() const { return rig_ != nullptr || !waving_.empty(); }
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 
@@ -83,8 +118,11 @@ public:
     GpuBuffer& vertex_texels() const { return *vertices_; }
     GpuBuffer& index_texels() const { return *indices_; }
     const std::vector<Draw>& draws() const { return draws_; }  ///< sorted by state
+    const std::vector<Decal>& decals() const { return decals_; }  ///< lower ones first
+    bool decals_refused() const { return decals_refused_; }  ///< some material takes none
     const std::vector<GpuMaterial>& materials() const { return materials_; }
     GpuBuffer& material_looks() const { return *looks_; }  ///< MATERIAL_LOOK_TEXELS each
+    GpuBuffer& instance_looks() const { return *instance_looks_; }  ///< INSTANCE_LOOK_TEXELS each, from 1
     GpuBuffer& layers() const { return *layers_; }  ///< LAYERS_TEXELS each
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<Light>& glows() const { return glows_; }  ///< glowing surfaces as lights
@@ -102,7 +140,10 @@ public:
     const LightingModels& lighting_models() const { return lighting_models_; }
 
 private:
-    void upload_geometry(const Device& device, const Scene& scene);
+    void upload_looks(const Device& device, const Scene& scene);
+    bool pose_rig(double time_s);
+    bool bend(const scene::Wind& wind, bool moved);
+    void upload_geometry(const Device& device, const Scene& scene, const Overlay& overlay);
     void upload_textures(const Device& device, const std::vector<Texture>& textures);
     void make_materials(const Device& device, const Scene& scene);
     void set_material(std::size_t index, const Material& source);
@@ -116,16 +157,23 @@ private:
     std::unique_ptr<GpuBuffer> constants_;
     std::unique_ptr<GpuBuffer> looks_;
     std::unique_ptr<GpuBuffer> layers_;
+    std::unique_ptr<GpuBuffer> instance_looks_;
     std::uint32_t layers_used_ = 0;
     std::vector<std::unique_ptr<GpuImage>> images_;
     std::unique_ptr<GpuImage> white_;
     std::vector<const SamplerHandle*> image_samplers_;
     std::map<int, SamplerHandle> samplers_;
     std::vector<Draw> draws_;
+    std::vector<Decal> decals_;
     std::shared_ptr<const scene::Rig> rig_;  // null: nothing moves
     std::vector<MovingDraw> moving_;
+    std::vector<WavingDraw> waving_;
+    scene::Wind wind_;  // that the vertices are bent in
     std::vector<Vertex> bending_;  // the last vertices of the buffer
     std::size_t first_bending_ = 0;
+    std::size_t first_overlay_ = 0;
+    std::vector<std::uint32_t> overlay_counts_;  // indices of the overlay's draws, in their order
+    bool overlaid_ = false;
     std::vector<Light> rest_lights_;
     std::vector<GlowSource> rest_glow_sources_;
     Bounds rest_bounds_;
@@ -145,6 +193,7 @@ private:
     Bounds bounds_;
     bool emissive_ = false;
     bool baked_ = false;
+    bool decals_refused_ = false;
     bool constant_weather_ = false;
     bool two_sets_ = false;
     bool layer_shares_ = false;

@@ -71,7 +71,9 @@
     X(vec4, second_water_color)    \
     X(uint, sheltered)             \
     X(float, light_map_scale)      \
-    X(float, light_map_sky)
+    X(float, light_map_sky)        \
+    X(vec4, decal_weights)         \
+    X(float, decal_reach_m)
 
 // X(slot, name): the name is that of the row in material_textures() and of the sampler, whose
 // binding in the material's set is 1 + slot.
@@ -183,13 +185,19 @@
 #define SNOW_VERTEX 4u
 #define SNOW_LOCAL 8u
 #define SNOW_TRACKS 16u  // feet and tyres have trodden it somewhere
+#define SNOW_BODY 32u    // some of what is seen is snow itself (gpu/snow)
 
 // What lighting asks of a material, by its number in the G-buffer: texels of four floats.
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-//   3  roughness_factor, dispersion, -, -
+//   3  roughness_factor, receives_decals, dispersion, -
 #define MATERIAL_LOOK_TEXELS 4
+
+// What an instance has instead of its materials' own, by Draw's number, from 1; negative: their own.
+//   0  base colour, metallic
+//   1  roughness, emission (a factor), -, -
+#define INSTANCE_LOOK_TEXELS 2
 
 // Layers of those materials that have some, by number:
 //   0  lighting model, diffuse_transmission_factor, clearcoat_factor, clearcoat_roughness_factor
@@ -237,7 +245,8 @@ struct DrawConstants {
     vec4 normal_to_world[3];  // rows; xyz used
     uint instance_id;
     uint material_id;
-    uint padding[2];
+    uint look;     // of the instance, in the table of looks; 0: its materials' own
+    uint padding;
 };
 
 SHARED_END

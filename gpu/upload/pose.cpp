@@ -41,6 +41,7 @@ Vertex vertex_of(const scene::Primitive& p, std::size_t i)
     v.uv1 = p.uv1.empty() ? v.uv0 : p.uv1[i];
     set_bytes(v.color, p.colors);
     set_bytes(v.weather, p.weather);
+    v.weather[3] = 255;  // a vertex of snow has less
     return v;
 }
 
@@ -82,28 +83,71 @@ PosedDraw posed(const MovingDraw& draw, const scene::Rig& rig, const scene::Post
     return out;
 }
 
-bool GpuScene::pose(const Device& device, double time_s)
+bool GpuScene::pose(const Device& device, double time_s, const scene::Wind& wind)
+{
+    const bool posed = pose_rig(time_s);
+    const bool bent = bend(wind, posed);
+    if (!posed && !bent) return false;
+    ++poses_;
+    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
+                  first_bending_ * sizeof(Vertex));
+    return true;
+}
+
+// Vertices that bend, in the wind; all calm moments are one.
+bool GpuScene::bend(const scene::Wind& wind, bool moved)
+{
+    const scene::Wind now = wind.velocity_m_s == glm::vec2(0.0f) ? scene::Wind{} : wind;
+    if (waving_.empty() || (now == wind_ && !moved)) return false;
+    wind_ = now;
+    const auto wave = [&](Draw& draw) {
+        if (draw.waving < 0) return;
+        const WavingDraw& waving = waving_[static_cast<std::size_t>(draw.waving)];
+        const scene::Shape shape =
+            scene::waved(*waving.shape, waving.box, draw.to_world, waving.look, now);
+        for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+            Vertex& v = bending_[waving.first_vertex + i];
+            v.position = shape.positions[i];
+            v.normal = shape.normals[i];
+            if (!shape.tangents.empty()) v.tangent = shape.tangents[i];
+        }
+        place_sphere(draw, waving.box);
+        if (now.velocity_m_s != glm::vec2(0.0f))
+            draw.radius_m += scene::wave_reach_m(waving.box, draw.to_world, waving.look);
+    };
+    for (Draw& draw : draws_) wave(draw);
+    for (Decal& decal : decals_) wave(decal.draw);
+    return true;
+}
+
+bool GpuScene::pose_rig(double time_s)
 {
     if (!rig_ || posed_s_ == time_s) return false;
     posed_s_ = time_s;
-    ++poses_;
     const scene::Posture posture = scene::posture_at(*rig_, time_s);
     bounds_ = rest_bounds_;
-    for (Draw& draw : draws_) {
-        if (draw.moving < 0) continue;
+    const auto move = [&](Draw& draw) {
+        if (draw.moving < 0) return;
         const MovingDraw& moving = moving_[static_cast<std::size_t>(draw.moving)];
         const PosedDraw here = posed(moving, *rig_, posture, bending_);
         draw.index_count = here.visible ? moving.index_count : 0;
         draw.to_world = here.to_world;
         draw.mirrored = here.mirrored;
         place_sphere(draw, here.box);
-        if (!here.visible) continue;
+        if (!here.visible) return;
         const Bounds box = box_in_world(here.box, here.to_world);
         bounds_.low = glm::min(bounds_.low, box.low);
         bounds_.high = glm::max(bounds_.high, box.high);
+    };
+    for (Draw& draw : draws_) move(draw);
+    for (Decal& decal : decals_) {
+        move(decal.draw);
+        if (!decal.box || decal.box->node == scene::kNoNode) continue;
+        const auto node = static_cast<std::size_t>(decal.box->node);
+        decal.box->to_world = glm::mat4(posture.to_world[node]) * decal.box->in_node;
+        decal.draw.to_world = decal.box->to_world;
+        place_sphere(decal.draw, kDecalBox);
     }
-    upload_buffer(device, *vertices_, std::as_bytes(std::span(bending_)),
-                  first_bending_ * sizeof(Vertex));
     for (std::size_t i = 0; i < lights_.size(); ++i)
         lights_[i] = scene::carried(rest_lights_[i], posture);
     for (std::size_t i = 0; i < glow_sources_.size(); ++i) {

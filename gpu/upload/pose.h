@@ -8,6 +8,7 @@
 
 #include "gpu/upload/vertex.h"
 #include "scene/animation/rig.h"
+#include "scene/animation/wave.h"
 
 namespace petrichor::gpu {
 
@@ -19,6 +20,16 @@ struct MovingDraw {
     std::size_t first_vertex = 0;      ///< of those that are written anew
     std::shared_ptr<const scene::Primitive> shape;  ///< null: it is rigid
 };
+
+/// One primitive of one instance that bends in the wind, with vertices of its own.
+struct WavingDraw {
+    std::shared_ptr<const scene::Primitive> shape;
+    scene::Bounds box;
+    scene::WindLook look;
+    std::size_t first_vertex = 0;
+};
+/// So many vertices bend in the wind; a scene with more is refused.
+inline constexpr std::size_t kMostWaving = 8u << 20;
 
 /// What a draw is at a moment.
 struct PosedDraw {

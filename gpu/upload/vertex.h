@@ -17,7 +17,7 @@ struct Vertex {
     glm::vec2 uv0;
     glm::vec2 uv1;
     std::uint8_t color[4];
-    std::uint8_t weather[4];
+    std::uint8_t weather[4];  ///< masks; then what is not snow itself
 };
 static_assert(sizeof(Vertex) == 64);
 

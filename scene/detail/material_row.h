@@ -139,8 +139,13 @@ MaterialTexture texture(std::string_view name, GltfPlace gltf, std::string_view 
 /// Textures of layers (scene/layer_texture_rows.cpp), and what of a scene's no shader shows.
 void add_layer_textures(std::vector<MaterialTexture>& table);
 void add_layer_limits(const Scene& scene, std::vector<std::string>& lines);
+/// Rows of displacement.
+void add_displacement_rows(std::vector<MaterialProperty>& table);
+
 /// Rows of the second set of textures.
 void add_second_set_rows(std::vector<MaterialProperty>& table);
+void add_decal_rows(std::vector<MaterialProperty>& table);
+void add_wind_rows(std::vector<MaterialProperty>& table);
 void add_second_set_textures(std::vector<MaterialTexture>& table);
 
 }  // namespace petrichor::scene::detail

@@ -1,22 +1,16 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <map>
 #include <utility>
 
-#include "base/words.h"
-#include "scene/gltf/detail/draco_mesh.h"
+#include "scene/gltf/detail/draco_primitive.h"
 #include "scene/gltf/detail/gltf_parts.h"
+#include "scene/gltf/detail/gltf_variants.h"
 
 namespace petrichor::scene {
 namespace {
 
 constexpr const char* kFixDamaged = "Export the scene again: the file is damaged or incomplete.";
-
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
-constexpr const char* kVariants = "KHR_materials_variants";
 
 enum Mode { Points, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
 
@@ -81,7 +75,7 @@ public:
                     bool quantized, const DracoMesh* packed)
         : buffers_(source.buffers), json_(json), attributes_(attributes), quantized_(quantized)
     {
-        if (packed) take_unpacked(*packed);
+        if (packed) unpacked_ = unpack_primitive(source.buffers, json, attributes, *packed);
     }
 
     /// Nothing when there is nothing to draw.
@@ -114,73 +108,11 @@ public:
     }
 
 private:
-    // Attributes that Draco gave stand in for the accessors, in the type that these say.
-    void take_unpacked(const DracoMesh& packed)
-    {
-        const auto extension = json_.extension(kDraco);
-        const auto names = extension->object("attributes");
-        if (!names) extension->fail("attributes", "is missing", kFixDamaged);
-        for (const std::string& name : names->keys()) {
-            const auto id = names->require_whole(name);
-            const auto found = id <= 0xffffffffu
-                                   ? packed.attributes.find(static_cast<std::uint32_t>(id))
-                                   : packed.attributes.end();
-            if (found == packed.attributes.end()) {
-                names->fail(name, "Draco's mesh has no attribute " + std::to_string(id), kFixDamaged);
-            }
-            Accessor accessor = buffers_.accessor(
-                attributes_.require_index(name, "accessor", buffers_.accessor_count()));
-            const DracoAttribute& attribute = found->second;
-            if (accessor.count != packed.vertices ||
-                accessor.components != static_cast<int>(attribute.components)) {
-                names->fail(name,
-                            "Draco's mesh has " + std::to_string(packed.vertices) +
-                                " vertices of " + std::to_string(attribute.components) +
-                                " numbers; the accessor says " + std::to_string(accessor.count) +
-                                " of " + std::to_string(accessor.components),
-                            kFixDamaged);
-            }
-            std::vector<std::byte>& bytes = unpacked_bytes_[name];
-            bytes = as_component_type(attribute.values, accessor.type);
-            accessor.base = bytes.data();
-            accessor.stride = bytes.size() / packed.vertices;
-            accessor.sparse_indices.clear();
-            unpacked_.emplace(name, std::move(accessor));
-        }
-        corners_ = &packed.indices;
-        buffers_.budget.take(packed.indices.size() + packed.vertices, 64,
-                             json_.path_to("extensions"), json_.log());
-    }
-
-    static std::vector<std::byte> as_component_type(const std::vector<float>& values,
-                                                    ComponentType type)
-    {
-        std::vector<std::byte> bytes;
-        const auto put = [&bytes](auto value) {
-            const auto* from = reinterpret_cast<const std::byte*>(&value);
-            bytes.insert(bytes.end(), from, from + sizeof value);
-        };
-        const auto whole = [](float v, float low, float high) {
-            return std::isnan(v) ? 0.0f : std::clamp(v, low, high);
-        };
-        for (const float v : values) {
-            if (type == ComponentType::Float) put(v);
-            if (type == ComponentType::Int8) put(static_cast<std::int8_t>(whole(v, -128, 127)));
-            if (type == ComponentType::Uint8) put(static_cast<std::uint8_t>(whole(v, 0, 255)));
-            if (type == ComponentType::Int16)
-                put(static_cast<std::int16_t>(whole(v, -32768, 32767)));
-            if (type == ComponentType::Uint16) put(static_cast<std::uint16_t>(whole(v, 0, 65535)));
-            if (type == ComponentType::Uint32)
-                put(static_cast<std::uint32_t>(whole(v, 0, 4294967040.0f)));
-        }
-        return bytes;
-    }
-
     std::vector<std::uint32_t> read_corners(const Accessor& positions, std::uint64_t mode)
     {
         // What a corner can come to in the end: its index, and a vertex of its own.
         constexpr std::uint64_t kCorner = 64;
-        if (corners_) return *corners_;
+        if (unpacked_.corners) return *unpacked_.corners;
         std::vector<std::uint32_t> corners;
         if (!json_.has("indices")) {
             buffers_.budget.take(positions.count,
@@ -228,8 +160,8 @@ private:
     const Accessor& accessor_of(const JsonObject& attributes, std::string_view name,
                                 std::uint32_t index)
     {
-        const auto found = unpacked_.find(name);
-        const bool own = &attributes == &attributes_ && found != unpacked_.end();
+        const auto found = unpacked_.accessors.find(name);
+        const bool own = &attributes == &attributes_ && found != unpacked_.accessors.end();
         return own ? found->second : buffers_.accessor(index);
     }
 
@@ -460,37 +392,8 @@ private:
     const JsonObject& attributes_;
     bool quantized_;                   ///< KHR_mesh_quantization is in use
     std::vector<std::uint32_t> used_;  ///< vertices of the file that triangles use
-    std::map<std::string, std::vector<std::byte>> unpacked_bytes_;
-    std::map<std::string, Accessor, std::less<>> unpacked_;  ///< by attribute
-    const std::vector<std::uint32_t>* corners_ = nullptr;    ///< of Draco
+    UnpackedPrimitive unpacked_;       ///< what Draco gave; empty when it is not packed
 };
-
-// Draco's meshes of the file, by mesh and primitive; those that have a plain copy are left packed.
-std::map<std::pair<std::size_t, std::size_t>, DracoMesh> unpacked_meshes(GltfSource& source,
-                                                                         const JsonArray& meshes)
-{
-    std::vector<std::span<const std::byte>> packed;
-    std::vector<std::pair<std::size_t, std::size_t>> places;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const JsonArray primitives = meshes.object(m).array("primitives");
-        for (std::size_t p = 0; p < primitives.size(); ++p) {
-            const JsonObject json = primitives.object(p);
-            const auto extension = json.extension(kDraco);
-            const auto attributes = json.object("attributes");
-            if (!extension || !attributes) continue;
-            const auto position =
-                attributes->index("POSITION", "accessor", source.buffers.accessor_count());
-            if (!position || source.buffers.accessor(*position).base) continue;
-            packed.push_back(source.buffers.view(extension->require_index(
-                "bufferView", "buffer view", source.buffers.view_count())));
-            places.emplace_back(m, p);
-        }
-    }
-    std::vector<DracoMesh> unpacked = unpack_draco(packed, source.root.log().file);
-    std::map<std::pair<std::size_t, std::size_t>, DracoMesh> found;
-    for (std::size_t i = 0; i < places.size(); ++i) found[places[i]] = std::move(unpacked[i]);
-    return found;
-}
 
 bool lists_extension(const JsonArray& names, std::string_view name)
 {
@@ -498,46 +401,6 @@ bool lists_extension(const JsonArray& names, std::string_view name)
         if (names.text(i) == name) return true;
     }
     return false;
-}
-
-// The number of the variant to show; nothing when none is asked for.
-std::optional<std::uint32_t> variant_number(const JsonObject& root, const std::string& variant)
-{
-    const auto extension = root.extension(kVariants);
-    const JsonArray list = extension ? extension->array("variants") : JsonArray(nullptr, "", root.log());
-    std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < list.size(); ++i) names.push_back(list.object(i).text("name"));
-    const auto found = std::find(names.begin(), names.end(), variant);
-    if (!variant.empty() && found == names.end()) {
-        root.log().fail("extensions.KHR_materials_variants",
-                        "there is no variant " + in_quotes(variant) + "." +
-                            did_you_mean(variant, names),
-                        names.empty() ? "Leave [scene] variant out: the scene has none."
-                                      : "Use one of: " + printable(join_words(names)) + ".");
-    }
-    if (variant.empty() && !names.empty()) {
-        root.log().warnings.add("", "variants of materials: " + printable(join_words(names)) +
-                                        "; [scene] variant chooses one");
-    }
-    if (variant.empty()) return std::nullopt;
-    return static_cast<std::uint32_t>(found - names.begin());
-}
-
-std::optional<std::uint32_t> variant_material(const JsonObject& primitive, std::uint32_t variant,
-                                              std::size_t material_count)
-{
-    const auto extension = primitive.extension(kVariants);
-    if (!extension) return std::nullopt;
-    const JsonArray mappings = extension->array("mappings");
-    for (std::size_t i = 0; i < mappings.size(); ++i) {
-        const JsonObject mapping = mappings.object(i);
-        const JsonArray variants = mapping.array("variants");
-        for (std::size_t v = 0; v < variants.size(); ++v) {
-            if (variants.index(v, "variant", std::size_t{1} << 31) == variant)
-                return mapping.require_index("material", "material", material_count);
-        }
-    }
-    return std::nullopt;
 }
 
 }  // namespace

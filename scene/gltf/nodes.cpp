@@ -219,6 +219,7 @@ private:
         const Accessor* translations = find("TRANSLATION", 3);
         const Accessor* rotations = find("ROTATION", 4);
         const Accessor* scales = find("SCALE", 3);
+        const Accessor* colors = find_color(*attributes, count, has_data);
         if (count == 0) attributes->warn("", "no attribute that we know: nothing is placed");
         source_.buffers.budget.take(
             count, name.size() + (has_data ? sizeof(Instance) : Budget::kInventedElement),
@@ -243,7 +244,27 @@ private:
             scene_.instances.push_back({name, mesh, glm::mat4(placed)});
             scene_.instances.back().in_node =
                 glm::mat4(compose(glm::dvec3(translation), *rotation, glm::dvec3(scale)));
+            if (colors) {
+                glm::vec3 color(0.0f);
+                for (int c = 0; c < 3; ++c) color[c] = colors->value(i, c);
+                scene_.instances.back().look.color = glm::clamp(color, 0.0f, 1.0f);
+            }
         }
+    }
+
+    // Linear, with or without an alpha, which nothing reads.
+    const Accessor* find_color(const JsonObject& attributes, std::size_t count, bool& has_data)
+    {
+        const auto index = attributes.index("_COLOR_0", "accessor", source_.buffers.accessor_count());
+        if (!index) return nullptr;
+        const Accessor& accessor = source_.buffers.accessor(*index);
+        if ((accessor.components != 3 && accessor.components != 4) || accessor.count != count) {
+            attributes.fail("_COLOR_0",
+                            "needs 3 or 4 components and as many elements as the other attributes",
+                            kFixDamaged);
+        }
+        has_data = has_data || accessor.base;
+        return &accessor;
     }
 
     GltfSource& source_;

@@ -27,7 +27,8 @@ bool usable(const glm::vec3& v)
 
 bool stops_light(const Material& material)
 {
-    return material.alpha_mode != AlphaMode::Blend && material.transmission < 0.5f;
+    return material.alpha_mode != AlphaMode::Blend && material.transmission < 0.5f &&
+           !material.decal.on;
 }
 
 float wrapped(float x, Wrap wrap)

@@ -52,6 +52,7 @@ TEST(Skill, MeansOverTheSharedData)
     EXPECT_LE(mean("road beside METRo", "but not the broken"), 1.0);
     EXPECT_LE(mean("road beside METRo", "but not the broken"),
               0.5 * mean("air beside METRo", "but not the broken"));
+    EXPECT_LT(mean("road measured", ""), mean("air beside the measured road", ""));
 }
 
 TEST(Skill, AFolderWithoutDataIsNamed)

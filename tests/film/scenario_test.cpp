@@ -91,6 +91,16 @@ TEST(Scenario, FogEndsBehindItsBeginning)
     EXPECT_NO_THROW(read("start_m = 5\nend_m = 60\n"));
 }
 
+TEST(Scenario, ATrackLeadsSomewhere)
+{
+    const auto with = [](const std::string& points) {
+        return error_of("[ground]\ntracks = [{ kind = \"feet\", points_m = " + points + " }]\n");
+    };
+    for (const char* points : {"[]", "[[0, 0, 1]]", "[[0, 0, 1], [0, 0, 1]]"})
+        EXPECT_THAT(with(points).problem, HasSubstr("two different points")) << points;
+    EXPECT_EQ(with("[[0, 0, 1], [2, 0, 1]]").problem, "no error");
+}
+
 TEST(Scenario, AMisspeltKeyNamesLineAndNearest)
 {
     const Message message = error_of("[output]\nframes = 3\nwidht = 64\n");
@@ -192,7 +202,8 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
     for (const ScenarioKey& key : scenario_keys()) {
         EXPECT_TRUE(seen.insert(key.table + "." + key.name).second)
             << key.name << " is there twice";
-        const bool by_name = key.table == "materials" || key.table == "lamps";
+        const bool by_name = key.table == "materials" || key.table == "lamps" || key.table == "decals" ||
+                             key.table == "nodes";
         const std::string table = by_name ? key.table + ".\"*\"" : key.table;
         std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";

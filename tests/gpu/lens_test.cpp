@@ -123,7 +123,7 @@ TEST_F(LensTest, AMovingCameraBlursByItsWay)
     const float way_m = 0.3f;
     for (int i = 0; i < 32; ++i) {
         const float u = i == 0 ? 0.0f : static_cast<float>(std::fmod(0.5 + 0.618033988749895 * i, 1.0)) - 0.5f;
-        ShutterMoment moment{frame.camera, 0.0};
+        ShutterMoment moment{.camera = frame.camera};
         moment.camera.to_world[3].x += u * way_m;
         frame.shutter.push_back(moment);
     }

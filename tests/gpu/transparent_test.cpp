@@ -100,8 +100,7 @@ TEST_F(TransparentTest, WhatLiesDeeperThanTheLayersGoesByChance)
         for (int x = 0; x < kSize; ++x) {
             for (int y = 0; y < kSize; ++y) mean += pixel(r, x, y) / float(kSize * kSize);
         }
-        // The chances of two panes are not quite independent of each other.
-        expect_color(mean, wanted, 0.07f);
+        expect_color(mean, wanted, 0.02f);
     }
 }
 

@@ -120,7 +120,8 @@ void add_means(Board& board)
 {
     std::map<std::string, std::vector<BoardRow>> by_quantity;
     for (const BoardRow& row : board.rows) by_quantity[row.ours.quantity].push_back(row);
-    for (const auto& [quantity, rows] : by_quantity) {
+    for (const auto& named : by_quantity) {
+        const std::vector<BoardRow>& rows = named.second;
         if (rows.size() < 2) continue;
         BoardRow mean = rows.front();
         const auto over = [&](auto&& value) {

@@ -123,13 +123,21 @@ WinterSet winter_of(const Pair& pair)
     return set;
 }
 
-RoadCase road_of(const fs::path& folder)
+// `notes` hears when its forecast cannot be used.
+RoadCase road_of(const fs::path& folder, std::vector<std::string>& notes)
 {
     RoadCase road;
     road.name = folder.filename().string();
     road.station = weather::read_metro_station(text_of(folder / "station.xml"));
     road.observed = weather::read_metro_observation(text_of(folder / "observation.xml"));
     road.roadcast = weather::read_metro_roadcast(text_of(folder / "roadcast_reference.xml"));
+    const fs::path forecast = folder / "forecast.xml";
+    try {
+        road.forecast = weather::read_metro_forecast(text_of(forecast));
+    } catch (const Error& e) {
+        notes.push_back(forecast.string() + ": " + e.what() +
+                        "; the measured road has half a cover of cloud instead");
+    }
     return road;
 }
 
@@ -208,7 +216,7 @@ SkillSets find_skill_sets(const std::string& folder)
             if (file.filename() == "roadcast_reference.xml" &&
                 fs::exists(file.parent_path() / "station.xml") &&
                 fs::exists(file.parent_path() / "observation.xml"))
-                sets.roads.push_back(road_of(file.parent_path()));
+                sets.roads.push_back(road_of(file.parent_path(), sets.notes));
             if (file.extension() == ".dat") add_station(file, sets);
             if (file.extension() == ".dly" || file.filename().string().rfind("ghcn", 0) == 0)
                 add_daily(file, sets);

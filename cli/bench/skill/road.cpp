@@ -56,6 +56,20 @@ ForcingTable table_of(const RoadCase& road, std::int64_t begin_us, double emissi
     return t;
 }
 
+// Clouds of a forecast at other times; before it those of its beginning, after it of its end.
+std::vector<double> clouds_at(const ForcingTable& forecast, const std::vector<std::int64_t>& times)
+{
+    std::vector<double> clouds;
+    const std::vector<double>& cloud = forecast[Field::Cloud];
+    if (cloud.empty()) return clouds;
+    for (const std::int64_t t : times) {
+        const auto next = std::upper_bound(forecast.time_us.begin(), forecast.time_us.end(), t);
+        const auto row = std::max<std::ptrdiff_t>(next - forecast.time_us.begin() - 1, 0);
+        clouds.push_back(cloud[static_cast<std::size_t>(row)]);
+    }
+    return clouds;
+}
+
 SkillRow row_of(const RoadCase& road, const char* quantity, const ErrorSum& sum, bool mae)
 {
     return {
@@ -107,6 +121,7 @@ std::vector<SkillRow> measured_road_rows(const RoadCase& road,
     p.step_s = p.substep_s = kStep_s;
     ForcingTable table = road.observed.table;
     table.site = road.station.site;
+    table[Field::Cloud] = clouds_at(road.forecast, times);
     weather::ReadReport report;
     weather::fill_forcing(table, report);
     const weather::CellState start =

@@ -15,6 +15,7 @@ struct RoadCase {
     std::string name;
     weather::MetroStation station;
     weather::MetroObservation observed;
+    weather::ForcingTable forecast;
     weather::MetroRoadcast roadcast;
 };
 
@@ -24,8 +25,8 @@ struct RoadCase {
 std::vector<SkillRow> road_rows(const RoadCase& road, const weather::PhysicalParams& params);
 
 /// Root mean square error against the measured road over the hours before the forecast, from their
-/// first value on: air, dew point and wind as measured, the sky at half cloud. Empty where there
-/// are less than three hours.
+/// first value on: air, dew point and wind as measured, clouds of the forecast where it has begun,
+/// those of its beginning before that. Empty where there are less than three hours.
 std::vector<SkillRow> measured_road_rows(const RoadCase& road,
                                          const weather::PhysicalParams& params);
 

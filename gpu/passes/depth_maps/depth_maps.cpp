@@ -43,6 +43,8 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     std::uint32_t bound_material = UINT32_MAX;
     for (const Draw& draw : scene.draws()) {
         const GpuMaterial& material = scene.materials()[draw.material];
+        if (draw.index_count == 0) continue;
+        if (draw.overlay && (falls == Falls::Rain || falls == Falls::Sky)) continue;
         if (material.blended && falls == Falls::Rain) continue;
         if (material.glows && falls == Falls::Lamp) continue;
         if (!material.casts_shadows && falls != Falls::Rain) continue;
@@ -128,7 +130,7 @@ void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scen
 {
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
         add_depth_map(graph, "sky_visibility", scene, maps.sky_views[i], *maps.sky,
-                      maps.sky_layers[i].get(), Falls::Light);
+                      maps.sky_layers[i].get(), Falls::Sky);
     }
 }
 

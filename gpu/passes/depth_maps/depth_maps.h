@@ -30,10 +30,10 @@ struct DepthMaps {
     void forget() { shadow_valid = shelter_valid = sky_valid = false; }
 };
 
-/// What a map is for: light passes through what is blended, in part; rain and snow are not asked. A
-/// lamp is not shadowed by what glows, the glass around it, nor by what is nearer than its map's near
+/// What a map is for: light passes through what is blended, in part; rain and snow are not asked. What
+/// lies on the scene shadows sun and lamps; the sky is not asked by what lies below it. A lamp is not shadowed by what glows, the glass around it, nor by what is nearer than its map's near
 /// plane.
-enum class Falls { Light, Rain, Lamp };
+enum class Falls { Light, Sky, Rain, Lamp };
 
 /// Draws every caster that the view can see.
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,

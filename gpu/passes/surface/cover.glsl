@@ -5,6 +5,7 @@
 #include "gpu/passes/surface/frost.glsl"
 #include "gpu/passes/surface/local_weather.glsl"
 #include "gpu/passes/surface/snow.glsl"
+#include "gpu/passes/surface/snow_body.glsl"
 #include "gpu/passes/surface/tracks.glsl"
 #include "gpu/passes/surface/water.glsl"
 
@@ -41,6 +42,8 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         SurfaceInput above = at;
         above.normal = vec3(0.0, 1.0, 0.0);
         here = local_weather(above);
+    } else if ((SNOW & SNOW_BODY) != 0u) {
+        here = local_weather(below_snow(at));
     } else {
         here = local_weather(at);
     }
@@ -55,13 +58,15 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     }
 
     const float amount_raw = snow_amount_raw(at, here.snow);
-    const float amount = saturate(amount_raw);
+    const float body = snow_body(at);
+    const float amount = max(saturate(amount_raw), body);
     const vec3 smoothed = normalize(
         to_world(f, normalize(mix(mapped, vec3(0.0, 0.0, 1.0), saturate(amount_raw * 0.5)))));
     SnowCover snow;
     snow.snow = 0.0;
     snow.melt = 0.0;
     if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, smoothed.y);
+    if ((SNOW & SNOW_BODY) != 0u) snow.snow = max(snow.snow, body);
 
     StandingWater water;
     water.anywhere = 0.0;
@@ -72,6 +77,11 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         // A pond drowns what stands in it; its edge is as wide as a drop is high.
         water.anywhere = max(water.anywhere, smooth_edge(0.0, 0.002, here.pond_m));
         water.deep = max(water.deep, smooth_edge(0.0005, 0.006, here.pond_m));
+    }
+    if ((SNOW & SNOW_BODY) != 0u) {
+        water.anywhere *= 1.0 - body;
+        water.deep *= 1.0 - body;
+        here.film *= 1.0 - body;
     }
     // A patch knows which way it faces; the frame's film asks the slope.
     c.film = here.film *

@@ -12,6 +12,7 @@
 #include "formulas/light/layers.h"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
+#include "gpu/passes/surface/instance_look.glsl"
 #include "gpu/passes/surface/layer_textures.glsl"
 #include "gpu/passes/surface/parallax.glsl"
 #ifdef OWN_SURFACES
@@ -60,7 +61,8 @@ SurfaceData evaluate_surface(SurfaceInput at)
     // The dry material. Water only moves where it is read; the rest is apply_weather's, in the light.
     const vec2 shift = cover.refraction;
     SurfaceData data;
-    vec3 base = material.base_color_factor.rgb * at.color.rgb;
+    const Factors factors = factors_of(at);
+    vec3 base = factors.base_color * at.color.rgb;
     if (has(TEXTURE_BASE_COLOR)) {
         base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift)).rgb;
     }
@@ -75,10 +77,13 @@ SurfaceData evaluate_surface(SurfaceInput at)
             base = detail_color(base, other, detail_share(at));
         }
     }
+#ifdef SURFACE_ALPHA
+    data.alpha = surface_alpha(at);
+#endif
     data.hole = HOLES != 0u && hole_in(at, alpha_at(at));
 
-    float roughness = material.roughness_factor;
-    float metallic = material.metallic_factor;
+    float roughness = factors.roughness;
+    float metallic = factors.metallic;
     if (has(TEXTURE_METALLIC_ROUGHNESS)) {
         const vec4 packed =
             texel(metallic_roughness_texture, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
@@ -115,6 +120,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {
         data.emission = material.emissive_factor * material.emissive_strength;
+        if (LOOKS != 0u) data.emission *= factors.emission;
         if (has(TEXTURE_EMISSIVE)) {
             data.emission *= texel(emissive_texture, coordinates(TEXTURE_EMISSIVE, at, shift)).rgb;
         }

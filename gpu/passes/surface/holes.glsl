@@ -21,12 +21,20 @@ float alpha_at(SurfaceInput at)
     return surface_alpha(at) * (1.0 - 0.9 * material.transmission_factor);
 }
 
+// 0..1, even over the samples of a pixel, and of two instances independent of each other: else what
+// lies behind two panes would be seen more often, or less, than each of them lets it.
+float chance(SurfaceInput at)
+{
+    const uint own = hash_u3(uint(at.pixel.x), uint(at.pixel.y), at.instance_id);
+    return fract(hash_f(own) + 0.61803399 * float(frame.sample_index ^ (own & 63u)));
+}
+
 // Cut out by the alpha test, or let through by chance: as often as it is transparent.
 bool hole_in(SurfaceInput at, float alpha)
 {
     if (material.alpha_mode == ALPHA_MASK && alpha < material.alpha_cutoff) return true;
     return (material.alpha_mode == ALPHA_BLEND || material.transmission_factor > 0.0) &&
-           alpha <= dither(at.pixel, frame.sample_index + hash_u(at.instance_id) % 64u);
+           alpha <= chance(at);
 }
 
 #endif

@@ -37,6 +37,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
+                      {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     if (layer) {
@@ -44,7 +45,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
         bindings.push_back({SURFACE_LAYER_BEFORE, sampled(*layer->before, targets.nearest)});
     }
     const bool layered = layer != nullptr;
-    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
+                                 (scene.overlaid() ? SNOW_BODY : 0u);
     graph.add(DrawPass{
         .name = layer ? "transparent" : "surface",
         .colors = gbuffer_attachments(g, parts),
@@ -113,6 +115,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_FROST, weather.frost},
                         {SURFACE_SPEC_PARALLAX, scene.materials()[draw->material].parallax},
                         {SURFACE_SPEC_SECOND, scene.materials()[draw->material].second},
+                        {SURFACE_SPEC_LOOKS, draw->look != 0},
                         {SURFACE_SPEC_LAYER_ROLES_A, scene.materials()[draw->material].layer_roles[0]},
                         {SURFACE_SPEC_LAYER_ROLES_B, scene.materials()[draw->material].layer_roles[1]},
                         {SURFACE_SPEC_BESIDES, scene.materials()[draw->material].besides},

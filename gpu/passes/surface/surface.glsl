@@ -68,6 +68,7 @@ void main()
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
     at.material_id = draw.material_id;
+    at.look = draw.look;
 
     SurfaceData data = evaluate_surface(at);
     if (HOLES != 0u && data.hole) discard;

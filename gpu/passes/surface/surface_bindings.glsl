@@ -13,6 +13,7 @@ layout(constant_id = SURFACE_SPEC_SNOW) const uint SNOW = 1u;
 layout(constant_id = SURFACE_SPEC_FROST) const uint FROST = 1u;
 layout(constant_id = SURFACE_SPEC_PARALLAX) const uint PARALLAX = 0u;
 layout(constant_id = SURFACE_SPEC_SECOND) const uint SECOND = SECOND_NONE;
+layout(constant_id = SURFACE_SPEC_LOOKS) const uint LOOKS = 0u;
 layout(constant_id = SURFACE_SPEC_OWN) const uint OWN = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;
@@ -29,6 +30,7 @@ layout(set = 0, binding = SURFACE_PLACE_STATES) uniform samplerBuffer place_stat
 layout(set = 0, binding = SURFACE_PLACE_LABELS) uniform usamplerBuffer place_labels;
 layout(set = 0, binding = SURFACE_PLACE_LEVELS) uniform samplerBuffer place_levels;
 layout(set = 0, binding = SURFACE_TRACKS) uniform sampler2D track_map;
+layout(set = 0, binding = SURFACE_INSTANCE_LOOKS) uniform samplerBuffer instance_looks;
 layout(set = 1, binding = 0, scalar) uniform Material { MaterialConstants material; };
 #define MATERIAL_TEXTURE(slot, name) layout(set = 1, binding = 1 + slot) uniform sampler2D name;
 MATERIAL_TEXTURES(MATERIAL_TEXTURE)

@@ -23,6 +23,7 @@ struct SurfaceInput {
     ivec2 pixel;       // seeds what is drawn by chance
     uint instance_id;  // likewise
     uint material_id;
+    uint look;  // of the instance: a number of the table of looks; 0: none
     vec2 shares;   // of two sets of textures; filled by read_sets
     float relief;  // height of both, 0 low .. 1 high; of mixed sets alone
 };
@@ -32,6 +33,7 @@ struct SurfaceData {
     vec3 emission;  // radiance
     LayerShares shares;
     bool hole;      // nothing is here: cut out, or let through by chance
+    float alpha;    // with SURFACE_ALPHA: where parallax has moved the point
 };
 
 // Unit axes of the texture coordinates on the surface.

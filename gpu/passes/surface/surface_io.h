@@ -11,6 +11,7 @@
 #define SURFACE_SPEC_FROST 9  // 0: no frost anywhere in this frame
 #define SURFACE_SPEC_PARALLAX 10  // PARALLAX_... of the material
 #define SURFACE_SPEC_SECOND 14  // SECOND_... of the material
+#define SURFACE_SPEC_LOOKS 18   // 1: instances may have other values than the material
 #define SURFACE_SPEC_OWN 15     // number of a user's own surface; 0: none
 #define SURFACE_SPEC_LAYER_ROLES_A 16  // where its textures of layers are, LAYER_TEXTURES
 #define SURFACE_SPEC_LAYER_ROLES_B 17
@@ -28,7 +29,8 @@
 #define SURFACE_PLACE_LABELS 7
 #define SURFACE_PLACE_LEVELS 8
 #define SURFACE_TRACKS 9
-#define SURFACE_BINDINGS 10  // how many there are
+#define SURFACE_INSTANCE_LOOKS 10
+#define SURFACE_BINDINGS 11  // how many there are
 
 // A layer of what lets light through: what it lies between, behind those of all surfaces.
 #define SURFACE_LAYER_SOLID_DEPTH SURFACE_BINDINGS

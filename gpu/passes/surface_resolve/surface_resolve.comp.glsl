@@ -110,7 +110,8 @@ void main()
     const int draw = int(id.x) - 1;
     const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
     if (facts.z != params.material) return;
-    const bool mirrored = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7).x != 0u;
+    const uvec4 more = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7);
+    const bool mirrored = more.x != 0u;
 
     Triangle t;
     for (int i = 0; i < 3; ++i) {
@@ -156,6 +157,7 @@ void main()
     s.pixel = pixel;
     s.instance_id = facts.w;
     s.material_id = params.material;
+    s.look = more.y;
 
     SurfaceData data = evaluate_surface(s);
     data.texel.emission = data.emission;

@@ -28,7 +28,7 @@ std::vector<glm::uvec4> draw_table(const GpuScene& scene)
         for (const glm::vec4& row : c.normal_to_world) table.push_back(bits_of(row));
         table.emplace_back(draw.first_index, static_cast<std::uint32_t>(draw.vertex_offset),
                            draw.material, draw.instance_id);
-        table.emplace_back(draw.mirrored ? 1u : 0u, 0u, 0u, 0u);
+        table.emplace_back(draw.mirrored ? 1u : 0u, draw.look, 0u, 0u);
     }
     if (table.empty()) table.emplace_back(0u);
     return table;
@@ -134,6 +134,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_FLOW, sampled(*maps.flow, maps.trilinear)},
                       {SURFACE_SNOW, sampled(*maps.snow, maps.trilinear)},
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
+                      {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
                       {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
@@ -148,7 +149,8 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
     GBUFFER_TABLE(ROW)
 #undef ROW
     const GBufferParts parts = gbuffer_parts(scene, weather.any);
-    const std::uint32_t tracks = maps.track_area.width > 0 ? SNOW_TRACKS : 0u;
+    const std::uint32_t tracks = (maps.track_area.width > 0 ? SNOW_TRACKS : 0u) |
+                                 (scene.overlaid() ? SNOW_BODY : 0u);
     const std::uint32_t shares = scene.layer_shares() ? BESIDES_SHARES : 0u;
     const auto variant = [parts, weather, tracks, shares](const GpuMaterial& material) {
         return std::vector<Specialization>{
@@ -159,6 +161,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_FROST, weather.frost},
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
+            {SURFACE_SPEC_LOOKS, material.looks},
             {SURFACE_SPEC_OWN, material.own_surface},
             {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
             {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},

@@ -13,7 +13,7 @@
 #define RESOLVE_TILE_MATERIALS 64
 
 // Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
-// first index, vertex offset, material, instance; then 1 when mirrored.
+// first index, vertex offset, material, instance; then 1 when mirrored, and the instance's look.
 #define RESOLVE_DRAW_TEXELS 8
 
 #define TILE_MATERIALS_GROUP 8

@@ -120,8 +120,8 @@ void main()
             const vec3 normal = octahedral_decode(texelFetch(normals_map, texel, 0).xy);
             const float layer_m = linear_depth(frame, depth);
             // Colours are bent apart (KHR_materials_dispersion): three views of one channel each.
-            const bool prism = look.w > 0.0 && more.y > 0.0;
-            const float spread = 0.025 * (look.z - 1.0) * more.y;
+            const bool prism = look.w > 0.0 && more.z > 0.0;
+            const float spread = 0.025 * (look.z - 1.0) * more.z;
             vec3 behind = vec3(0.0);
             for (int view_of = 0; view_of < (prism ? 3 : 1); ++view_of) {
                 const float ior = prism ? max(look.z + spread * float(view_of - 1), 1.0) : look.z;

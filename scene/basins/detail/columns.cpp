@@ -58,7 +58,7 @@ GroundTriangles ground_triangles(const Scene& scene, const GroundOptions& option
             const Material& material = scene.materials[primitive.material];
             GroundUse use = GroundUse::Auto;
             if (primitive.material < options.use.size()) use = options.use[primitive.material];
-            if (use == GroundUse::Never) continue;
+            if (use == GroundUse::Never || material.decal.on) continue;
             if (material.alpha_mode == AlphaMode::Blend && use == GroundUse::Auto) continue;
             world.clear();
             for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {

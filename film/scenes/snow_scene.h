@@ -1,0 +1,20 @@
+#ifndef PETRICHOR_FILM_SCENES_SNOW_SCENE_H
+#define PETRICHOR_FILM_SCENES_SNOW_SCENE_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/snow/snow_caps.h"
+
+namespace petrichor::film {
+
+/// What deep snow takes its shape from: the caps of a scene, fine near where cameras stand over the film.
+/// The scene must still hold its encoded images. Adds a note when they are coarser than they should be.
+std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
+                                                    const std::vector<glm::vec3>& eyes_m,
+                                                    std::vector<std::string>& notes);
+
+}  // namespace petrichor::film
+
+#endif

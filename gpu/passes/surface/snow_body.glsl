@@ -1,0 +1,24 @@
+// Pixels of snow that has a body (gpu/snow): they ask the ground below for their weather.
+#ifndef PETRICHOR_SURFACE_SNOW_BODY_GLSL
+#define PETRICHOR_SURFACE_SNOW_BODY_GLSL
+
+#include "gpu/passes/surface/surface_bindings.glsl"
+#include "gpu/passes/surface/surface_data.glsl"
+
+// Share of snow of its own at a point; 0 on all that is not snow.
+float snow_body(SurfaceInput at)
+{
+    return (SNOW & SNOW_BODY) != 0u && at.weather.a < 0.999 ? 1.0 - at.weather.a : 0.0;
+}
+
+// The point of the ground below: there the maps, the patches and the masks of the world lie.
+SurfaceInput below_snow(SurfaceInput at)
+{
+    SurfaceInput below = at;
+    const bool snow = at.weather.a < 0.999;
+    below.position.y -= snow ? max(length(at.tangent.xyz) - 1.0, 0.0) : 0.0;
+    below.normal = snow ? vec3(0.0, 1.0, 0.0) : at.normal;
+    return below;
+}
+
+#endif

@@ -1,0 +1,162 @@
+#include "gpu/snow/snow_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "formulas/light/patch_cells.h"
+#include "formulas/weather/surface_weather.h"
+
+namespace petrichor::gpu {
+namespace {
+
+using glm::vec3;
+
+constexpr float kThin_m = 0.012f;  // less than this everywhere is drawn as a cover alone
+constexpr float kAround = 0.45f;   // of a patch's cell: how far its depth is blended
+constexpr float kTallest_m = scene::kDeepestSnow_m * 1.4f;
+
+// The leaf that lies at a point and faces up; as place_leaf() of gpu/frame/place.glsl. Its number and
+// level, kNoPatch where there is none.
+struct Leaf {
+    std::uint32_t number = shared::kNoPatch;
+    int level = 0;
+};
+
+Leaf leaf_at(const PlaceShape& shape, const vec3& place)
+{
+    const shared::PatchGrid& grid = shape.grid;
+    constexpr int kUp = 2;
+    const glm::ivec3 cell = shared::patch_cell(
+        place + vec3(0.0f, 0.06f * grid.cell_m, 0.0f), 1.0f / grid.cell_m);
+    for (int level = static_cast<int>(grid.levels) - 1; level >= 0; --level) {
+        const shared::PatchKey key = shared::patch_key(
+            glm::ivec3(cell.x >> level, cell.y >> level, cell.z >> level), kUp, level);
+        std::uint32_t slot = shared::patch_key_hash(key) & grid.table_mask;
+        bool inner = false;
+        for (int probe = 0; probe < 64; ++probe) {
+            const glm::uvec4& entry = shape.table[slot];
+            if (entry.z == shared::kNoPatch) break;
+            if (entry.x == key.low && entry.y == key.high) {
+                inner = entry.z >= grid.patches;
+                if (!inner) return {entry.z, level};
+                break;
+            }
+            slot = (slot + 1) & grid.table_mask;
+        }
+        if (!inner) return {};
+    }
+    return {};
+}
+
+std::uint8_t code(float share)
+{
+    return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
+}
+
+}  // namespace
+
+SnowBody::SnowBody(std::shared_ptr<const scene::SnowCaps> caps) : caps_(std::move(caps))
+{
+    overlay_.indices = caps_->indices;
+    for (const scene::SnowCaps::Part& from : caps_->parts) {
+        Overlay::Part part{from.material, from.instance, from.first_index, from.index_count,
+                           {vec3(1.0e30f), vec3(-1.0e30f)}};
+        for (std::size_t v = 0; v < from.source.positions.size(); ++v) {
+            overlay_.vertices.push_back(vertex_of(from.source, v));
+            part.box.low = glm::min(part.box.low, from.source.positions[v] - kTallest_m);
+            part.box.high = glm::max(part.box.high, from.source.positions[v] + kTallest_m);
+        }
+        overlay_.parts.push_back(part);
+    }
+}
+
+void SnowBody::find_patches(const PlaceShape& shape)
+{
+    patches_.clear();
+    patches_.reserve(caps_->points.size());
+    for (const scene::SnowCaps::Point& point : caps_->points) {
+        const Leaf own = leaf_at(shape, point.base_m);
+        const float step =
+            kAround * shape.grid.cell_m * static_cast<float>(std::uint32_t{1} << own.level);
+        std::array<std::uint32_t, 9> around;
+        for (int k = 0; k < 9; ++k) {
+            const vec3 way(step * static_cast<float>(k % 3 - 1), 0.0f,
+                           step * static_cast<float>(k / 3 - 1));
+            const std::uint32_t there = own.number == shared::kNoPatch || k == 4
+                                            ? own.number
+                                            : leaf_at(shape, point.base_m + way).number;
+            around[static_cast<std::size_t>(k)] = there == shared::kNoPatch ? own.number : there;
+        }
+        patches_.push_back(around);
+    }
+}
+
+std::vector<float> SnowBody::depths(const Frame& frame)
+{
+    const shared::WeatherMoment& w = frame.weather;
+    std::vector<float> depths;
+    depths.reserve(caps_->points.size());
+    const bool placed = frame.place && frame.place->shape->grid.levels > 0;
+    if (placed && shape_ != frame.place->shape) {
+        shape_ = frame.place->shape;
+        find_patches(*shape_);
+    }
+    for (std::size_t i = 0; i < caps_->points.size(); ++i) {
+        float depth = w.snow_depth_m;
+        if (placed && patches_[i][4] != shared::kNoPatch) {
+            depth = 0.0f;
+            for (const std::uint32_t patch : patches_[i])
+                depth += frame.place->states[std::size_t{patch} * PLACE_STATE_TEXELS + 2].z;
+            depth /= 9.0f;
+        }
+        depths.push_back(depth * shared::snow_height_factor(caps_->points[i].base_m.y,
+                                                            w.snow_start_height_m,
+                                                            w.snow_height_blend_m));
+    }
+    return depths;
+}
+
+bool SnowBody::lay(const Frame& frame)
+{
+    const shared::WeatherMoment& w = frame.weather;
+    const bool placed = frame.place && frame.place->shape->grid.levels > 0;
+    Key key;
+    key.wanted = frame.settings.snow_body && (placed || w.snow_amount > 0.0f);
+    if (key.wanted) {
+        key.depth_m = w.snow_amount > 0.0f ? w.snow_depth_m : 0.0f;
+        key.start_m = w.snow_start_height_m;
+        key.blend_m = w.snow_height_blend_m;
+        key.place = placed ? frame.place : nullptr;
+    }
+    if (laid_ == key) return false;
+    const bool lay_before = lies_;
+    laid_ = key;
+    lies_ = false;
+    if (!key.wanted) return lay_before;
+    const scene::SnowShape shape = scene::snow_shape(*caps_, depths(frame));
+    lies_ = shape.thickest_m > kThin_m;
+    if (!lies_) return lay_before;
+    for (std::size_t i = 0; i < overlay_.vertices.size(); ++i) {
+        const std::uint32_t point = caps_->corner_points[i];
+        Vertex& v = overlay_.vertices[i];
+        v.position = shape.positions[point];
+        v.normal = shape.normals[point];
+        const vec3 along = vec3(v.tangent);
+        const float length = glm::length(along);
+        const float lift = std::max(v.position.y - caps_->points[point].base_m.y, 0.0f);
+        const vec3 unit = length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
+        v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
+        v.weather[3] =
+            std::min<std::uint8_t>(code(1.0f - shared::smooth_edge(0.0f, 0.02f, shape.thickness_m[point])), 254);
+    }
+    return true;
+}
+
+std::span<const Vertex> SnowBody::vertices() const
+{
+    if (!lies_) return {};
+    return overlay_.vertices;
+}
+
+}  // namespace petrichor::gpu

@@ -1,0 +1,54 @@
+#ifndef PETRICHOR_GPU_SNOW_SNOW_BODY_H
+#define PETRICHOR_GPU_SNOW_SNOW_BODY_H
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/frame/frame.h"
+#include "gpu/upload/gpu_scene.h"
+#include "scene/snow/snow_caps.h"
+
+namespace petrichor::gpu {
+
+/// Snow that lies on a scene, as geometry of a frame: how deep it is where, and its vertices.
+///
+/// A vertex of snow is one of the surface below, lifted: its place, normal and tangent are the snow's. The
+/// length of its tangent is 1 and the metres that it is lifted, so that a pixel finds the weather of its
+/// ground; alpha of its weather is what is not snow of its own (gpu/passes/surface/snow_body.glsl).
+class SnowBody {
+public:
+    explicit SnowBody(std::shared_ptr<const scene::SnowCaps> caps);
+
+    /// What the scene is made with: the caps without snow.
+    const Overlay& overlay() const { return overlay_; }
+
+    /// Shapes the snow of a frame, by its depth alone; true when it is another than before.
+    bool lay(const Frame& frame);
+    /// Empty: too thin to have a body.
+    std::span<const Vertex> vertices() const;
+
+private:
+    struct Key {
+        float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f;
+        bool wanted = false;
+        std::shared_ptr<const PlaceWeather> place;
+        bool operator==(const Key&) const = default;
+    };
+    std::vector<float> depths(const Frame& frame);
+    void find_patches(const PlaceShape& shape);
+
+    std::shared_ptr<const scene::SnowCaps> caps_;
+    Overlay overlay_;
+    std::optional<Key> laid_;
+    bool lies_ = false;
+    std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
+    std::vector<std::array<std::uint32_t, 9>> patches_;  // around each point
+};
+
+}  // namespace petrichor::gpu
+
+#endif

@@ -1,0 +1,117 @@
+#include "scene/snow/detail/open_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace petrichor::scene::detail {
+namespace {
+
+using glm::vec2;
+using glm::vec3;
+
+constexpr float kPiece_m = 0.25f;
+constexpr float kCell_m = EdgeGrid::kReach_m;
+constexpr float kStep_m = 0.05f;  // what is no lower goes on
+
+bool goes_on(const Tracer& tracer, const vec3& at, const vec2& out)
+{
+    const vec3 way(out.x, 0.0f, out.y);
+    // A wall that rises just behind the edge.
+    if (tracer.blocked({at + vec3(0.0f, 0.06f, 0.0f) - way * 0.03f, way, 0.1f})) return true;
+    // Ground that goes on, or a step up.
+    return tracer.blocked(
+        {at + way * 0.04f + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + kStep_m});
+}
+
+std::uint64_t cell_of(int x, int z)
+{
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
+           static_cast<std::uint32_t>(z);
+}
+
+int cell_along(float v)
+{
+    return static_cast<int>(std::floor(v / kCell_m));
+}
+
+}  // namespace
+
+std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer)
+{
+    struct Border {
+        vec3 from, to, inner;
+        int triangles = 0;
+    };
+    // By points, in order: the same for any machine.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t k = 0; k < p.indices.size(); ++k) {
+            const std::size_t first = k - k % 3;
+            const std::uint32_t a = p.indices[k];
+            const std::uint32_t b = p.indices[first + (k + 1) % 3];
+            const std::uint32_t c = p.indices[first + (k + 2) % 3];
+            const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
+            Border& border = borders[{std::min(pa, pb), std::max(pa, pb)}];
+            if (border.triangles++ == 0)
+                border = {p.positions[a], p.positions[b], p.positions[c], 1};
+        }
+    }
+    std::vector<OpenEdge> edges;
+    for (const auto& [key, border] : borders) {
+        if (border.triangles != 1) continue;
+        const vec3 along = border.to - border.from;
+        vec2 out(along.z, -along.x);
+        const float length = glm::length(out);
+        if (!(length > 1.0e-5f)) continue;
+        out /= length;
+        const vec3 inwards = border.inner - border.from;
+        if (glm::dot(out, vec2(inwards.x, inwards.z)) > 0.0f) out = -out;
+        const int pieces = std::max(1, static_cast<int>(std::ceil(glm::length(along) / kPiece_m)));
+        for (int k = 0; k < pieces; ++k) {
+            const auto at = [&](float t) {
+                return border.from + along * (t / static_cast<float>(pieces));
+            };
+            const auto f = static_cast<float>(k);
+            if (!goes_on(tracer, at(f + 0.5f), out)) edges.push_back({at(f), at(f + 1.0f), out});
+        }
+    }
+    return edges;
+}
+
+EdgeGrid::EdgeGrid(std::vector<OpenEdge> edges) : edges_(std::move(edges))
+{
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+        const OpenEdge& e = edges_[i];
+        const vec3 low = glm::min(e.from, e.to) - kReach_m;
+        const vec3 high = glm::max(e.from, e.to) + kReach_m;
+        for (int z = cell_along(low.z); z <= cell_along(high.z); ++z) {
+            for (int x = cell_along(low.x); x <= cell_along(high.x); ++x)
+                cells_[cell_of(x, z)].push_back(i);
+        }
+    }
+}
+
+NearEdge EdgeGrid::nearest(const vec3& place, const vec3& normal) const
+{
+    NearEdge best;
+    const auto cell = cells_.find(cell_of(cell_along(place.x), cell_along(place.z)));
+    if (cell == cells_.end()) return best;
+    for (const std::uint32_t i : cell->second) {
+        const OpenEdge& e = edges_[i];
+        const vec3 along = e.to - e.from;
+        const float t = std::clamp(
+            glm::dot(place - e.from, along) / std::max(glm::dot(along, along), 1.0e-12f), 0.0f, 1.0f);
+        const vec3 way = e.from + along * t - place;
+        const float distance = glm::length(way);
+        // Not of a kerb above or below.
+        if (std::abs(glm::dot(way, normal)) > 0.02f + 0.12f * distance) continue;
+        if (distance < best.distance_m) best = {distance, e.out};
+    }
+    if (best.distance_m > kReach_m) return {};
+    return best;
+}
+
+}  // namespace petrichor::scene::detail

@@ -1,0 +1,44 @@
+#ifndef PETRICHOR_SCENE_SNOW_DETAIL_OPEN_EDGES_H
+#define PETRICHOR_SCENE_SNOW_DETAIL_OPEN_EDGES_H
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/patches/tracer.h"
+#include "scene/subdivide/subdivide.h"
+
+namespace petrichor::scene::detail {
+
+/// A piece of an edge beyond which the ground falls away.
+struct OpenEdge {
+    glm::vec3 from{0.0f};
+    glm::vec3 to{0.0f};
+    glm::vec2 out{0.0f};  ///< unit, world x and z
+};
+
+/// Of all borders of the mesh, in pieces of at most 0.25 m.
+std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer);
+
+struct NearEdge {
+    float distance_m = 1.0e9f;
+    glm::vec2 out{0.0f};
+};
+
+/// Finds the nearest open edge that lies on the same surface.
+class EdgeGrid {
+public:
+    static constexpr float kReach_m = 0.6f;
+    explicit EdgeGrid(std::vector<OpenEdge> edges);
+    /// normal: of the surface at the place, unit.
+    NearEdge nearest(const glm::vec3& place, const glm::vec3& normal) const;
+
+private:
+    std::vector<OpenEdge> edges_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace petrichor::scene::detail
+
+#endif

@@ -1,0 +1,308 @@
+#include "scene/snow/snow_caps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/portable_math.h"
+#include "formulas/noise/noise.h"
+#include "formulas/weather/surface_weather.h"
+#include "scene/snow/detail/open_edges.h"
+#include "scene/subdivide/subdivide.h"
+
+namespace petrichor::scene {
+namespace {
+
+using detail::EdgeGrid;
+using detail::NearEdge;
+using glm::vec2;
+using glm::vec3;
+
+constexpr float kSteepest = 0.4f;     // y of the normals of what holds snow
+constexpr float kCoarse_m = 0.8f;     // how far apart the sky is looked at
+constexpr int kRays = 16;
+constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
+constexpr float kCoarser = 1.41421356f;
+constexpr int kTries = 12;
+constexpr int kSpread = 12;           // edges that a support is told over
+
+bool holds_snow(const Material& m)
+{
+    return m.alpha_mode == AlphaMode::Opaque && m.transmission <= 0.0f && !m.weather.sheltered &&
+           m.weather.snow_rule == SnowRule::Surface && m.weather.snow_accumulation.y > 0.0f;
+}
+
+float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
+{
+    float nearest = options.eyes_m.empty() ? 0.0f : 1.0e30f;
+    for (const vec3& eye : options.eyes_m) nearest = std::min(nearest, glm::distance(eye, p));
+    return nearest;
+}
+
+// From a point to a triangle's nearest place, at most.
+float triangle_distance_m(const vec3& p, const vec3& a, const vec3& b, const vec3& c)
+{
+    // Its plane within it, else its corners' sphere: enough to leave out what is far.
+    const vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+    return glm::distance(p, glm::clamp(p, low, high));
+}
+
+// What faces up, in the world: a primitive for each of the scene's, with the exposure in w of _WEATHER.
+struct Ground {
+    std::vector<Primitive> primitives;
+    std::vector<std::uint32_t> instances;
+};
+
+Ground ground_of(const Scene& scene, const SnowCapOptions& options)
+{
+    Ground ground;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.moves) continue;
+        const glm::mat3 linear(instance.to_world);
+        const bool mirrored = glm::determinant(linear) < 0.0f;
+        for (const Primitive& from : scene.meshes[instance.mesh].primitives) {
+            const Material& m = scene.materials[from.material];
+            if (!holds_snow(m)) continue;
+            Primitive to;
+            to.material = from.material;
+            std::vector<std::uint32_t> number(from.positions.size(), 0xffffffffu);
+            const auto place = [&](std::uint32_t v) {
+                return vec3(instance.to_world * glm::vec4(from.positions[v], 1.0f));
+            };
+            for (std::size_t k = 0; k + 2 < from.indices.size(); k += 3) {
+                std::array<std::uint32_t, 3> t{from.indices[k], from.indices[k + 1], from.indices[k + 2]};
+                if (mirrored != m.cull_front) std::swap(t[1], t[2]);
+                const vec3 a = place(t[0]), b = place(t[1]), c = place(t[2]);
+                vec3 face = glm::cross(b - a, c - a);
+                if (face.y < 0.0f && m.double_sided) {
+                    std::swap(t[1], t[2]);
+                    face = -face;
+                }
+                const float area = glm::length(face);
+                if (!(face.y > kSteepest * area) || !(area < 1.0e12f)) continue;
+                bool near = options.eyes_m.empty();
+                for (const vec3& eye : options.eyes_m)
+                    near = near || triangle_distance_m(eye, a, b, c) < options.reach_m;
+                if (!near) continue;
+                for (const std::uint32_t v : t) {
+                    if (number[v] == 0xffffffffu) {
+                        number[v] = static_cast<std::uint32_t>(to.positions.size());
+                        to.positions.push_back(place(v));
+                        to.normals.push_back(face / area);
+                        to.uv0.push_back(from.uv0.empty() ? vec2(0.0f) : from.uv0[v]);
+                        to.uv1.push_back(from.uv1.empty() ? to.uv0.back() : from.uv1[v]);
+                        to.colors.push_back(from.colors.empty() ? glm::vec4(1.0f) : from.colors[v]);
+                        to.weather.push_back(from.weather.empty() ? glm::vec4(1.0f) : from.weather[v]);
+                        to.tangents.push_back(from.tangents.empty() ? glm::vec4(1, 0, 0, 1)
+                                                                    : from.tangents[v]);
+                        const vec3 along = linear * vec3(to.tangents.back());
+                        const float length = glm::length(along);
+                        to.tangents.back() = glm::vec4(length > 0.0f ? along / length : vec3(1, 0, 0),
+                                                       to.tangents.back().w);
+                    }
+                    to.indices.push_back(number[v]);
+                }
+            }
+            if (to.indices.empty()) continue;
+            ground.primitives.push_back(std::move(to));
+            ground.instances.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    return ground;
+}
+
+std::array<vec3, kRays> sky_rays()
+{
+    std::array<vec3, kRays> rays;
+    for (int k = 0; k < kRays; ++k) {
+        const double up = 1.0 - (1.0 - static_cast<double>(kCone)) * (k + 0.5) / kRays;
+        const double side = std::sqrt(1.0 - up * up);
+        const SinCos turn = portable_sin_cos(2.399963229728653 * k);
+        rays[static_cast<std::size_t>(k)] =
+            vec3(glm::dvec3(side * turn.cosine, up, side * turn.sine));
+    }
+    return rays;
+}
+
+// Share of the sky overhead that points see, into w of _WEATHER. A corner is looked at a bit within its
+// triangle: it may lie in a wall.
+void look_up(CutMesh& mesh, const Tracer& tracer)
+{
+    const auto rays = sky_rays();
+    std::vector<float> sum(mesh.normals.size(), 0.0f), count(mesh.normals.size(), 0.0f);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+            const vec3 middle = (p.positions[p.indices[k]] + p.positions[p.indices[k + 1]] +
+                                 p.positions[p.indices[k + 2]]) / 3.0f;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t v = p.indices[k + c];
+                const std::uint32_t point = mesh.points[i][v];
+                if (count[point] >= 3.0f) continue;
+                const vec3 way = middle - p.positions[v];
+                const float length = glm::length(way);
+                const vec3 from = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f) +
+                                  vec3(0.0f, 0.015f, 0.0f);
+                int open = 0;
+                for (const vec3& ray : rays) open += tracer.blocked({from, ray}) ? 0 : 1;
+                sum[point] += static_cast<float>(open) / kRays;
+                count[point] += 1.0f;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
+            const std::uint32_t point = mesh.points[i][v];
+            mesh.primitives[i].weather[v].w = sum[point] / std::max(count[point], 1.0f);
+        }
+    }
+}
+
+float smooth_noise(const vec3& p, float cell_m, std::uint32_t seed)
+{
+    return shared::tileable_noise(vec2(p.x, p.z) / cell_m, 1 << 20, seed);
+}
+
+// Where nothing is kept of a triangle's depth, it is left out.
+bool lies(const SnowCaps& caps, const std::array<std::uint32_t, 3>& t)
+{
+    return caps.points[t[0]].share > 0.02f || caps.points[t[1]].share > 0.02f ||
+           caps.points[t[2]].share > 0.02f;
+}
+
+void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges,
+                 const SnowCapOptions& options)
+{
+    const std::vector<vec3> normals = point_normals(mesh);
+    caps.points.resize(normals.size());
+    std::vector<bool> done(normals.size(), false);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t v = 0; v < p.positions.size(); ++v) {
+            const std::uint32_t number = mesh.points[i][v];
+            if (done[number]) continue;
+            done[number] = true;
+            SnowCaps::Point& point = caps.points[number];
+            const vec3& at = p.positions[v];
+            point.base_m = at;
+            const NearEdge edge = edges.nearest(at, normals[number]);
+            point.edge_m = edge.distance_m;
+            point.support_m = edge.distance_m;
+            point.out = edge.out;
+            // EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
+            const float up = std::clamp(normals[number].y, 0.0f, 1.0f);
+            const float slope = std::clamp((1.04719755f - std::acos(up)) / 0.52359878f, 0.0f, 1.0f);
+            const float ragged = 0.3f * (smooth_noise(at, 0.17f, 91u) - 0.5f);
+            const float open = shared::smooth_edge(0.15f, 0.8f, p.weather[v].w + ragged *
+                                                   std::min(1.0f, 4.0f * (1.0f - p.weather[v].w)));
+            const float far = nearest_eye_m(options, at) / options.reach_m;
+            point.share = open * slope * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
+            point.uneven = 0.78f + 0.3f * smooth_noise(at, 1.7f, 11u) +
+                           0.14f * smooth_noise(at, 0.43f, 12u);
+        }
+    }
+}
+
+void find_supports(SnowCaps& caps, const CutMesh& mesh)
+{
+    for (SnowCaps::Point& p : caps.points) p.support_m = std::min(p.edge_m, EdgeGrid::kReach_m);
+    for (int pass = 0; pass < kSpread; ++pass) {
+        std::vector<float> next(caps.points.size());
+        for (std::size_t i = 0; i < next.size(); ++i) next[i] = caps.points[i].support_m;
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const Primitive& p = mesh.primitives[i];
+            for (std::size_t k = 0; k < p.indices.size(); ++k) {
+                const std::uint32_t a = mesh.points[i][p.indices[k]];
+                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+                next[a] = std::max(next[a], caps.points[b].support_m);
+                next[b] = std::max(next[b], caps.points[a].support_m);
+            }
+        }
+        for (std::size_t i = 0; i < next.size(); ++i) caps.points[i].support_m = next[i];
+    }
+}
+
+}  // namespace
+
+SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
+{
+    SnowCaps caps;
+    Ground ground = ground_of(tracer.triangles().scene(), options);
+    if (ground.primitives.empty()) return caps;
+    SubdivideOptions coarse;
+    coarse.most_levels = 12;
+    // What is fine already stays so.
+    std::size_t own = 0;
+    for (const Primitive& p : ground.primitives) own += p.indices.size() / 3;
+    coarse.most_triangles = own + options.most_triangles / 4;
+    float scale = 1.0f;
+    coarse.too_long = [&](const vec3& a, const vec3& b) {
+        const float length = glm::distance(a, b);
+        const float away = std::max(nearest_eye_m(options, 0.5f * (a + b)) - length, 0.0f);
+        return length > scale * std::max(kCoarse_m, away * 0.06f);
+    };
+    CutMesh mesh = subdivide(ground.primitives, coarse);
+    for (int i = 0; mesh.limited && i < kTries; ++i) {
+        scale *= kCoarser;
+        mesh = subdivide(ground.primitives, coarse);
+    }
+    look_up(mesh, tracer);
+    const EdgeGrid edges(detail::open_edges(mesh, tracer));
+
+    // Fine at the rims, coarse between them.
+    caps.finest_m = options.finest_m;
+    SubdivideOptions fine;
+    fine.most_levels = 8;
+    fine.most_triangles = own + options.most_triangles;
+    const std::vector<Primitive> looked = std::move(mesh.primitives);
+    fine.too_long = [&](const vec3& a, const vec3& b) {
+        const vec3 middle = 0.5f * (a + b);
+        const float away = nearest_eye_m(options, middle);
+        const float least = std::max(caps.finest_m, away * options.per_metre);
+        const float length = glm::distance(a, b);
+        if (length <= least) return false;
+        if (length > std::max(options.coarsest_m, 4.0f * least)) return true;
+        // Across the edge its ends lie on one surface.
+        const vec3 along = b - a;
+        const vec3 side = glm::cross(along, vec3(0.0f, 1.0f, 0.0f));
+        const vec3 normal = glm::cross(side, along);
+        const float size = glm::length(normal);
+        if (!(size > 0.0f)) return false;
+        const float edge = edges.nearest(middle, normal / size).distance_m;
+        return length > std::max(least, 0.7f * edge);
+    };
+    mesh = subdivide(looked, fine);
+    for (int i = 0; mesh.limited && i < kTries; ++i) {
+        caps.finest_m *= kCoarser;
+        mesh = subdivide(looked, fine);
+    }
+    fill_points(caps, mesh, edges, options);
+    find_supports(caps, mesh);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        Primitive& p = mesh.primitives[i];
+        SnowCaps::Part part;
+        part.material = p.material;
+        part.instance = ground.instances[i];
+        part.first_index = static_cast<std::uint32_t>(caps.indices.size());
+        part.first_corner = static_cast<std::uint32_t>(caps.corner_points.size());
+        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+            const std::array<std::uint32_t, 3> t{mesh.points[i][p.indices[k]],
+                                                 mesh.points[i][p.indices[k + 1]],
+                                                 mesh.points[i][p.indices[k + 2]]};
+            if (!lies(caps, t)) continue;
+            for (std::size_t c = 0; c < 3; ++c)
+                caps.indices.push_back(part.first_corner + p.indices[k + c]);
+        }
+        part.index_count = static_cast<std::uint32_t>(caps.indices.size()) - part.first_index;
+        if (part.index_count == 0) continue;
+        caps.corner_points.insert(caps.corner_points.end(), mesh.points[i].begin(), mesh.points[i].end());
+        p.indices.clear();
+        part.source = std::move(p);
+        caps.parts.push_back(std::move(part));
+    }
+    return caps;
+}
+
+}  // namespace petrichor::scene

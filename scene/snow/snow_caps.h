@@ -1,0 +1,77 @@
+#ifndef PETRICHOR_SCENE_SNOW_SNOW_CAPS_H
+#define PETRICHOR_SCENE_SNOW_SNOW_CAPS_H
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/patches/tracer.h"
+#include "scene/scene.h"
+
+namespace petrichor::scene {
+
+struct SnowCapOptions {
+    std::vector<glm::vec3> eyes_m;  ///< where cameras stand over the film; none: as if near everywhere
+    float finest_m = 0.035f;        ///< edges at the rim of a cap, near an eye
+    float coarsest_m = 0.6f;
+    float per_metre = 0.004f;       ///< edges are at least so long a metre from the nearest eye
+    float reach_m = 60.0f;          ///< no caps beyond this from the nearest eye
+    std::size_t most_triangles = 120'000;  ///< more than what faces up has by itself
+};
+
+/// A cover over all that faces up and is open to the sky, ready to be lifted by the depth of the snow.
+struct SnowCaps {
+    struct Point {
+        glm::vec3 base_m{0.0f};       ///< on the scene
+        float share = 0.0f;           ///< of the depth on open ground, by shelter and slope
+        float edge_m = 1.0e9f;        ///< to the nearest edge where the snow ends in the open
+        float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
+        glm::vec2 out{0.0f};          ///< towards that edge, world x and z
+        float uneven = 1.0f;          ///< times the depth
+    };
+    struct Part {
+        std::uint32_t material = 0;
+        std::uint32_t instance = 0;
+        std::uint32_t first_index = 0;  ///< into `indices`
+        std::uint32_t index_count = 0;
+        std::uint32_t first_corner = 0;
+        Primitive source;  ///< vertices of its corners, in the world; no indices
+    };
+    std::vector<Point> points;
+    std::vector<std::uint32_t> corner_points;  ///< of each vertex of all parts, in their order
+    std::vector<std::uint32_t> indices;        ///< 3 a triangle, into corner_points
+    std::vector<Part> parts;
+    float finest_m = 0.0f;  ///< as it became; coarser than asked where a limit bit
+
+    bool empty() const { return indices.empty(); }
+};
+
+/// Cuts what snow lies on: opaque, unsheltered surfaces that face up, of what does not move. Open is
+/// what sees the sky overhead, by rays; an edge is open where the ground falls away beyond it, closed
+/// where a wall rises or other ground goes on.
+///
+/// The same caps for any thread count. They reach over primitives and meshes: places that are shared
+/// are one point, so there are no cracks.
+SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options);
+
+/// Drawn snow is at most about so deep: what stands in the scene would drown.
+inline constexpr float kDeepestSnow_m = 0.4f;
+float drawn_snow_m(float depth_m);
+
+/// The caps under snow.
+struct SnowShape {
+    std::vector<glm::vec3> positions;  ///< of each point
+    std::vector<glm::vec3> normals;
+    std::vector<float> thickness_m;    ///< of each point, 0 or more
+    float thickest_m = 0.0f;
+};
+
+/// depth_m: of each point, of snow on open ground there. Snow rounds off towards open edges as a quarter of
+/// an ellipse, as wide as deep and at most as wide as what it lies on, and stands out over them a
+/// little. Where there is none the cap lies below the surface.
+SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
+
+}  // namespace petrichor::scene
+
+#endif

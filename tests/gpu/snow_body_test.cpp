@@ -1,0 +1,143 @@
+// Deep snow is geometry: it is seen, measured and shadowed as such.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/patches/tracer.h"
+#include "scene/snow/snow_caps.h"
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr int kSize = 96;
+
+// A post of half a metre on open ground.
+Scene post_on_ground()
+{
+    std::vector<Primitive> faces{quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}),
+                                 quad({-0.25f, 1, 0.25f}, {0.5f, 0, 0}, {0, 0, -0.5f}),
+                                 quad({-0.25f, 0, 0.25f}, {0.5f, 0, 0}, {0, 1, 0}),
+                                 quad({0.25f, 0, 0.25f}, {0, 0, -0.5f}, {0, 1, 0}),
+                                 quad({0.25f, 0, -0.25f}, {-0.5f, 0, 0}, {0, 1, 0}),
+                                 quad({-0.25f, 0, -0.25f}, {0, 0, 0.5f}, {0, 1, 0})};
+    return scene_of(std::move(faces), {plain_material(glm::vec3(0.2f))});
+}
+
+class SnowBodyTest : public GpuTest {
+protected:
+    void SetUp() override
+    {
+        GpuTest::SetUp();
+        scene = post_on_ground();
+        const scene::Triangles triangles(scene, {});
+        const scene::Tracer tracer(triangles);
+        caps = std::make_shared<const scene::SnowCaps>(scene::build_snow_caps(tracer, {}));
+    }
+
+    // From the side, 2 m across.
+    static Frame frame(float depth_m)
+    {
+        Frame f;
+        f.camera = look({0, 1.0f, 4}, {0, 1.0f, 0});
+        f.camera.orthographic_height_m = 1.0f;
+        f.settings.width = f.settings.height = kSize;
+        f.settings.samples = 1;
+        f.settings.aovs = {"depth", "snow"};
+        f.weather.snow_depth_m = depth_m;
+        f.weather.snow_amount = 1.0f - std::exp(-depth_m / 0.05f);
+        f.weather.water_to_snow = 1.0f;
+        return f;
+    }
+
+    // World y of the highest pixel of the post in the middle column.
+    static float top_of(const RenderResult& r)
+    {
+        for (int y = 0; y < kSize; ++y) {
+            const float depth = aov(r, "depth", kSize / 2, y);
+            if (depth > 3.0f && depth < 4.5f) return 1.5f - static_cast<float>(y) / kSize;
+        }
+        return 0.0f;
+    }
+
+    Scene scene;
+    std::shared_ptr<const scene::SnowCaps> caps;
+};
+
+TEST_F(SnowBodyTest, APostsSilhouetteRisesByTheDepth)
+{
+    renderer->load(scene, {}, caps);
+    const float bare = top_of(renderer->render(frame(0.0f)));
+    EXPECT_NEAR(bare, 1.0f, 0.02f);
+    for (const float depth : {0.1f, 0.18f}) {
+        const RenderResult r = renderer->render(frame(depth));
+        EXPECT_NEAR(top_of(r) - bare, depth, 0.25f * depth + 0.011f);
+        // It is white to its top.
+        const int y = static_cast<int>((1.5f - (1.0f + 0.6f * depth)) * kSize);
+        EXPECT_GT(aov(r, "snow", kSize / 2, y), 0.6f);
+    }
+}
+
+TEST_F(SnowBodyTest, OffItIsThePictureWithoutIt)
+{
+    renderer->load(scene, {});
+    const RenderResult flat = renderer->render(frame(0.15f));
+    const RenderResult thin = renderer->render(frame(0.008f));
+    renderer->load(scene, {}, caps);
+    Frame off = frame(0.15f);
+    off.settings.snow_body = false;
+    EXPECT_EQ(renderer->render(off).beauty, flat.beauty);
+    EXPECT_NE(renderer->render(frame(0.15f)).beauty, flat.beauty);
+    EXPECT_EQ(renderer->render(frame(0.008f)).beauty, thin.beauty) << "too thin for a body";
+    EXPECT_EQ(renderer->render(off).beauty, flat.beauty) << "and off again";
+}
+
+TEST_F(SnowBodyTest, AFrameAloneIsTheFrameOfARun)
+{
+    renderer->load(scene, {}, caps);
+    for (const float depth : {0.02f, 0.05f, 0.1f}) renderer->render(frame(depth));
+    const RenderResult run = renderer->render(frame(0.12f));
+    renderer->load(scene, {}, caps);
+    EXPECT_EQ(renderer->render(frame(0.12f)).beauty, run.beauty);
+}
+
+TEST_F(SnowBodyTest, BothWaysToShadeShowIt)
+{
+    renderer->load(scene, {}, caps);
+    Frame one = frame(0.15f), other = frame(0.15f);
+    one.settings.surface_path = SurfacePath::Fragment;
+    other.settings.surface_path = SurfacePath::Visibility;
+    const RenderResult a = renderer->render(one), b = renderer->render(other);
+    EXPECT_EQ(top_of(a), top_of(b));
+    double sum = 0.0;
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x)
+            sum += std::abs(static_cast<double>(luminance(pixel(a, x, y)) - luminance(pixel(b, x, y)))) /
+                   (0.01 + static_cast<double>(luminance(pixel(a, x, y))));
+    }
+    EXPECT_LT(sum / (kSize * kSize), 0.01);
+}
+
+// Snow that stands on the ground throws the shadow of its body: seen from above, with a low sun.
+TEST_F(SnowBodyTest, ItThrowsShadows)
+{
+    const auto lit = [&](float depth, bool body) {
+        Frame f = frame(depth);
+        f.camera = look({0, 5, 0}, {0, 0, 0});
+        f.camera.orthographic_height_m = 5.0f;
+        f.sky.sun_elevation_rad = 0.5f;
+        f.sky.sun_azimuth_rad = 1.5707963f;  // in the east: shadows go to -x
+        f.settings.snow_body = body;
+        f.settings.exposure = 1e-5f;
+        const RenderResult r = renderer->render(f);
+        int dark = 0;
+        for (int x = 0; x < kSize / 2 - 6; ++x)
+            dark += luminance(pixel(r, x, kSize / 2)) < 0.5f * luminance(pixel(r, 3, 6)) ? 1 : 0;
+        return dark;
+    };
+    renderer->load(scene, {}, caps);
+    EXPECT_GT(lit(0.18f, false), 10);
+    EXPECT_GE(lit(0.18f, true), 10);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu

@@ -1,0 +1,202 @@
+// Where snow has a body, and the form it takes.
+#include "scene/snow/snow_caps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "tests/scene/patch_scenes.h"
+
+namespace petrichor::scene {
+namespace {
+
+using namespace patch_scenes;
+using glm::vec2;
+using glm::vec3;
+
+SnowCaps caps_of(const Scene& scene, SnowCapOptions options = {})
+{
+    const Triangles triangles(scene, {});
+    const Tracer tracer(triangles);
+    return build_snow_caps(tracer, options);
+}
+
+void add_ground(Scene& scene, float half = 3.0f)
+{
+    add_face(scene, {-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
+}
+
+// A post, a table without legs, a wall and a kerb on open ground.
+Scene yard()
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    add_box(scene, {-0.2f, 0, -0.2f}, {0.2f, 1, 0.2f}, false);
+    add_box(scene, {1, 0.8f, -1}, {2.6f, 0.9f, 1}, false);
+    add_box(scene, {-3, 0, -2.2f}, {3, 2, -2.0f}, false);
+    add_box(scene, {-3, 0, 1.5f}, {-1, 0.12f, 3}, false);
+    return scene;
+}
+
+// The nearest point at the height of a place.
+const SnowCaps::Point& point_at(const SnowCaps& caps, const vec3& place)
+{
+    const SnowCaps::Point* best = &caps.points.front();
+    const auto away = [&](const SnowCaps::Point& p) {
+        return glm::distance(p.base_m, place) + 100.0f * std::abs(p.base_m.y - place.y);
+    };
+    for (const auto& p : caps.points) {
+        if (away(p) < away(*best)) best = &p;
+    }
+    return *best;
+}
+
+TEST(SnowCaps, LieOnWhatFacesUpAndSeesTheSky)
+{
+    const SnowCaps caps = caps_of(yard());
+    ASSERT_FALSE(caps.empty());
+    EXPECT_GT(point_at(caps, {0, 0, 2}).share, 0.95f) << "in the open";
+    EXPECT_LT(point_at(caps, {1.8f, 0, 0}).share, 0.05f) << "under the table";
+    EXPECT_GT(point_at(caps, {1.8f, 0.9f, 0}).share, 0.95f) << "on the table";
+    for (const auto& p : caps.points) {
+        EXPECT_FALSE(std::abs(p.base_m.y - 0.8f) < 1e-4f) << "what faces down";
+        ASSERT_GE(p.share, 0.0f);
+        ASSERT_LE(p.share, 1.0f);
+    }
+    Scene sheltered = yard();
+    sheltered.materials[0].weather.sheltered = true;
+    EXPECT_TRUE(caps_of(sheltered).empty());
+}
+
+TEST(SnowCaps, SteepGroundHoldsLess)
+{
+    const auto share_on = [](float degrees) {
+        Scene scene = empty_scene();
+        const float a = degrees * 0.01745329f;
+        add_face(scene, {-2, 0, 2}, {4, 0, 0}, {0, 4 * std::sin(a), -4 * std::cos(a)});
+        float most = 0.0f;
+        for (const auto& p : caps_of(scene).points) most = std::max(most, p.share);
+        return most;
+    };
+    EXPECT_NEAR(share_on(20), 1.0f, 0.02f);
+    EXPECT_NEAR(share_on(45), 0.5f, 0.02f);
+    EXPECT_NEAR(share_on(62), 0.0f, 0.02f);
+}
+
+TEST(SnowCaps, EdgesAreOpenWhereTheGroundFallsAway)
+{
+    const SnowCaps caps = caps_of(yard());
+    EXPECT_LT(point_at(caps, {0.2f, 1, 0}).edge_m, 0.01f) << "of the post";
+    EXPECT_NEAR(point_at(caps, {0, 1, 0}).edge_m, 0.2f, 0.03f) << "its middle";
+    EXPECT_NEAR(point_at(caps, {0.1f, 1, 0.1f}).support_m, 0.2f, 0.03f);
+    EXPECT_GT(point_at(caps, {0.5f, 0, -2.0f}).edge_m, 1.0f) << "at the foot of the wall";
+    EXPECT_LT(point_at(caps, {-1.0f, 0.12f, 2}).edge_m, 0.01f) << "of the kerb";
+    EXPECT_GT(point_at(caps, {-0.97f, 0, 2.2f}).edge_m, 1.0f) << "below the kerb";
+    EXPECT_GT(point_at(caps, {1.8f, 0.9f, 0}).edge_m, 0.5f) << "the middle of the table";
+}
+
+// All triangles meet edge to edge; where they end, there is a wall, or the cap has sunk below its ground.
+TEST(SnowCaps, HaveNoCracks)
+{
+    const SnowCaps caps = caps_of(yard());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
+    for (std::size_t k = 0; k < caps.indices.size(); ++k) {
+        const std::uint32_t a = caps.corner_points[caps.indices[k]];
+        const std::uint32_t b = caps.corner_points[caps.indices[k % 3 == 2 ? k - 2 : k + 1]];
+        ways[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.15f));
+    int borders = 0;
+    for (const auto& [edge, way] : ways) {
+        if (way == 0) continue;
+        ++borders;
+        for (const std::uint32_t i : {edge.first, edge.second}) {
+            const auto& p = caps.points[i];
+            const bool sunk = shape.positions[i].y < p.base_m.y;
+            const bool at_wall = std::abs(p.base_m.z + 2.0f) < 1e-3f && p.edge_m > 0.1f;
+            const bool rim = p.edge_m < 1e-3f;
+            const bool hidden = p.share <= 0.02f;
+            EXPECT_TRUE(sunk || at_wall || rim || hidden || p.base_m.y == 0.0f)
+                << p.base_m.x << " " << p.base_m.y << " " << p.base_m.z;
+        }
+    }
+    EXPECT_GT(borders, 20);
+}
+
+TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
+{
+    const SnowCaps caps = caps_of(yard());
+    for (const float depth : {0.05f, 0.1f, 0.15f}) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        float top = 0.0f, shoulder = 0.0f, rim = -1.0f;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const auto& p = caps.points[i];
+            if (std::max(std::abs(p.base_m.x), std::abs(p.base_m.z)) > 0.21f || p.base_m.y < 0.9f) continue;
+            const float up = shape.positions[i].y - 1.0f;
+            top = std::max(top, up);
+            if (p.edge_m < 0.45f * depth && p.edge_m > 0.2f * depth) shoulder = std::max(shoulder, up);
+            if (p.edge_m < 1e-3f) rim = std::max(rim, up);
+        }
+        EXPECT_NEAR(top, depth, 0.25f * depth);
+        EXPECT_LT(shoulder, 0.95f * top);
+        EXPECT_LT(rim, 0.0f);
+    }
+    // What stands up too far falls off a post.
+    const SnowShape deep = snow_shape(caps, std::vector<float>(caps.points.size(), 5.0f));
+    EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
+}
+
+TEST(SnowShape, WithoutSnowCapsAreBelowTheGround)
+{
+    const SnowCaps caps = caps_of(yard());
+    const SnowShape none = snow_shape(caps, std::vector<float>(caps.points.size(), 0.0f));
+    EXPECT_EQ(none.thickest_m, 0.0f);
+    for (std::size_t i = 0; i < caps.points.size(); ++i)
+        ASSERT_LT(none.positions[i].y, caps.points[i].base_m.y);
+    // And they rise without a jump.
+    float before = -0.02f;
+    for (float depth = 0.0f; depth < 0.1f; depth += 0.002f) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        const float up = shape.positions[0].y - caps.points[0].base_m.y;
+        EXPECT_GE(up, before - 1e-6f);
+        EXPECT_LT(up - before, 0.012f);
+        before = up;
+    }
+}
+
+TEST(SnowCaps, AreFinerWhereAnEyeIsNearAndEndAtTheirReach)
+{
+    Scene scene = empty_scene();
+    add_ground(scene, 200.0f);
+    SnowCapOptions options;
+    options.eyes_m = {{0, 1.6f, 0}};
+    const SnowCaps caps = caps_of(scene, options);
+    ASSERT_FALSE(caps.empty());
+    EXPECT_LE(caps.indices.size() / 3, options.most_triangles + 2);
+    std::vector<bool> used(caps.points.size(), false);
+    for (const std::uint32_t i : caps.indices) used[caps.corner_points[i]] = true;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const bool far = glm::length(caps.points[i].base_m) > options.reach_m;
+        ASSERT_TRUE(!far || caps.points[i].share < 0.02f) << "it tapers off";
+    }
+    const auto again = caps_of(scene, options);
+    EXPECT_EQ(again.indices, caps.indices);
+}
+
+TEST(DrawnSnow, GrowsAndHasALimit)
+{
+    float before = -1.0f;
+    for (const float depth : {0.0f, 0.02f, 0.1f, 0.2f, 0.21f, 0.5f, 2.0f, 100.0f}) {
+        EXPECT_GE(drawn_snow_m(depth), before);
+        EXPECT_LE(drawn_snow_m(depth), std::min(depth, kDeepestSnow_m) + 1e-6f);
+        before = drawn_snow_m(depth);
+    }
+    EXPECT_EQ(drawn_snow_m(0.15f), 0.15f);
+    EXPECT_EQ(drawn_snow_m(NAN), 0.0f);
+}
+
+}  // namespace
+}  // namespace petrichor::scene
