@@ -38,7 +38,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.over_all = true;
     BindingTypes material_types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-    material_types.resize(1 + TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    material_types.resize(1 + MATERIAL_TEXTURE_SLOTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     desc.sets = {pass.set_types(), material_types};
     const VkDescriptorSetLayout material_layout = pass.pipelines().set_layout(material_types);
     bind_geometry(pass.commands(), scene);
@@ -61,6 +61,9 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_LOOKS, draw.look != 0},
+            {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
+            {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
+            {SURFACE_SPEC_BESIDES, material.besides},
             {SURFACE_SPEC_PLACE, weather.place},
             {DECAL_SPEC_WEATHER, own_weather},
             {DECAL_SPEC_EMISSION, parts.emission}};
