@@ -17,6 +17,8 @@
 
 namespace petrichor::gpu {
 
+static_assert(LAMP_SHADOWS_MOST == kMostLampShadows);
+
 namespace {
 
 bool same_sky(const shared::SkyParams& a, const shared::SkyParams& b)
@@ -188,6 +190,31 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     }
 }
 
+// Lamps that have a size throw soft shadows where more than one sample looks.
+bool soft_shadows(const Frame& frame, const FrameResources& r)
+{
+    const std::vector<Light>& lamps = r.lights->shadowed;
+    return frame.settings.soft_shadows && frame.settings.samples > 1 &&
+           std::any_of(lamps.begin(), lamps.end(), [](const Light& lamp) {
+               return lamp.radius_m > 0.0f || lamp.length_m > 0.0f || lamp.kind == LightKind::Rectangle;
+           });
+}
+
+// The shadows of a sample: from another point of each lamp.
+void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstants& c,
+                     std::uint32_t sample, FrameResources& r)
+{
+    std::vector<Light> lamps = r.lights->shadowed;
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        // Lamps do not look from the same point of their surfaces.
+        const glm::vec3 offset = lamp_offset_m(lamps[k], sample, frame.settings.samples,
+                                               frame.settings.seed + 17u * static_cast<std::uint32_t>(k));
+        lamps[k].position_m += offset;
+        c.lamp_offset_m[k] = glm::vec4(offset, 0.0f);
+    }
+    r.lamp_shadows->add(graph, *r.scene, lamps);
+}
+
 FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
 {
     return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0)));
@@ -264,7 +291,8 @@ FrameGraph build_sky(const Frame& frame, FrameResources& r)
 }
 
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
-                       const std::vector<AovGroup>& aov_groups, FallingFacts& falling)
+                       const std::vector<AovGroup>& aov_groups, SampleRange range,
+                       FallingFacts& falling)
 {
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
@@ -283,7 +311,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     }
     const FallingPlan plan = plan_of(frame, sun, r);
     add_depth_maps(graph, frame, sun, r, weather.any, plan);
-    r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
+    const bool soft_lamps = soft_shadows(frame, r);
+    if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
@@ -296,6 +325,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.baked = r.scene->baked();
     variant.gamma = settings.gamma;
     variant.lamp_shadows = !r.lights->shadowed.empty();
+    variant.soft_lamps = soft_lamps;
     variant.rectangles = r.lights->rectangles;
     variant.ways = r.lights->ways;
     variant.all_lights = settings.all_lights;
@@ -303,14 +333,17 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();
     if (r.own_lighting) variant.shader = kOwnLightingShader;
     ConstantsRange constants{r.constants, 0};
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.samples); ++i) {
+    // Samples that do not see the same points light them each for itself.
+    const bool apart = frame.lens.radius_m > 0.0f || !frame.shutter.empty();
+    for (std::uint32_t i = range.first; i < range.end; ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         fill_views(c, frame, weather, r);
         // Other modes of fog know nothing of what falls.
         c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
         c.drawn_reach_m = plan.drawn_reach_m;
         c.place = r.place->constants();
-        if (i == 0) {
+        if (soft_lamps) look_from_lamps(graph, frame, c, i, r);
+        if (i == range.first) {
             see_models(variant, *r.scene, c);
             if ((variant.layers & LAYERS_SKIN) != 0u) r.light_tables->need_skin();
             variant.lazarov = settings.lazarov;
@@ -353,7 +386,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             begin_transparent(graph, *r.transparent, constants);
             std::swap(r.targets->accumulated, r.transparent->solid);
         }
-        if (i == 0 && variant.patch_light) {
+        if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
@@ -366,6 +399,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_layers(graph, r, constants, c, weather, variant, layers, needed > layers);
         }
     }
+    if (range.end < static_cast<std::uint32_t>(settings.samples)) return graph;
     constants.offset = 0;
     add_air(graph, frame, sun, plan, r, constants, falling);
     if (settings.bloom > 0.0f) add_glare(graph, *r.targets, settings.samples);

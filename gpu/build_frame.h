@@ -47,9 +47,17 @@ struct FrameResources {
 /// when the frame is lit without patches.
 FrameGraph build_sky(const Frame& frame, FrameResources& resources);
 
-/// The passes of one frame in order. Also writes the constants of every sample.
+/// Samples of a frame that see the scene at the same moment.
+struct SampleRange {
+    std::uint32_t first = 0;
+    std::uint32_t end = 1;
+};
+
+/// The passes of these samples in order, behind the last of the frame what follows them. Also writes their
+/// constants.
 FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& resources,
-                       const std::vector<AovGroup>& aov_groups, FallingFacts& falling);
+                       const std::vector<AovGroup>& aov_groups, SampleRange range,
+                       FallingFacts& falling);
 
 }  // namespace petrichor::gpu
 

@@ -56,7 +56,20 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
         throw Error("render: bloom must be 0 to 1, got " + std::to_string(s.bloom),
                     "It is the share of the light that is scattered.");
     }
+    if (!frame.shutter.empty() && frame.shutter.size() != static_cast<std::size_t>(s.samples)) {
+        throw Error("render: " + std::to_string(frame.shutter.size()) + " moments of the shutter for " +
+                        std::to_string(s.samples) + " samples",
+                    "Give one a sample, or none.");
+    }
     const Camera& camera = frame.camera;
+    if (frame.lens.radius_m != 0.0f &&
+        !(frame.lens.radius_m > 0.0f && frame.lens.radius_m < 1e3f &&
+          frame.lens.focus_m > camera.near_m && camera.orthographic_height_m <= 0.0f)) {
+        throw Error("render: a lens of " + std::to_string(frame.lens.radius_m) + " m focused at " +
+                        std::to_string(frame.lens.focus_m) + " m is not possible",
+                    "Give a radius of 0 to 1000 m and a focus beyond the near distance; orthographic "
+                    "cameras have no lens.");
+    }
     const bool fov = camera.vertical_fov_rad > 0.0f && camera.vertical_fov_rad < 3.14159f;
     if (!(camera.orthographic_height_m > 0.0f) && !fov) {
         throw Error(
@@ -69,6 +82,24 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
                         std::to_string(camera.near_m),
                     "Set a near distance such as 0.05.");
     }
+}
+
+// A range for each moment at which the scene is another.
+std::vector<SampleRange> sample_ranges(const Frame& frame, const GpuScene& scene)
+{
+    const auto count = static_cast<std::uint32_t>(frame.settings.samples);
+    std::vector<SampleRange> ranges{{0, count}};
+    if (!scene.moves() || frame.shutter.empty()) return ranges;
+    ranges.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool same = i > 0 && frame.shutter[i].off_s == frame.shutter[i - 1].off_s;
+        if (same) {
+            ranges.back().end = i + 1;
+        } else {
+            ranges.push_back({i, i + 1});
+        }
+    }
+    return ranges;
 }
 
 }  // namespace
@@ -383,12 +414,26 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         if (probes.count() > 0) first_passes.push_back({"probes", probes.relight_ms()});
     }
     RenderResult result;
-    FrameGraph graph = build_frame(frame, sun, resources, aov_groups, result.falling);
-    graph_text = before.describe() + graph.describe();
-
+    graph_text = before.describe();
     result.passes = std::move(first_passes);
-    for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
-        result.passes.push_back(pass);
+    for (const SampleRange& range : sample_ranges(frame, *scene)) {
+        if (range.first > 0) {  // what moves is elsewhere
+            descriptors.reset();
+            const ShutterMoment& now = frame.shutter[range.first];
+            const glm::vec2 wind = frame.weather.wind_m_s;
+            scene->pose(device, now.animation_s,
+                        {wind, frame.falling.air_m + glm::dvec2(wind) * now.off_s,
+                         frame.settings.time_s + now.off_s});
+            depth_maps.forget();
+            lamp_shadows.forget();
+            prepare_lights(frame, scene_sun);
+            prepare_resolve(set, frame.settings);
+        }
+        FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
+        graph_text += graph.describe();
+        for (const PassTime& pass : graph.execute(device, pipelines, descriptors))
+            result.passes.push_back(pass);
+    }
     result.width = frame.settings.width;
     result.height = frame.settings.height;
     const auto pixels =

@@ -12,6 +12,7 @@
 #include "base/hash.h"
 #include "base/words.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/lens.h"
 #include "film/jobs/exposure.h"
 #include "film/jobs/night_sky.h"
 #include "film/jobs/sun.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBloom = 0.04;  // of an eye, or a lens that is not quite clean
-constexpr double kShutter_s = 0.004;
 constexpr int kLargestSide = 16384;
 constexpr std::int64_t kMostPixels = 64 << 20;
 
@@ -59,6 +59,18 @@ void add_camera(Hasher& hasher, const scene::Camera& camera)
     hasher.add(camera.vertical_fov_rad);
     hasher.add(camera.near_m);
     hasher.add(camera.orthographic_height_m);
+}
+
+void add_lens(Hasher& hasher, const gpu::Frame& frame)
+{
+    if (frame.lens.radius_m > 0.0f) {
+        hasher.add(frame.lens.radius_m);
+        hasher.add(frame.lens.focus_m);
+    }
+    for (const gpu::ShutterMoment& moment : frame.shutter) {
+        add_camera(hasher, moment.camera);
+        hasher.add(moment.animation_s);
+    }
 }
 
 void add_sky(Hasher& hasher, const gpu::Sky& sky)
@@ -316,6 +328,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
         posture = scene::posture_at(*sequence.scene.rig, out.animation_s);
         out.camera = scene::carried(out.camera, *posture);
     }
+    out.lens = lens_at(camera, out.camera, time_s);
+    if (scenario.render.motion_blur && scenario.output.samples > 1)
+        open_shutter(out, sequence, camera, aspect, time_s);
     out.weather = result.moment.values;
     out.look = look_at(here.look, time_s);
 
@@ -428,6 +443,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
     hasher.add(frame.emissive_scale);
     hasher.add(frame.emissive_lights);
     hasher.add(frame.animation_s);
+    add_lens(hasher, frame);
     add_materials(hasher, frame);
     add_settings(hasher, frame.settings);
 }
@@ -473,7 +489,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     }
     if (sequence.scene.rig)
         parts["animation"] = part([&](Hasher& hasher) { hasher.add(frame.animation_s); });
-    parts["camera"] = part([&](Hasher& hasher) { add_camera(hasher, frame.camera); });
+    parts["camera"] = part([&](Hasher& hasher) {
+        add_camera(hasher, frame.camera);
+        add_lens(hasher, frame);
+    });
     parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
     parts["falling"] = part([&](Hasher& hasher) { add_falling(hasher, frame.falling); });

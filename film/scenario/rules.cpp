@@ -156,6 +156,18 @@ const std::vector<Rule>& rules()
           "to 1",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.shutter_s = v.keyed(1e-5, 1.0); }},
+        {{"camera", "f_stop", "2.8",
+          "aperture of the lens: what is not at focus_m blurs, by as many samples as it is wide in pixels; "
+          "without it all is sharp; 0.1 to 1000",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.camera.f_stop = v.keyed(0.1, 1000.0); }},
+        {{"camera", "focus_m", "5.0",
+          "distance of what is sharp with f_stop, along the view, 0.01 to 1e6", true},
+         [](Scenario& s, const TomlValue& v) { s.camera.focus_m = v.keyed(0.01, 1e6); }},
+        {{"camera", "sensor_mm", "24.0",
+          "height of the sensor: with the field of view it gives the lens of f_stop its focal length, 1 to "
+          "1000"},
+         [](Scenario& s, const TomlValue& v) { s.camera.sensor_mm = v.number(1.0, 1000.0); }},
         {{"camera", "white_balance_k", "5000.0",
           "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it is",
           true},

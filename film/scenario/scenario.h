@@ -66,6 +66,9 @@ struct ScenarioCamera {
     KeyedNumber white_balance_k;   ///< not given: as it is
     KeyedNumber bloom;
     KeyedNumber shutter_s;
+    KeyedNumber f_stop;   ///< not given: all is sharp
+    KeyedNumber focus_m;
+    double sensor_mm = 24.0;  ///< height
     double exposure_smoothing_s = 0.25;  ///< of the film: half width of Auto's window
 };
 

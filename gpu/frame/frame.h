@@ -152,8 +152,25 @@ struct FallingFacts {
     float visibility_m = 0.0f;
 };
 
+/// The lens: every sample looks through another point of it, all of them at the same things in focus.
+/// Labels are those of its middle.
+struct Lens {
+    float radius_m = 0.0f;  ///< of the aperture; 0: all is sharp
+    float focus_m = 10.0f;  ///< along the view axis
+};
+
+/// Where camera and scene are when a sample is taken.
+struct ShutterMoment {
+    Camera camera;
+    double animation_s = 0.0;
+    double off_s = 0.0;  ///< from the frame's own moment: what sways in the wind goes on
+};
+
 struct Frame {
     Camera camera;
+    Lens lens;
+    /// Of each sample while the shutter is open; the first is the frame's own moment. Empty: all are.
+    std::vector<ShutterMoment> shutter;
     Sky sky;
     Fog fog;
     Falling falling;

@@ -73,7 +73,10 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     const FrameSettings& s = frame.settings;
     const shared::WeatherMoment& w = frame.weather;
     shared::FrameConstants c{};
-    set_camera(c, frame.camera, s.width, s.height, sample_offset(sample_index, s.seed), scene);
+    const Camera& camera =
+        frame.shutter.empty() ? frame.camera : frame.shutter[sample_index].camera;
+    set_camera(c, camera, s.width, s.height, sample_offset(sample_index, s.seed), scene,
+               lens_offset(sample_index, s.samples, s.seed) * frame.lens.radius_m, frame.lens.focus_m);
     c.time_s = static_cast<float>(s.time_s);
     c.sample_index = sample_index;
     c.sun_direction = sun.direction;

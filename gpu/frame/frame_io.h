@@ -8,6 +8,7 @@
 #include "gpu/frame/place_io.h"
 
 #define SHADOW_CASCADES 3
+#define LAMP_SHADOWS_MOST 16
 #define LIGHT_TILE 16         // pixels a side of a light list
 #define LIGHT_COARSE 8        // light tiles a side of a coarse tile
 #define GLOW_BLOCK 4          // pixels a side for which the glow of lamps is computed once
@@ -91,6 +92,7 @@ struct FrameConstants {
     vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none
     PlaceConstants place;  // of the scene's patches
+    vec4 lamp_offset_m[LAMP_SHADOWS_MOST];  // of the point that a lamp's shadow is seen from
 };
 
 SHARED_END

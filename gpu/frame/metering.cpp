@@ -47,6 +47,8 @@ Frame metering_frame(const Frame& frame)
     s.width = scaled(s.width);
     s.height = scaled(s.height);
     s.samples = 1;
+    small.shutter.clear();
+    small.lens.radius_m = 0.0f;
     s.aovs.clear();
     s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.

@@ -74,10 +74,51 @@ glm::vec2 sample_offset(std::uint32_t index, std::uint32_t seed)
     return {within_pixel(0.7548776662466927 * i), within_pixel(0.5698402909980532 * i)};
 }
 
-void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int height,
-                const glm::vec2& jitter, const Bounds& scene)
+glm::vec2 lens_offset(std::uint32_t index, int count, std::uint32_t seed)
 {
-    const Axes axes = axes_of(camera);
+    if (index == 0) return glm::vec2(0.0f);
+    // A spiral by the golden angle: rings of the same area hold the same number.
+    const float radius = std::sqrt(static_cast<float>(index) / static_cast<float>(std::max(count, 1)));
+    const float turn = 2.39996323f * static_cast<float>(index) + static_cast<float>(seed % 4096u);
+    return radius * glm::vec2(std::cos(turn), std::sin(turn));
+}
+
+glm::vec3 lamp_offset_m(const Light& lamp, std::uint32_t index, int count, std::uint32_t seed)
+{
+    if (index == 0) return glm::vec3(0.0f);
+    const double start = static_cast<double>(seed % 4096u) * 0.618033988749895;
+    const double i = static_cast<double>(index) + start;
+    const auto part = [](double x) { return static_cast<float>(x - std::floor(x)); };
+    // A lattice in three dimensions (Roberts 2018).
+    const glm::vec3 u(part(0.8191725133961645 * i), part(0.6710436067037893 * i),
+                      part(0.5497004779019703 * i));
+    if (lamp.kind == LightKind::Rectangle)
+        return lamp.half_u_m * (2.0f * u.x - 1.0f) + lamp.half_v_m * (2.0f * u.y - 1.0f);
+    if (lamp.kind == LightKind::Spot) {
+        const glm::vec2 disc = lens_offset(index, count, seed) * lamp.radius_m;
+        return lamp.up * disc.x + glm::cross(lamp.direction, lamp.up) * disc.y;
+    }
+    // Within a ball so that it is an even disc from every side: r is the sine of an angle whose sine
+    // squared is its density.
+    float angle = 0.5f * 3.14159265f * std::cbrt(u.x);
+    for (int step = 0; step < 8; ++step) {
+        const float sine = std::sin(angle);
+        const float off = angle - sine * std::cos(angle) - u.x * 0.5f * 3.14159265f;
+        angle = std::clamp(angle - off / std::max(2.0f * sine * sine, 1.0e-3f), 0.0f, 1.5707963f);
+    }
+    const float up = 2.0f * u.y - 1.0f;
+    const float level = std::sqrt(std::max(1.0f - up * up, 0.0f));
+    const float turn = 6.2831853f * u.z;
+    glm::vec3 at = glm::vec3(level * std::cos(turn), up, level * std::sin(turn)) *
+                   (std::sin(angle) * lamp.radius_m);
+    if (lamp.length_m > 0.0f) at += lamp.up * (lamp.length_m * (part(0.618033988749895 * i) - 0.5f));
+    return at;
+}
+
+void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int height,
+                const glm::vec2& jitter, const Bounds& scene, const glm::vec2& lens_m, float focus_m)
+{
+    Axes axes = axes_of(camera);
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
     if (camera.orthographic_height_m > 0.0f) {
@@ -87,6 +128,13 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     const glm::vec2 half = scene::half_extent_m(camera, width, height);
     glm::mat4 projection = scene::clip_projection(camera, width, height, c.far_m);
     projection[1][1] = -projection[1][1];  // rows of a picture go down
+
+    // Another point of the lens sees what is in focus where its middle does.
+    const glm::vec3 aside = axes.right * lens_m.x + axes.up * lens_m.y;
+    axes.position += aside;
+    glm::mat4 refocus(1.0f);
+    refocus[2][0] = -lens_m.x / focus_m;
+    refocus[2][1] = -lens_m.y / focus_m;
 
     glm::mat4 view(1.0f);
     for (int i = 0; i < 3; ++i) {
@@ -101,6 +149,7 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     shift[3][0] = -2.0f * jitter.x / w;
     shift[3][1] = -2.0f * jitter.y / h;
     c.world_to_clip = shift * projection * view;
+    if (lens_m != glm::vec2(0.0f)) c.world_to_clip = shift * projection * refocus * view;
 
     c.camera_m = axes.position;
     c.forward = axes.forward;
@@ -110,6 +159,7 @@ void set_camera(shared::FrameConstants& c, const Camera& camera, int width, int 
     const glm::vec3 corner =
         -axes.right * half.x + axes.up * half.y + c.ray_dx * jitter.x + c.ray_dy * jitter.y;
     c.ray_corner = axes.forward + corner;
+    if (lens_m != glm::vec2(0.0f)) c.ray_corner -= aside / focus_m;
     c.origin_corner = axes.position + corner;
     c.pixel_angle = 2.0f * half.y / h;
     c.size = glm::ivec2(width, height);

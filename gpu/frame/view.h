@@ -10,9 +10,17 @@ namespace petrichor::gpu {
 /// Where sample `index` of `count` lies inside its pixel, -0.5..0.5. Sample 0 is the centre.
 glm::vec2 sample_offset(std::uint32_t index, std::uint32_t seed);
 
+/// Where sample `index` of `count` looks through a lens of radius 1: spread evenly; 0 is its middle.
+glm::vec2 lens_offset(std::uint32_t index, int count, std::uint32_t seed);
+
+/// A point of a lamp's surface, from its middle: as it is seen from afar, evenly over what shows; sample 0
+/// is the middle.
+glm::vec3 lamp_offset_m(const Light& lamp, std::uint32_t index, int count, std::uint32_t seed);
+
 /// Camera part of the constants: matrices and pixel rays, for pixels moved by `jitter`.
 void set_camera(shared::FrameConstants& constants, const Camera& camera, int width, int height,
-                const glm::vec2& jitter, const Bounds& scene);
+                const glm::vec2& jitter, const Bounds& scene, const glm::vec2& lens_m = glm::vec2(0.0f),
+                float focus_m = 1.0f);
 
 /// Ends of the shadow cascades along the view axis, metres.
 glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene);

@@ -113,6 +113,8 @@ public:
     /// Shows of every thing the level of detail that this camera wants. `scale` makes things count as
     /// larger. True when what casts shadows has changed.
     bool choose_levels(const Camera& camera, float scale);
+    /// Something may be elsewhere at another moment.
+    bool moves() const { return rig_ != nullptr || !waving_.empty(); }
     /// Grows whenever something may have moved.
     std::uint64_t poses() const { return poses_; }
 

@@ -81,6 +81,43 @@ TEST(FrameAt, LampsComeOnAtDusk)
     }
 }
 
+// The aperture of 24 mm of sensor behind 45 degrees: a focal length of 29 mm.
+TEST(FrameAt, ALensHasTheApertureOfItsFStop)
+{
+    EXPECT_EQ(frame_at(sequence_of(""), {0}).frame.lens.radius_m, 0.0f);
+    const std::string still = "position_m = [0, 1, 4]\nlook_at_m = [0, 1, 0]\nfov_degrees = 45\n";
+    const auto lens = [&](const std::string& keys) {
+        return frame_at(sequence_of("[camera]\n" + still + keys), {0}).frame.lens;
+    };
+    EXPECT_NEAR(lens("f_stop = 2\n").radius_m, 0.5f * 0.0289706f / 2.0f, 1e-5f);
+    EXPECT_NEAR(lens("f_stop = 2\nsensor_mm = 48\n").radius_m, 0.0289706f / 2.0f, 1e-5f);
+    EXPECT_FLOAT_EQ(lens("f_stop = 2\nfocus_m = 7\n").focus_m, 7.0f);
+    EXPECT_THROW(lens("f_stop = 2\nfocus_m = 0.02\n"), Error);
+}
+
+// A camera that goes 0.5 m in a second of the film, behind a shutter of a tenth of a second.
+TEST(FrameAt, AShutterSeesTheWayOfTheCamera)
+{
+    const std::string path =
+        "[camera]\nshutter_s = 0.1\ninterpolation = \"linear\"\nkeys = [{ time_s = 0, position_m = [0, 1, "
+        "4], look_at_m = [0, 1, 0] }, { time_s = 48, position_m = [24, 1, 4], look_at_m = [24, 1, 0] }]\n"
+        "[output]\nsamples = 16\n";
+    EXPECT_TRUE(frame_at(sequence_of(path), {20}).frame.shutter.empty());
+    const Sequence sequence = sequence_of(path + "[render]\nmotion_blur = true\n");
+    const gpu::Frame frame = frame_at(sequence, {20}).frame;
+    ASSERT_EQ(frame.shutter.size(), 16u);
+    EXPECT_EQ(frame.shutter[0].camera.to_world, frame.camera.to_world);
+    float low = 1e9f, high = -1e9f;
+    for (const gpu::ShutterMoment& moment : frame.shutter) {
+        low = std::min(low, moment.camera.to_world[3].x);
+        high = std::max(high, moment.camera.to_world[3].x);
+    }
+    // So long is a second of the film on the clock of its keys.
+    const double clock = sequence.duration_s * sequence.scenario.output.fps / sequence.scenario.output.frames;
+    EXPECT_NEAR(high - low, 0.1 * 0.5 * clock, 0.15 * 0.1 * 0.5 * clock);
+    EXPECT_NEAR(0.5f * (high + low), frame.camera.to_world[3].x, 0.1 * 0.05 * clock);
+}
+
 TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
 {
     const auto print = [](const std::string& text, int frame) {
@@ -95,6 +132,8 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
          {"[output]\nwidth = 641\n", "[output]\nseed = 2\n", "[output]\nsamples = 9\n",
           "[sun]\nelevation_degrees = 3\n", "[sky]\ncloud_cover = 0.41\n",
           "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n", "[camera]\nnear_m = 0.2\n",
+          "[camera]\nf_stop = 2\n", "[render]\nmotion_blur = true\n",
+          "[render]\nsoft_shadows = true\n",
           "[camera]\nshutter_s = 0.01\n", "[render]\nfalling = false\n",
           "[render]\nfalling_budget = 10\n", "[render]\nfalling_density = 2\n",
           "[render]\nlamp_glow = false\n",

@@ -159,5 +159,41 @@ TEST_F(AnimationTest, ALampOnANodeLightsWhereItIs)
     EXPECT_GT(light(1.9, 81), 4.0f * light(1.9, 14));
 }
 
+// A plate that slides 2 m a second: while the shutter is open it is as much wider as its way, and
+// afterwards it stands where it did.
+TEST_F(AnimationTest, WhatMovesBlursByItsWay)
+{
+    GltfBuilder b;
+    const int mesh = b.mesh(testing_gltf::quad_of(b));
+    b.node({{"mesh", mesh}, {"scale", {0.2, 2, 1}}});
+    b.animate("slide", 0, "translation", {0, 2}, "VEC3", {-2, 0, 0, 2, 0, 0});
+    const Scene scene = settled(b);
+    for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+        Frame frame = frame_of({0, 0, 4}, {0, 0, 0}, path);
+        frame.settings.aovs.clear();
+        frame.settings.samples = 32;
+        frame.settings.draw_sky = false;
+        frame.animation_s = 1.0;
+        const auto width = [&](const RenderResult& r) {
+            int seen = 0;
+            for (int x = 0; x < r.width; ++x) seen += pixel(r, x, r.height / 2).g > 0.0f ? 1 : 0;
+            return static_cast<float>(seen);
+        };
+        renderer->load(scene, {});
+        const RenderResult still = renderer->render(frame);
+        Frame open = frame;
+        for (int i = 0; i < 32; ++i) {
+            const double u = 0.5 + 0.618033988749895 * i;
+            const double off_s = i == 0 ? 0.0 : (u - std::floor(u) - 0.5) * 0.25;
+            open.shutter.push_back({frame.camera, 1.0 + off_s, off_s});
+        }
+        const float blurred = width(renderer->render(open));
+        // 0.5 m, 4 m away.
+        const float way = 0.5f / 4.0f * 32.0f / std::tan(0.4f);
+        EXPECT_NEAR(blurred - width(still), way, 1.6f);
+        EXPECT_EQ(renderer->render(frame).display, still.display);
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

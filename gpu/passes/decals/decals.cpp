@@ -83,6 +83,9 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_PARALLAX, material.parallax},
             {SURFACE_SPEC_SECOND, material.second},
             {SURFACE_SPEC_LOOKS, draw.look != 0},
+            {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
+            {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
+            {SURFACE_SPEC_BESIDES, material.besides},
             {SURFACE_SPEC_PLACE, weather.place},
             {DECAL_SPEC_WEATHER, own_weather},
             {DECAL_SPEC_EMISSION, parts.emission}};

@@ -37,6 +37,7 @@ layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
+layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
 layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
 layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
@@ -223,7 +224,9 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     if (LAMP_SHADOWS != 0u) {
         const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
         const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
-        if (number >= 0.0) visible = lamp_visibility(number, sphere.xyz, p.position, faced, texel);
+        vec3 from = sphere.xyz;
+        if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
+        if (number >= 0.0) visible = lamp_visibility(number, from, p.position, faced, texel);
         if (visible <= 0.0 && !BLEEDS) return vec3(0.0);
     }
     if (WAYS != 0u) {

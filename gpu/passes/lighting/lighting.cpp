@@ -27,6 +27,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_NIGHT, variant.night},
                       {LIGHTING_SPEC_FOG, variant.fog},
                       {LIGHTING_SPEC_LAYERS, variant.layers},
+                      {LIGHTING_SPEC_SOFT_LAMPS, variant.soft_lamps},
                       {LIGHTING_SPEC_SHARES, variant.shares != nullptr},
                       {LIGHTING_SPEC_BACKGROUND, variant.background},
                       {LIGHTING_SPEC_WAYS, variant.ways},

@@ -24,6 +24,7 @@ struct LightingVariant {
     bool gamma = false;
     bool patch_light = false;
     bool lamp_shadows = false;
+    bool soft_lamps = false;  ///< shadows are seen from other points than the lamps' middles
     bool rectangles = false;  ///< some lights are surfaces that glow
     std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen

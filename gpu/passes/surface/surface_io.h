@@ -14,9 +14,9 @@
 #define SURFACE_SPEC_LOOKS 21   // 1: instances may have other values than the material
 #define SURFACE_SPEC_FADE 22    // 1: a level of detail comes or goes
 #define SURFACE_SPEC_OWN 15     // number of a user's own surface; 0: none
-#define SURFACE_SPEC_LAYER_ROLES_A 16  // where its textures of layers are, LAYER_TEXTURES
-#define SURFACE_SPEC_LAYER_ROLES_B 17
-#define SURFACE_SPEC_BESIDES 18  // BESIDES_... of the material
+#define SURFACE_SPEC_LAYER_ROLES_A 30  // where its textures of layers are, LAYER_TEXTURES
+#define SURFACE_SPEC_LAYER_ROLES_B 31
+#define SURFACE_SPEC_BESIDES 32  // BESIDES_... of the material
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 
 // Set 0: the frame. Set 1: the material, as gpu/upload/material_io.h has it.
