@@ -5,14 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "gpu/frame/weather_maps.h"
 #include "scene/snow/snow_caps.h"
 
 namespace petrichor::film {
 
 /// What deep snow takes its shape from: the caps of a scene, fine near where cameras stand over the film.
-/// The scene must still hold its encoded images. Adds a note when they are coarser than they should be.
+/// What has gone through it has pressed it down. The scene must still hold its encoded images. Adds notes:
+/// how many triangles, and whether they are coarser than they should be.
 std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
                                                     const std::vector<glm::vec3>& eyes_m,
+                                                    const gpu::TrackMap& tracks,
                                                     std::vector<std::string>& notes);
 
 }  // namespace petrichor::film

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "base/portable_math.h"
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
-#include "scene/snow/detail/open_edges.h"
+#include "scene/snow/detail/borders.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene {
@@ -22,9 +23,14 @@ using glm::vec3;
 constexpr float kSteepest = 0.4f;     // y of the normals of what holds snow
 constexpr float kCoarse_m = 0.8f;     // how far apart the sky is looked at
 constexpr int kRays = 16;
+constexpr float kHidden = 0.1f;       // of the rays
 constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
+constexpr float kAlong = 5.0f;        // times finer across an edge than along it
+constexpr float kAlong_m = 0.2f;
+constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
+constexpr float kBridge_m = 0.018f;   // caps reach so far into walls and over joints
 constexpr int kSpread = 12;           // edges that a support is told over
 
 bool holds_snow(const Material& m)
@@ -41,10 +47,9 @@ float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
     return nearest;
 }
 
-// From a point to a triangle's nearest place, at most.
+// From a point to the box around a triangle: enough to leave out what is far.
 float triangle_distance_m(const vec3& p, const vec3& a, const vec3& b, const vec3& c)
 {
-    // Its plane within it, else its corners' sphere: enough to leave out what is far.
     const vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
     return glm::distance(p, glm::clamp(p, low, high));
 }
@@ -154,16 +159,74 @@ void look_up(CutMesh& mesh, const Tracer& tracer)
         }
     }
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        Primitive& p = mesh.primitives[i];
         for (std::size_t v = 0; v < mesh.points[i].size(); ++v) {
             const std::uint32_t point = mesh.points[i][v];
-            mesh.primitives[i].weather[v].w = sum[point] / std::max(count[point], 1.0f);
+            p.weather[v].w = sum[point] / std::max(count[point], 1.0f);
         }
+        // What sees none of it, within houses and under eaves, has no cap.
+        std::vector<std::uint32_t> kept;
+        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+            const auto see = [&](std::size_t c) { return p.weather[p.indices[k + c]].w; };
+            if (std::max({see(0), see(1), see(2)}) < kHidden) continue;
+            kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
+        }
+        p.indices = std::move(kept);
     }
 }
 
 float smooth_noise(const vec3& p, float cell_m, std::uint32_t seed)
 {
     return shared::tileable_noise(vec2(p.x, p.z) / cell_m, 1 << 20, seed);
+}
+
+// Of pieces that hang together: narrower than this they hold no cap. By area over border.
+constexpr float kNarrowest_m = 0.03f;
+
+void leave_out_ledges(CutMesh& mesh)
+{
+    std::vector<std::uint32_t> parent(mesh.normals.size());
+    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::vector<double> area(parent.size(), 0.0), border(parent.size(), 0.0);
+    std::unordered_map<std::uint64_t, int> triangles;  // at an edge
+    const auto each = [&](const auto& visit) {
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const Primitive& p = mesh.primitives[i];
+            for (std::size_t k = 0; k < p.indices.size(); ++k) {
+                const std::uint32_t a = p.indices[k], b = p.indices[k % 3 == 2 ? k - 2 : k + 1];
+                const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
+                const auto key = (static_cast<std::uint64_t>(std::min(pa, pb)) << 32) | std::max(pa, pb);
+                visit(p, k, pa, pb, key);
+            }
+        }
+    };
+    each([&](const Primitive&, std::size_t, std::uint32_t a, std::uint32_t b, std::uint64_t key) {
+        parent[root(a)] = root(b);
+        ++triangles[key];
+    });
+    each([&](const Primitive& p, std::size_t k, std::uint32_t a, std::uint32_t, std::uint64_t key) {
+        const std::uint32_t r = root(a);
+        const vec3 at = p.positions[p.indices[k]];
+        const vec3 next = p.positions[p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+        if (triangles[key] == 1) border[r] += static_cast<double>(glm::distance(at, next));
+        if (k % 3 != 0) return;
+        const vec3 last = p.positions[p.indices[k + 2]];
+        area[r] += 0.5 * static_cast<double>(glm::length(glm::cross(next - at, last - at)));
+    });
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        Primitive& p = mesh.primitives[i];
+        std::vector<std::uint32_t> kept;
+        for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
+            const std::uint32_t r = root(mesh.points[i][p.indices[k]]);
+            if (2.0 * area[r] < static_cast<double>(kNarrowest_m) * border[r]) continue;
+            kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
+        }
+        p.indices = std::move(kept);
+    }
 }
 
 // Where nothing is kept of a triangle's depth, it is left out.
@@ -173,7 +236,7 @@ bool lies(const SnowCaps& caps, const std::array<std::uint32_t, 3>& t)
            caps.points[t[2]].share > 0.02f;
 }
 
-void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges,
+void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, const EdgeGrid& closed,
                  const SnowCapOptions& options)
 {
     const std::vector<vec3> normals = point_normals(mesh);
@@ -192,18 +255,34 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges,
             point.edge_m = edge.distance_m;
             point.support_m = edge.distance_m;
             point.out = edge.out;
+            const NearEdge border = closed.nearest(at, normals[number]);
+            if (border.distance_m < 1.0e-3f) point.bridge_m = border.out * kBridge_m;
             // EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
             const float up = std::clamp(normals[number].y, 0.0f, 1.0f);
             const float slope = std::clamp((1.04719755f - std::acos(up)) / 0.52359878f, 0.0f, 1.0f);
             const float ragged = 0.3f * (smooth_noise(at, 0.17f, 91u) - 0.5f);
-            const float open = shared::smooth_edge(0.15f, 0.8f, p.weather[v].w + ragged *
+            const float open = shared::smooth_edge(kHidden, 0.8f, p.weather[v].w + ragged *
                                                    std::min(1.0f, 4.0f * (1.0f - p.weather[v].w)));
             const float far = nearest_eye_m(options, at) / options.reach_m;
-            point.share = open * slope * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
+            const float pressed = options.pressed ? options.pressed(at) : 0.0f;
+            point.share =
+                open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
             point.uneven = 0.78f + 0.3f * smooth_noise(at, 1.7f, 11u) +
                            0.14f * smooth_noise(at, 0.43f, 12u);
         }
     }
+}
+
+// Whether tracks cross an edge.
+bool is_trodden(const SnowCapOptions& options, const vec3& a, const vec3& b)
+{
+    if (!options.pressed) return false;
+    const int steps = std::clamp(static_cast<int>(glm::distance(a, b) / kTrack_m), 2, 24);
+    for (int i = 0; i <= steps; ++i) {
+        const float t = static_cast<float>(i) / static_cast<float>(steps);
+        if (options.pressed(a + (b - a) * t) > 0.02f) return true;
+    }
+    return false;
 }
 
 void find_supports(SnowCaps& caps, const CutMesh& mesh)
@@ -242,16 +321,18 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     coarse.too_long = [&](const vec3& a, const vec3& b) {
         const float length = glm::distance(a, b);
         const float away = std::max(nearest_eye_m(options, 0.5f * (a + b)) - length, 0.0f);
-        return length > scale * std::max(kCoarse_m, away * 0.06f);
+        return length > scale * std::max(kCoarse_m, away * 0.08f);
     };
     CutMesh mesh = subdivide(ground.primitives, coarse);
     for (int i = 0; mesh.limited && i < kTries; ++i) {
         scale *= kCoarser;
         mesh = subdivide(ground.primitives, coarse);
     }
+    leave_out_ledges(mesh);
     look_up(mesh, tracer);
-    const EdgeGrid edges(detail::open_edges(mesh, tracer));
-
+    detail::Borders borders = detail::borders_of(mesh, tracer);
+    const EdgeGrid edges(std::move(borders.open));
+    const EdgeGrid closed(std::move(borders.closed));
     // Fine at the rims, coarse between them.
     caps.finest_m = options.finest_m;
     SubdivideOptions fine;
@@ -264,22 +345,28 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         const float least = std::max(caps.finest_m, away * options.per_metre);
         const float length = glm::distance(a, b);
         if (length <= least) return false;
-        if (length > std::max(options.coarsest_m, 4.0f * least)) return true;
+        if (length > std::max(options.coarsest_m, away * 0.06f)) return true;
+        if (length > std::max(least, kTrack_m) && is_trodden(options, a, b)) return true;
         // Across the edge its ends lie on one surface.
         const vec3 along = b - a;
         const vec3 side = glm::cross(along, vec3(0.0f, 1.0f, 0.0f));
         const vec3 normal = glm::cross(side, along);
         const float size = glm::length(normal);
         if (!(size > 0.0f)) return false;
-        const float edge = edges.nearest(middle, normal / size).distance_m;
-        return length > std::max(least, 0.7f * edge);
+        const NearEdge edge = edges.nearest(middle, normal / size);
+        const float roomy = 0.7f * edge.distance_m;
+        if (length <= std::max(least, roomy)) return false;
+        // A shoulder bends across its edge, and hardly along it.
+        const float across = std::abs(glm::dot(vec2(along.x, along.z), edge.out));
+        const float beside = std::sqrt(std::max(length * length - across * across, 0.0f));
+        return across > std::max(least, roomy) || beside > std::max({kAlong * least, kAlong_m, roomy});
     };
     mesh = subdivide(looked, fine);
     for (int i = 0; mesh.limited && i < kTries; ++i) {
         caps.finest_m *= kCoarser;
         mesh = subdivide(looked, fine);
     }
-    fill_points(caps, mesh, edges, options);
+    fill_points(caps, mesh, edges, closed, options);
     find_supports(caps, mesh);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,10 @@ struct SnowCapOptions {
     std::vector<glm::vec3> eyes_m;  ///< where cameras stand over the film; none: as if near everywhere
     float finest_m = 0.035f;        ///< edges at the rim of a cap, near an eye
     float coarsest_m = 0.6f;
-    float per_metre = 0.004f;       ///< edges are at least so long a metre from the nearest eye
-    float reach_m = 60.0f;          ///< no caps beyond this from the nearest eye
+    float per_metre = 0.006f;       ///< edges are at least so long a metre from the nearest eye
+    float reach_m = 50.0f;          ///< no caps beyond this from the nearest eye
+    /// Share of the depth that is trodden away at a place; none: nowhere.
+    std::function<float(const glm::vec3&)> pressed = {};
     std::size_t most_triangles = 120'000;  ///< more than what faces up has by itself
 };
 
@@ -29,6 +32,7 @@ struct SnowCaps {
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
         float uneven = 1.0f;          ///< times the depth
+        glm::vec2 bridge_m{0.0f};     ///< at a closed border: into the wall, over the joint
     };
     struct Part {
         std::uint32_t material = 0;

@@ -49,6 +49,9 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
         at.y += thickness - sunk;
+        const float bridged = std::min(thickness / 0.03f, 1.0f);
+        at.x += p.bridge_m.x * bridged;
+        at.z += p.bridge_m.y * bridged;
         if (s < 1.0f && deep > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
             const float out = std::min(kOverhang * deep, kMostOverhang_m) * bulge;

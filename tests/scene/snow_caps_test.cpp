@@ -93,7 +93,9 @@ TEST(SnowCaps, EdgesAreOpenWhereTheGroundFallsAway)
     EXPECT_NEAR(point_at(caps, {0, 1, 0}).edge_m, 0.2f, 0.03f) << "its middle";
     EXPECT_NEAR(point_at(caps, {0.1f, 1, 0.1f}).support_m, 0.2f, 0.03f);
     EXPECT_GT(point_at(caps, {0.5f, 0, -2.0f}).edge_m, 1.0f) << "at the foot of the wall";
-    EXPECT_LT(point_at(caps, {-1.0f, 0.12f, 2}).edge_m, 0.01f) << "of the kerb";
+    const auto& kerb = point_at(caps, {-1.0f, 0.12f, 2});
+    EXPECT_NEAR(kerb.edge_m, std::abs(kerb.base_m.x + 1.0f), 1e-3f) << "of the kerb";
+    EXPECT_LT(kerb.edge_m, 0.1f);
     EXPECT_GT(point_at(caps, {-0.97f, 0, 2.2f}).edge_m, 1.0f) << "below the kerb";
     EXPECT_GT(point_at(caps, {1.8f, 0.9f, 0}).edge_m, 0.5f) << "the middle of the table";
 }
@@ -124,6 +126,51 @@ TEST(SnowCaps, HaveNoCracks)
         }
     }
     EXPECT_GT(borders, 20);
+}
+
+// Two slabs 2 cm apart: their borders are closed, and under snow they reach over the joint.
+TEST(SnowCaps, ReachOverJoints)
+{
+    Scene scene = empty_scene();
+    add_box(scene, {-1.01f, -0.5f, -1}, {-0.01f, 0, 1}, false);
+    add_box(scene, {0.01f, -0.5f, -1}, {1.01f, 0, 1}, false);
+    const SnowCaps caps = caps_of(scene);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.1f));
+    float left = -1.0f, right = 1.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (std::abs(p.base_m.y) > 1e-4f || std::abs(p.base_m.z) > 0.5f) continue;
+        (p.base_m.x < 0.0f ? left : right) =
+            p.base_m.x < 0.0f ? std::max(left, shape.positions[i].x)
+                              : std::min(right, shape.positions[i].x);
+        if (std::abs(p.base_m.x) < 0.011f) {
+            EXPECT_GT(shape.thickness_m[i], 0.05f) << "no notch at the joint";
+        }
+    }
+    EXPECT_GE(left, right);
+    EXPECT_LT(point_at(caps, {1.01f, 0, 0}).edge_m, 0.01f) << "the far side is open";
+}
+
+TEST(SnowCaps, TracksPressThemDown)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    SnowCapOptions options;
+    options.pressed = [](const vec3& at) { return std::abs(at.x) < 0.1f ? 0.7f : 0.0f; };
+    const SnowCaps caps = caps_of(scene, options);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.15f));
+    float in = 0.0f, beside = 1.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (std::abs(p.base_m.z) > 1.0f) continue;
+        if (std::abs(p.base_m.x) < 0.09f) in = std::max(in, shape.thickness_m[i]);
+        if (std::abs(p.base_m.x) > 0.11f && std::abs(p.base_m.x) < 0.6f)
+            beside = std::min(beside, shape.thickness_m[i]);
+    }
+    EXPECT_GT(in, 0.02f);
+    EXPECT_LT(in, 0.4f * 0.15f);
+    EXPECT_GT(beside, 0.75f * 0.15f);
+    EXPECT_LT(std::abs(point_at(caps, {0, 0, 0}).base_m.x), 0.06f) << "finer there";
 }
 
 TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)

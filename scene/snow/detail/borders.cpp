@@ -1,4 +1,4 @@
-#include "scene/snow/detail/open_edges.h"
+#include "scene/snow/detail/borders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,14 +38,14 @@ int cell_along(float v)
 
 }  // namespace
 
-std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer)
+Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
 {
-    struct Border {
+    struct Side {
         vec3 from, to, inner;
         int triangles = 0;
     };
     // By points, in order: the same for any machine.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Side> sides;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& p = mesh.primitives[i];
         for (std::size_t k = 0; k < p.indices.size(); ++k) {
@@ -54,13 +54,13 @@ std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer)
             const std::uint32_t b = p.indices[first + (k + 1) % 3];
             const std::uint32_t c = p.indices[first + (k + 2) % 3];
             const std::uint32_t pa = mesh.points[i][a], pb = mesh.points[i][b];
-            Border& border = borders[{std::min(pa, pb), std::max(pa, pb)}];
+            Side& border = sides[{std::min(pa, pb), std::max(pa, pb)}];
             if (border.triangles++ == 0)
                 border = {p.positions[a], p.positions[b], p.positions[c], 1};
         }
     }
-    std::vector<OpenEdge> edges;
-    for (const auto& [key, border] : borders) {
+    Borders borders;
+    for (const auto& [key, border] : sides) {
         if (border.triangles != 1) continue;
         const vec3 along = border.to - border.from;
         vec2 out(along.z, -along.x);
@@ -75,16 +75,17 @@ std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer)
                 return border.from + along * (t / static_cast<float>(pieces));
             };
             const auto f = static_cast<float>(k);
-            if (!goes_on(tracer, at(f + 0.5f), out)) edges.push_back({at(f), at(f + 1.0f), out});
+            auto& list = goes_on(tracer, at(f + 0.5f), out) ? borders.closed : borders.open;
+            list.push_back({at(f), at(f + 1.0f), out});
         }
     }
-    return edges;
+    return borders;
 }
 
-EdgeGrid::EdgeGrid(std::vector<OpenEdge> edges) : edges_(std::move(edges))
+EdgeGrid::EdgeGrid(std::vector<Border> edges) : edges_(std::move(edges))
 {
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-        const OpenEdge& e = edges_[i];
+        const Border& e = edges_[i];
         const vec3 low = glm::min(e.from, e.to) - kReach_m;
         const vec3 high = glm::max(e.from, e.to) + kReach_m;
         for (int z = cell_along(low.z); z <= cell_along(high.z); ++z) {
@@ -100,7 +101,7 @@ NearEdge EdgeGrid::nearest(const vec3& place, const vec3& normal) const
     const auto cell = cells_.find(cell_of(cell_along(place.x), cell_along(place.z)));
     if (cell == cells_.end()) return best;
     for (const std::uint32_t i : cell->second) {
-        const OpenEdge& e = edges_[i];
+        const Border& e = edges_[i];
         const vec3 along = e.to - e.from;
         const float t = std::clamp(
             glm::dot(place - e.from, along) / std::max(glm::dot(along, along), 1.0e-12f), 0.0f, 1.0f);

@@ -1,5 +1,5 @@
-#ifndef PETRICHOR_SCENE_SNOW_DETAIL_OPEN_EDGES_H
-#define PETRICHOR_SCENE_SNOW_DETAIL_OPEN_EDGES_H
+#ifndef PETRICHOR_SCENE_SNOW_DETAIL_BORDERS_H
+#define PETRICHOR_SCENE_SNOW_DETAIL_BORDERS_H
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -11,31 +11,35 @@
 
 namespace petrichor::scene::detail {
 
-/// A piece of an edge beyond which the ground falls away.
-struct OpenEdge {
+/// A piece of a border.
+struct Border {
     glm::vec3 from{0.0f};
     glm::vec3 to{0.0f};
     glm::vec2 out{0.0f};  ///< unit, world x and z
 };
 
-/// Of all borders of the mesh, in pieces of at most 0.25 m.
-std::vector<OpenEdge> open_edges(const CutMesh& mesh, const Tracer& tracer);
+/// All borders of a mesh, in pieces of at most 0.25 m: open where the ground falls away beyond them, closed
+/// where a wall rises or ground goes on after a joint.
+struct Borders {
+    std::vector<Border> open, closed;
+};
+Borders borders_of(const CutMesh& mesh, const Tracer& tracer);
 
 struct NearEdge {
     float distance_m = 1.0e9f;
     glm::vec2 out{0.0f};
 };
 
-/// Finds the nearest open edge that lies on the same surface.
+/// Finds the nearest border that lies on the same surface.
 class EdgeGrid {
 public:
     static constexpr float kReach_m = 0.6f;
-    explicit EdgeGrid(std::vector<OpenEdge> edges);
+    explicit EdgeGrid(std::vector<Border> edges);
     /// normal: of the surface at the place, unit.
     NearEdge nearest(const glm::vec3& place, const glm::vec3& normal) const;
 
 private:
-    std::vector<OpenEdge> edges_;
+    std::vector<Border> edges_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
