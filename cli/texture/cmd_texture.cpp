@@ -19,6 +19,7 @@ void add_texture(CLI::App& app)
     add_texture_prefilter(*texture);
     add_texture_pack(*texture);
     add_texture_convert(*texture);
+    add_texture_workflow(*texture);
     add_texture_score(*texture);
     add_texture_maps(*texture);
     add_texture_compare(*texture);

@@ -16,6 +16,7 @@ void add_texture_prefilter(CLI::App& texture);
 void add_texture_pack(CLI::App& texture);
 void add_texture_convert(CLI::App& texture);
 void add_texture_score(CLI::App& texture);
+void add_texture_workflow(CLI::App& texture);
 void add_texture_maps(CLI::App& texture);  // mips, normal, bake, unpack
 
 }  // namespace petrichor::cli

@@ -61,6 +61,7 @@ void report(const BuildResult& result, double seconds)
     std::printf("%d built (%d files), %d up to date, %zu failed, %.2f s\n", result.built,
                 result.files, result.current, result.failures.size(), seconds);
     std::fflush(stdout);
+    for (const std::string& note : result.notes) std::cout << "note: " << note << "\n";
     for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
 }
 
@@ -141,7 +142,9 @@ void run(Arguments& a)
             throw Error("texture build: a scene (" + input + ") is built alone, once",
                         "Leave --watch and the other inputs out.");
         }
-        build_scene({input, a.out, a.choice, a.fallback, a.options.dry_run, a.options.threads});
+        const bool made = build_scene(
+            {input, a.out, a.choice, a.fallback, a.options.dry_run, a.options.threads});
+        if (!made) throw ExitCode{kExitUser};
         return;
     }
     if (a.fallback) {
@@ -183,9 +186,14 @@ constexpr const char* kFooter =
     "A scene (.glb, .gltf): every material's textures are prefiltered with the normals that belong to\n"
     "them and written as KTX2 with all levels (UASTC, KHR_texture_basisu); the rest stays byte for\n"
     "byte. Images that two materials use with different normals become two.\n"
+    "With --engine its maps go into a folder as that engine takes them, and the scene stays.\n"
+    "\n"
+    "Maps of different sizes are brought to the largest of those that meet in a file. Tiles of a\n"
+    "UDIM set (X_albedo.1001.png; <UDIM> in a recipe) stay tiles: X_normal.1001.dds, edges clamped.\n"
     "\n"
     "Examples:\n"
     "  petrichor texture build scene.glb -o better.glb\n"
+    "  petrichor texture build scene.glb --engine unreal -o Textures\n"
     "  petrichor texture build textures/ --engine unity-hdrp -o Assets/Textures\n"
     "  petrichor texture build wall.toml -o out --watch\n"
     "\n"
@@ -207,6 +215,8 @@ constexpr const char* kFooter =
     "  channels = [\"porosity\", \"1 - roughness\"]\n"
     "  format = \"ktx2\"                  # png, tga, tif, exr, dds, ktx2\n"
     "  compression = \"bc5\"              # bc1, bc3, bc4, bc5, bc7, uastc (ktx2)\n"
+    "  order = \"bgra\"                   # dds without compression: as Unreal reads it\n"
+    "  import = \"unity\"                 # settings beside it: unity (.meta), godot (.import)\n"
     "  size = 1024";
 
 }  // namespace
@@ -227,6 +237,9 @@ void add_texture_build(CLI::App& texture)
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
     app->add_option("--size", a->choice.size, "longest side at most this")
         ->check(CLI::Range(1, 65536));
+    app->add_option("--wrap", a->choice.wrap,
+                    "past the edges of the maps: wrap, clamp, mirror; default: as the recipe says")
+        ->check(CLI::IsMember({"wrap", "clamp", "mirror"}));
     app->add_option("--normal-green", a->choice.normal_green,
                     "which way green points in the normal maps, whatever names and maps say")
         ->check(CLI::IsMember({"up", "down"}));

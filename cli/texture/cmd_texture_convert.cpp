@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -12,6 +14,8 @@
 #include "cli/texture/maps/files.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/mips.h"
+#include "texproc/filter/normal.h"
+#include "texproc/filter/resample.h"
 #include "texproc/material/normal_channels.h"
 
 namespace petrichor::cli {
@@ -25,11 +29,15 @@ struct Arguments {
     std::string wrap = "wrap";
     bool srgb = false, linear = false, mips = false, normals = false, dither = false;
     bool alpha_data = false;
+    std::string size;
+    double scale = 0.0;
     int bits = 0, jpeg_quality = 95, zstd = 0, threads = 0;
     std::string quality = "normal";
     std::string filter = "box";
     texproc::ReadOptions reading;
 };
+
+constexpr int kMostTexels = 65536;  // along a side
 
 const std::map<std::string, texproc::BlockQuality> kQualities{
     {"fast", texproc::BlockQuality::Fast},
@@ -80,6 +88,9 @@ void check(const Arguments& a)
         throw Error("texture convert: '" + extension + "' does not hold mip levels",
                     "Write .dds, .ktx2 or .exr; or: petrichor texture mips IN -o 'out_%d.png'.");
     }
+    if (!a.size.empty() && a.scale > 0.0) {
+        throw Error("texture convert: --size and --scale exclude each other", "Give one of them.");
+    }
     if (a.zstd && extension != ".ktx2") {
         throw Error("texture convert: --zstd is for .ktx2, not '" + extension + "'",
                     "Leave it out.");
@@ -116,10 +127,57 @@ std::vector<Image> levels_of(const Arguments& a, const texproc::RawImage& raw)
                                       .threads = a.threads});
 }
 
+struct Extent {
+    int width, height;
+};
+
+// "512" (the longer side), "512x256".
+Extent extent_of(const std::string& text, const texproc::RawImage& raw)
+{
+    int width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 &&
+        height > 0 && width <= kMostTexels && height <= kMostTexels)
+        return {width, height};
+    if (std::sscanf(text.c_str(), "%d%c", &width, &rest) != 1 || width < 1 || width > kMostTexels) {
+        throw Error("texture convert: --size takes W or WxH, 1 to " + std::to_string(kMostTexels) +
+                        ", not '" + text + "'",
+                    "Write --size 1024 (the longer side), or --size 1024x512.");
+    }
+    const double scale = static_cast<double>(width) / std::max(raw.width, raw.height);
+    return {std::max(1, static_cast<int>(std::lround(raw.width * scale))),
+            std::max(1, static_cast<int>(std::lround(raw.height * scale)))};
+}
+
+Extent scaled(const texproc::RawImage& raw, double scale)
+{
+    const auto side = [&](int size) {
+        return std::clamp(static_cast<int>(std::lround(size * scale)), 1, kMostTexels);
+    };
+    return {side(raw.width), side(raw.height)};
+}
+
+// Means over exact areas where a side shrinks, bilinear where it grows; colour in linear light.
+texproc::RawImage in_size(const Arguments& a, const texproc::RawImage& raw)
+{
+    const Extent to = a.size.empty() ? scaled(raw, a.scale) : extent_of(a.size, raw);
+    if (static_cast<long long>(to.width) * to.height > a.reading.max_pixels) {
+        throw Error("texture convert: " + std::to_string(to.width) + " x " +
+                        std::to_string(to.height) + " is more than --max-pixels " +
+                        std::to_string(a.reading.max_pixels),
+                    "Ask for less, or raise --max-pixels.");
+    }
+    Image image = texproc::to_image(raw, a.srgb ? ColorSpace::Linear : ColorSpace::Data);
+    image = texproc::resized(image, to.width, to.height, a.threads);
+    if (a.normals && image.channels == 3) texproc::renormalize(image);
+    return texproc::to_raw(image, raw.type);
+}
+
 void run(const Arguments& a)
 {
     check(a);
     texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
+    if (!a.size.empty() || a.scale > 0.0) raw = in_size(a, raw);
     if (a.normals && raw.channels == 3 && texproc::drops_z(a.format))
         raw = texproc::unit_normals(raw, raw.type);
     const std::string extension = extension_of(a.out);
@@ -174,6 +232,10 @@ void add_texture_convert(CLI::App& texture)
     app->add_option("--filter", a->filter, "of the levels")
         ->check(CLI::IsMember({"box", "kaiser", "lanczos3", "mitchell"}))
         ->capture_default_str();
+    app->add_option("--size", a->size,
+                    "W (the longer side) or WxH: another size before anything else");
+    app->add_option("--scale", a->scale, "the same by a factor: 0.5 halves the sides")
+        ->check(CLI::Range(1e-4, 64.0));
     app->add_option("--wrap", a->wrap, "past the edges: wrap, clamp, mirror")
         ->check(CLI::IsMember({"wrap", "clamp", "mirror"}))
         ->capture_default_str();
@@ -198,6 +260,7 @@ void add_texture_convert(CLI::App& texture)
         "  petrichor texture convert wall_normal.png -o wall_n.ktx2 --format bc5 --mips --normals "
         "--zstd 18\n"
         "  petrichor texture convert height.exr -o height.png --bits 16\n"
+        "  petrichor texture convert wall_color.png -o small.png --srgb --size 512\n"
         "  petrichor texture convert height.exr -o height_tx.exr --mips");
     app->callback([a] { run(*a); });
 }

@@ -1,6 +1,7 @@
 // petrichor texture mips, normal, bake, unpack: one map in, other maps out.
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -13,6 +14,7 @@
 #include "cli/texture/maps/pack_file.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/bake.h"
+#include "texproc/filter/fitted_depth.h"
 #include "texproc/filter/mips.h"
 #include "texproc/filter/normal.h"
 #include "texproc/material/normal_channels.h"
@@ -165,7 +167,9 @@ void run_normal(const NormalArguments& a)
 }
 
 struct BakeArguments {
-    std::string height, roughness, metallic, out;
+    std::string height, normal, occlusion, roughness, metallic, out;
+    double width_m = 0.0;
+    bool depth_given = false;
     int bits = 8, size = 256;
     std::uint32_t seed = 1;
     EdgeNames edges;
@@ -182,6 +186,30 @@ std::string hypsometry(const texproc::Hollows& h)
     return text + "]}";
 }
 
+// The depth that the normals of the surface imply, green up or down as the heights tell, said; where
+// they tell of another surface, the default stays, and that is said.
+void fit_depth(BakeArguments& a, const Image& height, Image normal)
+{
+    constexpr float kLeastAgreement = 0.3f;
+    if (a.depth_given) {
+        throw Error("texture bake: --depth and --normal both say how deep it is",
+                    "Give one of them.");
+    }
+    check_same_size(a.height, height, a.normal, normal);
+    const bool down = texproc::detect_green(normal, height).down;
+    if (down) texproc::flip_green(normal);
+    const texproc::FittedDepth fitted =
+        texproc::fitted_depth(height, normal, a.options.edge_u, a.options.edge_v);
+    const bool good = fitted.agreement >= kLeastAgreement && fitted.depth > 0.0f;
+    if (good) a.options.depth = fitted.depth;
+    std::printf("depth %.4f of the width", static_cast<double>(a.options.depth));
+    if (a.width_m > 0.0)
+        std::printf(", %.4f m", static_cast<double>(a.options.depth) * a.width_m);
+    std::printf(good ? ", fitted (heights and normals agree by %.2f%s)\n"
+                     : ", not fitted: heights and normals agree by %.2f only%s\n",
+                static_cast<double>(fitted.agreement), down ? ", green down" : "");
+}
+
 void run_bake(BakeArguments& a)
 {
     a.options.edge_u = kEdges.at(a.edges.u);
@@ -192,6 +220,10 @@ void run_bake(BakeArguments& a)
         return a.out.substr(0, at) + what + a.out.substr(a.out.find('d', at) + 1);
     };
     const texproc::WriteOptions writing{.bits = a.bits};
+    if (a.height.empty() && !(a.normal.empty() && a.occlusion.empty())) {
+        throw Error("texture bake: --normal and --occlusion go with --height",
+                    "Name the height map.");
+    }
     if (a.height.empty()) {
         texproc::write_image(name("ripple"), texproc::ripple_drops(a.size, a.seed), writing);
         texproc::write_image(name("snow_mask"), texproc::snow_mask(a.size, a.seed), writing);
@@ -205,7 +237,15 @@ void run_bake(BakeArguments& a)
     const Image metallic = a.metallic.empty() ? Image() : read_numbers(a.metallic);
     if (!roughness.empty() && !metallic.empty())
         check_same_size(a.roughness, roughness, a.metallic, metallic);
-    texproc::write_image(name("occlusion"), texproc::ambient_occlusion(height, a.options), writing);
+    const Image truth = a.occlusion.empty() ? Image() : read_numbers(a.occlusion);
+    if (!truth.empty()) check_same_size(a.height, height, a.occlusion, truth);
+    if (!a.normal.empty()) fit_depth(a, height, read_numbers(a.normal));
+    const Image occlusion = texproc::ambient_occlusion(height, a.options);
+    if (!truth.empty()) {
+        std::printf("occlusion correlates %.3f with %s\n", texproc::correlation(occlusion, truth),
+                    a.occlusion.c_str());
+    }
+    texproc::write_image(name("occlusion"), occlusion, writing);
     texproc::write_image(name("cavity"), texproc::cavity(height, a.options), writing);
     texproc::write_image(name("curvature"), texproc::curvature(height, a.options), writing);
     texproc::write_image(name("flow"), texproc::flow_direction(height, a.options), writing);
@@ -310,12 +350,19 @@ void add_texture_maps(CLI::App& texture)
             "bake", "occlusion, cavity, curvature, puddles, cracks, flow from a height map");
         app->add_option("--height", a->height,
                         "height map, white is high; without it: ripple, snow mask, snow bump");
+        app->add_option("--normal", a->normal,
+                        "normals of the same surface: the depth is fitted to them");
+        app->add_option("--width-m", a->width_m, "width in metres: the fitted depth is told so too")
+            ->check(CLI::PositiveNumber);
+        app->add_option("--occlusion", a->occlusion,
+                        "one that is known: says how the baked one correlates with it");
         app->add_option("--roughness", a->roughness, "also makes a porosity map");
         app->add_option("--metallic", a->metallic, "metals are not porous");
         app->add_option("-o,--out", a->out, "'wall_%d.png': %d becomes the name of the map")
             ->required();
-        app->add_option("--depth", a->options.depth, "height 1 in units of the width")
-            ->capture_default_str();
+        CLI::Option* depth =
+            app->add_option("--depth", a->options.depth, "height 1 in units of the width")
+                ->capture_default_str();
         app->add_option("--reach", a->options.reach, "how far it looks, in units of the width")
             ->capture_default_str();
         add_edges(*app, a->edges, "");
@@ -324,8 +371,15 @@ void add_texture_maps(CLI::App& texture)
             ->capture_default_str();
         app->add_option("--size", a->size, "of the weather textures")->capture_default_str();
         app->add_option("--seed", a->seed, "of the weather textures")->capture_default_str();
-        app->footer("Example:\n  petrichor texture bake --height wall_h.png -o 'wall_%d.png'");
-        app->callback([a] { run_bake(*a); });
+        app->footer(
+            "Examples:\n"
+            "  petrichor texture bake --height wall_h.png -o 'wall_%d.png'\n"
+            "  petrichor texture bake --height wall_h.png --normal wall_n.png --width-m 2 -o "
+            "'wall_%d.png'");
+        app->callback([a, depth] {
+            a->depth_given = depth->count() > 0;
+            run_bake(*a);
+        });
     }
     {
         auto a = std::make_shared<UnpackArguments>();

@@ -64,6 +64,54 @@ TEST_F(Convert, LevelZeroKeepsItsCodes)
     EXPECT_EQ(texproc::read_raw(place / "deep.png").type, texproc::PixelType::U16);
 }
 
+// Half the size is the mean of four; colour is averaged as light, normals keep their length.
+TEST_F(Convert, ResamplesToASizeOrByAFactor)
+{
+    Image checker(8, 4, 3, ColorSpace::Data);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            for (int c = 0; c < 3; ++c) checker.at(x, y, c) = (x + y) % 2 != 0 ? 1.0f : 0.0f;
+        }
+    }
+    texproc::write_image(place / "checker.png", checker);
+    const auto texel = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"checker.png", "-o", "out.png"});
+        EXPECT_EQ(convert(arguments).exit_code, 0);
+        const texproc::RawImage made = texproc::read_raw(place / "out.png");
+        EXPECT_EQ(made.width, 4);
+        EXPECT_EQ(made.height, 2);
+        return static_cast<int>(made.bytes[0]);
+    };
+    EXPECT_EQ(texel({"--size", "4"}), 128);
+    EXPECT_EQ(texel({"--scale", "0.5"}), 128);
+    EXPECT_EQ(texel({"--size", "4x2", "--srgb"}), 188);
+}
+
+// Diffuse and specular of a metal: base colour from the specular, no gloss left over.
+TEST_F(Convert, SpecularMapsBecomeMetallicOnes)
+{
+    const auto put = [&](const char* name, int channels, float v) {
+        texproc::write_image(place / name, Image(2, 2, channels, ColorSpace::Data, v));
+    };
+    put("diffuse.png", 3, 0.0f);
+    put("specular.png", 3, 0.8f);
+    put("gloss.png", 1, 0.25f);
+    const Outcome made = run({"texture", "workflow", "--to", "metallic", "--color", "diffuse.png",
+                              "--specular", "specular.png", "--gloss", "gloss.png", "-o", "m"},
+                             place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto code = [&](const char* name) {
+        return static_cast<int>(texproc::read_raw(place / name).bytes[0]);
+    };
+    EXPECT_EQ(code("m_metallic.png"), 255);
+    EXPECT_NEAR(code("m_albedo.png"), 204, 1);
+    EXPECT_EQ(code("m_roughness.png"), 191);
+    EXPECT_EQ(run({"texture", "workflow", "--to", "metallic", "--color", "diffuse.png", "-o", "m"},
+                  place)
+                  .exit_code,
+              2);
+}
+
 struct Mistake {
     std::vector<std::string> arguments;
     const char* said;
@@ -77,6 +125,8 @@ TEST_F(Convert, MistakesExitWithTwoAndSayWhat)
         {{"in.png", "-o", "a.png", "--format", "bc7"}, "--format is for"},
         {{"in.png", "-o", "a.dds", "--zstd", "3"}, "--zstd is for .ktx2"},
         {{"in.png", "-o", "a.dds", "--format", "bc5", "--srgb"}, "no sRGB bc5"},
+        {{"in.png", "-o", "a.dds", "--size", "0x4"}, "--size takes"},
+        {{"in.png", "-o", "a.dds", "--size", "4", "--scale", "2"}, "exclude each other"},
         {{"in.png", "-o", "a.xyz"}, "'.xyz'"},
         {{"none.png", "-o", "a.dds"}, "no such file"},
         {{"in.png", "-o", "a.dds", "--srgb", "--linear"}, "exclude each other"},

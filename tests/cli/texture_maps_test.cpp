@@ -387,5 +387,42 @@ TEST(TextureTools, BenchTimesOursBesideWhatIsInstalled)
     EXPECT_THAT(lone.err, HasSubstr("belong together"));
 }
 
+// Normals say how deep a height map is, whichever way their green points.
+TEST(TextureBake, TakesItsDepthFromTheNormals)
+{
+    const Workplace place("bake_depth");
+    Image height(64, 64, 1, ColorSpace::Data);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            height.at(x, y, 0) =
+                0.5f + 0.4f * static_cast<float>(((x * y) % 16 < 8 ? 1 : -1) * (y % 32) / 32.0);
+        }
+    }
+    texproc::write_image(place / "h.png", height, {.bits = 16});
+    EXPECT_EQ(run({"texture", "normal", "h.png", "--from-height", "--depth", "0.02", "--bits", "16",
+                   "-o", "up.png"},
+                  place)
+                  .exit_code,
+              0);
+    EXPECT_EQ(run({"texture", "normal", "up.png", "--flip-green", "--bits", "16", "-o", "down.png"},
+                  place)
+                  .exit_code,
+              0);
+    for (const char* normal : {"up.png", "down.png"}) {
+        const Outcome made = run({"texture", "bake", "--height", "h.png", "--normal", normal,
+                                  "--width-m", "2", "-o", "b_%d.png"},
+                                 place);
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        EXPECT_THAT(made.out, testing::HasSubstr("depth 0.0")) << normal;
+        EXPECT_THAT(made.out, testing::HasSubstr(", fitted")) << normal;
+        EXPECT_EQ(made.out.find("green down") != std::string::npos,
+                  std::string(normal) == "down.png");
+    }
+    const Outcome both = run({"texture", "bake", "--height", "h.png", "--normal", "up.png",
+                              "--depth", "0.1", "-o", "b_%d.png"},
+                             place);
+    EXPECT_EQ(both.exit_code, 2);
+}
+
 }  // namespace
 }  // namespace petrichor::cli

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "texproc/filter/fitted_depth.h"
+#include "texproc/filter/normal.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -35,6 +37,33 @@ TEST(Bake, AFlatMapSeesTheWholeSkyAndHoldsNoWater)
     EXPECT_EQ(h.covered[0], 0.0f);
     const Image flow = flow_direction(flat(0.3f));
     for (std::size_t i = 2; i < flow.pixels.size(); i += 3) EXPECT_EQ(flow.pixels[i], 0.0f);
+}
+
+// A surface whose depth is known; noise of two codes of 8 bits, which is most of its slopes, moves
+// the fit little. A height map of something else says so.
+TEST(Bake, DepthIsFittedToTheNormals)
+{
+    Image height(64, 64, 1, ColorSpace::Data), noisy = height, other = height;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const float u = 6.2831853f * static_cast<float>(x) / 64.0f;
+            const float v = 6.2831853f * static_cast<float>(y) / 64.0f;
+            height.at(x, y, 0) = 0.5f + 0.25f * std::sin(2.0f * u) + 0.2f * std::cos(u + 3.0f * v);
+            noisy.at(x, y, 0) =
+                height.at(x, y, 0) + static_cast<float>((x * 7 + y * 13) % 5 - 2) / 255.0f;
+            other.at(x, y, 0) = 0.5f + 0.4f * std::cos(5.0f * u - 4.0f * v);
+        }
+    }
+    for (const float depth : {0.0046f, 0.062f}) {
+        const Image normal = normal_from_height(height, {.depth = depth});
+        EXPECT_NEAR(fitted_depth(height, normal).depth, depth, 0.01f * depth);
+        EXPECT_GT(fitted_depth(height, normal).agreement, 0.999f);
+        EXPECT_NEAR(fitted_depth(noisy, normal).depth, depth, 0.02f * depth);
+        EXPECT_LT(std::abs(fitted_depth(other, normal).agreement), 0.05f);
+    }
+    EXPECT_NEAR(correlation(height, noisy), 1.0, 0.01);
+    EXPECT_EQ(correlation(height, Image(64, 64, 1, ColorSpace::Data, 0.5f)), 0.0);
+    EXPECT_THROW(correlation(height, flat(0.5f)), Error);
 }
 
 TEST(Bake, APitIsDarkHollowAndFull)

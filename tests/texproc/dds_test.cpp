@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "tests/support/assets.h"
 #include "tests/texproc/textures.h"
 
@@ -15,9 +16,7 @@ namespace {
 
 std::vector<std::byte> whole_file(const MipTexture& texture)
 {
-    std::vector<std::byte> file = detail::dds_header(texture, texture.levels.size());
-    for (const auto& level : texture.levels) file.insert(file.end(), level.begin(), level.end());
-    return file;
+    return texture_bytes(texture, "dds");
 }
 
 class Dds : public TextureFiles {};
@@ -25,7 +24,7 @@ class Dds : public TextureFiles {};
 TEST_F(Dds, KeepsEveryFormatBitForBit)
 {
     for (const std::string& name : texture_format_names()) {
-        const bool srgb = name == "rgba8" || name == "bc1" || name == "bc3" || name == "bc7";
+        const bool srgb = name == "rgba8" || name == "bgra8" || name == "bc1" || name == "bc3" || name == "bc7";
         for (int label = 0; label <= (srgb ? 1 : 0); ++label) {
             const MipTexture texture = make_texture(small_chain(21, 10, 4, PixelType::U8),
                                                     {.format = name, .srgb = label == 1});
@@ -43,6 +42,30 @@ TEST_F(Dds, KeepsEveryFormatBitForBit)
             EXPECT_EQ(back.format.type, texture.format.type) << name;
         }
     }
+}
+
+// What Unreal's importers know: DXGI's B8G8R8A8, never the masks of the first version.
+TEST_F(Dds, BlueFirstHasTheExtendedHeader)
+{
+    Image red(4, 4, 4, ColorSpace::Data, 0.0f);
+    for (std::size_t i = 0; i < red.pixels.size(); i += 4) red.pixels[i] = red.pixels[i + 3] = 1.0f;
+    for (const bool srgb : {false, true}) {
+        write_mip_chain(folder / "b.dds", std::vector<RawImage>{to_raw(red, PixelType::U8)},
+                        {.format = "bgra8", .srgb = srgb});
+        const std::string bytes = petrichor::read_file(folder / "b.dds", "dds", 1 << 20);
+        std::uint32_t dxgi = 0;
+        std::memcpy(&dxgi, &bytes[128], 4);
+        EXPECT_EQ(bytes.substr(84, 4), "DX10");
+        EXPECT_EQ(dxgi, srgb ? 91u : 87u);
+        EXPECT_EQ(bytes.substr(148, 4), std::string("\0\0\xff\xff", 4));
+        const MipTexture back = read_texture(folder / "b.dds");
+        EXPECT_EQ(back.srgb, srgb);
+        EXPECT_EQ(static_cast<int>(back.levels[0][0]), 255) << "read with red first";
+    }
+    EXPECT_THROW(write_mip_chain(folder / "b.ktx2",
+                                 std::vector<RawImage>{to_raw(red, PixelType::U8)},
+                                 {.format = "bgra8"}),
+                 Error);
 }
 
 TEST_F(Dds, GoesThroughTheOneReader)

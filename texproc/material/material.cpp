@@ -8,6 +8,7 @@
 #include "texproc/filter/area.h"
 #include "texproc/filter/mips.h"
 #include "texproc/material/base_share.h"
+#include "texproc/material/import_settings.h"
 #include "texproc/material/normal_channels.h"
 #include "texproc/material/prefiltered_maps.h"
 #include "texproc/material/write_levels.h"
@@ -89,7 +90,7 @@ public:
 
     MadeMaterial make()
     {
-        MadeMaterial made{maps_.sources, {}, maps_.green, {}, {}};
+        MadeMaterial made{maps_.sources, {}, maps_.green, {}, {}, maps_.notes};
         made.outputs.resize(plan_.outputs.size());
         for (const std::size_t number : prefiltered_.order()) {
             prefiltered_.aim(number, made.outputs, folder_);
@@ -104,7 +105,6 @@ public:
 
 private:
     MadeOutput make_output(std::size_t number) const;
-    void check_sizes(const PlannedOutput& output) const;
     std::vector<RawImage> levels(std::size_t number, const std::string& role, std::size_t first,
                                  std::size_t last) const;
     std::vector<Image> levels_without_prefilter(const std::string& role, ColorSpace space) const;
@@ -120,7 +120,6 @@ private:
 MadeOutput Maker::make_output(std::size_t number) const
 {
     const PlannedOutput& output = plan_.outputs[number];
-    check_sizes(output);
     const RawImage& like = maps_.images.at(output.roles.front());
     const std::vector<LevelSize> sizes = level_sizes(like.width, like.height);
     const std::size_t first = first_level(sizes, output.rule.size);
@@ -143,22 +142,8 @@ MadeOutput Maker::make_output(std::size_t number) const
     made.levels = static_cast<int>(packed.size());
     made.files = write_levels(folder_, output.stem, output.rule, std::move(packed),
                               prefiltered_.texel_weights(number, first), threads_);
+    made.settings = write_import_settings(folder_, output, made.files, plan_.recipe->mips);
     return made;
-}
-
-// Throws Error that names two files of different sizes among the maps of an output.
-void Maker::check_sizes(const PlannedOutput& output) const
-{
-    const std::string& first = output.roles.front();
-    for (const std::string& role : output.roles) {
-        const RawImage &a = maps_.images.at(first), &b = maps_.images.at(role);
-        if (a.width == b.width && a.height == b.height) continue;
-        throw Error("texture build: " + output.file() + " needs maps of one size: " +
-                        file_of(plan_, first) + " is " + std::to_string(a.width) + " x " +
-                        std::to_string(a.height) + ", " + file_of(plan_, role) + " is " +
-                        std::to_string(b.width) + " x " + std::to_string(b.height),
-                    "Resample one of them.");
-    }
 }
 
 // Levels `first` to `last` of one role in the numbers of the file.

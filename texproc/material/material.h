@@ -16,6 +16,7 @@ namespace petrichor::texproc {
 struct MadeOutput {
     std::vector<std::string> files;  ///< relative to the folder; one, or one a level
     int width = 0, height = 0, levels = 0;
+    std::vector<std::string> settings{};  ///< files for the importer of an engine, beside those
 };
 /// How far lit floors (reference_pictures()) with the files that were made are from the truth, mean
 /// over the cases, and with plain mips.
@@ -28,6 +29,7 @@ struct MadeMaterial {
     std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
     std::optional<Score> lobe_error;
     std::optional<PictureError> picture_error;
+    std::vector<std::string> notes{};  ///< what was done to the maps and is worth saying
 };
 
 /// Makes all outputs of a material below `folder` (which it creates). Same bytes at any thread

@@ -377,9 +377,21 @@ std::pair<const Phrase*, std::size_t> best_phrase(const std::vector<Word>& words
     return {best, best_at};
 }
 
-}  // namespace
 
-NamedMaps maps_named(const std::string& stem)
+// The number of a UDIM tile at the end of a stem, "wall_albedo.1001" or "wall_albedo_1001" (behind
+// an underscore 1024 is a size), and the stem without it.
+std::pair<std::string, std::string> without_tile(const std::string& stem)
+{
+    if (stem.size() < 6) return {"", stem};
+    const std::string tile = stem.substr(stem.size() - 4);
+    const char before = stem[stem.size() - 5];
+    const bool number = tile[0] == '1' && tile.find_first_not_of("0123456789") == std::string::npos;
+    if (!number || tile == "1000" || !(before == '.' || (before == '_' && tile != "1024")))
+        return {"", stem};
+    return {tile, stem.substr(0, stem.size() - 5)};
+}
+
+NamedMaps untiled_maps_named(const std::string& stem)
 {
     std::vector<Word> words = words_of(stem);
     if (is_no_map(words)) return {};
@@ -412,14 +424,24 @@ NamedMaps maps_named(const std::string& stem)
     return named;
 }
 
+}  // namespace
+
+NamedMaps maps_named(const std::string& stem)
+{
+    const auto [tile, rest] = without_tile(stem);
+    NamedMaps named = untiled_maps_named(rest);
+    if (!named.roles.empty()) named.tile = tile;
+    return named;
+}
+
 std::vector<MaterialFiles> find_materials(const fs::path& folder)
 {
     std::error_code failed;
-    std::map<std::pair<fs::path, std::string>, Group> groups;  // folder and name
+    std::map<std::tuple<fs::path, std::string, std::string>, Group> groups;  // folder, name, tile
     for (const fs::path& path : images_below(folder)) {
         const NamedMaps named = maps_named(path.stem().string());
         if (named.roles.empty()) continue;
-        Group& group = groups[{path.parent_path(), named.material}];
+        Group& group = groups[{path.parent_path(), named.material, named.tile}];
         group.short_name = named.short_name;
         for (const auto& [role, channels] : named.roles) {
             group.roles[role].push_back({{path, channels}, named.green});
@@ -430,17 +452,20 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
             "texture build: no map in " + folder.string() + " has a name that says what it is",
             "Name them as X_albedo.png, X_normal.png, X_roughness.png, ..., or write a recipe.");
     }
-    std::map<std::pair<fs::path, std::string>, int> uses;
-    for (const auto& [key, group] : groups) ++uses[{key.first, group.short_name}];
+    std::map<std::tuple<fs::path, std::string, std::string>, int> uses;
+    for (const auto& [key, group] : groups)
+        ++uses[{std::get<0>(key), group.short_name, std::get<2>(key)}];
     std::vector<MaterialFiles> found;
     for (auto& [key, group] : groups) {
         MaterialFiles material;
-        const bool alone = uses[{key.first, group.short_name}] == 1;
-        material.name = alone ? group.short_name : key.second;
+        const auto& [place, name, tile] = key;
+        const bool alone = uses[{place, group.short_name, tile}] == 1;
+        material.name = alone ? group.short_name : name;
+        material.tile = tile;
         if (material.name.empty()) {
-            material.name = fs::weakly_canonical(key.first).filename().string();
+            material.name = fs::weakly_canonical(place).filename().string();
         }
-        material.folder = fs::relative(key.first, folder, failed);
+        material.folder = fs::relative(place, folder, failed);
         if (material.folder == ".") material.folder.clear();
         for (auto& [role, candidates] : group.roles) {
             std::sort(candidates.begin(), candidates.end(),
@@ -456,6 +481,51 @@ std::vector<MaterialFiles> find_materials(const fs::path& folder)
         found.push_back(std::move(material));
     }
     return found;
+}
+
+std::vector<MaterialFiles> udim_tiles(const MaterialFiles& set)
+{
+    static const std::string kMark = "<UDIM>";
+    std::set<std::string> tiles;
+    bool marked = false;
+    for (const auto& [role, map] : set.inputs) {
+        const std::string name = map.path.filename().string();
+        const std::size_t mark = name.find(kMark);
+        if (mark == std::string::npos) continue;
+        marked = true;
+        const std::string before = name.substr(0, mark), after = name.substr(mark + kMark.size());
+        std::error_code failed;
+        const fs::path folder = map.path.has_parent_path() ? map.path.parent_path() : ".";
+        for (const auto& entry : fs::directory_iterator(folder, failed)) {
+            const std::string file = entry.path().filename().string();
+            if (file.size() != before.size() + 4 + after.size() || !file.starts_with(before) ||
+                !file.ends_with(after))
+                continue;
+            const std::string tile = file.substr(before.size(), 4);
+            if (tile.find_first_not_of("0123456789") == std::string::npos && tile > "1000" &&
+                tile < "2000")
+                tiles.insert(tile);
+        }
+        if (tiles.empty()) {
+            throw Error("texture build: there is no file " + map.path.string() +
+                            " with 1001 to 1999 for <UDIM>",
+                        "Correct the path; it is relative to the recipe.");
+        }
+    }
+    if (!marked) return {set};
+    std::vector<MaterialFiles> all;
+    for (const std::string& tile : tiles) {
+        MaterialFiles one = set;
+        one.tile = tile;
+        for (auto& [role, map] : one.inputs) {
+            std::string name = map.path.filename().string();
+            const std::size_t mark = name.find(kMark);
+            if (mark == std::string::npos) continue;
+            map.path = map.path.parent_path() / name.replace(mark, kMark.size(), tile);
+        }
+        all.push_back(std::move(one));
+    }
+    return all;
 }
 
 std::vector<fs::path> unnamed_images(const fs::path& folder)

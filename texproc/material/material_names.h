@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "texproc/filter/mips.h"
+
 namespace petrichor::texproc {
 
 /// A file and, after the last colon, some of its channels: "wall.png", "arm.png:g", "spec.png:rgb".
@@ -23,8 +25,10 @@ enum class Green { Auto, Up, Down };
 struct MaterialFiles {
     std::string name;                        ///< "Bricks102", for the names of outputs
     std::filesystem::path folder;            ///< below the folder that was searched; may be empty
+    std::string tile;                        ///< of a UDIM set: "1001"; empty: none
     std::map<std::string, InputMap> inputs;  ///< "albedo", "normal", "roughness", ...
     Green green = Green::Auto;               ///< what the name of the normal map says
+    Edge edge_u = Edge::Wrap, edge_v = Edge::Wrap;  ///< of a scene: what its sampler says
     std::vector<std::string> notes;          ///< files that another one won over
 };
 
@@ -34,6 +38,7 @@ struct MaterialFiles {
 struct NamedMaps {
     std::string material;                      ///< the rest of the name
     std::string short_name;                    ///< the same without marks of resolution and format
+    std::string tile;                          ///< of a UDIM set: "1001"
     std::map<std::string, std::string> roles;  ///< role -> channels
     Green green = Green::Auto;
 };
@@ -46,6 +51,10 @@ std::vector<MaterialFiles> find_materials(const std::filesystem::path& folder);
 
 /// Images below a folder whose names do not say what they hold, which find_materials() passes over.
 std::vector<std::filesystem::path> unnamed_images(const std::filesystem::path& folder);
+
+/// The tiles of a set whose paths hold <UDIM>, in order: every tile for which a file of one of the
+/// maps is there. Itself when no path holds it. Throws Error when there is no tile.
+std::vector<MaterialFiles> udim_tiles(const MaterialFiles& set);
 
 /// The roles that maps can have, for messages and completion.
 const std::vector<std::string>& map_roles();

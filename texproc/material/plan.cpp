@@ -64,6 +64,7 @@ PlannedOutput planned(const OutputRule& rule, const PlannedMaterial& material,
     out.roles = std::move(roles);
     std::string name = rule.file;
     name.replace(name.find("{name}"), 6, material.files.name);
+    if (!material.files.tile.empty()) name += "." + material.files.tile;
     out.stem = (fs::path(rule.folder) / material.files.folder / name).generic_string();
     const Recipe& recipe = *material.recipe;
     const auto& inputs = material.files.inputs;
@@ -99,6 +100,7 @@ PlannedMaterial plan_material(const MaterialFiles& files,
     material.files = files;
     material.recipe = recipe;
     material.name = (files.folder / files.name).generic_string();
+    if (!files.tile.empty()) material.name += "." + files.tile;
     check_files(material);
     for (const OutputRule& rule : recipe->outputs) {
         const Roles roles = roles_of(rule, material);

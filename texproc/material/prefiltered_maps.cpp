@@ -26,20 +26,8 @@ PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& 
     const auto filtered = [](const PlannedOutput& output) { return output.prefiltered; };
     if (std::none_of(plan.outputs.begin(), plan.outputs.end(), filtered)) return;
     rough_role_ = maps.rough_role();
-    check_sizes();
     choose_options(threads);
     chains_ = prefilter_raw(maps.images.at("normal"), maps.images.at(rough_role_), options_);
-}
-
-void PrefilteredMaps::check_sizes() const
-{
-    const RawImage &normal = maps_.images.at("normal"), &rough = maps_.images.at(rough_role_);
-    if (normal.width == rough.width && normal.height == rough.height) return;
-    throw Error("texture build: " + file_of(plan_, "normal") + " is " +
-                    std::to_string(normal.width) + " x " + std::to_string(normal.height) + ", " +
-                    file_of(plan_, rough_role_) + " is " + std::to_string(rough.width) + " x " +
-                    std::to_string(rough.height),
-                "Resample one of them: both must have the same size.");
 }
 
 void PrefilteredMaps::choose_options(int threads)

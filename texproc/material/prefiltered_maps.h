@@ -45,7 +45,6 @@ public:
     PictureError picture_error(const Prefiltered& shipped) const;
 
 private:
-    void check_sizes() const;
     void choose_options(int threads);
     bool holds(const PlannedOutput& output, const std::string& role) const;
     bool changes_normals(const PlannedOutput& output) const;

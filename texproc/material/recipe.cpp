@@ -20,6 +20,8 @@ std::string options_text(const OutputRule& output)
     if (output.level_files) text += " level files";
     if (output.has_levels()) text += " mips";
     if (output.size > 0) text += " size " + std::to_string(output.size);
+    if (output.blue_first) text += " bgra";
+    if (!output.import.empty()) text += " import " + output.import;
     if (!output.prefilter) text += " plain";
     return text;
 }

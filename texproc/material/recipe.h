@@ -26,6 +26,8 @@ struct OutputRule {
     bool mips = true;                  ///< dds, ktx2, exr: all levels
     bool level_files = false;          ///< the others: one file a level, {file}_0, {file}_1, ...
     int size = 0;           ///< start with the level whose sides are at most this; 0: level 0
+    bool blue_first = false;  ///< dds without compression: B8G8R8A8 with the extended header
+    std::string import;  ///< whose settings files go beside it: unity, godot; empty: none
     bool prefilter = true;  ///< roughness, smoothness and normals from the prefiltered chain
 
     bool srgb() const { return !channels.srgb_channels.empty(); }

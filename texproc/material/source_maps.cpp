@@ -11,6 +11,7 @@
 #include "texproc/filter/normal.h"
 #include "texproc/filter/resample.h"
 #include "texproc/material/chains.h"
+#include "texproc/material/one_size.h"
 #include "texproc/material/pack.h"
 
 namespace petrichor::texproc {
@@ -212,7 +213,10 @@ void bake(const PlannedMaterial& plan, int threads, SourceMaps& maps)
     };
     BakeOptions options = plan.recipe->baking;
     options.threads = threads;
-    if (missing("height")) put("height", height_from_normal(as_rgb(maps.data("normal"))).height);
+    if (missing("height")) {
+        put("height",
+            height_from_normal(as_rgb(maps.data("normal")), options.edge_u, options.edge_v).height);
+    }
     const auto height = [&] { return maps.data("height"); };
     if (missing("normal"))
         put("normal",
@@ -242,6 +246,7 @@ SourceMaps read_source_maps(const PlannedMaterial& plan, int threads)
 {
     SourceMaps maps;
     read(plan, threads, maps);
+    maps.notes = bring_to_one_size(plan, maps.images, threads);
     orient_normal(plan, maps);
     bake(plan, threads, maps);
     return maps;

@@ -20,6 +20,7 @@ struct MadeSource {
 struct SourceMaps {
     std::map<std::string, RawImage> images;
     std::vector<MadeSource> sources;  ///< the maps that were read
+    std::vector<std::string> notes{};  ///< maps that were resampled
     std::string green;  ///< what was done to the normal map: "up", "down, turned, ..."
 
     const RawImage* find(const std::string& role) const

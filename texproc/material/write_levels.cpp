@@ -34,6 +34,7 @@ std::vector<std::string> write_levels(const std::filesystem::path& folder, const
         const auto [path, file] = path_of("");
         TextureWriteOptions options;
         if (rule.compression != "none") options.format = rule.compression;
+        if (rule.blue_first) options.format = "bgra8";
         if (rule.compression == "uastc") {
             if (levels.front().channels == 4) options.format = "uastca";
             options.zstd = 10;  // what its readers expect

@@ -5,10 +5,12 @@
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/output_file.h"
 #include "base/words.h"
 #include "cli/progress.h"
@@ -17,6 +19,7 @@
 #include "cli/texture/build/sha256.h"
 #include "cli/texture/build/state.h"
 #include "film/data/folders.h"
+#include "texproc/material/import_settings.h"
 #include "texproc/material/material.h"
 
 namespace petrichor::cli {
@@ -59,6 +62,13 @@ ordered_json error_json(const texproc::RangeScore& range)
             {"shipped", range.tested}};
 }
 
+std::vector<std::string> files_of(const texproc::MadeOutput& output)
+{
+    std::vector<std::string> files = output.files;
+    files.insert(files.end(), output.settings.begin(), output.settings.end());
+    return files;
+}
+
 std::string manifest_entry(const texproc::PlannedMaterial& material,
                            const texproc::MadeMaterial& made, BuildState& state,
                            const fs::path& out)
@@ -75,6 +85,7 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
                                     {"channels", source.channels},
                                     {"bits", source.bits}});
     }
+    for (const std::string& note : made.notes) entry["notes"].push_back(note);
     if (!made.green.empty()) entry["normal_green"] = made.green;
     entry["baked"] = material.baked;
     entry["options"] = texproc::options_text(*material.recipe);
@@ -83,13 +94,14 @@ std::string manifest_entry(const texproc::PlannedMaterial& material,
         ordered_json output{{"format", rule.format},
                             {"compression", rule.compression},
                             {"bits", rule.bits},
-                            {"srgb", rule.srgb()},
+                            {"use", texproc::name_of(texproc::use_of(material.outputs[i]))},
+                        {"srgb", rule.srgb()},
                             {"channels", rule.channels.channels},
                             {"width", made.outputs[i].width},
                             {"height", made.outputs[i].height},
                             {"levels", made.outputs[i].levels},
                             {"prefiltered", material.outputs[i].prefiltered}};
-        for (const std::string& file : made.outputs[i].files) {
+        for (const std::string& file : files_of(made.outputs[i])) {
             output["files"].push_back({{"file", file},
                                        {"bytes", fs::file_size(out / file)},
                                        {"sha256", state.hash_of(out / file)}});
@@ -200,13 +212,16 @@ private:
                 texproc::make_material(material, staging.path(), threads);
             BuiltSet set{waiting_[number].key, {}, ""};
             for (const texproc::MadeOutput& output : made.outputs) {
-                set.outputs.insert(set.outputs.end(), output.files.begin(), output.files.end());
+                const std::vector<std::string> files = files_of(output);
+                set.outputs.insert(set.outputs.end(), files.begin(), files.end());
             }
             staging.publish(set.outputs);
             const std::lock_guard lock(mutex_);
             set.manifest = manifest_entry(material, made, state_, options_.out);
             result_.files += static_cast<int>(set.outputs.size());
             ++result_.built;
+            for (const std::string& note : made.notes)
+                result_.notes.push_back(material.name + ": " + note);
             state_.remember(set_name(material), std::move(set));
         } catch (const Error& error) {
             // People know the folder they named, not the one that files pass through.
@@ -226,6 +241,7 @@ private:
         std::vector<BuildState::SetName> names;
         for (const texproc::PlannedMaterial& material : plan_) names.push_back(set_name(material));
         std::sort(result_.failures.begin(), result_.failures.end());
+        std::stable_sort(result_.notes.begin(), result_.notes.end());
         if (result_.built == 0 && state_.sets().empty()) return;
         const bool changed = state_.save(names);
         ordered_json manifest{{"program", program()}, {"sets", ordered_json::array()}};
@@ -237,6 +253,23 @@ private:
             write_text_file(
                 file,
                 manifest.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        write_scripts();
+    }
+
+    // Engines that are told how to import by a program of their own read the manifest with it.
+    void write_scripts() const
+    {
+        std::set<std::string> engines;
+        for (const texproc::PlannedMaterial& material : plan_)
+            engines.insert(material.recipe->engines.begin(), material.recipe->engines.end());
+        for (const std::string& engine : engines) {
+            const fs::path from = data_folder() / "recipes" / ("import_" + engine + ".py");
+            const fs::path to = options_.out / from.filename();
+            if (!fs::exists(from)) continue;
+            const std::string text = read_file(from, "script", 1 << 20);
+            if (!fs::exists(to) || read_file(to, "script", 1 << 20) != text)
+                write_text_file(to, text);
+        }
     }
 
     const std::vector<texproc::PlannedMaterial>& plan_;

@@ -19,6 +19,7 @@ struct BuildOptions {
 struct BuildResult {
     int built = 0, current = 0;
     int files = 0;                      ///< written
+    std::vector<std::string> notes;     ///< "material: what was done"
     std::vector<std::string> failures;  ///< "material: problem\n  fix"
     bool stopped = false;               ///< Ctrl-C: materials that were begun are finished
 };

@@ -4,8 +4,11 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/output_file.h"
 #include "cli/signals.h"
+#include "cli/texture/build/build.h"
 #include "texproc/gltf/rewrite.h"
+#include "texproc/gltf/scene_materials.h"
 #include "texproc/prefilter/rules.h"
 
 namespace petrichor::cli {
@@ -27,13 +30,15 @@ const char* text_of(texproc::ImageMeaning meaning)
     return "data";
 }
 
+// An engine's files beside a scene, which stays as it is.
+bool is_for_engines(const SceneBuild& build)
+{
+    const std::vector<std::string>& engines = build.choice.engines;
+    return !engines.empty() && engines != std::vector<std::string>{"gltf"};
+}
+
 void check(const SceneBuild& build)
 {
-    for (const std::string& engine : build.choice.engines) {
-        if (engine == "gltf") continue;
-        throw Error("texture build: a scene is written for glTF, not for " + engine,
-                    "Leave --engine out, or build the folder of its textures for that engine.");
-    }
     if (!build.choice.format.empty() && build.choice.format != "ktx2") {
         throw Error(
             "texture build: a scene holds its levels in ktx2, not in " + build.choice.format,
@@ -90,14 +95,48 @@ void report(const texproc::GltfBuildReport& made)
                 made.files.back().string().c_str());
 }
 
+// Materials by their maps; images inside the scene are files for as long as it takes.
+bool build_for_engines(const SceneBuild& build)
+{
+    if (build.fallback) {
+        throw Error("texture build: --fallback is for scenes that are written again",
+                    "Leave it or --engine out.");
+    }
+    if (build.out.empty() && !build.dry_run)
+        throw Error("texture build: no output folder", "Give -o FOLDER.");
+    const ScratchFolder images(build.out.empty() ? std::filesystem::temp_directory_path()
+                                                 : build.out);
+    const texproc::SceneMaterials found =
+        texproc::scene_materials(texproc::read_gltf_file(build.in), images.path());
+    for (const std::string& note : found.notes) std::cout << "note: " << note << "\n";
+    const std::vector<texproc::PlannedMaterial> plan =
+        plan_materials(found.materials, build.choice);
+    if (plan.empty()) {
+        throw Error("texture build: no material of " + build.in.string() + " has maps",
+                    "Choose another scene.");
+    }
+    BuildOptions options;
+    options.out = build.out;
+    options.threads = build.threads;
+    options.dry_run = build.dry_run;
+    options.force = true;
+    const BuildResult result = petrichor::cli::build(plan, options);
+    std::printf("%d materials built (%d files), %zu failed\n", result.built, result.files,
+                result.failures.size());
+    for (const std::string& note : result.notes) std::cout << "note: " << note << "\n";
+    for (const std::string& failure : result.failures) std::cerr << "error " << failure << "\n";
+    return result.failures.empty();
+}
+
 }  // namespace
 
-void build_scene(const SceneBuild& build)
+bool build_scene(const SceneBuild& build)
 {
+    if (is_for_engines(build)) return build_for_engines(build);
     check(build);
     if (build.dry_run) {
         list_plan(build);
-        return;
+        return true;
     }
     texproc::GltfBuildOptions options;
     options.images.size = build.choice.size;
@@ -110,6 +149,7 @@ void build_scene(const SceneBuild& build)
         options.images.prefilter.quick = build.choice.quality == "quick";
     if (options.images.prefilter.rule != "none") texproc::rule_named(options.images.prefilter.rule);
     report(texproc::build_gltf(build.in, build.out, options));
+    return true;
 }
 
 }  // namespace petrichor::cli

@@ -14,9 +14,11 @@ struct SceneBuild {
     int threads = 0;
 };
 
-/// texture build of a .glb or .gltf: writes the scene again with prefiltered KTX2 textures and
-/// prints what was made, and how its materials shimmered before and after.
-void build_scene(const SceneBuild& build);
+/// texture build of a .glb or .gltf: with an engine, the maps of its materials as that engine takes
+/// them, into the folder `out`, true when all were made; else writes the scene again with
+/// prefiltered KTX2 textures and prints what was made, and how its materials shimmered before and
+/// after.
+bool build_scene(const SceneBuild& build);
 
 }  // namespace petrichor::cli
 

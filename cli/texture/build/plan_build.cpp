@@ -14,6 +14,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void set_edges(const std::string& wrap, texproc::Recipe& recipe)
+{
+    recipe.mips.wrap_u = recipe.mips.wrap_v = wrap == "wrap";
+    recipe.mips.mirror_u = recipe.mips.mirror_v = wrap == "mirror";
+    recipe.baking.edge_u = recipe.baking.edge_v = wrap == "wrap"     ? texproc::Edge::Wrap
+                                                  : wrap == "mirror" ? texproc::Edge::Mirror
+                                                                     : texproc::Edge::Clamp;
+}
+
+// Only readers of two-channel blocks make z themselves.
+void keep_z(texproc::OutputRule& output)
+{
+    std::vector<std::string>& channels = output.channels.channels;
+    if (output.compression != "none" || channels.size() != 2) return;
+    if (channels[0] == "normal.r" && channels[1].ends_with("normal.g"))
+        channels.push_back("normal.b");
+}
+
 void apply(const BuildChoice& choice, texproc::Recipe& recipe)
 {
     if (!choice.engines.empty()) {
@@ -26,6 +44,7 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
     }
     if (!choice.quality.empty()) recipe.prefilter.quick = choice.quality == "quick";
     if (choice.no_score) recipe.score = false;
+    if (!choice.wrap.empty()) set_edges(choice.wrap, recipe);
     if (choice.normal_green == "up") recipe.green = texproc::Green::Up;
     if (choice.normal_green == "down") recipe.green = texproc::Green::Down;
     for (texproc::OutputRule& output : recipe.outputs) {
@@ -35,6 +54,8 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
         const bool holds = choice.format == "ktx2" ||
                            (choice.format == "dds" && output.compression != "uastc");
         if (!holds) output.compression = "none";
+        if (choice.format != "dds") output.blue_first = false;
+        keep_z(output);
         if (choice.format == "exr") output.bits = std::max(output.bits, 16);
         if (choice.format == "tga") output.bits = 8;
     }
@@ -48,9 +69,12 @@ std::vector<texproc::MaterialFiles> materials_of(const texproc::Recipe& recipe)
     files.inputs = recipe.inputs;
     const auto normal = files.inputs.find("normal");
     if (normal != files.inputs.end()) {
-        files.green = texproc::maps_named(normal->second.path.stem().string()).green;
+        std::string stem = normal->second.path.stem().string();
+        if (const std::size_t mark = stem.find("<UDIM>"); mark != std::string::npos)
+            stem.replace(mark, 6, "1001");
+        files.green = texproc::maps_named(stem).green;
     }
-    return {files};
+    return texproc::udim_tiles(files);
 }
 
 }  // namespace
@@ -74,8 +98,12 @@ std::vector<texproc::PlannedMaterial> plan_build(const std::vector<fs::path>& in
                 "into a recipe.");
         }
         const auto shared = std::make_shared<const texproc::Recipe>(recipe);
+        // What lies past the edge of a tile is another tile.
+        if (choice.wrap.empty()) set_edges("clamp", recipe);
+        const auto tiled = std::make_shared<const texproc::Recipe>(recipe);
         for (const texproc::MaterialFiles& files : materials_of(recipe)) {
-            texproc::PlannedMaterial material = texproc::plan_material(files, shared);
+            texproc::PlannedMaterial material = 
+                texproc::plan_material(files, files.tile.empty() ? shared : tiled);
             if (material.outputs.empty() && recipe.folder.empty()) {
                 throw Error("texture build: " + input.string() + ": none of its outputs has a map",
                             "Name the maps that the outputs take, or choose other outputs.");
@@ -87,6 +115,28 @@ std::vector<texproc::PlannedMaterial> plan_build(const std::vector<fs::path>& in
                 "texture build: no material in " + input.string() + " has maps for these outputs",
                 "Choose another engine or other outputs.");
         }
+    }
+    texproc::check_output_names(plan);
+    return plan;
+}
+
+std::vector<texproc::PlannedMaterial> plan_materials(
+    const std::vector<texproc::MaterialFiles>& materials, const BuildChoice& choice)
+{
+    texproc::Recipe recipe;
+    apply(choice, recipe);
+    std::vector<texproc::PlannedMaterial> plan;
+    for (const texproc::MaterialFiles& files : materials) {
+        texproc::Recipe own = recipe;
+        if (choice.wrap.empty()) {
+            own.mips.wrap_u = files.edge_u == texproc::Edge::Wrap;
+            own.mips.wrap_v = files.edge_v == texproc::Edge::Wrap;
+            own.mips.mirror_u = files.edge_u == texproc::Edge::Mirror;
+            own.mips.mirror_v = files.edge_v == texproc::Edge::Mirror;
+        }
+        texproc::PlannedMaterial material =
+            texproc::plan_material(files, std::make_shared<const texproc::Recipe>(own));
+        if (!material.outputs.empty()) plan.push_back(std::move(material));
     }
     texproc::check_output_names(plan);
     return plan;

@@ -13,6 +13,7 @@ namespace petrichor::cli {
 struct BuildChoice {
     std::vector<std::string> engines;
     std::string rule, quality, format;  ///< empty: as the recipe says
+    std::string wrap;                   ///< wrap, clamp, mirror; empty: as the recipe says
     std::string normal_green;           ///< up, down; empty: as the recipe says
     int size = 0;
     bool no_score = false;
@@ -23,6 +24,10 @@ struct BuildChoice {
 /// outputs, and two outputs of one name.
 std::vector<texproc::PlannedMaterial> plan_build(const std::vector<std::filesystem::path>& inputs,
                                                  const BuildChoice& choice);
+
+/// The same for materials whose maps are known, as those of a scene.
+std::vector<texproc::PlannedMaterial> plan_materials(
+    const std::vector<texproc::MaterialFiles>& materials, const BuildChoice& choice);
 
 }  // namespace petrichor::cli
 

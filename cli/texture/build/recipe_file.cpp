@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kFormats{"png", "tga", "tif", "exr", "dds", "ktx2"};
 const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7", "uastc"};
+const std::vector<std::string> kOrders{"rgba", "bgra"};
+const std::vector<std::string> kImports{"none", "unity", "godot"};
 const std::vector<std::string> kFilters{"box", "kaiser", "lanczos3", "mitchell"};
 const std::vector<std::string> kEdges{"wrap", "clamp", "mirror"};
 
@@ -30,7 +32,7 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
     std::optional<bool> srgb;
     const auto entries =
         table.entries({"file", "preset", "channels", "srgb", "format", "compression", "bits",
-                       "mips", "level_files", "size", "prefilter"});
+                       "mips", "level_files", "size", "prefilter", "order", "import"});
     for (const auto& [key, value] : entries) {
         if (key == "file") {
             out.file = value.text();
@@ -60,6 +62,11 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
         if (key == "level_files") out.level_files = value.boolean();
         if (key == "size") out.size = value.integer(0, 65536);
         if (key == "prefilter") out.prefilter = value.boolean();
+        if (key == "order") out.blue_first = value.choice(kOrders) == 1;
+        if (key == "import") {
+            const int engine = value.choice(kImports);
+            out.import = engine == 0 ? "" : kImports[static_cast<std::size_t>(engine)];
+        }
     }
     if (srgb && *srgb) out.channels.srgb_channels = {"r", "g", "b"};
     if (srgb && !*srgb) out.channels.srgb_channels.clear();
@@ -82,6 +89,10 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
     if (out.compression != "none" && out.bits != 8) {
         wrong("asks for " + out.compression + " with " + std::to_string(out.bits) + " bits",
               "Leave bits out: block compression holds 8.");
+    }
+    if (out.blue_first && (out.format != "dds" || out.compression != "none" || out.bits != 8)) {
+        wrong("asks for bgra, which is plain texels of 8 bits in a dds file",
+              "Write format = \"dds\" without compression, or leave order out.");
     }
     if (out.format == "exr" && out.bits == 8) out.bits = 16;
     if (out.bits == 32 && out.format != "exr")

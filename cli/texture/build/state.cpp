@@ -160,6 +160,7 @@ bool BuildState::save(const std::vector<SetName>& names)
     changed_ = changed_ || forgotten > 0;
     if (!changed_) return false;
     json files = json::object(), sets = json::array();
+    std::erase_if(files_, [](const auto& file) { return !mark_of(file.first); });
     for (const auto& [path, f] : files_)
         files[to_json_name(path)] = {f.bytes, f.modified_ns, f.inode, f.sha256};
     for (const auto& [name, s] : sets_) {

@@ -35,6 +35,7 @@ const std::vector<Named>& block_names()
     return names;
 }
 
+constexpr const char* kBlueFirst = "bgra8";
 constexpr const char* kChannels[] = {"r", "rg", "rgb", "rgba"};
 constexpr PixelType kTypes[] = {PixelType::U8, PixelType::U16, PixelType::F16, PixelType::F32};
 constexpr const char* kDepths[] = {"8", "16", "16f", "32f"};
@@ -125,6 +126,7 @@ void check_writable(const TextureFormat& format)
 
 TextureFormat texture_format(const std::string& name)
 {
+    if (name == kBlueFirst) return {{}, PixelType::U8, 4, false};
     for (const Named& named : block_names()) {
         if (name == named.name) return named.format;
     }
@@ -157,6 +159,7 @@ std::vector<std::string> texture_format_names()
     for (const Named& named : block_names()) {
         if (named.writable) names.push_back(named.name);
     }
+    names.push_back(kBlueFirst);
     return names;
 }
 
@@ -194,7 +197,7 @@ MipTexture detail::texture_shape(std::span<const RawImage> levels,
     check_writable(format);
     // Halves and floats hold linear light: only integers can be marked.
     const bool srgb = options.srgb && (format.block || format.type == PixelType::U8);
-    return {first.width, first.height, format, srgb, {}};
+    return {first.width, first.height, format, srgb, {}, options.format == kBlueFirst};
 }
 
 detail::LevelBytes detail::level_bytes_of(const MipTexture& texture)

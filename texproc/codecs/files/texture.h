@@ -25,7 +25,8 @@ struct TextureFormat {
 };
 
 /// By name: r8 rg8 rgb8 rgba8, r16 .., r16f .., r32f .., bc1, bc1a (alpha 0 or 1), bc3, bc4, bc5,
-/// bc7, uastc, uastca (both ktx2); bc2, bc6h, signed: read only. Throws Error that lists the names.
+/// bc7, uastc, uastca (both ktx2), bgra8 (dds: rgba8, stored blue first); bc2, bc6h, signed: read
+/// only. Throws Error that lists the names.
 TextureFormat texture_format(const std::string& name);
 std::string name_of(const TextureFormat& format);
 std::vector<std::string> texture_format_names();  ///< those that can be written
@@ -38,6 +39,7 @@ struct MipTexture {
     TextureFormat format;
     bool srgb = false;  ///< integer codes of red, green and blue are sRGB; alpha is linear
     std::vector<std::vector<std::byte>> levels;
+    bool blue_first = false;  ///< written as B8G8R8A8; here red comes first all the same
 };
 
 /// Texels of level k along a side of `size` texels.

@@ -8,6 +8,7 @@
 #include "texproc/codecs/files/detail/dds.h"
 #include "texproc/codecs/files/detail/exr_mips.h"
 #include "texproc/codecs/files/detail/ktx2.h"
+#include "texproc/codecs/files/detail/texture_codes.h"
 #include "texproc/codecs/files/detail/texture_shape.h"
 #include "texproc/codecs/files/texture.h"
 
@@ -51,6 +52,19 @@ void write_exr_chain(const fs::path& path, std::span<const RawImage> levels,
     detail::write_exr_mips(path, make_texture(levels, plain));
 }
 
+MipTexture in_file_order(MipTexture texture)
+{
+    if (!texture.blue_first) return texture;
+    for (auto& level : texture.levels) detail::swap_red_blue(level, texture.format.channels);
+    return texture;
+}
+
+void check_red_first(const MipTexture& texture)
+{
+    if (!texture.blue_first) return;
+    throw Error("texture: ktx2 is not written blue first (bgra8)", "Use rgba8, or write .dds.");
+}
+
 std::vector<std::byte> file_bytes(const fs::path& path, std::uint64_t most)
 {
     const std::string text = read_file(path, "image", most);
@@ -81,15 +95,17 @@ void write_mip_chain(const fs::path& path, std::span<const RawImage> levels,
     // Levels that are stored as they are need no copy.
     MipTexture texture = detail::texture_shape(levels, options);
     detail::LevelBytes bytes;
-    const bool kept = !texture.format.block && texture.format.type == levels[0].type &&
+    const bool kept = !texture.blue_first && !texture.format.block &&
+                      texture.format.type == levels[0].type &&
                       texture.format.channels == levels[0].channels;
     if (kept) {
         for (const RawImage& level : levels) bytes.emplace_back(level.bytes);
     } else {
-        texture = make_texture(levels, options);
+        texture = in_file_order(make_texture(levels, options));
         bytes = detail::level_bytes_of(texture);
     }
     if (extension == ".ktx2") {
+        check_red_first(texture);
         const detail::Ktx2Parts file = detail::ktx2_parts(texture, bytes, options.zstd);
         write_bytes(path, file.parts);
         return;
@@ -128,9 +144,12 @@ void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
 std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::string& container,
                                      int zstd)
 {
-    if (container == "ktx2") return detail::ktx2_file(texture, zstd);
+    if (container == "ktx2") {
+        check_red_first(texture);
+        return detail::ktx2_file(texture, zstd);
+    }
     std::vector<std::byte> bytes = detail::dds_header(texture, texture.levels.size());
-    for (const auto& level : texture.levels) bytes.insert(bytes.end(), level.begin(), level.end());
+    for (const auto& level : in_file_order(texture).levels) bytes.insert(bytes.end(), level.begin(), level.end());
     return bytes;
 }
 

@@ -43,9 +43,13 @@ OldFormat old_format(const TextureFormat& format)
 std::vector<std::byte> dds_header(const MipTexture& texture, std::size_t levels)
 {
     const TextureFormat& format = texture.format;
-    OldFormat old = texture.srgb || format.is_signed ? OldFormat{} : old_format(format);
+    OldFormat old = texture.srgb || format.is_signed || texture.blue_first ? OldFormat{}
+                                                                           : old_format(format);
     const bool extended = old.flags == 0;
-    const std::uint32_t dxgi = dxgi_code(format, texture.srgb);
+    constexpr std::uint32_t kBgra = 87, kBgraSrgb = 91;  // B8G8R8A8_UNORM, _UNORM_SRGB
+    const std::uint32_t dxgi = !texture.blue_first ? dxgi_code(format, texture.srgb)
+                               : texture.srgb      ? kBgraSrgb
+                                                   : kBgra;
     if (extended && dxgi == 0) {
         throw Error("dds: the container has no " + std::string(texture.srgb ? "sRGB " : "") +
                         name_of(format),
