@@ -1,5 +1,6 @@
 #include "cli/scene/bake_light.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

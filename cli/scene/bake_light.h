@@ -1,11 +1,14 @@
 #ifndef PETRICHOR_CLI_SCENE_BAKE_LIGHT_H
 #define PETRICHOR_CLI_SCENE_BAKE_LIGHT_H
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "cli/scene/scene_view.h"
 #include "film/scenes/light_bake.h"
+
+namespace CLI {
+class App;
+}
 
 namespace petrichor::cli {
 
