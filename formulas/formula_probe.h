@@ -15,6 +15,7 @@
 #include "formulas/light/lamp_glow.h"
 #include "formulas/light/iridescence.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/light_map.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/reflection_probe.h"
@@ -34,6 +35,16 @@
 SHARED_BEGIN
 
 SHARED_CONST int kProbeKinds = 42;
+
+SHARED_FN float probe_light_map(vec4 a, vec4 b)
+{
+    const float fade = light_map_fade(100.0f * a.w, 20.0f, 40.0f);
+    const vec3 sides = vec3(b.x, b.y, b.z + 0.1f);
+    const vec3 toward = light_map_direction(sides);
+    const vec3 near_map = directional_light_map(vec3(1.0f), sides, vec3(toward.y, toward.x, toward.z));
+    const vec3 both = dual_light_map(near_map, vec3(a.x, a.y, a.z), fade);
+    return both.x + both.y + both.z;
+}
 
 SHARED_FN vec3 probe_direction(float u, float v)
 {
@@ -287,7 +298,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 detail = detail_normal(normalize(vec3(a.x - 0.5f, a.y - 0.5f, 1.0f)),
                                           normalize(vec3(b.x - 0.5f, b.y - 0.5f, 1.0f)), c.y);
         return vec4(mix_by_height(a.w, vec2(b.w, c.z)).x, color.x + color.y + color.z, detail.x,
-                    detail.y);
+                    detail.y + probe_light_map(a, b));
     }
     if (kind == 39) {
         const SnowCover s =

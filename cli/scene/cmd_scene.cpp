@@ -9,6 +9,7 @@
 #include "base/words.h"
 #include "cli/commands.h"
 #include "cli/rooms.h"
+#include "cli/scene/bake_light.h"
 #include "cli/scene/ground_map.h"
 #include "cli/scene/scene_map.h"
 #include "cli/scene/scene_view.h"
@@ -27,6 +28,7 @@ struct SceneOptions {
     std::string camera;
     std::string size = "960x540";
     MapConditions conditions;
+    BakeArguments bake;
     std::optional<double> rain_mm;
 };
 
@@ -49,7 +51,13 @@ const SceneMap& find_map(const std::string& name)
 
 void check(const SceneOptions& options)
 {
-    if (!options.map.empty()) {
+    check_bake(options.bake, options.output);
+    if (!options.bake.what.empty()) {
+        if (!options.map.empty())
+            throw Error("scene: --bake and --map in one run", "Run the program once for each.");
+        if (options.json)
+            throw Error("scene: --bake has no report for programs", "Leave out --json.");
+    } else if (!options.map.empty()) {
         if (options.map != kBasinsMap) find_map(options.map);
         const std::filesystem::path file = options.output;
         if (file.extension() != ".png") {
@@ -57,7 +65,7 @@ void check(const SceneOptions& options)
                         "Add -o map.png.");
         }
     } else if (!options.output.empty()) {
-        throw Error("scene: -o " + options.output + " without --map: nothing would be written",
+        throw Error("scene: -o " + options.output + " without --map or --bake: nothing would be written",
                     "Add --map sky, or leave out -o.");
     }
     if (options.rain_mm && options.map != kBasinsMap) {
@@ -78,6 +86,11 @@ void run(SceneOptions options)
     check(options);
     options.view.quiet = options.json;
     const SceneView view = open_scene(options.view);
+    if (!options.bake.what.empty()) {
+        options.bake.light.north_degrees = options.conditions.north_degrees;
+        std::cout << bake_light_maps(view, options.view, options.bake, options.output);
+        return;
+    }
     const GroundView ground = find_scene_ground(*view.scene);
     if (options.map == kBasinsMap) {
         write_basins(options, view, ground);
@@ -116,10 +129,11 @@ void add_scene(CLI::App& app)
     for (const SceneMap& map : scene_maps()) kinds += (kinds.empty() ? "" : "; ") + map.name + ": " + map.help;
     kinds += "; basins: the ground from above and the water in its hollows";
     command->add_option("--map", o->map, "a picture that explains: " + kinds);
+    add_bake_options(*command, o->bake);
     command->add_option("--rain-mm", o->rain_mm,
                         "basins: rain that has run together, mm (without end)")
         ->check(CLI::Range(0.0, 100000.0));
-    command->add_option("-o,--output", o->output, "where the picture goes, .png");
+    command->add_option("-o,--output", o->output, "where the picture goes, .png, or the folder of light maps");
     command->add_option("--camera", o->camera, "of the scene (its first, else one that frames it)");
     command->add_option("--size", o->size, "of the picture (960x540)");
     command->add_option("--wind-from", o->conditions.wind_from_degrees,

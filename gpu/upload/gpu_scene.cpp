@@ -502,8 +502,9 @@ void GpuScene::sum_up_materials()
     const auto any = [this](auto&& is) {
         return std::any_of(current_.begin(), current_.end(), is);
     };
+    // What a surface of a user's own sends out only its text knows.
     emissive_ = any([](const Material& m) {
-        return m.emissive * m.emissive_strength != glm::vec3(0.0f);
+        return m.emissive * m.emissive_strength != glm::vec3(0.0f) || !m.surface.empty();
     });
     layer_shares_ = false;
     for (std::size_t i = 0; i < current_.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "scene/patches/detail/cells.h"
 #include "scene/patches/detail/sampling.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
 
 namespace petrichor::scene {
@@ -16,7 +17,6 @@ namespace {
 constexpr float kMostAlbedo = 0.98f;
 constexpr std::size_t kRowsAJob = 512;
 constexpr float kLeastFactor = 1e-4f;
-constexpr float kLanternRadius_m = 0.35f;
 constexpr int kPairs = 4;
 
 // Four floats that one instruction adds: the compiler's own vectors, on any machine.

@@ -1,6 +1,7 @@
 // petrichor scene: its report, its pictures, what it refuses.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -76,6 +77,41 @@ TEST_F(SceneCommand, DrawsEveryMap)
     }
 }
 
+// From the scene to its light maps and from them to the picture: light that was baked twice as strong
+// is twice as strong.
+TEST_F(SceneCommand, BakesLightMapsThatLightThePicture)
+{
+    std::vector<float> seen;
+    for (const std::string lux : {"10000", "20000"}) {
+        const std::string folder = "maps" + lux;
+        const Outcome done = run({"tiny.glb", "--bake", "light_map", "-o", folder, "--map-size", "32",
+                                  "--gather", "64", "--sky-lux", lux});
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_NE(done.out.find("several surfaces"), std::string::npos)
+            << "floor and wall lie over each other: " << done.out;
+        const std::string keys = testing_program::read_file(place / (folder + "/light_maps.toml"));
+        ASSERT_NE(keys.find("[materials.\"stone\"]"), std::string::npos) << keys;
+        testing_program::write_file(
+            place / (folder + "/s.toml"),
+            "[scene]\nfile = \"../tiny.glb\"\n[sun]\nsource = \"scene\"\n"
+            "[render]\nimage_based_light = false\nshadows = false\ndraw_sky = false\n"
+            "[output]\nwidth = 48\nheight = 32\nsamples = 1\nframes = 1\n" +
+                keys);
+        const Outcome drawn = run_petrichor(
+            {.arguments = {"render", folder + "/s.toml", "-o", folder + "/out"}}, place.path());
+        ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+        double sum = 0.0;
+        for (const auto& file : std::filesystem::directory_iterator(place / (folder + "/out"))) {
+            if (file.path().extension() != ".exr") continue;
+            for (const float v : texproc::read_image(file.path()).pixels)
+                sum += std::isfinite(v) && v != 1.0f ? static_cast<double>(v) : 0.0;
+        }
+        seen.push_back(static_cast<float>(sum));
+    }
+    EXPECT_GT(seen[0], 0.0f);
+    EXPECT_NEAR(seen[1] / seen[0], 2.0f, 0.02f);
+}
+
 TEST_F(SceneCommand, RefusesWhatItCannotDo)
 {
     const struct {
@@ -89,6 +125,11 @@ TEST_F(SceneCommand, RefusesWhatItCannotDo)
         {{"tiny.glb", "--map", "sky", "-o", "x.exr"}, ".png"},
         {{"tiny.glb", "-o", "x.png"}, "--map"},
         {{"tiny.glb", "--rays", "3"}, "--rays"},
+        {{"tiny.glb", "--bake", "light_map"}, "-o"},
+        {{"tiny.glb", "--bake", "lightmap", "-o", "x.png"}, "light_map"},
+        {{"tiny.glb", "--bake", "indirect", "-o", "x.png", "--map", "sky"}, "--map"},
+        {{"tiny.glb", "--snow", "0.5"}, "--bake"},
+        {{"tiny.glb", "--bake", "light_map", "-o", "x.png", "--sky-lux", "-1"}, "--sky-lux"},
         {{"tiny.glb", "--size", "0x4", "--map", "sky", "-o", "x.png"}, "0x4"},
         {{"tiny.glb", "--camera", "nobody", "--map", "sky", "-o", "x.png"}, "nobody"},
     };

@@ -82,6 +82,18 @@ void half_surface(SurfaceInput at, inout SurfaceData data)
     EXPECT_GT(half(r, "water", true), 0.5f);
 }
 
+// No material of the scene glows: what the text sends out is seen all the same.
+TEST_F(OwnSurface, MayGlowInASceneWithoutLightOfItsOwn)
+{
+    const std::string file = write("lit.glsl", R"(
+void lit_input(inout SurfaceInput at) {}
+void lit_surface(SurfaceInput at, inout SurfaceData data) { data.emission = vec3(0.0, 300.0, 0.0); })");
+    const auto r = seen(file, {}, {"emission"});
+    EXPECT_NEAR(half(r, "emission", false, 1), 300.0f, 1.0f);
+    EXPECT_EQ(half(r, "emission", true, 1), 0.0f);
+    EXPECT_GT(pixel(r, 10, 24).g - pixel(r, 10, 24).r, pixel(r, 36, 24).g - pixel(r, 36, 24).r);
+}
+
 // A surface that changes nothing gives the picture of the resolve without it, bit by bit.
 TEST_F(OwnSurface, OneThatDoesNothingChangesNothing)
 {

@@ -3,6 +3,7 @@
 #define PETRICHOR_TESTS_SCENE_PATCH_SCENES_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -76,6 +77,24 @@ inline std::size_t add_material(Scene& scene, const Material& material)
     scene.meshes[0].primitives.back().material =
         static_cast<std::uint32_t>(scene.materials.size() - 1);
     return scene.meshes[0].primitives.size() - 1;
+}
+
+/// Second coordinates: every face (four corners) gets a square of its own, an eighth of its
+/// cell away from the next.
+inline void unwrap(Scene& scene)
+{
+    std::size_t faces = 0;
+    for (const Primitive& p : scene.meshes[0].primitives) faces += p.positions.size() / 4;
+    const auto across = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(faces))));
+    const float cell = 1.0f / static_cast<float>(across);
+    std::size_t face = 0;
+    for (Primitive& p : scene.meshes[0].primitives) {
+        for (std::size_t i = 0; i < p.positions.size(); i += 4, ++face) {
+            const glm::vec2 low{static_cast<float>(face % across) + 0.125f,
+                                static_cast<float>(face / across) + 0.125f};
+            for (std::size_t k = 0; k < 4; ++k) p.uv1.push_back((low + 0.75f * p.uv0[i + k]) * cell);
+        }
+    }
 }
 
 }  // namespace petrichor::scene::patch_scenes

@@ -9,7 +9,7 @@
 #include "formulas/light/brdf.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
 #include "gpu/passes/patch_light/patch_light_io.h"
-#include "scene/light_shape.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
 
 namespace petrichor::gpu {
@@ -29,37 +29,6 @@ std::unique_ptr<GpuBuffer> host_texels(MemoryArena& arena, const char* name, std
                          .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                          .texel_format = format,
                          .host = true});
-}
-
-// Light of one lamp on every patch, as a pixel computes it.
-void add_lamp(const scene::Patches& p, const Light& light, const std::vector<std::uint8_t>* reach,
-              std::vector<glm::vec3>& direct)
-{
-    const glm::vec3 color = light.color * scene::light_candela(light);
-    if (light.kind == LightKind::Directional) {
-        scene::add_sun(p, -light.direction, color, direct);
-        return;
-    }
-    const bool spot = light.kind == LightKind::Spot;
-    for (std::uint32_t i = 0; i < p.count; ++i) {
-        const float seen = reach && !reach->empty() ? static_cast<float>((*reach)[i]) / 255.0f : 1.0f;
-        if (seen <= 0.0f) continue;
-        const glm::vec3 way = light.position_m - p.position_m[i];
-        const float distance = std::sqrt(glm::dot(way, way));
-        if (!(distance > 0.0f)) continue;
-        const glm::vec3 towards = way / distance;
-        const float cosine = glm::dot(p.normal[i], towards);
-        if (cosine <= 0.0f) continue;
-        // A patch is no point: nearer than its own size its light does not grow.
-        const float least = 0.5f * std::sqrt(p.area_m2[i]);
-        float falloff = shared::light_attenuation(std::max(distance, least), light.range_m);
-        if (spot) {
-            falloff *= shared::spot_attenuation(glm::dot(light.direction, -towards),
-                                                std::cos(light.inner_cone_rad),
-                                                std::cos(light.outer_cone_rad));
-        }
-        direct[i] += color * (cosine * falloff * seen);
-    }
 }
 
 template <class T>
@@ -163,10 +132,11 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         if (lights[i].kind == LightKind::Directional && frame.sky.analytic_sun) continue;
         Light light = lights[i];
         if (light.kind != LightKind::Directional) light.intensity *= frame.scene_light_scale;
-        add_lamp(p, light, i < scene_->lamp_reach.size() ? &scene_->lamp_reach[i] : nullptr,
-                 direct);
+        std::span<const std::uint8_t> reach;
+        if (i < scene_->lamp_reach.size()) reach = scene_->lamp_reach[i];
+        scene::add_lamp(p, light, reach, direct);
     }
-    for (const Light& light : frame.extra_lights) add_lamp(p, light, nullptr, direct);
+    for (const Light& light : frame.extra_lights) scene::add_lamp(p, light, {}, direct);
     float bright = 0.0f, area = 0.0f;
     for (std::uint32_t i = 0; i < p.count; ++i) {
         emission[i] = look.emission[i] * (shared::kPi * frame.emissive_scale);

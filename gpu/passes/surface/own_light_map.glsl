@@ -1,0 +1,37 @@
+// For surfaces of your own (own_surface.glsl) that decode their light map themselves. NAME_surface finds
+// the standard decode in data.texel.baked (light_map_texture times light_map_scale over pi: what a white
+// diffuser sends out) and may put another one there; data.texel.baked_sky is the share of skylight that
+// the map holds. A map of two pictures has them side by side, the first on the left.
+#ifndef PETRICHOR_OWN_LIGHT_MAP_GLSL
+#define PETRICHOR_OWN_LIGHT_MAP_GLSL
+
+#include "formulas/light/light_map.h"
+#include "gpu/passes/surface/own_surface.glsl"
+
+// Where pixels are looked at from, unit.
+vec3 toward_eye(SurfaceInput at)
+{
+    return (frame.flags & FRAME_ORTHOGRAPHIC) != 0u ? -frame.forward : normalize(frame.camera_m - at.position);
+}
+
+// The texel of one of `count` pictures side by side; what a filter reaches stays within it.
+vec4 light_map_part(SurfaceInput at, int part, int count)
+{
+    Uv c = coordinates(TEXTURE_LIGHT_MAP, at, vec2(0.0));
+    const float share = 1.0 / float(count);
+    c.dx.x *= share;
+    c.dy.x *= share;
+    const float reach =
+        0.5 * max(1.0 / float(textureSize(light_map_texture, 0).x), max(abs(c.dx.x), abs(c.dy.x)));
+    const float margin = min(reach, 0.5 * share);
+    c.at.x = clamp(fract(c.at.x) * share, margin, share - margin) + float(part) * share;
+    return texel(light_map_texture, c);
+}
+
+// Irradiance of such a texel as the lighting takes it.
+vec3 baked_light(vec3 lux)
+{
+    return min(lux * (material.light_map_scale * 0.31830989), vec3(60000.0));
+}
+
+#endif

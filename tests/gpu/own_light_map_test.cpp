@@ -1,0 +1,127 @@
+// Light maps that a surface of a user's own decodes: dual ones, directional ones, the standard beside.
+#include <cmath>
+
+#include "formulas/light/light_map.h"
+#include "tests/gpu/own_text_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+constexpr float kScale_lux = 1000.0f;
+
+class OwnLightMap : public OwnTextTest {
+protected:
+    static std::string example(const std::string& name)
+    {
+        return std::string(PETRICHOR_SOURCE_DIR) + "/data/shaders/" + name;
+    }
+    static Texture map_of(const std::vector<glm::u8vec4>& texels)
+    {
+        Texture texture;
+        texture.name = "map";
+        texture.format = TexelFormat::Rgba8Unorm;
+        texture.width = static_cast<int>(texels.size());
+        texture.height = 1;
+        texture.nearest = true;
+        texture.mips.emplace_back();
+        for (const glm::u8vec4& t : texels) {
+            for (int c = 0; c < 4; ++c) texture.mips[0].push_back(std::byte{t[c]});
+        }
+        return texture;
+    }
+    static Material material(const std::string& surface)
+    {
+        Material m = plain_material(glm::vec3(0.5f), 1.0f);
+        m.surface = surface;
+        m.light_map.texture = 0;
+        m.light_map_scale = kScale_lux;
+        return m;
+    }
+    // Straight from above, without any other light.
+    RenderResult seen(const Material& m, const std::vector<Texture>& maps, float height_m,
+                      glm::vec3 aside = glm::vec3(0.0f))
+    {
+        renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}, {m}), maps);
+        Frame frame;
+        frame.camera = look(glm::vec3(0, height_m, 0.01f) + aside, {0, 0, 0}, 0.1f);
+        frame.settings.width = frame.settings.height = 16;
+        frame.settings.samples = 1;
+        frame.settings.image_based_light = false;
+        frame.settings.shadows = false;
+        frame.settings.aovs = {"baked_light"};
+        frame.sky.sun_illuminance = 0.0f;
+        return renderer->render(frame);
+    }
+    static float lux(const RenderResult& r, int channel = 0)
+    {
+        return aov(r, "baked_light", 8, 8, channel);
+    }
+};
+
+constexpr glm::u8vec4 kNear{51, 51, 51, 255}, kFar{204, 204, 204, 255};
+
+TEST_F(OwnLightMap, ADualOneFadesFromNearToFar)
+{
+    const Material m = material(example("dual_light_map.glsl"));
+    const auto map = map_of({kNear, kFar});
+    EXPECT_NEAR(lux(seen(m, {map}, 10.0f)), 200.0f, 1.0f);
+    EXPECT_NEAR(lux(seen(m, {map}, 30.0f)), 500.0f, 3.0f);
+    EXPECT_NEAR(lux(seen(m, {map}, 80.0f)), 800.0f, 1.0f);
+    // Without a text of its own a map is one picture.
+    const Material plain = material("");
+    EXPECT_NEAR(lux(seen(plain, {map_of({kNear, kNear})}, 80.0f)), 200.0f, 1.0f);
+}
+
+TEST_F(OwnLightMap, ADirectionalOneFollowsTheNormalMap)
+{
+    const auto map = map_of({{204, 102, 51, 255}, {204, 102, 51, 255}});
+    const glm::vec3 color{0.8f, 0.4f, 0.2f}, sides = color;
+    for (const glm::u8vec4 code : {glm::u8vec4(128, 128, 255, 255), glm::u8vec4(196, 128, 236, 255),
+                                   glm::u8vec4(100, 210, 221, 255)}) {
+        Material m = material(example("directional_light_map.glsl"));
+        m.normal_texture.texture = 1;
+        const RenderResult r = seen(m, {map, map_of({code})}, 10.0f);
+        const glm::vec3 bent = glm::normalize(glm::vec3(code) / 255.0f * 2.0f - 1.0f);
+        const glm::vec3 wanted =
+            shared::directional_light_map(color, sides, bent) * kScale_lux;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(lux(r, c), wanted[c], 0.02f * wanted[c]) << int{code.x} << " " << c;
+    }
+}
+
+TEST_F(OwnLightMap, ADirectionalOneIsMirroredWhereItsLightComesFrom)
+{
+    // All of it from the side +x of the plate, 35 degrees above it.
+    const auto map = map_of({{204, 204, 204, 255}, {255, 0, 0, 255}});
+    Material m = material(example("directional_light_map.glsl"));
+    m.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    m.roughness = 0.3f;
+    const glm::vec3 side = shared::light_map_side(0);
+    // From the other side everything is the same but the highlight.
+    const auto from = [&](float x) {
+        return pixel(seen(m, {map}, 0.0f, 10.0f * glm::vec3(x, side.z, 0.0f)), 8, 8).g;
+    };
+    const float alpha = m.roughness * m.roughness;
+    const float power = 2.0f / (alpha * alpha) - 2.0f;
+    const float wanted = 0.8f * kScale_lux / 3.14159265f * 0.04f *
+                         (power + 8.0f) / 8.0f * side.z;
+    EXPECT_NEAR(from(-side.x) - from(side.x), wanted, 0.05f * wanted);
+}
+
+TEST(LightMapSides, AreSquareToEachOtherAndEvenLightIsLight)
+{
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            EXPECT_NEAR(glm::dot(shared::light_map_side(i), shared::light_map_side(j)),
+                        i == j ? 1.0f : 0.0f, 1e-6f);
+        }
+    }
+    const glm::vec3 even(0.57735027f), up(0.0f, 0.0f, 1.0f);
+    EXPECT_NEAR(shared::directional_light_map(glm::vec3(1.0f), even, up).x, 1.0f, 1e-6f);
+    EXPECT_NEAR(shared::light_map_direction(even).z, 1.0f, 1e-6f);
+    EXPECT_EQ(shared::light_map_fade(10.0f, 20.0f, 40.0f), 0.0f);
+    EXPECT_EQ(shared::light_map_fade(50.0f, 20.0f, 40.0f), 1.0f);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
