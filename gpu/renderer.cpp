@@ -363,7 +363,6 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     if (snow && snow->lay(frame)) {
         scene->lay(device, snow->vertices());
         depth_maps.shadow_valid = false;
-        lamp_shadows.forget();
     }
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {

@@ -45,7 +45,7 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         if (!draw.casts) continue;
         const GpuMaterial& material = scene.materials()[draw.material];
         if (draw.index_count == 0) continue;
-        if (draw.overlay && (falls == Falls::Rain || falls == Falls::Sky)) continue;
+        if (draw.overlay && falls != Falls::Light) continue;
         if (material.blended && falls == Falls::Rain) continue;
         if (material.glows && falls == Falls::Lamp) continue;
         if (!material.casts_shadows && falls != Falls::Rain) continue;

@@ -31,7 +31,8 @@ struct DepthMaps {
 };
 
 /// What a map is for: light passes through what is blended, in part; rain and snow are not asked. What
-/// lies on the scene shadows sun and lamps; the sky is not asked by what lies below it. A lamp is not shadowed by what glows, the glass around it, nor by what is nearer than its map's near
+/// lies on the scene shadows the sun alone: what is below it asks the sky, and it changes with the frame,
+/// while maps of lamps are kept. A lamp is not shadowed by what glows, the glass around it, nor by what is nearer than its map's near
 /// plane.
 enum class Falls { Light, Sky, Rain, Lamp };
 
