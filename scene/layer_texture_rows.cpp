@@ -9,51 +9,51 @@ void add_layer_textures(std::vector<MaterialTexture>& t)
     constexpr std::string_view kCoat = "KHR_materials_clearcoat";
     constexpr std::string_view kSheen = "KHR_materials_sheen";
     constexpr std::string_view kSpecular = "KHR_materials_specular";
-    t.push_back(texture<&M::maps, &T::clearcoat>(
+    t.push_back(texture<&M::maps, &Maps::clearcoat>(
         "clearcoat_texture", {kCoat, "", "clearcoatTexture"}, "red: times clearcoat_factor"));
-    t.push_back(texture<&M::maps, &T::clearcoat_roughness>(
+    t.push_back(texture<&M::maps, &Maps::clearcoat_roughness>(
         "clearcoat_roughness_texture", {kCoat, "", "clearcoatRoughnessTexture"},
         "green: times clearcoat_roughness_factor"));
-    t.push_back(texture<&M::maps, &T::clearcoat_normal>(
+    t.push_back(texture<&M::maps, &Maps::clearcoat_normal>(
         "clearcoat_normal_texture", {kCoat, "", "clearcoatNormalTexture"},
         "tangent space, green up: of the coat alone; without one it is as the mesh"));
-    t.push_back(texture<&M::maps, &T::sheen_color>("sheen_color_texture",
+    t.push_back(texture<&M::maps, &Maps::sheen_color>("sheen_color_texture",
                                                    {kSheen, "", "sheenColorTexture"}, "sRGB colour"));
-    t.push_back(texture<&M::maps, &T::sheen_roughness>(
+    t.push_back(texture<&M::maps, &Maps::sheen_roughness>(
         "sheen_roughness_texture", {kSheen, "", "sheenRoughnessTexture"},
         "alpha: times sheen_roughness_factor"));
-    t.push_back(texture<&M::maps, &T::anisotropy>(
+    t.push_back(texture<&M::maps, &Maps::anisotropy>(
         "anisotropy_texture", {"KHR_materials_anisotropy", "", "anisotropyTexture"},
         "red and green: direction in the tangent frame, before anisotropy_rotation; blue: times "
         "anisotropy_strength"));
-    t.push_back(texture<&M::maps, &T::diffuse_transmission>(
+    t.push_back(texture<&M::maps, &Maps::diffuse_transmission>(
         "diffuse_transmission_texture",
         {"KHR_materials_diffuse_transmission", "", "diffuseTransmissionTexture"},
         "alpha: times diffuse_transmission_factor"));
-    t.push_back(texture<&M::maps, &T::transmission>(
+    t.push_back(texture<&M::maps, &Maps::transmission>(
         "transmission_texture", {"KHR_materials_transmission", "", "transmissionTexture"},
         "red: times transmission_factor"));
-    t.push_back(texture<&M::maps, &T::thickness>(
+    t.push_back(texture<&M::maps, &Maps::thickness>(
         "thickness_texture", {"KHR_materials_volume", "", "thicknessTexture"},
         "green: times thickness_factor"));
-    t.push_back(texture<&M::maps, &T::specular>("specular_texture",
+    t.push_back(texture<&M::maps, &Maps::specular>("specular_texture",
                                                 {kSpecular, "", "specularTexture"},
                                                 "alpha: times specular_factor"));
-    t.push_back(texture<&M::maps, &T::specular_color>(
+    t.push_back(texture<&M::maps, &Maps::specular_color>(
         "specular_color_texture", {kSpecular, "", "specularColorTexture"}, "sRGB colour"));
-    t.push_back(texture<&M::maps, &T::iridescence>(
+    t.push_back(texture<&M::maps, &Maps::iridescence>(
         "iridescence_texture", {kIridescence, "", "iridescenceTexture"},
         "red: times iridescence_factor"));
-    t.push_back(texture<&M::maps, &T::iridescence_thickness>(
+    t.push_back(texture<&M::maps, &Maps::iridescence_thickness>(
         "iridescence_thickness_texture", {kIridescence, "", "iridescenceThicknessTexture"},
         "green: 0 the least thickness .. 1 the most"));
-    t.push_back(texture<&M::maps, &T::specular_glossiness>(
+    t.push_back(texture<&M::maps, &Maps::specular_glossiness>(
         "specular_glossiness_texture", {kSpecularGlossiness, "", "specularGlossinessTexture"},
         "of specular_workflow: sRGB reflectance, alpha smoothness"));
-    t.push_back(texture<&M::maps, &T::translucency>(
+    t.push_back(texture<&M::maps, &Maps::translucency>(
         "translucency_texture", {kWeather, "", "translucencyTexture"},
         "times translucency; translucency_channel"));
-    t.push_back(texture<&M::maps, &T::skin_curvature>(
+    t.push_back(texture<&M::maps, &Maps::skin_curvature>(
         "skin_curvature_texture", {kWeather, "", "skinCurvatureTexture"},
         "times skin_curvature; skin_curvature_channel"));
 }

@@ -166,9 +166,9 @@ void add_light_rows(std::vector<Row>& t)
         "skin_blur", 0, 1, place("skinBlur"),
         "of \"skin\": how far its normal map is blurred for diffuse light; Lux has 1"));
     t.back().keyed = false;
-    t.push_back(channel<&M::maps, &T::translucency, &TextureUse::channel>(
+    t.push_back(channel<&M::maps, &Maps::translucency, &TextureUse::channel>(
         "translucency_channel", "translucencyTexture", "channel of the translucency map that is read"));
-    t.push_back(channel<&M::maps, &T::skin_curvature, &TextureUse::channel>(
+    t.push_back(channel<&M::maps, &Maps::skin_curvature, &TextureUse::channel>(
         "skin_curvature_channel", "skinCurvatureTexture", "channel of the curvature map that is read"));
     t.push_back(number<&M::vertex_occlusion>(
         "vertex_occlusion", 0, 1, place("vertexOcclusion"),

@@ -124,7 +124,7 @@ void choose_views(Scenario& scenario, const std::vector<std::string>& names)
         view.camera.keys.clear();
         chosen.push_back(std::move(view));
     }
-    scenario.views = std::move(chosen);
+    scenario.unseen_views = std::exchange(scenario.views, std::move(chosen));
 }
 
 void apply_options(Scenario& scenario, const RenderOptions& options)

@@ -18,8 +18,14 @@ std::vector<glm::vec3> eyes_of(const Sequence& sequence)
     const double aspect = static_cast<double>(s.output.width) / s.output.height;
     const int last = std::max(s.output.frames - 1, 0);
     const int moments = std::min(last + 1, kMoments);
-    std::vector<glm::vec3> eyes;
+    // In one order, whichever of the views a run shows.
+    std::vector<ScenarioView> views = s.unseen_views;
     for (const ScenarioView& view : sequence.views) {
+        const auto same = [&](const ScenarioView& other) { return other.name == view.name; };
+        if (std::none_of(views.begin(), views.end(), same)) views.push_back(view);
+    }
+    std::vector<glm::vec3> eyes;
+    for (const ScenarioView& view : views) {
         for (int i = 0; i < moments; ++i) {
             const int frame = moments > 1 ? static_cast<int>(static_cast<long>(last) * i / (moments - 1)) : 0;
             scene::Camera camera = camera_at(view.camera, sequence.scene, sequence.bounds, aspect,

@@ -306,6 +306,9 @@ struct Scenario : Conditions {
     std::vector<LampOverride> lamps;
     std::vector<ScenarioVariant> variants;  ///< empty: the scenario's own conditions
     std::vector<ScenarioView> views;        ///< empty: the scenario's own camera
+    /// Views of the file beside those, when a run shows some of them: what is made once for a film is
+    /// made for all.
+    std::vector<ScenarioView> unseen_views;
 };
 
 /// "wet", "left-2.5": what may be part of a file name. Throws Error with `what` for anything else.

@@ -16,7 +16,7 @@ namespace petrichor::scene::detail {
 
 using M = Material;
 using W = MaterialWeather;
-using T = LayerTextures;
+using Maps = LayerTextures;
 using Row = MaterialProperty;
 
 inline constexpr float kLargest = std::numeric_limits<float>::max();

@@ -199,7 +199,9 @@ TEST(Displacement, MixedSetsMixTheirHeights)
     m.second.mix_mask.texture = 2;
     displace(scene, {});
     for (const vec3& x : shape_of(scene).positions) {
-        if (x.x < 0.3f || x.x > 0.7f) EXPECT_NEAR(x.y, x.x < 0.3f ? 0.2f : -0.1f, 0.003f) << x.x;
+        if (x.x < 0.3f || x.x > 0.7f) {
+            EXPECT_NEAR(x.y, x.x < 0.3f ? 0.2f : -0.1f, 0.003f) << x.x;
+        }
     }
 }
 

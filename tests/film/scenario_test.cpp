@@ -101,6 +101,31 @@ TEST(Scenario, ATrackLeadsSomewhere)
     EXPECT_EQ(with("[[0, 0, 1], [2, 0, 1]]").problem, "no error");
 }
 
+TEST(Scenario, ProbesAreAWordOrAList)
+{
+    const auto of = [](const std::string& value) { return "[render]\nprobes = " + value + "\n"; };
+    EXPECT_TRUE(parse_scenario("", "s.toml").render.probes.automatic);
+    const ScenarioProbes off = parse_scenario(of("\"off\""), "s.toml").render.probes;
+    EXPECT_FALSE(off.automatic);
+    EXPECT_TRUE(off.places.empty());
+    const ScenarioProbes own =
+        parse_scenario(of("[{ position_m = [1, 2, 3], low_m = [0, 0, 0], high_m = [4, 4, 4], "
+                          "importance = 2, intensity = 0.5 }]"),
+                       "s.toml")
+            .render.probes;
+    ASSERT_EQ(own.places.size(), 1u);
+    EXPECT_EQ(own.places[0].high_m.y, 4.0f);
+    EXPECT_EQ(own.places[0].importance, 2.0f);
+    EXPECT_THAT(error_of(of("\"on\"")).problem, HasSubstr("\"auto\" or \"off\""));
+    EXPECT_THAT(error_of(of("[{ low_m = [0, 0, 0] }]")).problem, HasSubstr("position_m"));
+    EXPECT_THAT(error_of(of("[{ position_m = [9, 0, 0], high_m = [1, 1, 1] }]")).problem,
+                HasSubstr("between low_m and high_m"));
+    EXPECT_THAT(error_of(of("[{ position_m = [0, 0, 0], radius = 1 }]")).problem, HasSubstr("radius"));
+    std::string nine = "[";
+    for (int i = 0; i < 9; ++i) nine += "{ position_m = [0, 0, 0] }, ";
+    EXPECT_THAT(error_of(of(nine + "]")).problem, HasSubstr("at most 8 probes"));
+}
+
 TEST(Scenario, AMisspeltKeyNamesLineAndNearest)
 {
     const Message message = error_of("[output]\nframes = 3\nwidht = 64\n");

@@ -174,6 +174,35 @@ TEST_F(LightModels, LightComesThroughTowardsTheEyeAndIsShadowedByChoice)
     EXPECT_GT(shaded(0.0f), 5.0f);
 }
 
+// As it dims what glows: by the opacity of the snow, by the colour of the water.
+TEST_F(LightModels, SnowAndMurkDimWhatComesThrough)
+{
+    Material leaf = plain_material(glm::vec3(0.9f), 1.0f);
+    leaf.translucency = 0.5f;
+    leaf.translucency_distortion = 0.0f;
+    Frame frame = of_ball({0, -1, 0});
+    frame.camera = look({0, 5, 0.001f}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 2.56f;
+    const auto middle = [&] {
+        renderer->load(scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2})}, {leaf}), {});
+        return pixel(renderer->render(frame), 32, 32).g;
+    };
+    const float dry = middle();
+    ASSERT_GT(dry, 1.0f);
+    leaf.weather.snow_accumulation = {2.0f, 0.0f};
+    leaf.weather.snow_opacity = 0.9f;
+    const float thick = middle();
+    leaf.weather.snow_opacity = 0.2f;
+    const float thin = middle();
+    EXPECT_NEAR(thick / thin, 0.1f / 0.8f, 0.02f);
+    EXPECT_LT(thick, 0.2f * dry);
+    leaf.weather.snow_accumulation = {0.0f, 0.0f};
+    leaf.weather.water_accumulation = {2.0f, 0.0f, 2.0f, 0.0f};
+    const float clear = middle();
+    leaf.weather.water_color = {0.9f, 0.9f, 0.9f, 0.6f};  // as bright as the leaf: murk alone tells
+    EXPECT_LT(middle(), 0.65f * clear);
+}
+
 TEST_F(LightModels, EarsGlowInTheirOwnColour)
 {
     Material ear = plain_material(glm::vec3(0.0f, 0.5f, 0.0f), 1.0f);

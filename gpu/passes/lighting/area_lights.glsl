@@ -281,8 +281,9 @@ float seen_curvature(ivec2 texel, vec3 position, vec3 normal)
     return bends;
 }
 
-// The rows of a material behind those of coat, sheen and anisotropy.
-void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, float bare, float open, float view_m,
+// The rows of a material behind those of coat, sheen and anisotropy. glow: what weather leaves of light from
+// within.
+void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, float bare, float open, float glow, float view_m,
                   ivec2 texel)
 {
     const vec4 third = texelFetch(layers_table, at + 2);
@@ -307,7 +308,7 @@ void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, f
         const vec4 fourth = texelFetch(layers_table, at + 3);
         const vec4 fifth = texelFetch(layers_table, at + 4);
         const bool skin = p.model == uint(LIGHTING_MODEL_SKIN);
-        p.translucency = Translucency(fourth.x * bare * near * share.translucency, fourth.y, fourth.z, fourth.w, fifth.w,
+        p.translucency = Translucency(fourth.x * glow * near * share.translucency, fourth.y, fourth.z, fourth.w, fifth.w,
                                       skin ? fifth.rgb : fifth.rgb * p.diffuse);
     }
 }

@@ -433,7 +433,7 @@ void main()
                 p.layers.sheen = second.rgb * share.sheen * open;
                 p.layers.sheen_roughness = second.w * share.sheen_roughness;
             }
-            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.metallic, bare, open, view_m, texel);
+            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.metallic, bare, open, m.emission_scale, view_m, texel);
             if ((LAYERS & (LAYERS_ANISOTROPY | LAYERS_HAIR)) != 0u) {
                 // Along the surface as it is seen.
                 const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);

@@ -65,6 +65,7 @@ void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t
 void PatchLights::load(std::shared_ptr<const PatchScene> scene)
 {
     scene_ = std::move(scene);
+    ++loads_;
     lit_by_.clear();
     radiosity_.clear();
     grid_ = {};

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_PATCH_LIGHT_PATCH_LIGHT_H
 #define PETRICHOR_GPU_PASSES_PATCH_LIGHT_PATCH_LIGHT_H
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ public:
     /// Of the last relight, a patch each: what it sends out. Empty before the first.
     const std::vector<glm::vec3>& radiosity() const { return radiosity_; }
     const PatchScene* scene() const { return scene_.get(); }
+    std::uint64_t loads() const { return loads_; }  ///< grows with each load()
     /// Changes with the light; empty before the first relight.
     const std::string& lit_by() const { return lit_by_; }
     /// Milliseconds of the last relight; 0 when nothing had changed.
@@ -52,6 +54,7 @@ private:
     std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, sky_bins_;
     std::shared_ptr<const PatchScene> scene_;
     shared::PatchGrid grid_{};
+    std::uint64_t loads_ = 0;
     std::vector<glm::vec3> radiosity_;
     std::string lit_by_;  // fingerprint of what the light was solved from
     double relight_ms_ = 0.0;

@@ -62,10 +62,10 @@ void ProbeTable::relight(const PatchLights& patches)
     relight_ms_ = 0.0;
     const PatchScene* scene = patches.scene();
     const std::size_t wanted = scene ? scene->probes.size() : 0;
-    if (scene == scene_ && patches.lit_by() == lit_by_) return;
+    if (patches.loads() == loads_ && patches.lit_by() == lit_by_) return;
     const auto start = std::chrono::steady_clock::now();
     if (wanted != count_) make_buffers(wanted);
-    scene_ = scene;
+    loads_ = patches.loads();
     lit_by_ = patches.lit_by();
     parallel_for(wanted, 0, [&](std::size_t i) {
         const scene::TracedProbe& probe = scene->probes[i];

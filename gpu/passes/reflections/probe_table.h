@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_REFLECTIONS_PROBE_TABLE_H
 #define PETRICHOR_GPU_PASSES_REFLECTIONS_PROBE_TABLE_H
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -31,7 +32,7 @@ private:
     const Device* device_;
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuBuffer> rows_, light_;
-    const PatchScene* scene_ = nullptr;
+    std::uint64_t loads_ = 0;  // of the patches that they stand among
     std::string lit_by_;
     std::uint32_t count_ = 0;
     double relight_ms_ = 0.0;

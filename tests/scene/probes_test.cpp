@@ -1,0 +1,199 @@
+// Reflection probes: what they see, where they stand, and the light that they hold.
+#include "scene/probes/probes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "formulas/codec/octahedral.h"
+#include "formulas/light/reflection_probe.h"
+#include "tests/scene/patch_scenes.h"
+
+namespace petrichor::scene {
+namespace {
+
+using namespace patch_scenes;
+constexpr float kPi = 3.14159265f;
+
+struct Traced {
+    explicit Traced(Scene s) : scene(std::move(s)), triangles(scene, {}), tracer(triangles)
+    {
+        PatchOptions options;
+        options.cell_m = 0.5f;
+        patches = build_patches(tracer, options);
+        surfaces = patch_surfaces(patches, triangles, {});
+    }
+    TracedProbe probe(const ProbePlace& place, int threads = 0) const
+    {
+        return trace_probe(patches, tracer, surfaces, {}, place, threads);
+    }
+    Scene scene;
+    Triangles triangles;
+    Tracer tracer;
+    Patches patches;
+    std::vector<PatchSurface> surfaces;
+};
+
+ProbePlace at(glm::vec3 position)
+{
+    ProbePlace place;
+    place.position_m = position;
+    return place;
+}
+
+// As the shader looks it up.
+glm::vec4 seen(const std::vector<glm::vec4>& light, int level, glm::vec3 way)
+{
+    const int side = shared::reflection_probe_side(level), wide = side + 2;
+    const glm::vec2 p = (shared::octahedral_encode(way) * 0.5f + 0.5f) * static_cast<float>(side) + 0.5f;
+    const glm::ivec2 low(glm::floor(p));
+    const glm::vec2 f = p - glm::vec2(low);
+    const auto texel = [&](int x, int y) {
+        return light[static_cast<std::size_t>(shared::reflection_probe_offset(level) +
+                                              (low.y + y) * wide + low.x + x)];
+    };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x),
+                    f.y);
+}
+
+glm::vec3 random_way(std::mt19937& random)
+{
+    std::normal_distribution<float> normal;
+    return glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+}
+
+TEST(Probes, InAClosedRoomAllLightIsThatOfTheWalls)
+{
+    const Traced room_of(room());
+    const TracedProbe probe = room_of.probe(at({1.0f, 1.6f, 2.5f}));
+    const std::vector<glm::vec3> radiosity(room_of.patches.count, glm::vec3(2.0f, 1.0f, 0.5f) * kPi);
+    const auto light = lit_probe(probe, radiosity);
+    ASSERT_EQ(light.size(),
+              static_cast<std::size_t>(shared::reflection_probe_offset(shared::kProbeLevels)));
+    for (const glm::vec4& texel : light) {
+        ASSERT_NEAR(texel.r, 2.0f, 1e-4f);
+        ASSERT_NEAR(texel.g, 1.0f, 1e-4f);
+        ASSERT_NEAR(texel.b, 0.5f, 1e-4f);
+        ASSERT_NEAR(texel.a, 0.0f, 1e-6f);
+    }
+}
+
+// Six walls, six colours: any direction finds its own, over the seams of the map too.
+TEST(Probes, EveryDirectionFindsItsWall)
+{
+    const Traced room_of(room());
+    const TracedProbe probe = room_of.probe(at(glm::vec3(2.0f)));
+    const auto color_of = [](glm::vec3 inward) {
+        return glm::vec3(2.0f) + glm::vec3(1.0f, 0.5f, 0.25f) * inward;
+    };
+    std::vector<glm::vec3> radiosity;
+    for (std::uint32_t i = 0; i < room_of.patches.count; ++i)
+        radiosity.push_back(color_of(room_of.patches.normal[i]) * kPi);
+    const auto light = lit_probe(probe, radiosity);
+    std::mt19937 random(5);
+    int asked = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const glm::vec3 way = random_way(random), size = glm::abs(way);
+        const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+        glm::vec3 inward(0.0f);
+        inward[axis] = way[axis] > 0.0f ? -1.0f : 1.0f;
+        // Away from the edges of the room by more than a texel.
+        glm::vec3 rest = size;
+        rest[axis] = 0.0f;
+        if (std::max({rest.x, rest.y, rest.z}) > 0.9f * size[axis]) continue;
+        ++asked;
+        const glm::vec3 found(seen(light, 0, way));
+        EXPECT_LT(glm::distance(found, color_of(inward)), 1e-3f)
+            << way.x << " " << way.y << " " << way.z;
+    }
+    EXPECT_GT(asked, 2000);
+}
+
+TEST(Probes, OverOpenGroundTheSkyIsLeftToTheSky)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+    const Traced open(scene);
+    const auto light = lit_probe(open.probe(at({0, 1.6f, 0})),
+                                 std::vector<glm::vec3>(open.patches.count, glm::vec3(kPi)));
+    for (int level = 0; level < shared::kProbeLevels; ++level) {
+        EXPECT_NEAR(seen(light, level, {0, 1, 0}).a, 1.0f, 0.01f) << level;
+        EXPECT_NEAR(seen(light, level, {0, 1, 0}).r, 0.0f, 0.01f) << level;
+        EXPECT_NEAR(seen(light, level, {0.1f, -1, 0.2f}).a, 0.0f, 0.01f) << level;
+        EXPECT_NEAR(seen(light, level, {0.1f, -1, 0.2f}).r, 1.0f, 0.01f) << level;
+    }
+    // The rougher, the softer the horizon.
+    const glm::vec3 above = glm::normalize(glm::vec3(1.0f, 0.12f, 0.3f));
+    EXPECT_GT(seen(light, 0, above).a, 0.99f);
+    EXPECT_LT(seen(light, 2, above).a, seen(light, 0, above).a - 0.02f);
+}
+
+TEST(Probes, AnyNumberOfThreadsSeesTheSame)
+{
+    const Traced room_of(room());
+    const TracedProbe one = room_of.probe(at({1, 2, 3}), 1), four = room_of.probe(at({1, 2, 3}), 4);
+    ASSERT_EQ(one.texels.size(), four.texels.size());
+    for (std::size_t i = 0; i < one.texels.size(); ++i)
+        ASSERT_EQ(one.texels[i].patch, four.texels[i].patch);
+}
+
+TEST(Probes, AutomaticOnesStandInTheOpenAndApart)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
+    add_box(scene, {-4, 0, -4}, {4, 5, 4}, false);
+    const Traced yard(scene);
+    const auto places = place_probes(yard.patches, yard.tracer, 4);
+    ASSERT_GE(places.size(), 2u);
+    ASSERT_LE(places.size(), 4u);
+    for (const ProbePlace& place : places) {
+        const glm::vec3 p = place.position_m;
+        const bool within = std::abs(p.x) < 4 && std::abs(p.z) < 4 && p.y < 5;
+        EXPECT_FALSE(within) << p.x << " " << p.y << " " << p.z;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_LT(place.low_m[i], p[i]);
+            EXPECT_GT(place.high_m[i], p[i]);
+        }
+        for (const ProbePlace& other : places) {
+            if (&other != &place) { EXPECT_GT(glm::distance(other.position_m, p), 3.0f); }
+        }
+    }
+    Scene crumb = empty_scene();
+    add_box(crumb, glm::vec3(0.0f), glm::vec3(0.2f), false);
+    const Traced small(crumb);
+    EXPECT_TRUE(place_probes(small.patches, small.tracer, 4).empty());
+}
+
+TEST(ReflectionProbe, RaysMeetTheWallsWhereTheyAre)
+{
+    const glm::vec3 low{-3, 0, -2}, high{5, 4, 2}, centre{1, 1.6f, 0.5f};
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> unit;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 from = glm::mix(low, high, glm::vec3(unit(random), unit(random), unit(random)));
+        const glm::vec3 ray = random_way(random);
+        const glm::vec3 met = centre + shared::box_projected(from, ray, low, high, centre);
+        // On a wall, and on the ray.
+        const glm::vec3 to_wall = glm::min(glm::abs(met - low), glm::abs(high - met));
+        EXPECT_LT(std::min({to_wall.x, to_wall.y, to_wall.z}), 1e-3f);
+        EXPECT_LT(glm::length(glm::cross(glm::normalize(met - from), ray)), 1e-3f);
+    }
+}
+
+TEST(ReflectionProbe, WeightsAddUpToOneAndDoNotJump)
+{
+    for (const float third : {0.0f, 0.3f, 0.999f}) {
+        const glm::vec2 w = shared::reflection_probe_blend({1.0f, std::max(third, 0.4f), third});
+        EXPECT_NEAR(w.x + w.y, 1.0f, 1e-5f);
+        EXPECT_GE(w.y, 0.0f);
+    }
+    // Where the second and the third change places the second counts next to nothing.
+    EXPECT_LT(shared::reflection_probe_blend({1.0f, 0.5f, 0.5f}).y, 0.02f);
+    const glm::vec3 low(-1.0f), high(1.0f);
+    EXPECT_EQ(shared::reflection_probe_share({0.9f, 0, 0}, low, high, 2.0f), 1.0f);
+    EXPECT_NEAR(shared::reflection_probe_share({2.0f, 0, 0}, low, high, 2.0f), 0.5f, 1e-6f);
+    EXPECT_EQ(shared::reflection_probe_share({3.1f, 0, 0}, low, high, 2.0f), 0.0f);
+}
+
+}  // namespace
+}  // namespace petrichor::scene
