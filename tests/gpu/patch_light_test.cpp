@@ -73,6 +73,29 @@ Scene yard(const Material& material)
 
 class PatchLightTest : public GpuTest {};
 
+// Ground that no patch is near is lit by the sky, up to the outline of what hangs over it.
+TEST_F(PatchLightTest, FarGroundBehindANearThingIsNotLitAsThatThing)
+{
+    std::vector<Primitive> thing;
+    add_box(thing, {-1, 4, -1}, {1, 5, 1}, false, 0);
+    const Material matt = lambert(glm::vec3(0.5f));
+    const auto patches = traced(scene_of(thing, {matt}));
+    thing.push_back(quad({-40, -10, 40}, {80, 0, 0}, {0, 0, -80}));
+    renderer->load(scene_of(std::move(thing), {matt}), {});
+    renderer->set_patches(patches);
+    renderer->set_environment(constant_environment(1.0f));
+    const RenderResult r = renderer->render(frame_from(look({6, 9, 6}, {0, 4, 0}, 0.7f)));
+    int ground = 0;
+    for (int y = 0; y < r.height; ++y) {
+        for (int x = 0; x < r.width; ++x) {
+            if (!(aov(r, "position", x, y, 1) < -9.0f)) continue;
+            ++ground;
+            EXPECT_NEAR(pixel(r, x, y).g, 0.5f, 0.01f) << x << " " << y;
+        }
+    }
+    EXPECT_GT(ground, 1000);
+}
+
 TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
 {
     const Scene scene = yard(lambert({0.5f, 0.4f, 0.3f}));

@@ -21,6 +21,7 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
     vec4 sent = vec4(0.0);
     vec4 turn = vec4(0.0);
     float total = 0.0;
+    float without = 0.0;  // of points that no patch is near
     for (int k = 0; k < 4; ++k) {
         const ivec2 step = ivec2(k & 1, k >> 1);
         const ivec2 block = clamp(ivec2(low) + step, ivec2(0), blocks - 1);
@@ -47,13 +48,17 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
             const float weight =
                 near * (fits * fits + 1.0e-4 * (0.1 + facing) / (1.0 + away + apart));
             const vec4 found = vec4(unpackHalf2x16(a.x), unpackHalf2x16(a.y));
-            if (found.w < 0.0) continue;
+            if (found.w < 0.0) {
+                without += weight;
+                continue;
+            }
             sent += found * weight;
             turn += vec4(unpackHalf2x16(b.x), unpackHalf2x16(b.y)) * weight;
             total += weight;
         }
     }
-    if (total <= 0.0) return vec4(0.0, 0.0, 0.0, -1.0);
+    // Far ground behind a near thing is lit by the sky, not as that thing is.
+    if (total <= without) return vec4(0.0, 0.0, 0.0, -1.0);
     sent /= total;
     const float turned = clamp(dot(turn.xyz / total, bent) + turn.w / total, 0.2, 2.0);
     return vec4(min(sent.rgb * turned, vec3(60000.0)), sent.a);
