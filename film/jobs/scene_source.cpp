@@ -136,6 +136,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
+    check_decals(sequence.scene);
     const AppliedLamps lamps =
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
