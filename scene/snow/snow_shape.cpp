@@ -11,7 +11,7 @@ using glm::vec3;
 constexpr float kSunk_m = 0.012f;       // of a cap without snow, below its surface
 constexpr float kOverhang = 0.22f;      // of the depth
 constexpr float kMostOverhang_m = 0.05f;
-constexpr float kMostOverWidth = 1.3f;  // height of what stays on a post, over its half width
+constexpr float kMostOverWidth = 1.0f;  // height of what stays on a post, over its half width
 constexpr float kClosed = 1.2f;         // depth over the width of a slot, from which on snow closes it
 
 // Height over that of open ground at a share of the way from the edge (Fearing 2000 has edges round

@@ -80,7 +80,7 @@ TEST(Metering, SkyCountsAQuarterOfASurface)
 TEST(Metering, SnowIsWhite)
 {
     float before = -30.0f;
-    for (float luminance = 1e-3f; luminance < 1e5f; luminance *= 1.37f) {
+    for (float luminance = 1e-3f; luminance < 6e4f; luminance *= 1.37f) {
         std::vector<std::uint16_t> picture;
         add_pixels(picture, 100, luminance);
         const float plain = *metered_ev100(picture);
