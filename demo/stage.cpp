@@ -139,7 +139,7 @@ void add_lamp(Builder& to, scene::Light light, const scene::LightShape& shape, M
     const std::string problem = scene::shape_light(light, shape);
     if (problem.empty()) scene::turn_shape(light);
     const vec3 color = light.color;
-    const std::uint32_t glow = to.material(light.name, vec3(0.0f), 1.0f);
+    const std::uint32_t glow = to.material(light.name, vec3(0.8f), 0.6f);
     scene::Material& m = to.scene.materials[glow];
     m.emissive = color;
     m.emissive_strength = 600.0f;
