@@ -14,7 +14,8 @@ namespace petrichor::gpu {
 //   reads    depth, radiance, mirror_weight, mirror_shape, sky_specular, probes
 //   edits    accumulated
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants);
+                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
+                     bool listed = false);
 
 }  // namespace petrichor::gpu
 
