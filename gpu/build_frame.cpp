@@ -262,7 +262,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
-    variant.listed = false;
+    variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
@@ -362,6 +362,10 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         // The solid picture of a sample is lit into an image of its own where layers follow.
         GpuImage& lit = layers > 0 ? *r.transparent->solid : *r.targets->accumulated;
         const bool listed = r.adaptive && i >= 2;
+        // The small frame that is metered has one sample, and the same pipelines.
+        const bool by_list = settings.adaptive > 0.0f && r.resolve;
+        const Pixels pixels = !by_list ? Pixels::All : listed ? Pixels::Listed : Pixels::AllForNow;
+        if (by_list && i == range.first) add_all_pixels(graph, *r.targets);
         if (layers > 0) begin_transparent(graph, *r.transparent, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
@@ -385,7 +389,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
-            add_ambient_occlusion(graph, *r.targets, constants, listed);
+            add_ambient_occlusion(graph, *r.targets, constants, pixels);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);
@@ -393,12 +397,12 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
-        variant.listed = listed;
+        variant.pixels = pixels;
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
-                            listed);
+                            pixels);
         }
         if (r.adaptive && i == 0) {
             add_keep_first(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);

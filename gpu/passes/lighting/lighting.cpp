@@ -1,6 +1,5 @@
 #include "gpu/passes/lighting/lighting.h"
 
-#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/lighting/lighting_io.h"
 
 namespace petrichor::gpu {
@@ -66,7 +65,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         pass.constants.push_back({id, variant.models[i]});
     }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
-    add_over_pixels(graph, targets, std::move(pass), variant.listed);
+    add_over_pixels(graph, targets, std::move(pass), variant.pixels);
 }
 
 }  // namespace petrichor::gpu

@@ -2,7 +2,7 @@
 #define PETRICHOR_GPU_PASSES_REFLECTIONS_REFLECTIONS_H
 
 #include "gpu/frame/constants_range.h"
-#include "gpu/frame/targets.h"
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/sky/sky.h"
 
@@ -15,7 +15,7 @@ namespace petrichor::gpu {
 //   edits    accumulated
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     bool listed = false);
+                     Pixels pixels = Pixels::All);
 
 }  // namespace petrichor::gpu
 
