@@ -318,7 +318,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
 
     LightingVariant variant;
     variant.weather = weather.any;
-    variant.shadows = settings.shadows;
+    variant.sun = sun.illuminance != glm::vec3(0.0f);
+    variant.background = settings.draw_sky;
+    variant.shadows = settings.shadows && variant.sun;
     variant.image_based_light = settings.image_based_light;
     variant.ambient_occlusion = settings.ambient_occlusion;
     variant.patch_light = uses_patches(frame, r);

@@ -42,6 +42,7 @@ layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
 layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
 layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
+layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
@@ -339,7 +340,7 @@ void main()
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        radiance = BACKGROUND != 0u && (frame.flags & FRAME_SKY) != 0u
+        radiance = BACKGROUND != 0u
                        ? background(pixel_view_direction(frame, pixel))
                        : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
@@ -459,7 +460,7 @@ void main()
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
-        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
+        if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
             const float visible =

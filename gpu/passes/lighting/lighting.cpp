@@ -30,6 +30,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_SOFT_LAMPS, variant.soft_lamps},
                       {LIGHTING_SPEC_SHARES, variant.shares != nullptr},
                       {LIGHTING_SPEC_BACKGROUND, variant.background},
+                      {LIGHTING_SPEC_SUN, variant.sun},
                       {LIGHTING_SPEC_WAYS, variant.ways},
                       {LIGHTING_SPEC_LAZAROV, variant.lazarov},
                       {LIGHTING_SPEC_HORIZON, variant.horizon},

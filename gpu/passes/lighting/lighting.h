@@ -30,6 +30,7 @@ struct LightingVariant {
     std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool sun = true;          ///< it shines
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
