@@ -115,7 +115,6 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.samples = static_cast<float>(s.samples);
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
-    flag(s.draw_sky, FRAME_SKY);
     flag(s.dither, FRAME_DITHER);
     flag(s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
     flag(s.shelter, FRAME_SHELTER);

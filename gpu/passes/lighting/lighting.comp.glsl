@@ -14,6 +14,8 @@
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/frame/layer_shares.glsl"
+#define PIXEL_LIST_BINDING LIGHTING_PIXELS
+#include "gpu/frame/pixel_list.glsl"
 #include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
@@ -40,6 +42,7 @@ layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
 layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
 layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
+layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
@@ -329,15 +332,15 @@ Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, f
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, frame.size))) return;
+    ivec2 texel;
+    if (!this_pixel(frame.size, texel)) return;
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
     vec3 radiance;
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
     if (depth <= 0.0) {
-        radiance = BACKGROUND != 0u && (frame.flags & FRAME_SKY) != 0u
+        radiance = BACKGROUND != 0u
                        ? background(pixel_view_direction(frame, pixel))
                        : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
@@ -457,7 +460,7 @@ void main()
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
-        if ((sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
+        if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
             const float visible =

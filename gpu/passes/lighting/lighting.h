@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lighting/light_tables.h"
@@ -29,9 +30,11 @@ struct LightingVariant {
     std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool sun = true;          ///< it shines
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
+    Pixels pixels = Pixels::All;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
