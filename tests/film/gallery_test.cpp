@@ -134,6 +134,30 @@ TEST_F(Gallery, EverySurfaceOfOnesOwnIsSeen)
     }
 }
 
+// Image effects beside off: occlusion takes skylight where balls and plinths stand, nowhere adds any, and leaves the
+// middle of the wall alone.
+TEST_F(Gallery, OcclusionDarkensWhereThingsMeet)
+{
+    const std::string text =
+        "[scene]\nfile = \"demo:stage\"\n[lights]\nlamps = \"off\"\n[sky]\ncloud_cover = 1.0\n"
+        "[weather]\nkeys = [{ time_s = 0.0, temperature_c = 20.0, rainfall = 0.0 }]\n"
+        "[render]\nindirect = \"ambient\"\nambient_occlusion = true\n[output]\nframes = 1\n";
+    const gpu::RenderResult on = example(text);
+    const gpu::RenderResult off = example(with(text, "occlusion = true", "occlusion = false"));
+    int darker = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const float a = luminance(pixel(on, x, y)), b = luminance(pixel(off, x, y));
+            darker += a < 0.9f * b ? 1 : 0;
+            EXPECT_LT(a, 1.02f * b + 1.0f) << x << " " << y;
+        }
+    }
+    std::printf("  %d of %d pixels are darker\n", darker, kWidth * kHeight);
+    EXPECT_GT(darker, kWidth * kHeight / 200);
+    EXPECT_LT(darker, kWidth * kHeight / 3);
+    EXPECT_GT(luminance(pixel(on, 110, 12)), 0.9f * luminance(pixel(off, 110, 12)));
+}
+
 // Floor and wall hold the light of the sky, less of it where they meet what stands there; the sun is of the frame.
 TEST_F(Gallery, BakedLightLiesBesideTheSun)
 {
