@@ -237,18 +237,30 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
 {
     const FrameSettings& settings = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
-    if (r.lamp_glow->prepare(frame, c, r.lights->brightest)) {
-        add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
-    }
+    const bool glows = r.lamp_glow->prepare(frame, c, r.lights->brightest);
+    const bool falls = plan.drawn_reach_m > 0.0f;
     facts = falling_facts(plan, frame);
-    if (plan.drawn_reach_m <= 0.0f) return;
-    const FallingView view = falling_view(c);
-    r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
-    r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
-    facts.drawn = r.falling->count();
-    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, *r.splashes, constants,
-                settings.shelter && r.depth_maps->shelter_valid,
-                settings.shadows && sun.illuminance != glm::vec3(0.0f));
+    if (falls) {
+        const FallingView view = falling_view(c);
+        r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
+        r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
+        facts.drawn = r.falling->count();
+    }
+    const auto draw = [&](bool hides) {
+        if (glows) add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
+        if (!falls) return;
+        add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, *r.splashes, constants,
+                    settings.shelter && r.depth_maps->shelter_valid,
+                    settings.shadows && sun.illuminance != glm::vec3(0.0f), hides);
+    };
+    draw(false);
+    if (!r.parts->split && !r.parts->label) return;
+    // Over black: what it sends, and what it hides of the parts behind.
+    clear_light_parts(graph, *r.parts->air);
+    std::swap(r.targets->accumulated, r.parts->air);
+    draw(true);
+    std::swap(r.targets->accumulated, r.parts->air);
+    add_light_parts(graph, *r.targets, *r.parts, constants, settings.image_based_light);
 }
 
 // What lets light through, over the solid picture: the same passes, on the targets of a layer.
@@ -262,6 +274,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
+    variant.parts = &r.parts->or_none(r.parts->layer);
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
@@ -272,11 +285,12 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) {
-            add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants);
+            add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
+                            {variant.parts, variant.split, variant.parts, false});
         }
     };
-    add_transparent(graph, *r.targets, *r.transparent, *r.scene, *r.sky, constants, layers, more,
-                    draw, light);
+    add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
+                    layers, more, draw, light);
 }
 
 }  // namespace
@@ -298,25 +312,27 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const FrameSettings& settings = frame.settings;
     VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
     // Which material a pixel has is kept with the weather.
-    weather.any = weather.any || r.scene->decals_refused();
+    const bool weathered = weather.any || r.scene->decals_refused();
+    weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
     if (!r.surface_maps->generated) {
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
-    if (weather.any) {
+    if (weathered) {
         add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
     const FallingPlan plan = plan_of(frame, sun, r);
-    add_depth_maps(graph, frame, sun, r, weather.any, plan);
+    add_depth_maps(graph, frame, sun, r, weathered, plan);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
-    variant.weather = weather.any;
+    variant.weather = weathered;
+    variant.split = r.parts->split;
     variant.shadows = settings.shadows;
     variant.image_based_light = settings.image_based_light;
     variant.ambient_occlusion = settings.ambient_occlusion;
@@ -374,7 +390,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (i == 0) {
             const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
-                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts);
+                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts,
+                         !weathered);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
@@ -383,16 +400,19 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         if (layers > 0) {
             // The solid picture of this sample is lit into an image of its own.
-            begin_transparent(graph, *r.transparent, constants);
+            begin_transparent(graph, *r.transparent, *r.parts, constants);
             std::swap(r.targets->accumulated, r.transparent->solid);
         }
         if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
+        variant.parts = layers > 0 ? &r.parts->or_none(r.parts->solid) : &r.parts->sum_or_none();
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
-            add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants);
+            add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
+                            {variant.parts, variant.split, &r.parts->sum_or_none(),
+                             r.parts->label && i == 0});
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

@@ -26,7 +26,8 @@
 #define LIGHTING_SPEC_BACKGROUND 18  // 0: nothing where there is no surface
 #define LIGHTING_SPEC_SHARES 19      // textures of layers: gpu/frame/layer_shares.glsl
 #define LIGHTING_SPEC_SOFT_LAMPS 20
-#define LIGHTING_SPEC_MODEL 21    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_PARTS 21  // the light is written taken apart, too
+#define LIGHTING_SPEC_MODEL 22    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -50,6 +51,7 @@
 #define LIGHTING_PROFILES 19
 #define LIGHTING_SKIN 20
 #define LIGHTING_SHARES 21
-#define LIGHTING_GBUFFER 22  // depth, then the targets
+#define LIGHTING_PARTS 22
+#define LIGHTING_GBUFFER 23  // depth, then the targets
 
 #endif

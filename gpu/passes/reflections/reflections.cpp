@@ -5,13 +5,16 @@
 namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants)
+                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
+                     const MirrorOutputs& outputs)
 {
     const SamplerHandle& nearest = targets.nearest;
     graph.add(ComputePass{
         .name = "reflections",
         .shader = "reflections.comp",
-        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u}},
+        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u},
+                      {REFLECTIONS_SPEC_SPLIT, outputs.split},
+                      {REFLECTIONS_SPEC_LABEL, outputs.label}},
         .bindings = {{REFLECTIONS_FRAME, frame_binding(constants)},
                      {REFLECTIONS_DEPTH, sampled(*targets.gbuffer.depth, nearest)},
                      {REFLECTIONS_RADIANCE, sampled(*targets.radiance, nearest)},
@@ -20,7 +23,10 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_SPECULAR, sampled(*sky.specular, sky.linear)},
                      {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
                      {REFLECTIONS_PROBES, texels(probes.rows())},
-                     {REFLECTIONS_PROBE_LIGHT, texels(probes.light())}},
+                     {REFLECTIONS_PROBE_LIGHT, texels(probes.light())},
+                     {REFLECTIONS_IDENTITY, sampled(*targets.gbuffer.identity, nearest)},
+                     {REFLECTIONS_PARTS, storage(*outputs.parts)},
+                     {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
         .groups = groups_over(targets.width, targets.height, REFLECTIONS_TILE)});
 }
