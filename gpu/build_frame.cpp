@@ -6,6 +6,7 @@
 #include "gpu/build_frame.h"
 #include "gpu/frame/falls.h"
 #include "gpu/lighting/models_io.h"
+#include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
@@ -275,6 +276,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.shares = nullptr;
     variant.background = false;
     variant.parts = &r.parts->or_none(r.parts->layer);
+    variant.listed = false;
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
@@ -374,11 +376,23 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         const int needed = r.transparent ? transparent_layers(*r.scene, c.world_to_clip) : 0;
         const int layers = std::min(needed, settings.transparent_layers);
         const Draws solid = layers > 0 ? Draws::Solid : Draws::All;
+        // The solid picture of a sample is lit into an image of its own where layers follow.
+        GpuImage& lit = layers > 0 ? *r.transparent->solid : *r.targets->accumulated;
+        GpuImage& lit_parts =
+            layers > 0 ? r.parts->or_none(r.parts->solid) : r.parts->sum_or_none();
+        const bool listed = r.adaptive && i >= 2;
+        if (layers > 0) begin_transparent(graph, *r.transparent, *r.parts, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
                            c.world_to_clip, c.camera_m, weather, solid);
+            if (listed) {
+                add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+                if (variant.split)
+                    add_parts_mean(graph, *r.targets, *r.parts, lit_parts, PARTS_MEAN_TAKE,
+                                   r.resolve->asked.get(), constants);
+            }
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
-                                *r.depth_maps, *r.place, constants, weather);
+                                *r.depth_maps, *r.place, constants, weather, listed);
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
                         constants, c.world_to_clip, c.camera_m, weather, solid);
@@ -396,23 +410,35 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
-            add_ambient_occlusion(graph, *r.targets, constants);
+            add_ambient_occlusion(graph, *r.targets, constants, listed);
         }
         if (layers > 0) {
-            // The solid picture of this sample is lit into an image of its own.
-            begin_transparent(graph, *r.transparent, *r.parts, constants);
             std::swap(r.targets->accumulated, r.transparent->solid);
         }
         if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
-        variant.parts = layers > 0 ? &r.parts->or_none(r.parts->solid) : &r.parts->sum_or_none();
+        variant.parts = &lit_parts;
+        variant.listed = listed;
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                             r.parts->label && i == 0});
+                             r.parts->label && i == 0},
+                            listed);
+        }
+        if (r.adaptive && i == 0) {
+            add_keep_first(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+            if (variant.split && layers > 0)
+                add_parts_mean(graph, *r.targets, *r.parts, lit_parts, PARTS_MEAN_KEEP, nullptr, constants);
+        }
+        if (r.adaptive && i == 1) {
+            add_settle(graph, *r.targets, *r.resolve, *r.sky, *r.adaptive, lit, layers == 0,
+                       settings.adaptive, constants);
+            if (variant.split)
+                add_parts_mean(graph, *r.targets, *r.parts, lit_parts,
+                               layers > 0 ? PARTS_MEAN_OF_TWO : PARTS_MEAN_OF_SUM, nullptr, constants);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

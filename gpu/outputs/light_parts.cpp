@@ -42,7 +42,7 @@ bool needs_materials(std::size_t row)
 }
 
 void prepare_light_parts(LightParts& parts, MemoryArena& arena, const std::vector<std::size_t>& rows,
-                         int width, int height, bool layered)
+                         int width, int height, bool layered, bool adaptive)
 {
     parts.split = parts.label = false;
     for (const std::size_t row : rows) {
@@ -71,6 +71,9 @@ void prepare_light_parts(LightParts& parts, MemoryArena& arena, const std::vecto
         parts.layer = image("light_parts_layer", width, height, LIGHT_PARTS);
         parts.front = image("light_parts_front", width, height, LIGHT_PARTS);
     }
+    if (parts.split && adaptive && !parts.mean) {
+        parts.mean = image("light_parts_mean", width, height, LIGHT_PARTS);
+    }
     parts.values.resize(LIGHT_PARTS_LAYERS);
     for (const std::size_t row : rows) {
         if (!is_light_part(row) || parts.values[layer_of(row)]) continue;
@@ -95,6 +98,23 @@ void clear_light_parts(FrameGraph& graph, GpuImage& image)
             vkCmdClearColorImage(commands, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                  &dark, 1, &all);
         }});
+}
+
+void add_parts_mean(FrameGraph& graph, const FrameTargets& targets, LightParts& parts, GpuImage& lit,
+                    int what, GpuBuffer* asked, const ConstantsRange& constants)
+{
+    // Without a list it is bound and not read.
+    GpuBuffer& bits = asked ? *asked : *targets.pixel_list;
+    graph.add(ComputePass{
+        .name = "light_parts",
+        .shader = "light_parts_mean.comp",
+        .constants = {{PARTS_MEAN_SPEC_WHAT, static_cast<std::uint32_t>(what)}},
+        .bindings = {{PARTS_MEAN_FRAME, frame_binding(constants)},
+                     {PARTS_MEAN_LIT, storage(lit)},
+                     {PARTS_MEAN_MEAN, storage(*parts.mean)},
+                     {PARTS_MEAN_ASKED, storage_buffer(bits)}},
+        .push = {},
+        .groups = groups_over(targets.width, targets.height, LIGHT_PARTS_TILE)});
 }
 
 void add_light_parts(FrameGraph& graph, const FrameTargets& targets, LightParts& parts,

@@ -19,6 +19,7 @@ struct LightParts {
     std::unique_ptr<GpuImage> solid;  ///< behind all blended layers, of one sample
     std::unique_ptr<GpuImage> layer;  ///< of the blended layer at work
     std::unique_ptr<GpuImage> front;  ///< of the layers so far
+    std::unique_ptr<GpuImage> mean;   ///< of the first two samples, of frames that shade some pixels twice
     std::unique_ptr<GpuImage> air;    ///< light of what is drawn over the picture; alpha: what it hides
     std::vector<std::unique_ptr<GpuBuffer>> values;  ///< by layer of those asked, read by the host
 
@@ -33,11 +34,19 @@ bool needs_materials(std::size_t row);
 
 /// Makes what a frame of this size needs that asks for these rows.
 ///   layered   blended layers are drawn apart
+///   adaptive  samples from the third on shade some pixels only
 void prepare_light_parts(LightParts& parts, MemoryArena& arena, const std::vector<std::size_t>& rows,
-                         int width, int height, bool layered);
+                         int width, int height, bool layered, bool adaptive);
 
 /// Without light.
 void clear_light_parts(FrameGraph& graph, GpuImage& image);
+
+// What pixels take that later samples do not shade (gpu/passes/adaptive): the mean of the first two.
+//
+//   edits    lit, parts.mean: what, PARTS_MEAN_... says
+//   asked    with PARTS_MEAN_TAKE: a bit a pixel that is shaded
+void add_parts_mean(FrameGraph& graph, const FrameTargets& targets, LightParts& parts, GpuImage& lit,
+                    int what, GpuBuffer* asked, const ConstantsRange& constants);
 
 // The asked parts as the host reads them. mirrors: the frame has reflections.
 //

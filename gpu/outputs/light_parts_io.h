@@ -48,6 +48,17 @@
 #define LIGHT_PARTS_AIR 2
 #define LIGHT_PARTS_VALUES 3
 
+// light_parts_mean.comp
+#define PARTS_MEAN_KEEP 0    // mean = lit
+#define PARTS_MEAN_OF_TWO 1  // mean = (mean + lit) / 2
+#define PARTS_MEAN_OF_SUM 2  // mean = lit / 2
+#define PARTS_MEAN_TAKE 3    // lit += mean where nothing is shaded
+#define PARTS_MEAN_SPEC_WHAT 0
+#define PARTS_MEAN_FRAME 0
+#define PARTS_MEAN_LIT 1
+#define PARTS_MEAN_MEAN 2
+#define PARTS_MEAN_ASKED 3  // as gpu/passes/adaptive/adaptive_io.h
+
 SHARED_BEGIN
 
 struct LightPartsPush {

@@ -12,7 +12,7 @@ namespace petrichor::gpu {
 //   reads    depth, normals
 //   writes   screen_occlusion
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants);
+                           const ConstantsRange& constants, bool listed);
 
 }  // namespace petrichor::gpu
 

@@ -32,6 +32,7 @@ struct LightingVariant {
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
+    bool listed = false;      ///< the targets' list of pixels, not all
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour

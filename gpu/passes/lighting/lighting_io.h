@@ -51,7 +51,8 @@
 #define LIGHTING_PROFILES 19
 #define LIGHTING_SKIN 20
 #define LIGHTING_SHARES 21
-#define LIGHTING_PARTS 22
-#define LIGHTING_GBUFFER 23  // depth, then the targets
+#define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
+#define LIGHTING_PARTS 23
+#define LIGHTING_GBUFFER 24  // depth, then the targets
 
 #endif

@@ -1,15 +1,18 @@
 #include "gpu/passes/reflections/reflections.h"
 
+#include <utility>
+
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/reflections/reflections_io.h"
 
 namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     const MirrorOutputs& outputs)
+                     const MirrorOutputs& outputs, bool listed)
 {
     const SamplerHandle& nearest = targets.nearest;
-    graph.add(ComputePass{
+    ComputePass pass{
         .name = "reflections",
         .shader = "reflections.comp",
         .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u},
@@ -24,11 +27,13 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
                      {REFLECTIONS_PROBES, texels(probes.rows())},
                      {REFLECTIONS_PROBE_LIGHT, texels(probes.light())},
+                     {REFLECTIONS_PIXELS, texels(*targets.pixel_list)},
                      {REFLECTIONS_IDENTITY, sampled(*targets.gbuffer.identity, nearest)},
                      {REFLECTIONS_PARTS, storage(*outputs.parts)},
                      {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
-        .groups = groups_over(targets.width, targets.height, REFLECTIONS_TILE)});
+        .groups = {}};
+    add_over_pixels(graph, targets, std::move(pass), listed);
 }
 
 }  // namespace petrichor::gpu

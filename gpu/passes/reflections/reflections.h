@@ -23,7 +23,7 @@ struct MirrorOutputs {
 //   edits    accumulated; light_parts of frames that ask
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     const MirrorOutputs& outputs);
+                     const MirrorOutputs& outputs, bool listed = false);
 
 }  // namespace petrichor::gpu
 
