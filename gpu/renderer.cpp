@@ -503,7 +503,7 @@ std::optional<float> Renderer::meter(const Frame& frame)
     check_frame(frame, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
     const RenderResult result = impl_->render(metering_frame(frame), impl_->metering);
-    return metered_ev100(result.beauty);
+    return metered_ev100(result.beauty, result.aovs.front().pixels);
 }
 
 const DeviceInfo& Renderer::device() const
