@@ -268,6 +268,7 @@ TEST(Radiation, ClearSkyAndClouds)
     EXPECT_NEAR(cloudy_sky_w_m2(sine(30), 1), 122.462, kDigits3);
     for (double n = 0.05; n < 1; n += 0.05) {
         EXPECT_NEAR(cloud_fraction_of(cloudy_sky_w_m2(0.5, n), 0.5), n, 1e-9);
+        EXPECT_NEAR(cloud_fraction_of_diffuse(0.3 + 0.7 * n * n), n, 1e-9);
     }
     const double e1 = vapour_pressure_pa(kelvin(0), 80), e2 = vapour_pressure_pa(kelvin(15), 60);
     EXPECT_NEAR(clear_sky_emissivity(kelvin(0), e1), 0.73211, kDigits5);

@@ -120,6 +120,11 @@ double cloud_fraction_of(double shortwave_w_m2, double sine_elevation)
     return lost > 0.0 ? detail::power(lost, 1.0 / 3.4) : 0.0;
 }
 
+double cloud_fraction_of_diffuse(double diffuse_share)
+{
+    return std::sqrt(detail::unit_clamped((diffuse_share - 0.3) / 0.7));
+}
+
 double erbs_diffuse_fraction(double kt)
 {
     if (kt <= 0.22) return 1.0 - 0.09 * kt;

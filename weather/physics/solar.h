@@ -30,6 +30,10 @@ double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
 
+/// Cloud fraction 0..1 from the share of shortwave that is diffuse, 0..1: the inverse of 0.3 + 0.7 N^2
+/// (Kasten & Czeplak 1980). Unlike that of shortwave it does not depend on how clear the air is.
+double cloud_fraction_of_diffuse(double diffuse_share);
+
 /// Share of shortwave that is diffuse, 0..1, by the clearness index, >= 0 (Erbs, Klein & Duffie
 /// 1982).
 double erbs_diffuse_fraction(double clearness);
