@@ -310,6 +310,24 @@ TEST(Solar, AlmanacDirections)
     EXPECT_NEAR(early.east, 0.0, 2e-3);
 }
 
+// Within an hour of its moment it is where the almanac has it.
+TEST(Solar, NearAMomentIsTheAlmanacs)
+{
+    for (int day = 0; day < 366; day += 13) {
+        for (int hour = 0; hour < 24; hour += 5) {
+            const std::int64_t at = (1104537600LL + day * 86400 + hour * 3600) * 1000000;
+            const SunNear track(at, 57.7, 11.96);
+            for (const int minutes : {-60, -13, 0, 30, 60}) {
+                const std::int64_t us = at + minutes * 60000000LL;
+                const SunDirection a = track.at(us), b = sun_direction(us, 57.7, 11.96);
+                const double apart = std::hypot(a.east - b.east, a.north - b.north, a.up - b.up);
+                EXPECT_LT(apart, minutes == 0 ? 1e-12 : 0.05 * kPi / 180) << day << " " << hour;
+                EXPECT_NEAR(a.extraterrestrial_w_m2, b.extraterrestrial_w_m2, 0.05);
+            }
+        }
+    }
+}
+
 TEST(Air, VisibilityAndDrops)
 {
     EXPECT_DOUBLE_EQ(extinction_1_m(1000, VisibilityKind::Contrast2Percent), 3.912e-3);

@@ -16,6 +16,19 @@ struct SunDirection {
 ///   source               low-precision solar coordinates of the Astronomical Almanac
 SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg);
 
+/// The sun about a moment, for many times within an hour of it: where sun_direction has it, to 0.05
+/// degrees, at a fifth of the cost.
+class SunNear {
+public:
+    SunNear(std::int64_t middle_us, double latitude_deg, double longitude_deg);
+    SunDirection at(std::int64_t unix_us) const;
+
+private:
+    double longitude_deg_;
+    double sin_latitude_, cos_latitude_, sin_declination_, cos_declination_;
+    double sin_ascension_, cos_ascension_, extraterrestrial_w_m2_;
+};
+
 /// Sun by solar time (12 = noon, the sun in the south or north; hours beyond 0..24 are other days)
 /// on a day of the year (1..366), with the declination that the function above has at that noon.
 SunDirection sun_by_solar_time(double day_of_year, double solar_hour, double latitude_deg);
