@@ -20,6 +20,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "base/sanitized.h"
 
 #if __has_include(<linux/landlock.h>)
 #include <linux/landlock.h>
@@ -107,6 +108,10 @@ constexpr int kAllowed[] = {SCMP_SYS(read),
                             SCMP_SYS(rt_sigreturn),
                             SCMP_SYS(sigaltstack),
                             SCMP_SYS(restart_syscall),
+#ifdef PETRICHOR_SANITIZED
+                            SCMP_SYS(pipe),
+                            SCMP_SYS(pipe2),
+#endif
                             SCMP_SYS(exit),
                             SCMP_SYS(exit_group)};
 
@@ -186,6 +191,9 @@ void limit_memory(std::uint64_t bytes)
     std::ifstream("/proc/self/statm") >> pages;
     rlimit limit{};
     ::getrlimit(RLIMIT_AS, &limit);
+#ifdef PETRICHOR_SANITIZED
+    bytes = RLIM_INFINITY / 2;
+#endif
     const rlim_t wanted = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + bytes;
     limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(limit.rlim_max, wanted);
     limit.rlim_max = limit.rlim_cur;

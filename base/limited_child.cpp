@@ -20,16 +20,8 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/sanitized.h"
 #include "base/words.h"
-
-#ifdef __has_feature
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PETRICHOR_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PETRICHOR_SANITIZED
-#endif
 
 namespace petrichor {
 

@@ -262,6 +262,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
+    variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
@@ -358,11 +359,20 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         const int needed = r.transparent ? transparent_layers(*r.scene, c.world_to_clip) : 0;
         const int layers = std::min(needed, settings.transparent_layers);
         const Draws solid = layers > 0 ? Draws::Solid : Draws::All;
+        // The solid picture of a sample is lit into an image of its own where layers follow.
+        GpuImage& lit = layers > 0 ? *r.transparent->solid : *r.targets->accumulated;
+        const bool listed = r.adaptive && i >= 2;
+        // The small frame that is metered has one sample, and the same pipelines.
+        const bool by_list = settings.adaptive > 0.0f && r.resolve;
+        const Pixels pixels = !by_list ? Pixels::All : listed ? Pixels::Listed : Pixels::AllForNow;
+        if (by_list && i == range.first) add_all_pixels(graph, *r.targets);
+        if (layers > 0) begin_transparent(graph, *r.transparent, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
                            c.world_to_clip, c.camera_m, weather, solid);
+            if (listed) add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
-                                *r.depth_maps, *r.place, constants, weather);
+                                *r.depth_maps, *r.place, constants, weather, listed);
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
                         constants, c.world_to_clip, c.camera_m, weather, solid);
@@ -379,20 +389,27 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
-            add_ambient_occlusion(graph, *r.targets, constants);
+            add_ambient_occlusion(graph, *r.targets, constants, pixels);
         }
         if (layers > 0) {
-            // The solid picture of this sample is lit into an image of its own.
-            begin_transparent(graph, *r.transparent, constants);
             std::swap(r.targets->accumulated, r.transparent->solid);
         }
         if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
+        variant.pixels = pixels;
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
-            add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants);
+            add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
+                            pixels);
+        }
+        if (r.adaptive && i == 0) {
+            add_keep_first(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+        }
+        if (r.adaptive && i == 1) {
+            add_settle(graph, *r.targets, *r.resolve, *r.sky, *r.adaptive, lit, layers == 0,
+                       settings.adaptive, constants);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

@@ -3,6 +3,7 @@
 
 #include "gpu/frame/frame_constants.h"
 #include "gpu/outputs/aov.h"
+#include "gpu/passes/adaptive/adaptive.h"
 #include "gpu/passes/decals/decals.h"
 #include "gpu/passes/falling/falling.h"
 #include "gpu/passes/lamp_glow/lamp_glow.h"
@@ -29,6 +30,7 @@ struct FrameResources {
     SkyMaps* sky = nullptr;
     ResolveTables* resolve = nullptr;  ///< null: surfaces are shaded as fragments
     TransparentTargets* transparent = nullptr;  ///< null: what lets light through goes by chance
+    AdaptiveTargets* adaptive = nullptr;  ///< null: every sample shades every pixel
     DecalTargets* decals = nullptr;    ///< null: the scene has none
     LightTable* lights = nullptr;
     LampGlow* lamp_glow = nullptr;

@@ -117,6 +117,8 @@ struct TargetSet {
     int transparent_words = 0;
     std::unique_ptr<MemoryArena> decal_arena;
     DecalTargets decals;
+    std::unique_ptr<MemoryArena> adaptive_arena;
+    AdaptiveTargets adaptive;
 };
 
 struct Renderer::Impl {
@@ -200,11 +202,12 @@ struct Renderer::Impl {
     }
 
     // True when this frame resolves a visibility buffer; its tables are then made for its size.
-    bool prepare_resolve(TargetSet& set, const FrameSettings& s)
+    bool prepare_resolve(TargetSet& set, const Frame& frame)
     {
+        const FrameSettings& s = frame.settings;
         ResolveTables& resolve = set.resolve;
-        if (chosen_surface_path(s.surface_path, device, *scene, s.width, s.height) !=
-            SurfacePath::Visibility) {
+        if (chosen_surface_path(s.surface_path, device, *scene, s.width, s.height,
+                                is_adaptive(frame)) != SurfacePath::Visibility) {
             return false;
         }
         const bool shares = scene->layer_shares();
@@ -246,6 +249,20 @@ struct Renderer::Impl {
             set.decals = {};
             set.decal_arena = std::make_unique<MemoryArena>(device);
             set.decals = make_decal_targets(*set.decal_arena, s.width, s.height);
+        }
+        return true;
+    }
+
+    // True when later samples go by what the first two saw; the targets are then made for the frame's size.
+    bool prepare_adaptive(TargetSet& set, const Frame& frame)
+    {
+        if (!is_adaptive(frame)) return false;
+        const FrameSettings& s = frame.settings;
+        const GpuImage* now = set.adaptive.seen.get();
+        if (!now || now->width != s.width || now->height != s.height) {
+            set.adaptive = {};
+            set.adaptive_arena = std::make_unique<MemoryArena>(device);
+            set.adaptive = make_adaptive_targets(*set.adaptive_arena, s.width, s.height);
         }
         return true;
     }
@@ -307,7 +324,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
         impl_->pipelines.add_shader(kOwnLightingShader, std::move(own_lighting));
     auto own_surfaces = impl_->scene->own_surfaces().compile();
     if (!own_surfaces.empty()) {
-        if (chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1) !=
+        if (chosen_surface_path(SurfacePath::Auto, impl_->device, *impl_->scene, 1, 1, false) !=
             SurfacePath::Visibility) {
             throw Error("surface: this device cannot number triangles or fetch their corners, which "
                         "surfaces of one's own need",
@@ -395,7 +412,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.patches = &patches;
     resources.probes = &probes;
     resources.place = &place;
-    if (prepare_resolve(set, frame.settings)) resources.resolve = &set.resolve;
+    if (prepare_resolve(set, frame)) resources.resolve = &set.resolve;
+    if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
     if (prepare_decals(set, frame.settings)) resources.decals = &set.decals;
     resources.environment = environment.get();
@@ -426,7 +444,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
             depth_maps.forget();
             lamp_shadows.forget();
             prepare_lights(frame, scene_sun);
-            prepare_resolve(set, frame.settings);
+            prepare_resolve(set, frame);
         }
         FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
         graph_text += graph.describe();

@@ -8,16 +8,16 @@
 namespace petrichor::gpu {
 
 /// The way in which a scene's surfaces are shaded at a picture size: what was asked for, or with Auto
-/// the faster one. It follows from device, scene and size alone, so that all frames of a film take
-/// the same. Never Auto; Fragment where the other is not possible; Visibility for scenes with users' own
-/// surfaces
-/// or with textures of coats, sheen and other layers.
+/// the faster one. It follows from device, scene, size and whether samples are left out alone, so that
+/// all frames of a film take the same. Never Auto; Fragment where the other is not possible; Visibility
+/// for scenes with users' own surfaces or with textures of coats, sheen and other layers.
 ///
 /// On a CPU, fragments are shaded in blocks of two by two whatever a triangle covers: where triangles
 /// are small the resolve wins, where they are large it pays for fetching corners at every pixel.
-/// The measurements are in docs/surface-paths.md; no GPU has been measured, there it is Fragment.
+/// Adaptive samples
+/// are the resolve's alone. The measurements are in docs/surface-paths.md; no GPU has been measured, there it is Fragment.
 SurfacePath chosen_surface_path(SurfacePath asked, const Device& device, const GpuScene& scene,
-                                int width, int height);
+                                int width, int height, bool adaptive);
 
 }  // namespace petrichor::gpu
 

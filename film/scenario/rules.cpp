@@ -444,6 +444,10 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa = v.number(0.0, 4.0); }},
         {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
+        {{"render", "adaptive", "0.02",
+          "pixels whose first two samples differ by less, of the display's range, take no further ones: "
+          "0 (all samples everywhere) to 1"},
+         [](Scenario& s, const TomlValue& v) { s.render.adaptive = v.number(0.0, 1.0); }},
         {{"render", "lod_scale", "1.0",
           "levels of detail (glTF MSFT_lod) are chosen as if things were so much larger, 0.01 to 100"},
          [](Scenario& s, const TomlValue& v) { s.render.lod_scale = v.number(0.01, 100.0); }},

@@ -100,6 +100,8 @@ struct FrameSettings : FrameSwitches {
     int width = 640;
     int height = 360;
     int samples = 8;         ///< jittered samples a pixel, 1..256
+    float adaptive = 0.0f;   ///< pixels whose first two samples differ by less on the display, 0..1, are
+                             ///< not shaded again (passes/adaptive); 0: all are
     double time_s = 0.0;     ///< drives ripples and flow
     std::uint32_t seed = 1;  ///< jitter
     float exposure = 0.0f;   ///< > 0: linear scale; 0: by the light that falls in, of sun and sky

@@ -50,6 +50,8 @@ struct FrameTargets {
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
     std::unique_ptr<GpuBuffer> coarse_lights;
     std::unique_ptr<GpuBuffer> light_lists;
+    std::unique_ptr<GpuBuffer> pixel_list;    ///< gpu/frame/pixel_list_io.h
+    std::unique_ptr<GpuBuffer> pixel_groups;  ///< the arguments of a dispatch over it
     std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
     std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host

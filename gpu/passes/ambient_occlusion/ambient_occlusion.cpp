@@ -5,19 +5,22 @@
 namespace petrichor::gpu {
 
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants)
+                           const ConstantsRange& constants, Pixels pixels)
 {
     GBuffer& g = targets.gbuffer;
-    graph.add(
+    add_over_pixels(
+        graph, targets,
         ComputePass{.name = "ambient_occlusion",
                     .shader = "ambient_occlusion.comp",
                     .constants = {},
                     .bindings = {{AMBIENT_OCCLUSION_FRAME, frame_binding(constants)},
                                  {AMBIENT_OCCLUSION_DEPTH, sampled(*g.depth, targets.nearest)},
                                  {AMBIENT_OCCLUSION_NORMALS, sampled(*g.normals, targets.nearest)},
-                                 {AMBIENT_OCCLUSION_TARGET, storage(*targets.occlusion)}},
+                                 {AMBIENT_OCCLUSION_TARGET, storage(*targets.occlusion)},
+                                 {AMBIENT_OCCLUSION_PIXELS, texels(*targets.pixel_list)}},
                     .push = {},
-                    .groups = groups_over(targets.width, targets.height, AMBIENT_OCCLUSION_TILE)});
+                    .groups = {}},
+        pixels);
 }
 
 }  // namespace petrichor::gpu

@@ -8,5 +8,6 @@
 #define AMBIENT_OCCLUSION_DEPTH 1
 #define AMBIENT_OCCLUSION_NORMALS 2
 #define AMBIENT_OCCLUSION_TARGET 3
+#define AMBIENT_OCCLUSION_PIXELS 4  // gpu/frame/pixel_list_io.h
 
 #endif

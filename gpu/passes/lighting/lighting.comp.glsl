@@ -14,6 +14,8 @@
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
 #include "gpu/frame/layer_shares.glsl"
+#define PIXEL_LIST_BINDING LIGHTING_PIXELS
+#include "gpu/frame/pixel_list.glsl"
 #include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
@@ -329,8 +331,8 @@ Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, f
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, frame.size))) return;
+    ivec2 texel;
+    if (!this_pixel(frame.size, texel)) return;
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
     vec3 radiance;

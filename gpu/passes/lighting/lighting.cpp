@@ -51,6 +51,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKIN, texels(light_tables.skin())},
                      {LIGHTING_SHARES, sampled(variant.shares ? *variant.shares : light_tables.no_shares(),
                                                nearest)},
+                     {LIGHTING_PIXELS, texels(*targets.pixel_list)},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
@@ -58,13 +59,13 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)}},
         .push = {},
-        .groups = groups_over(targets.width, targets.height, LIGHTING_TILE)};
+        .groups = {}};
     for (std::size_t i = 0; i < variant.models.size(); ++i) {
         const auto id = static_cast<std::uint32_t>(LIGHTING_SPEC_MODEL + i);
         pass.constants.push_back({id, variant.models[i]});
     }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
-    graph.add(std::move(pass));
+    add_over_pixels(graph, targets, std::move(pass), variant.pixels);
 }
 
 }  // namespace petrichor::gpu

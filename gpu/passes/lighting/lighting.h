@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lighting/light_tables.h"
@@ -32,6 +33,7 @@ struct LightingVariant {
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
+    Pixels pixels = Pixels::All;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour

@@ -50,6 +50,7 @@
 #define LIGHTING_PROFILES 19
 #define LIGHTING_SKIN 20
 #define LIGHTING_SHARES 21
-#define LIGHTING_GBUFFER 22  // depth, then the targets
+#define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
+#define LIGHTING_GBUFFER 23  // depth, then the targets
 
 #endif

@@ -7,6 +7,8 @@
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.h"
 #include "gpu/passes/reflections/reflections_io.h"
+#define PIXEL_LIST_BINDING REFLECTIONS_PIXELS
+#include "gpu/frame/pixel_list.glsl"
 
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
 layout(binding = REFLECTIONS_FRAME, scalar) uniform Frame { FrameConstants frame; };
@@ -127,8 +129,8 @@ Hit trace(vec3 origin, vec3 direction)
 
 void main()
 {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, frame.size))) return;
+    ivec2 texel;
+    if (!this_pixel(frame.size, texel)) return;
     vec4 sum = texelFetch(radiance_map, texel, 0);
     const vec4 mirror = texelFetch(mirror_weight, texel, 0);
     const vec3 weight = mirror.rgb;

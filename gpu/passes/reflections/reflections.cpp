@@ -1,14 +1,17 @@
 #include "gpu/passes/reflections/reflections.h"
 
+#include <utility>
+
 #include "gpu/passes/reflections/reflections_io.h"
 
 namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
-                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants)
+                     const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
+                     Pixels pixels)
 {
     const SamplerHandle& nearest = targets.nearest;
-    graph.add(ComputePass{
+    ComputePass pass{
         .name = "reflections",
         .shader = "reflections.comp",
         .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u}},
@@ -20,9 +23,11 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_SPECULAR, sampled(*sky.specular, sky.linear)},
                      {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
                      {REFLECTIONS_PROBES, texels(probes.rows())},
-                     {REFLECTIONS_PROBE_LIGHT, texels(probes.light())}},
+                     {REFLECTIONS_PROBE_LIGHT, texels(probes.light())},
+                     {REFLECTIONS_PIXELS, texels(*targets.pixel_list)}},
         .push = {},
-        .groups = groups_over(targets.width, targets.height, REFLECTIONS_TILE)});
+        .groups = {}};
+    add_over_pixels(graph, targets, std::move(pass), pixels);
 }
 
 }  // namespace petrichor::gpu

@@ -14,6 +14,8 @@
 #define REFLECTIONS_PROBES 7        // PROBE_ROWS entries a probe
 #define REFLECTIONS_PROBE_LIGHT 8   // levels of each probe, one after the other
 
+#define REFLECTIONS_PIXELS 9        // gpu/frame/pixel_list_io.h
+
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 
 // Of a probe: position, boost; low corner, blend; high corner, share of sky above.

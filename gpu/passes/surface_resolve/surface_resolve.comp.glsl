@@ -1,5 +1,5 @@
 #version 460
-// Shades the pixels of one material, tile by tile: the triangle that is seen is met again by the ray
+// Shades the pixels of one material, from a list of them: the triangle that is seen is met again by the ray
 // through the pixel and by the rays through its neighbours, whose differences are the derivatives.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,12 +10,12 @@ layout(constant_id = RESOLVE_SPEC_EMISSION) const uint SURFACE_EMISSION = 1u;
 layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
-layout(local_size_x = RESOLVE_TILE, local_size_y = RESOLVE_TILE) in;
+layout(local_size_x = RESOLVE_GROUP) in;
 layout(set = 0, binding = RESOLVE_IDS) uniform usampler2D ids;
 layout(set = 0, binding = RESOLVE_VERTICES) uniform usamplerBuffer vertices;
 layout(set = 0, binding = RESOLVE_INDICES) uniform usamplerBuffer indices;
 layout(set = 0, binding = RESOLVE_DRAWS) uniform usamplerBuffer draws;
-layout(set = 0, binding = RESOLVE_TILES) uniform usamplerBuffer tiles;
+layout(set = 0, binding = RESOLVE_PIXELS) uniform usamplerBuffer pixels;
 layout(set = 0, binding = RESOLVE_COUNTS) uniform usamplerBuffer ends;
 #define IMAGE_R8G8B8A8_UNORM rgba8
 #define IMAGE_R16G16_UNORM rg16
@@ -100,16 +100,16 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 at)
 
 void main()
 {
-    // The list of a material ends where listing left its counter.
-    const uint end = texelFetch(ends, int(params.material)).r;
-    const uint tile = texelFetch(tiles, int(end - gl_NumWorkGroups.x + gl_WorkGroupID.x)).r;
-    const ivec2 pixel = ivec2(tile & 65535u, tile >> 16) * RESOLVE_TILE + ivec2(gl_LocalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, frame.size))) return;
+    // The list of a material ends where listing left its counter; it begins where the one before ends.
+    const int number = int(params.material);
+    const uint begin = number > 0 ? texelFetch(ends, number - 1).r : 0u;
+    const uint at_list = begin + gl_GlobalInvocationID.x;
+    if (at_list >= texelFetch(ends, number).r) return;
+    const uint packed = texelFetch(pixels, int(at_list)).r;
+    const ivec2 pixel = ivec2(packed & 65535u, packed >> 16);
     const uvec2 id = texelFetch(ids, pixel, 0).rg;
-    if (id.x == 0u) return;
     const int draw = int(id.x) - 1;
     const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
-    if (facts.z != params.material) return;
     const uvec4 more = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7);
     const bool mirrored = more.x != 0u;
 

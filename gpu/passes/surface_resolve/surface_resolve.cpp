@@ -72,12 +72,14 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
                                   .size = materials * 4,
                                   .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   .texel_format = VK_FORMAT_R32_UINT});
-    tables.tiles =
-        arena.buffer({.name = "tile_lists",
-                      .size = tiles_across(width) * tiles_across(height) *
-                              std::min<VkDeviceSize>(materials, RESOLVE_TILE_MATERIALS) * 4,
-                      .usage = table,
-                      .texel_format = VK_FORMAT_R32_UINT});
+    tables.pixels = arena.buffer({.name = "pixel_lists",
+                                  .size = static_cast<VkDeviceSize>(width) *
+                                          static_cast<VkDeviceSize>(height) * 4,
+                                  .usage = table,
+                                  .texel_format = VK_FORMAT_R32_UINT});
+    tables.asked = arena.buffer({.name = "asked",
+                                 .size = tiles_across(width) * tiles_across(height) * 8,
+                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     tables.groups = arena.buffer(
         {.name = "tile_groups",
          .size = materials * sizeof(VkDispatchIndirectCommand),
@@ -95,7 +97,7 @@ void update_draws(const Device& device, ResolveTables& tables, const GpuScene& s
 
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
                          const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps, GpuPlace& place,
-                         const ConstantsRange& constants, const VisibleWeather& weather)
+                         const ConstantsRange& constants, const VisibleWeather& weather, bool asked)
 {
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
     GpuBuffer& counts = *tables.counts;
@@ -110,11 +112,13 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         graph.add(ComputePass{
             .name = "tile_materials",
             .shader = "tile_materials.comp",
-            .constants = {{TILE_MATERIALS_SPEC_LIST, list}},
+            .constants = {{TILE_MATERIALS_SPEC_LIST, list},
+                          {TILE_MATERIALS_SPEC_ASKED, asked}},
             .bindings = {{TILE_MATERIALS_IDS, sampled(*tables.ids, targets.nearest)},
                          {TILE_MATERIALS_DRAWS, texels(*tables.draws)},
                          {TILE_MATERIALS_COUNTS, storage_buffer(counts)},
-                         {TILE_MATERIALS_TILES, storage_buffer(*tables.tiles)}},
+                         {TILE_MATERIALS_PIXELS, storage_buffer(*tables.pixels)},
+                         {TILE_MATERIALS_ASKED, storage_buffer(*tables.asked)}},
             .push =
                 PushBlock(shared::TileMaterialsParams{{targets.width, targets.height}, materials}),
             .groups = groups_over(across, down, TILE_MATERIALS_GROUP)});
@@ -140,7 +144,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
                       {RESOLVE_INDICES, texels(scene.index_texels())},
                       {RESOLVE_DRAWS, texels(*tables.draws)},
-                      {RESOLVE_TILES, texels(*tables.tiles)},
+                      {RESOLVE_PIXELS, texels(*tables.pixels)},
                       {RESOLVE_COUNTS, texels(counts)}};
     bind_place(bindings, SURFACE_PLACE_TABLE, place);
     bindings.push_back({RESOLVE_SHARES, storage(*tables.shares)});

@@ -15,18 +15,19 @@ namespace petrichor::gpu {
 /// The resolve with users' own surfaces in it (PipelineCache::add_shader).
 inline constexpr const char* kOwnResolveShader = "own_surface_resolve.comp";
 
-/// What the resolve reads beside the scene: the table of its draws, and the lists of tiles.
+/// What the resolve reads beside the scene: the table of its draws, and the lists of pixels.
 struct ResolveTables {
     std::unique_ptr<GpuImage> ids;      ///< draw (from 1) and triangle of each pixel
     std::unique_ptr<GpuBuffer> draws;   ///< transforms and index ranges
     std::unique_ptr<GpuBuffer> counts;  ///< a word a material
-    std::unique_ptr<GpuBuffer> tiles;   ///< tiles, material after material
+    std::unique_ptr<GpuBuffer> pixels;  ///< material after material
+    std::unique_ptr<GpuBuffer> asked;   ///< passes/adaptive: two words a tile, a bit a pixel
     std::unique_ptr<GpuBuffer> groups;  ///< arguments of a dispatch a material
     std::unique_ptr<GpuImage> shares;   ///< gpu/frame/layer_shares.glsl
     std::uint64_t poses = 0;            ///< GpuScene::poses() that `draws` is of
 };
 
-/// For one scene and one frame size. The lists hold every tile with every material it can show.
+/// For one scene and one frame size. The lists hold every pixel once.
 ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, const GpuScene& scene,
                                   int width, int height);
 
@@ -34,14 +35,16 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
 void update_draws(const Device& device, ResolveTables& tables, const GpuScene& scene);
 
 // Fills the G-buffer from a visibility buffer (passes/visibility): every pixel is evaluated once,
-// in tiles binned by material, by the same text as the surface pass.
+// from a list for each material, by the same text as the surface pass.
+//
+// Of samples that go by the list (passes/adaptive), those of `asked` alone.
 //
 //   reads    ids, the scene's vertices and indices as texels, the maps of the weather
 //   writes   colour, normals, material; weather and emission when the frame has them
 void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables& tables,
                          const GpuScene& scene, SurfaceMaps& maps, DepthMaps& depth_maps,
                          GpuPlace& place, const ConstantsRange& constants,
-                         const VisibleWeather& weather);
+                         const VisibleWeather& weather, bool asked);
 
 }  // namespace petrichor::gpu
 

@@ -1,15 +1,16 @@
 // Interface of the passes that turn a visibility buffer into a G-buffer.
 //
-//   tile_materials   which materials does a tile show: counted, then listed
-//   tile_offsets     where each material's list of tiles begins, and how many groups shade it
-//   surface_resolve  one dispatch a material over its tiles
+//   tile_materials   how many pixels of a tile show each material: counted, then listed
+//   tile_offsets     where each material's list of pixels begins, and how many groups shade it
+//   surface_resolve  one dispatch a material over its pixels
 #ifndef PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_IO_H
 #define PETRICHOR_GPU_PASSES_SURFACE_RESOLVE_SURFACE_RESOLVE_IO_H
 
 #include "base/interop.h"
 #include "gpu/passes/surface/surface_io.h"
 
-#define RESOLVE_TILE 8  // pixels a side; a workgroup shades one tile
+#define RESOLVE_TILE 8  // pixels a side, of the tiles that are listed
+#define RESOLVE_GROUP 64  // pixels that a workgroup shades
 #define RESOLVE_TILE_MATERIALS 64
 
 // Texels (RGBA32UI) of one draw in the table of draws: the rows of its two transforms, then
@@ -19,9 +20,11 @@
 #define TILE_MATERIALS_GROUP 8
 #define TILE_MATERIALS_IDS 0
 #define TILE_MATERIALS_DRAWS 1
-#define TILE_MATERIALS_COUNTS 2  // a word a material: tiles that show it, later where its list ends
-#define TILE_MATERIALS_TILES 3   // tiles, material after material
-#define TILE_MATERIALS_SPEC_LIST 0  // 0: count, 1: list
+#define TILE_MATERIALS_COUNTS 2  // a word a material: pixels that show it, later where its list ends
+#define TILE_MATERIALS_PIXELS 3  // x + 65536 y, material after material
+#define TILE_MATERIALS_ASKED 4   // passes/adaptive: the pixels of a tile that are shaded, by bits
+#define TILE_MATERIALS_SPEC_LIST 0   // 0: count, 1: list
+#define TILE_MATERIALS_SPEC_ASKED 1  // 0: all pixels
 
 #define TILE_OFFSETS_GROUP 1
 #define TILE_OFFSETS_COUNTS 0
@@ -32,7 +35,7 @@
 #define RESOLVE_VERTICES (SURFACE_BINDINGS + 1)
 #define RESOLVE_INDICES (SURFACE_BINDINGS + 2)
 #define RESOLVE_DRAWS (SURFACE_BINDINGS + 3)
-#define RESOLVE_TILES (SURFACE_BINDINGS + 4)
+#define RESOLVE_PIXELS (SURFACE_BINDINGS + 4)
 #define RESOLVE_COUNTS (SURFACE_BINDINGS + 5)
 #define RESOLVE_SHARES (SURFACE_BINDINGS + 6)  // of layers a pixel; in scenes that have textures of them
 #define RESOLVE_TARGETS (SURFACE_BINDINGS + 7)  // of the G-buffer, by location

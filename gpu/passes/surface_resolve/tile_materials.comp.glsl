@@ -1,17 +1,19 @@
 #version 460
-// One invocation a tile: its materials, each once. The first run counts the tiles of a material, the
-// second lists them. The order inside a list is the order in which tiles were reached; it decides no
-// pixel.
+// One invocation a tile: how many of its pixels show which material. The first run counts the pixels of a
+// material, the second lists them. The order inside a list is the order in which tiles were reached; it
+// decides no pixel.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
 
 layout(local_size_x = TILE_MATERIALS_GROUP, local_size_y = TILE_MATERIALS_GROUP) in;
 layout(constant_id = TILE_MATERIALS_SPEC_LIST) const uint LIST = 0u;
+layout(constant_id = TILE_MATERIALS_SPEC_ASKED) const uint ASKED = 0u;
 layout(binding = TILE_MATERIALS_IDS) uniform usampler2D ids;
 layout(binding = TILE_MATERIALS_DRAWS) uniform usamplerBuffer draws;
 layout(binding = TILE_MATERIALS_COUNTS, scalar) buffer Counts { uint counts[]; };
-layout(binding = TILE_MATERIALS_TILES, scalar) writeonly buffer Tiles { uint tiles[]; };
+layout(binding = TILE_MATERIALS_PIXELS, scalar) writeonly buffer Pixels { uint pixels[]; };
+layout(binding = TILE_MATERIALS_ASKED, scalar) readonly buffer Asked { uvec2 asked[]; };
 layout(push_constant, scalar) uniform Push { TileMaterialsParams params; };
 
 void main()
@@ -21,23 +23,43 @@ void main()
     if (any(greaterThanEqual(tile, count))) return;
     const ivec2 low = tile * RESOLVE_TILE;
     const ivec2 high = min(low + RESOLVE_TILE, params.size);
+    const uvec2 bits = ASKED != 0u ? asked[tile.y * count.x + tile.x] : uvec2(~0u);
     uint found[RESOLVE_TILE_MATERIALS];
+    uint number[RESOLVE_TILE_MATERIALS];
+    uint slots[RESOLVE_TILE * RESOLVE_TILE];  // of each pixel: its material's place in the two above
     uint different = 0u;
     uint last_draw = 0u;
+    uint last_slot = 0u;
+    if ((bits.x | bits.y) == 0u) return;
     for (int y = low.y; y < high.y; ++y) {
         for (int x = low.x; x < high.x; ++x) {
-            const uint draw = texelFetch(ids, ivec2(x, y), 0).r;
-            if (draw == 0u || draw == last_draw) continue;
-            last_draw = draw;
-            const uint material =
-                texelFetch(draws, int(draw - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
-            bool known = false;
-            for (uint i = 0u; i < different; ++i) known = known || found[i] == material;
-            if (!known) found[different++] = material;
+            const uint at = uint((y - low.y) * RESOLVE_TILE + x - low.x);
+            const uint word = at < 32u ? bits.x : bits.y;
+            const bool wanted = ((word >> (at & 31u)) & 1u) != 0u;
+            const uint draw = wanted ? texelFetch(ids, ivec2(x, y), 0).r : 0u;
+            if (LIST != 0u) slots[at] = ~0u;
+            if (draw == 0u) continue;
+            if (draw != last_draw) {
+                last_draw = draw;
+                const uint material =
+                    texelFetch(draws, int(draw - 1u) * RESOLVE_DRAW_TEXELS + 6).z;
+                last_slot = 0u;
+                while (last_slot < different && found[last_slot] != material) ++last_slot;
+                if (last_slot == different) {
+                    found[different] = material;
+                    number[different++] = 0u;
+                }
+            }
+            ++number[last_slot];
+            if (LIST != 0u) slots[at] = last_slot;
         }
     }
-    for (uint i = 0u; i < different; ++i) {
-        const uint at = atomicAdd(counts[found[i]], 1u);
-        if (LIST != 0u) tiles[at] = uint(tile.y) * 65536u + uint(tile.x);
+    for (uint i = 0u; i < different; ++i) number[i] = atomicAdd(counts[found[i]], number[i]);
+    if (LIST == 0u) return;
+    for (int y = low.y; y < high.y; ++y) {
+        for (int x = low.x; x < high.x; ++x) {
+            const uint slot = slots[(y - low.y) * RESOLVE_TILE + x - low.x];
+            if (slot != ~0u) pixels[number[slot]++] = uint(y) * 65536u + uint(x);
+        }
     }
 }

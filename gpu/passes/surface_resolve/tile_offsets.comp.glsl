@@ -1,5 +1,5 @@
 #version 460
-// Where each material's tiles begin: the counts become the beginnings, which listing moves to the ends.
+// Where each material's pixels begin: the counts become the beginnings, which listing moves to the ends.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/surface_resolve/surface_resolve_io.h"
@@ -13,10 +13,10 @@ void main()
 {
     uint begin = 0u;
     for (uint i = 0u; i < params.materials; ++i) {
-        const uint tiles = counts[i];
+        const uint pixels = counts[i];
         counts[i] = begin;
-        begin += tiles;
-        groups[3u * i] = tiles;
+        begin += pixels;
+        groups[3u * i] = (pixels + RESOLVE_GROUP - 1u) / RESOLVE_GROUP;
         groups[3u * i + 1u] = 1u;
         groups[3u * i + 2u] = 1u;
     }

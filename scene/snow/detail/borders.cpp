@@ -71,8 +71,8 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
         if (glm::dot(out, vec2(inwards.x, inwards.z)) > 0.0f) out = -out;
         const int pieces = std::max(1, static_cast<int>(std::ceil(glm::length(along) / kPiece_m)));
         for (int k = 0; k < pieces; ++k) {
-            const auto at = [&](float t) {
-                return border.from + along * (t / static_cast<float>(pieces));
+            const auto at = [&, from = border.from](float t) {
+                return from + along * (t / static_cast<float>(pieces));
             };
             const auto f = static_cast<float>(k);
             auto& list = goes_on(tracer, at(f + 0.5f), out) ? borders.closed : borders.open;

@@ -1,0 +1,25 @@
+#ifndef PETRICHOR_GPU_FRAME_PIXEL_LIST_H
+#define PETRICHOR_GPU_FRAME_PIXEL_LIST_H
+
+#include "gpu/device/graph.h"
+#include "gpu/frame/targets.h"
+
+namespace petrichor::gpu {
+
+/// Which pixels a pass shades.
+enum class Pixels {
+    All,
+    AllForNow,  ///< with the text of those that go by a list: one pipeline serves both
+    Listed,     ///< those that stand in the targets' list
+};
+
+/// Says in the targets' list that all pixels are meant, for AllForNow.
+void add_all_pixels(FrameGraph& graph, FrameTargets& targets);
+
+/// Adds a pass whose shader takes its pixel by gpu/frame/pixel_list.glsl. The targets' list is among
+/// its bindings.
+void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, Pixels pixels);
+
+}  // namespace petrichor::gpu
+
+#endif
