@@ -86,8 +86,8 @@ TEST(Metering, SnowIsWhite)
         const float plain = *metered_ev100(picture);
         EXPECT_EQ(*metered_ev100(picture, std::vector<float>(100, 0.0f)), plain);
         const float white = *metered_ev100(picture, std::vector<float>(100, 1.0f));
-        if (plain > 10.0f) EXPECT_NEAR(white, plain - 1.3f, 1e-4f);
-        if (plain < 4.0f) EXPECT_EQ(white, plain);
+        if (plain > 10.0f) { EXPECT_NEAR(white, plain - 1.3f, 1e-4f); }
+        if (plain < 4.0f) { EXPECT_EQ(white, plain); }
         EXPECT_GE(white, before) << "monotone";
         before = white;
         std::vector<float> half(100, 0.0f);
