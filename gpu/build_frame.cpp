@@ -371,7 +371,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (layers > 0) begin_transparent(graph, *r.transparent, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
-                           c.world_to_clip, c.camera_m, weather, solid);
+                           c.world_to_clip, c.camera_m, weather, *r.resolve->draws, solid);
             if (listed) add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
                                 *r.depth_maps, *r.place, constants, weather, listed);
