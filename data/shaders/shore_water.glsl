@@ -25,6 +25,12 @@ vec4 shore_mask(SurfaceInput at)
     return vec4(texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, vec2(0.0))).rgb, 1.0);
 }
 
+vec3 shore_to_eye(SurfaceInput at)
+{
+    const bool orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    return orthographic ? -frame.forward : normalize(frame.camera_m - at.position);
+}
+
 struct ShoreWaves {
     vec2 slope;      // of what is resolved
     float variance;  // of its slope, all waves
@@ -38,16 +44,16 @@ ShoreWaves shore_waves(SurfaceInput at, float speed, vec2 along)
 {
     const float pixel_m = max(length(at.position_dx.xz), length(at.position_dy.xz));
     ShoreWaves w = ShoreWaves(vec2(0.0), 0.0, 0.0, 0.0);
-    const float slope = 0.02 + 0.012 * speed;  // of each wave, at its steepest
+    const float slope = 0.02 + 0.006 * speed;  // of each wave, at its steepest
     float length_m = 1.3 + 0.35 * speed;
     float weight = 0.0;
     for (int i = 0; i < kShoreWaves; ++i) {
-        const float turn = 2.4 * (hash_f(71u + uint(i)) - 0.5);
+        const float turn = 2.8 * (hash_f(71u + uint(i)) - 0.5);
         const vec2 d = vec2(along.x * cos(turn) - along.y * sin(turn),
                             along.x * sin(turn) + along.y * cos(turn));
         const float k = 6.2831853 / length_m;
         // Crests are uneven: slow noise shifts them.
-        const float uneven = 5.0 * tileable_noise(at.position.xz / (3.1 * length_m), 4096, 90u + uint(i));
+        const float uneven = 7.0 * tileable_noise(at.position.xz / (2.3 * length_m), 4096, 90u + uint(i));
         const float phase = k * dot(d, at.position.xz) - sqrt(9.81 * k) * frame.time_s + uneven +
                             6.2831853 * hash_f(51u + uint(i));
         const float seen = 1.0 - smooth_edge(0.25 * length_m, 0.5 * length_m, pixel_m);
@@ -92,7 +98,10 @@ void shore_water_surface(SurfaceInput at, inout SurfaceData data)
     const vec2 along = speed > 0.01 ? frame.weather.wind_m_s / speed : vec2(0.8, 0.6);
     ShoreWaves w = shore_waves(at, speed, along);
     const vec2 slope = w.slope * mask.b;
-    const vec3 water_normal = normalize(at.normal - vec3(slope.x, 0.0, slope.y) * at.normal.y);
+    vec3 water_normal = normalize(at.normal - vec3(slope.x, 0.0, slope.y) * at.normal.y);
+    // Slopes that face away are hidden behind crests: what is seen there is the crest.
+    const vec3 eye = shore_to_eye(at);
+    water_normal = normalize(water_normal + eye * max(0.04 - dot(water_normal, eye), 0.0));
 
     // What comes back from below: Beer's law over the depth. Crests of shallow water are lighter.
     const float deep = 1.0 - exp(-4.0 * mask.a);
