@@ -6,6 +6,7 @@
 #include "gpu/build_frame.h"
 #include "gpu/frame/falls.h"
 #include "gpu/lighting/models_io.h"
+#include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
@@ -237,18 +238,30 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
 {
     const FrameSettings& settings = frame.settings;
     const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
-    if (r.lamp_glow->prepare(frame, c, r.lights->brightest)) {
-        add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
-    }
+    const bool glows = r.lamp_glow->prepare(frame, c, r.lights->brightest);
+    const bool falls = plan.drawn_reach_m > 0.0f;
     facts = falling_facts(plan, frame);
-    if (plan.drawn_reach_m <= 0.0f) return;
-    const FallingView view = falling_view(c);
-    r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
-    r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
-    facts.drawn = r.falling->count();
-    add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, *r.splashes, constants,
-                settings.shelter && r.depth_maps->shelter_valid,
-                settings.shadows && sun.illuminance != glm::vec3(0.0f));
+    if (falls) {
+        const FallingView view = falling_view(c);
+        r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
+        r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
+        facts.drawn = r.falling->count();
+    }
+    const auto draw = [&](bool hides) {
+        if (glows) add_lamp_glow(graph, *r.targets, *r.lamp_glow, constants);
+        if (!falls) return;
+        add_falling(graph, *r.targets, *r.depth_maps, *r.sky, *r.falling, *r.splashes, constants,
+                    settings.shelter && r.depth_maps->shelter_valid,
+                    settings.shadows && sun.illuminance != glm::vec3(0.0f), hides);
+    };
+    draw(false);
+    if (!r.parts->split && !r.parts->label) return;
+    // Over black: what it sends, and what it hides of the parts behind.
+    clear_light_parts(graph, *r.parts->air);
+    std::swap(r.targets->accumulated, r.parts->air);
+    draw(true);
+    std::swap(r.targets->accumulated, r.parts->air);
+    add_light_parts(graph, *r.targets, *r.parts, constants, settings.image_based_light);
 }
 
 // What lets light through, over the solid picture: the same passes, on the targets of a layer.
@@ -262,6 +275,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     variant.fog = false;
     variant.shares = nullptr;
     variant.background = false;
+    variant.parts = &r.parts->or_none(r.parts->layer);
     variant.pixels = Pixels::All;
     const auto draw = [&](const SurfaceLayer& between) {
         add_surface(graph, layer, *r.scene, *r.surface_maps, *r.depth_maps, *r.place, constants,
@@ -273,11 +287,12 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) {
-            add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants);
+            add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
+                            {variant.parts, variant.split, variant.parts, false});
         }
     };
-    add_transparent(graph, *r.targets, *r.transparent, *r.scene, *r.sky, constants, layers, more,
-                    draw, light);
+    add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
+                    layers, more, draw, light);
 }
 
 }  // namespace
@@ -299,25 +314,27 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const FrameSettings& settings = frame.settings;
     VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
     // Which material a pixel has is kept with the weather.
-    weather.any = weather.any || r.scene->decals_refused();
+    const bool weathered = weather.any || r.scene->decals_refused();
+    weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
     if (!r.surface_maps->generated) {
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
-    if (weather.any) {
+    if (weathered) {
         add_ripple(graph, *r.surface_maps, frame.weather.rain, time_s, frame.look.ripple_speed);
         add_flow(graph, *r.surface_maps, time_s);
     }
     const FallingPlan plan = plan_of(frame, sun, r);
-    add_depth_maps(graph, frame, sun, r, weather.any, plan);
+    add_depth_maps(graph, frame, sun, r, weathered, plan);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
-    variant.weather = weather.any;
+    variant.weather = weathered;
+    variant.split = r.parts->split;
     variant.sun = sun.illuminance != glm::vec3(0.0f);
     variant.background = settings.draw_sky;
     variant.shadows = settings.shadows && variant.sun;
@@ -363,16 +380,23 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         const Draws solid = layers > 0 ? Draws::Solid : Draws::All;
         // The solid picture of a sample is lit into an image of its own where layers follow.
         GpuImage& lit = layers > 0 ? *r.transparent->solid : *r.targets->accumulated;
+        GpuImage& lit_parts =
+            layers > 0 ? r.parts->or_none(r.parts->solid) : r.parts->sum_or_none();
         const bool listed = r.adaptive && i >= 2;
         // The small frame that is metered has one sample, and the same pipelines.
         const bool by_list = settings.adaptive > 0.0f && r.resolve;
         const Pixels pixels = !by_list ? Pixels::All : listed ? Pixels::Listed : Pixels::AllForNow;
         if (by_list && i == range.first) add_all_pixels(graph, *r.targets);
-        if (layers > 0) begin_transparent(graph, *r.transparent, constants);
+        if (layers > 0) begin_transparent(graph, *r.transparent, *r.parts, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
                            c.world_to_clip, c.camera_m, weather, *r.resolve->draws, solid);
-            if (listed) add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+            if (listed) {
+                add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+                if (variant.split)
+                    add_parts_mean(graph, *r.targets, *r.parts, lit_parts, PARTS_MEAN_TAKE,
+                                   r.resolve->asked.get(), constants);
+            }
             add_surface_resolve(graph, *r.targets, *r.resolve, *r.scene, *r.surface_maps,
                                 *r.depth_maps, *r.place, constants, weather, listed);
         } else {
@@ -386,7 +410,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (i == 0) {
             const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
-                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts);
+                add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts,
+                         !weathered);
             }
         }
         add_light_lists(graph, *r.targets, *r.lights, constants);
@@ -399,19 +424,27 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if ((i == range.first || apart) && variant.patch_light) {
             add_patch_points(graph, *r.targets, *r.patches, constants);
         }
+        variant.parts = &lit_parts;
         variant.pixels = pixels;
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
+                            {variant.parts, variant.split, &r.parts->sum_or_none(),
+                              r.parts->label && i == 0},
                             pixels);
         }
         if (r.adaptive && i == 0) {
             add_keep_first(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
+            if (variant.split && layers > 0)
+                add_parts_mean(graph, *r.targets, *r.parts, lit_parts, PARTS_MEAN_KEEP, nullptr, constants);
         }
         if (r.adaptive && i == 1) {
             add_settle(graph, *r.targets, *r.resolve, *r.sky, *r.adaptive, lit, layers == 0,
                        settings.adaptive, constants);
+            if (variant.split)
+                add_parts_mean(graph, *r.targets, *r.parts, lit_parts,
+                               layers > 0 ? PARTS_MEAN_OF_TWO : PARTS_MEAN_OF_SUM, nullptr, constants);
         }
         if (layers > 0) {
             std::swap(r.targets->accumulated, r.transparent->solid);

@@ -3,6 +3,7 @@
 
 #include "gpu/frame/frame_constants.h"
 #include "gpu/outputs/aov.h"
+#include "gpu/outputs/light_parts.h"
 #include "gpu/passes/adaptive/adaptive.h"
 #include "gpu/passes/decals/decals.h"
 #include "gpu/passes/falling/falling.h"
@@ -39,6 +40,8 @@ struct FrameResources {
     PatchLights* patches = nullptr;
     ProbeTable* probes = nullptr;
     GpuPlace* place = nullptr;
+    LightParts* parts = nullptr;
+    bool materials = false;  ///< an output asks which material a pixel has
     GpuImage* environment = nullptr;  ///< lat-long, or null for the analytic sky
     GpuBuffer* constants = nullptr;   ///< one range a sample
     VkDeviceSize constants_stride = 0;

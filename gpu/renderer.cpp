@@ -117,6 +117,9 @@ struct TargetSet {
     int transparent_words = 0;
     std::unique_ptr<MemoryArena> decal_arena;
     DecalTargets decals;
+    std::unique_ptr<MemoryArena> parts_arena;
+    LightParts parts;
+    int parts_width = 0, parts_height = 0;
     std::unique_ptr<MemoryArena> adaptive_arena;
     AdaptiveTargets adaptive;
 };
@@ -251,6 +254,19 @@ struct Renderer::Impl {
             set.decals = make_decal_targets(*set.decal_arena, s.width, s.height);
         }
         return true;
+    }
+
+    void prepare_parts(TargetSet& set, const FrameSettings& s, const std::vector<std::size_t>& rows,
+                       bool layered, bool adaptive)
+    {
+        if (!set.parts_arena || set.parts_width != s.width || set.parts_height != s.height) {
+            set.parts = {};
+            set.parts_arena = std::make_unique<MemoryArena>(device);
+            set.parts_width = s.width;
+            set.parts_height = s.height;
+        }
+        prepare_light_parts(set.parts, *set.parts_arena, rows, s.width, s.height, layered,
+                            adaptive);
     }
 
     // True when later samples go by what the first two saw; the targets are then made for the frame's size.
@@ -416,6 +432,10 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
     if (prepare_decals(set, frame.settings)) resources.decals = &set.decals;
+    prepare_parts(set, frame.settings, aov_rows, resources.transparent != nullptr,
+                  resources.adaptive != nullptr);
+    resources.parts = &set.parts;
+    resources.materials = std::any_of(aov_rows.begin(), aov_rows.end(), needs_materials);
     resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;
@@ -465,7 +485,8 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     for (const std::size_t row : aov_rows) {
         const AovInfo& info = aov_table()[row];
         result.aovs.push_back({info.name, static_cast<int>(info.channels.size()),
-                               read_aov(set.targets, aov_groups, row)});
+                               is_light_part(row) ? read_light_part(set.parts, row, pixels)
+                                                  : read_aov(set.targets, aov_groups, row)});
     }
     return result;
 }
@@ -482,7 +503,7 @@ std::optional<float> Renderer::meter(const Frame& frame)
     check_frame(frame, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
     const RenderResult result = impl_->render(metering_frame(frame), impl_->metering);
-    return metered_ev100(result.beauty);
+    return metered_ev100(result.beauty, result.aovs.front().pixels);
 }
 
 const DeviceInfo& Renderer::device() const

@@ -123,7 +123,7 @@ void add_scene(CLI::App& app)
     auto o = std::make_shared<SceneOptions>();
     CLI::App* command = app.add_subcommand(
         "scene", "Show what the program sees in a scene: triangles, patches, ground, sky and rain.");
-    command->add_option("SCENE", o->view.file, ".glb or .gltf file, or demo:street")->required();
+    command->add_option("SCENE", o->view.file, ".glb or .gltf file, or demo:street, demo:stage")->required();
     command->add_flag("--json", o->json, "report for programs");
     std::string kinds;
     for (const SceneMap& map : scene_maps()) kinds += (kinds.empty() ? "" : "; ") + map.name + ": " + map.help;

@@ -35,13 +35,8 @@ double cpu_seconds()
 
 LoadedScene load(const SceneViewOptions& options)
 {
-    if (options.file == "demo:street")
-        return load_demo_street({.threads = options.threads}, user_cache());
-    if (options.file.rfind("demo:", 0) == 0) {
-        throw Error("scene: no generated scene \"" + options.file + "\"." +
-                        did_you_mean(options.file, {"demo:street"}),
-                    "Use demo:street, or a .glb or .gltf file.");
-    }
+    if (options.file.rfind("demo:", 0) == 0)
+        return load_demo(options.file, {.threads = options.threads}, user_cache(), "scene");
     return read_scene(options.file);
 }
 

@@ -286,7 +286,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     }
     std::shared_ptr<const scene::SnowCaps> snow;
     if (may_snow(sequence, request))
-        snow = prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, report.notes);
+        snow = prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), report.notes);
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
     options.threads = request.threads;

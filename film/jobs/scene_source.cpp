@@ -31,8 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDemoStreet = "demo:street";
-
 LoadedScene load(const Scenario& scenario, int threads)
 {
     const std::string& file = scenario.scene.file;
@@ -40,14 +38,9 @@ LoadedScene load(const Scenario& scenario, int threads)
         throw Error(scenario.name + ": no scene is named",
                     "Add [scene] file = \"scene.glb\", or file = \"demo:street\" for the demo.");
     }
-    if (file == kDemoStreet) {
-        return load_demo_street({.seed = scenario.scene.demo_seed, .threads = threads},
-                                user_cache());
-    }
     if (file.rfind("demo:", 0) == 0) {
-        throw Error(scenario.name + ": no generated scene \"" + file + "\"." +
-                        did_you_mean(file, {kDemoStreet}),
-                    std::string("Use ") + kDemoStreet + ", or a .glb or .gltf file.");
+        return load_demo(file, {.seed = scenario.scene.demo_seed, .threads = threads}, user_cache(),
+                         scenario.name);
     }
     return read_scene(scenario.folder / file,
                       {.allow_outside = scenario.scene.allow_outside,
@@ -136,6 +129,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
+    check_decals(sequence.scene);
     const AppliedLamps lamps =
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),

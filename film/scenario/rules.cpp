@@ -53,7 +53,8 @@ const std::vector<Rule>& rules()
 {
     static const std::vector<Rule> table{
         {{"scene", "file", "\"scene.glb\"",
-          "glTF scene (.glb, .gltf), relative to this file; \"demo:street\" is the generated demo",
+          "glTF scene (.glb, .gltf), relative to this file; \"demo:street\" is the generated demo, "
+          "\"demo:stage\" a stage for materials and lamps",
           false, true},
          [](Scenario& s, const TomlValue& v) { s.scene.file = v.text(); }},
         {{"scene", "demo_seed", "1", "which street the demo generator builds"},

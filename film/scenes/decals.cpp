@@ -101,4 +101,26 @@ std::string add_decals(const std::vector<ScenarioDecal>& decals,
     return hasher.text();
 }
 
+void check_decals(scene::Scene& scene)
+{
+    const auto check = [&](const std::string& who, const scene::Material& m) {
+        if (m.surface.empty()) return;
+        throw Error(who + " shows the material \"" + m.name + "\", whose `surface` is \"" + m.surface +
+                        "\": a decal has no surface of its own, it lies over those of others",
+                    "Give the decal a material without `surface`, or name the surface in the materials "
+                    "below it.");
+    };
+    for (const scene::ProjectedDecal& box : scene.decals)
+        check("decals: the decal \"" + box.name + "\"", scene.materials[box.material]);
+    for (const scene::Material& m : scene.materials) {
+        if (!m.decal.on) continue;
+        check("decals: what", m);
+        if (!m.lighting_model.empty() && m.lighting_model != "standard") {
+            scene.warnings.push_back("decals: the material \"" + m.name + "\" has the lighting model \"" +
+                                     m.lighting_model + "\", which is left out: a decal is lit as what "
+                                     "lies below it");
+        }
+    }
+}
+
 }  // namespace petrichor::film

@@ -14,6 +14,10 @@ namespace petrichor::film {
 std::string add_decals(const std::vector<ScenarioDecal>& decals,
                        const std::vector<MaterialOverride>& materials, scene::Scene& scene);
 
+/// After materials were described. Throws Error when a decal shows a material with a `surface` of its own;
+/// warns of a lighting model, which a decal does not have.
+void check_decals(scene::Scene& scene);
+
 }  // namespace petrichor::film
 
 #endif

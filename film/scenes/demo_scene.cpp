@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/words.h"
+#include "demo/stage.h"
 #include "scene/gltf/glb_writer.h"
 #include "scene/gltf/gltf.h"
 #include "scene/tangents.h"
@@ -18,6 +20,8 @@ namespace petrichor::film {
 namespace {
 
 constexpr const char* kCacheKind = "scenes";
+constexpr const char* kStreet = "demo:street";
+constexpr const char* kStage = "demo:stage";
 
 std::string key_of(const demo::DemoOptions& options)
 {
@@ -43,6 +47,19 @@ scene::Scene street_with_tangents(const demo::DemoOptions& options)
     return street;
 }
 
+LoadedScene read_back(std::span<const std::byte> glb, const std::string& name)
+{
+    Hasher hasher;
+    hasher.add_bytes(glb);
+    LoadedScene loaded;
+    loaded.fingerprint = hasher.text();
+    loaded.scene = scene::load_gltf(glb, name, [&](const std::string& uri) {
+        throw Error(name + " names the file " + uri, "Report this: it holds all it needs.");
+        return std::vector<std::byte>();
+    });
+    return loaded;
+}
+
 }  // namespace
 
 LoadedScene load_demo_street(const demo::DemoOptions& options, const ContentCache& cache)
@@ -60,17 +77,18 @@ LoadedScene load_demo_street(const demo::DemoOptions& options, const ContentCach
                       error.fix();
         }
     }
-    const std::span<const std::byte> glb = kept ? std::span<const std::byte>(*kept) : made;
-    Hasher hasher;
-    hasher.add_bytes(glb);
-    LoadedScene loaded;
-    loaded.fingerprint = hasher.text();
-    loaded.scene = scene::load_gltf(glb, "street.glb", [](const std::string& uri) {
-        throw Error("street.glb names the file " + uri, "Report this: it holds all it needs.");
-        return std::vector<std::byte>();
-    });
+    LoadedScene loaded = read_back(kept ? std::span<const std::byte>(*kept) : made, "street.glb");
     if (!problem.empty()) loaded.scene.warnings.push_back(problem);
     return loaded;
+}
+
+LoadedScene load_demo(const std::string& name, const demo::DemoOptions& options, const ContentCache& cache,
+                      const std::string& who)
+{
+    if (name == kStreet) return load_demo_street(options, cache);
+    if (name == kStage) return read_back(scene::write_glb(demo::make_demo_stage()), "stage.glb");
+    throw Error(who + ": no generated scene \"" + name + "\"." + did_you_mean(name, {kStreet, kStage}),
+                std::string("Use ") + kStreet + ", " + kStage + ", or a .glb or .gltf file.");
 }
 
 }  // namespace petrichor::film

@@ -1,8 +1,16 @@
 #include "film/scenes/snow_scene.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <span>
+#include <utility>
 
+#include "base/error.h"
+#include "base/hash.h"
+#include "film/data/source_fingerprint.h"
 #include "film/scenes/transport.h"
+#include "scene/snow/snow_caps_file.h"
 
 namespace petrichor::film {
 namespace {
@@ -20,21 +28,60 @@ float pressed_at(const gpu::TrackMap& tracks, const glm::vec3& at)
     return static_cast<float>(tracks.rgba[4 * index]) / 255.0f;
 }
 
+constexpr const char* kKind = "snow_caps";
+
+std::string key_of(const scene::Scene& scene, const scene::Triangles& triangles,
+                   const scene::SnowCapOptions& options, const gpu::TrackMap& tracks)
+{
+    Hasher hasher;
+    hasher.add(source_fingerprint());
+    hasher.add(scene::snow_caps_fingerprint(what_rays_see(scene, triangles), scene, options));
+    for (const int v : {tracks.width, tracks.height}) hasher.add(v);
+    for (const float v : {tracks.corner_m.x, tracks.corner_m.y, tracks.texel_m, tracks.low_m, tracks.high_m})
+        hasher.add(v);
+    hasher.add_bytes(std::as_bytes(std::span(tracks.rgba)));
+    return hasher.text();
+}
+
 }  // namespace
 
 std::shared_ptr<const scene::SnowCaps> prepare_snow(const scene::Scene& scene,
                                                     const std::vector<glm::vec3>& eyes_m,
                                                     const gpu::TrackMap& tracks,
+                                                    const ContentCache& cache,
                                                     std::vector<std::string>& notes)
 {
-    std::vector<std::string> said;  // by the patches already
-    const scene::Triangles triangles(scene, alpha_images(scene, said));
-    const scene::Tracer tracer(triangles);
     scene::SnowCapOptions options;
     options.eyes_m = eyes_m;
     if (tracks.width > 0)
         options.pressed = [&tracks](const glm::vec3& at) { return pressed_at(tracks, at); };
-    auto caps = std::make_shared<const scene::SnowCaps>(scene::build_snow_caps(tracer, options));
+    std::string key;
+    std::optional<scene::SnowCaps> found;
+    const scene::Triangles plain(scene, {});
+    if (cache.on()) {
+        key = key_of(scene, plain, options, tracks);
+        if (const auto bytes = cache.find(kKind, key)) found = scene::snow_caps_from_bytes(*bytes, scene);
+    }
+    if (!found) {
+        std::vector<std::string> said;  // by the patches already
+        const auto alphas = alpha_images(scene, said);
+        const bool holes = std::any_of(alphas.begin(), alphas.end(),
+                                       [](const auto& image) { return !image.alpha.empty(); });
+        const std::optional<scene::Triangles> cut =
+            holes ? std::optional<scene::Triangles>(std::in_place, scene, alphas) : std::nullopt;
+        const scene::Tracer tracer(cut ? *cut : plain);
+        found = scene::build_snow_caps(tracer, options);
+        if (cache.on()) {
+            try {
+                const std::vector<std::byte> bytes = scene::snow_caps_to_bytes(*found);
+                cache.keep(kKind, key, {bytes});
+            } catch (const Error& error) {
+                notes.push_back(std::string(error.what()) + ": snow is shaped again at every start. " +
+                                error.fix());
+            }
+        }
+    }
+    auto caps = std::make_shared<const scene::SnowCaps>(std::move(*found));
     if (caps->finest_m > 1.01f * options.finest_m) {
         char text[160];
         std::snprintf(text, sizeof text,

@@ -100,6 +100,21 @@ std::string surfaces_key(const scene::Scene& scene, const std::string& patches_k
 
 }  // namespace
 
+std::string what_rays_see(const scene::Scene& scene, const scene::Triangles& triangles)
+{
+    Hasher seen;
+    seen.add(triangles.fingerprint());
+    const std::vector<bool> cut = cut_holes(scene);
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        if (!cut[i]) continue;
+        seen.add(i);
+        seen.add_bytes(scene.textures[i].bytes);
+        seen.add(scene.textures[i].wrap_u);
+        seen.add(scene.textures[i].wrap_v);
+    }
+    return seen.text();
+}
+
 std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,
                                             std::vector<std::string>& notes)
 {
@@ -334,17 +349,7 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
     SceneTransport transport;
     // The alpha of holes counts by its encoded bytes: nothing is decoded when all is kept.
     const scene::Triangles plain(scene, {});
-    Hasher seen;
-    seen.add(plain.fingerprint());
-    const std::vector<bool> cut = cut_holes(scene);
-    for (std::size_t i = 0; i < cut.size(); ++i) {
-        if (!cut[i]) continue;
-        seen.add(i);
-        seen.add_bytes(scene.textures[i].bytes);
-        seen.add(scene.textures[i].wrap_u);
-        seen.add(scene.textures[i].wrap_v);
-    }
-    const std::string key = scene::patches_fingerprint(seen.text(), options.patches);
+    const std::string key = scene::patches_fingerprint(what_rays_see(scene, plain), options.patches);
 
     bool found_patches = false, found_surfaces = false;
     if (const auto bytes = options.cache.find(kPatchKind, key)) {

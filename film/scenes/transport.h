@@ -12,6 +12,7 @@
 #include "scene/patches/patches.h"
 #include "scene/patches/radiosity.h"
 #include "scene/patches/surfaces.h"
+#include "scene/patches/triangles.h"
 #include "scene/scene.h"
 
 namespace petrichor::film {
@@ -44,6 +45,10 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
 
 /// Share 0..1 of all tracing, from what scene::PatchOptions::progress is told.
 double traced_share(std::string_view stage, float share);
+
+/// Fingerprint of all that rays meet in a scene: its triangles, and by their encoded bytes the images that
+/// cut holes.
+std::string what_rays_see(const scene::Scene& scene, const scene::Triangles& triangles);
 
 /// Small pictures of the textures that patches are coloured by, by texture index.
 std::vector<scene::ColorImage> color_images(const scene::Scene& scene, int threads,

@@ -109,7 +109,8 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
             kind.surface.albedo_wet = kind.surface.albedo_dry * darker;
         }
         kind.like_air = is_leaves(material);
-        kind.holds_by_tilt = !is_leaves(material);
+        // Blades hold snow on a bank where stones shed it.
+        kind.holds_by_tilt = !is_leaves(material) && kind.surface.name != "lawn";
         kind.sheds_snow = kind.surface.name == "roof_metal";
         kind.splash = kind.surface.name == "lawn" ? 0.3 : 1.0;
         kinds.push_back(std::move(kind));

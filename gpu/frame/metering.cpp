@@ -16,6 +16,8 @@ constexpr int kStops = 41;
 constexpr int kStepsAStop = 8;
 constexpr std::uint64_t kSurface = 4;
 constexpr std::uint64_t kSky = 1;
+constexpr float kSnowStops = 1.3f;
+constexpr float kDayEv100 = 10.0f, kNightEv100 = 4.0f;
 
 // 2^(k/8) / 2: where a mantissa of 0.5..1 passes into the next eighth of a stop.
 constexpr std::array<float, kStepsAStop> kEighths{0.5f,         0.545253866f, 0.594603558f,
@@ -49,7 +51,7 @@ Frame metering_frame(const Frame& frame)
     s.samples = 1;
     small.shutter.clear();
     small.lens.radius_m = 0.0f;
-    s.aovs.clear();
+    s.aovs = {"snow"};
     s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.
     s.exposure = 1e12f;
@@ -57,10 +59,12 @@ Frame metering_frame(const Frame& frame)
     return small;
 }
 
-std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty)
+std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
+                                   std::span<const float> snow)
 {
     std::array<std::uint64_t, kStops * kStepsAStop> counts{};
     std::uint64_t total = 0;
+    std::uint64_t white = 0;  // in 255ths of the weight
     for (std::size_t i = 0; i + 3 < beauty.size(); i += 4) {
         const float luminance = 0.2126f * glm::unpackHalf1x16(beauty[i]) +
                                 0.7152f * glm::unpackHalf1x16(beauty[i + 1]) +
@@ -70,6 +74,8 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty)
         const std::uint64_t weight = beauty[i + 3] != 0 ? kSurface : kSky;
         counts[static_cast<std::size_t>(step_of(luminance))] += weight;
         total += weight;
+        if (i / 4 < snow.size())
+            white += weight * static_cast<std::uint64_t>(std::lround(std::clamp(snow[i / 4], 0.0f, 1.0f) * 255.0f));
     }
     if (total == 0) return std::nullopt;
     // In twentieths of the weight: 5 % at both ends is one of them. A step may be cut in two.
@@ -86,7 +92,10 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty)
     }
     const double steps = static_cast<double>(sum) / static_cast<double>(2 * (high - low));
     const auto stops = static_cast<float>(kLowStop + steps / kStepsAStop);
-    return stops + 3.0f;  // ev100_of_luminance(2^stops)
+    const float ev100 = stops + 3.0f;  // ev100_of_luminance(2^stops)
+    const auto share = static_cast<float>(static_cast<double>(white) / (255.0 * static_cast<double>(total)));
+    const float day = std::clamp((ev100 - kNightEv100) / (kDayEv100 - kNightEv100), 0.0f, 1.0f);
+    return ev100 - kSnowStops * share * day;
 }
 
 }  // namespace petrichor::gpu

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_FRAME_METERING_H
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/frame/frame.h"
@@ -9,7 +10,7 @@
 namespace petrichor::gpu {
 
 /// The small frame that is rendered in place of `frame` to meter it: its longer side at most 96
-/// pixels, one sample in their centres, no outputs besides the picture.
+/// pixels, one sample in their centres, no outputs besides the picture but how much snow lies where.
 Frame metering_frame(const Frame& frame);
 
 /// EV100 (formulas/light/exposure.h) of a picture of RGBA half bits, cd/m2; alpha 0 is sky.
@@ -19,7 +20,12 @@ Frame metering_frame(const Frame& frame);
 /// left out, and the mean of the logarithms of the rest is what is metered. All counts are
 /// integers: the order of pixels does not matter. Black and non-finite pixels do not count;
 /// nothing: none does.
-std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty);
+///
+///   snow  0..1 of each pixel, none: no snow. A meter takes white for grey; as a photographer adds a stop or two for a
+///         snow field, what is metered falls by 1.3 stops times the share of the surfaces that is snow, by day;
+///         below EV100 10 less, from 4 on not at all: a night stays a night.
+std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
+                                   std::span<const float> snow = {});
 
 }  // namespace petrichor::gpu
 

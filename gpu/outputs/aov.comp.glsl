@@ -16,6 +16,7 @@ layout(constant_id = AOV_SPEC_HAS_EMISSION) const uint HAS_EMISSION = 1u;
 layout(constant_id = AOV_SPEC_HAS_BAKED) const uint HAS_BAKED = 1u;
 layout(binding = AOV_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(constant_id = AOV_SPEC_PLACE) const uint PLACE = 0u;
+layout(constant_id = AOV_SPEC_MATERIALS) const uint MATERIALS = 0u;
 layout(binding = AOV_PLACE_TABLE) uniform usamplerBuffer place_table;
 layout(binding = AOV_PLACE_STATES) uniform samplerBuffer place_states;
 layout(binding = AOV_PLACE_LABELS) uniform usamplerBuffer place_labels;
@@ -71,6 +72,7 @@ void main()
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
     p.g = decode_gbuffer(
         fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u), frame.flags);
+    if (MATERIALS != 0u) p.g.weather = vec4(0.0);
     set_si(p);
 
     const uint pixels = uint(frame.size.x * frame.size.y);

@@ -8,10 +8,12 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
                                  std::uint64_t most_bytes)
 {
     std::uint64_t asked = 0;
-    for (const std::size_t row : rows) asked |= std::uint64_t{1} << row;
+    for (const std::size_t row : rows) {
+        if (row < gbuffer_aov_count()) asked |= std::uint64_t{1} << row;
+    }
     std::vector<AovGroup> groups;
     const std::uint64_t most_numbers = most_bytes / sizeof(float) / pixels;
-    for (std::size_t row = 0; row < aov_table().size(); ++row) {
+    for (std::size_t row = 0; row < gbuffer_aov_count(); ++row) {
         if ((asked >> row & 1u) == 0) continue;
         const std::size_t numbers = aov_table()[row].channels.size();
         if (groups.empty() || groups.back().numbers + numbers > most_numbers) groups.push_back({});
@@ -23,7 +25,7 @@ std::vector<AovGroup> group_aovs(const std::vector<std::size_t>& rows, std::size
 
 void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
               const ConstantsRange& constants, const AovGroup& group, std::size_t buffer,
-              const GBufferParts& parts)
+              const GBufferParts& parts, bool materials_only)
 {
     ComputePass pass{
         .name = "aov",
@@ -33,7 +35,8 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
                       {AOV_SPEC_HAS_WEATHER, parts.weather},
                       {AOV_SPEC_HAS_EMISSION, parts.emission},
                       {AOV_SPEC_HAS_BAKED, parts.baked},
-                      {AOV_SPEC_PLACE, place.present()}},
+                      {AOV_SPEC_PLACE, place.present()},
+                      {AOV_SPEC_MATERIALS, materials_only}},
         .bindings = {{AOV_FRAME, frame_binding(constants)},
                      {AOV_OUTPUT, storage_buffer(*targets.aovs[buffer])}},
         .push = {},

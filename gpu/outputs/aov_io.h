@@ -13,6 +13,7 @@
 #define AOV_SPEC_HAS_EMISSION 3
 #define AOV_SPEC_HAS_BAKED 4
 #define AOV_SPEC_PLACE 5
+#define AOV_SPEC_MATERIALS 6  // 1: of the weather's targets only the material counts
 
 #define AOV_FRAME 0
 #define AOV_OUTPUT 1

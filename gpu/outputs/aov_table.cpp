@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "gpu/outputs/aov_table_io.h"
+#include "gpu/outputs/light_parts_io.h"
 
 namespace petrichor::gpu {
 
@@ -36,8 +37,19 @@ const std::vector<AovInfo>& aov_table()
     {#name, channels, unit, AovPrecision::precision, meaning},
         AOV_TABLE(ROW)
 #undef ROW
+#define ROW(layer, name, meaning) {#name, "RGB", "cd/m2", AovPrecision::HALF, meaning},
+        LIGHT_PARTS_TABLE(ROW)
+#undef ROW
+        {"reflection", "IA", "1", AovPrecision::FLOAT,
+         "what is mirrored most: I number of the material, -1 nothing, -2 the sky, -3 a probe's "
+         "surroundings; A share of its light that is mirrored"},
     };
     return table;
+}
+
+std::size_t gbuffer_aov_count()
+{
+    return std::size(kCounts);
 }
 
 std::size_t aov_row(const std::string& name)

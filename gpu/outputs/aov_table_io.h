@@ -52,6 +52,8 @@
         p.state.z, 0.0)                                                                         \
     ROW(lighting_model, 1, "Y", "1", HALF,                                                      \
         "number of the lighting model, behind them of layers; -1: nothing",                     \
-        float(p.g.model), -1.0)
+        float(p.g.model), -1.0)                                                             \
+    ROW(material, 1, "Y", "1", FLOAT, "number of the material in the scene; -1: nothing",       \
+        float(p.g.material), -1.0)
 
 #endif

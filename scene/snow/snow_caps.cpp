@@ -25,6 +25,7 @@ constexpr float kCoarse_m = 0.8f;     // how far apart the sky is looked at
 constexpr int kRays = 16;
 constexpr float kHidden = 0.1f;       // of the rays
 constexpr float kCone = 0.6f;         // cosine from the zenith of the farthest ray
+constexpr float kBuried_m = 0.06f;    // what stands so high over level ground hides nothing from the sky
 constexpr float kCoarser = 1.41421356f;
 constexpr int kTries = 12;
 constexpr float kAlong = 5.0f;        // times finer across an edge than along it
@@ -32,13 +33,6 @@ constexpr float kAlong_m = 0.2f;
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
 constexpr float kBridge_m = 0.018f;   // caps reach so far into walls and over joints
 constexpr int kSpread = 12;           // edges that a support is told over
-
-bool holds_snow(const Material& m)
-{
-    return m.alpha_mode == AlphaMode::Opaque && m.transmission <= 0.0f && !m.weather.sheltered &&
-           !m.decal.on && !m.wind.moves() &&
-           m.weather.snow_rule == SnowRule::Surface && m.weather.snow_accumulation.y > 0.0f;
-}
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
 {
@@ -70,7 +64,7 @@ Ground ground_of(const Scene& scene, const SnowCapOptions& options)
         const bool mirrored = glm::determinant(linear) < 0.0f;
         for (const Primitive& from : scene.meshes[instance.mesh].primitives) {
             const Material& m = scene.materials[from.material];
-            if (!holds_snow(m)) continue;
+            if (!holds_snow_body(m)) continue;
             Primitive to;
             to.material = from.material;
             std::vector<std::uint32_t> number(from.positions.size(), 0xffffffffu);
@@ -143,6 +137,7 @@ void look_up(CutMesh& mesh, const Tracer& tracer)
         for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
             const vec3 middle = (p.positions[p.indices[k]] + p.positions[p.indices[k + 1]] +
                                  p.positions[p.indices[k + 2]]) / 3.0f;
+            const bool level = p.normals[p.indices[k]].y > 0.97f;
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::uint32_t v = p.indices[k + c];
                 const std::uint32_t point = mesh.points[i][v];
@@ -150,7 +145,7 @@ void look_up(CutMesh& mesh, const Tracer& tracer)
                 const vec3 way = middle - p.positions[v];
                 const float length = glm::length(way);
                 const vec3 from = p.positions[v] + way * std::min(0.08f / std::max(length, 1.0e-6f), 0.9f) +
-                                  vec3(0.0f, 0.015f, 0.0f);
+                                  vec3(0.0f, level ? kBuried_m : 0.015f, 0.0f);
                 int open = 0;
                 for (const vec3& ray : rays) open += tracer.blocked({from, ray}) ? 0 : 1;
                 sum[point] += static_cast<float>(open) / kRays;
@@ -180,10 +175,12 @@ float smooth_noise(const vec3& p, float cell_m, std::uint32_t seed)
     return shared::tileable_noise(vec2(p.x, p.z) / cell_m, 1 << 20, seed);
 }
 
-// Of pieces that hang together: narrower than this they hold no cap. By area over border.
-constexpr float kNarrowest_m = 0.03f;
+// Of pieces that hang together: narrower than this they hold no cap. By area over border, of which what has
+// ground beyond does not count: bars of a grating, the frame of a cover.
+constexpr float kNarrowest_m = 0.04f;
+constexpr double kSmallest_m2 = 0.0025;
 
-void leave_out_ledges(CutMesh& mesh)
+void leave_out_ledges(CutMesh& mesh, const Tracer& tracer)
 {
     std::vector<std::uint32_t> parent(mesh.normals.size());
     for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
@@ -191,7 +188,7 @@ void leave_out_ledges(CutMesh& mesh)
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
         return i;
     };
-    std::vector<double> area(parent.size(), 0.0), border(parent.size(), 0.0);
+    std::vector<double> area(parent.size(), 0.0), border(parent.size(), 0.0), ground(parent.size(), 0.0);
     std::unordered_map<std::uint64_t, int> triangles;  // at an edge
     const auto each = [&](const auto& visit) {
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -217,12 +214,34 @@ void leave_out_ledges(CutMesh& mesh)
         const vec3 last = p.positions[p.indices[k + 2]];
         area[r] += 0.5 * static_cast<double>(glm::length(glm::cross(next - at, last - at)));
     });
+    const auto narrow = [&](std::uint32_t r) {
+        return area[r] < kSmallest_m2 ||
+               2.0 * area[r] < static_cast<double>(kNarrowest_m) * (border[r] - ground[r]);
+    };
+    // Rays for those alone that are narrow otherwise.
+    std::vector<bool> asked(parent.size());
+    for (std::uint32_t r = 0; r < parent.size(); ++r) asked[r] = narrow(r);
+    each([&](const Primitive& p, std::size_t k, std::uint32_t a, std::uint32_t, std::uint64_t key) {
+        const std::uint32_t r = root(a);
+        if (triangles[key] != 1 || !asked[r]) return;
+        const vec3 at = p.positions[p.indices[k]];
+        const vec3 next = p.positions[p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+        const vec3 inwards = p.positions[p.indices[k - k % 3 + (k + 2) % 3]] - at;
+        vec2 out(next.z - at.z, at.x - next.x);
+        const float length = glm::length(out);
+        if (!(length > 1.0e-5f)) return;
+        out /= glm::dot(out, vec2(inwards.x, inwards.z)) > 0.0f ? -length : length;
+        const vec3 middle = 0.5f * (at + next);
+        const detail::Beyond there = detail::beyond(tracer, middle, out);
+        if (there == detail::Beyond::Ground ||
+            (there == detail::Beyond::Nothing && detail::gap_beyond_m(tracer, middle, out) < 1.0f))
+            ground[r] += static_cast<double>(glm::distance(at, next));
+    });
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
         std::vector<std::uint32_t> kept;
         for (std::size_t k = 0; k + 2 < p.indices.size(); k += 3) {
-            const std::uint32_t r = root(mesh.points[i][p.indices[k]]);
-            if (2.0 * area[r] < static_cast<double>(kNarrowest_m) * border[r]) continue;
+            if (narrow(root(mesh.points[i][p.indices[k]]))) continue;
             kept.insert(kept.end(), {p.indices[k], p.indices[k + 1], p.indices[k + 2]});
         }
         p.indices = std::move(kept);
@@ -253,10 +272,13 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, con
             point.base_m = at;
             const NearEdge edge = edges.nearest(at, normals[number]);
             point.edge_m = edge.distance_m;
-            point.support_m = edge.distance_m;
+            point.support_m = edge.gap_m < 1.0f ? EdgeGrid::kReach_m : edge.distance_m;
             point.out = edge.out;
             const NearEdge border = closed.nearest(at, normals[number]);
             if (border.distance_m < 1.0e-3f) point.bridge_m = border.out * kBridge_m;
+            point.gap_m = edge.gap_m;
+            if (edge.distance_m < 1.0e-3f && edge.gap_m < 1.0f)
+                point.bridge_m = edge.out * (0.5f * edge.gap_m + 0.01f);
             // EN 1991-1-3: all of it up to 30 degrees, none from 60 on.
             const float up = std::clamp(normals[number].y, 0.0f, 1.0f);
             const float slope = std::clamp((1.04719755f - std::acos(up)) / 0.52359878f, 0.0f, 1.0f);
@@ -287,7 +309,7 @@ bool is_trodden(const SnowCapOptions& options, const vec3& a, const vec3& b)
 
 void find_supports(SnowCaps& caps, const CutMesh& mesh)
 {
-    for (SnowCaps::Point& p : caps.points) p.support_m = std::min(p.edge_m, EdgeGrid::kReach_m);
+    for (SnowCaps::Point& p : caps.points) p.support_m = std::min(p.support_m, EdgeGrid::kReach_m);
     for (int pass = 0; pass < kSpread; ++pass) {
         std::vector<float> next(caps.points.size());
         for (std::size_t i = 0; i < next.size(); ++i) next[i] = caps.points[i].support_m;
@@ -305,6 +327,13 @@ void find_supports(SnowCaps& caps, const CutMesh& mesh)
 }
 
 }  // namespace
+
+bool holds_snow_body(const Material& m)
+{
+    return m.alpha_mode == AlphaMode::Opaque && m.transmission <= 0.0f && !m.weather.sheltered &&
+           !m.decal.on && !m.wind.moves() &&
+           m.weather.snow_rule == SnowRule::Surface && m.weather.snow_accumulation.y > 0.0f;
+}
 
 SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
 {
@@ -328,7 +357,7 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
         scale *= kCoarser;
         mesh = subdivide(ground.primitives, coarse);
     }
-    leave_out_ledges(mesh);
+    leave_out_ledges(mesh, tracer);
     look_up(mesh, tracer);
     detail::Borders borders = detail::borders_of(mesh, tracer);
     const EdgeGrid edges(std::move(borders.open));

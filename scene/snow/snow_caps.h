@@ -32,7 +32,8 @@ struct SnowCaps {
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
         float uneven = 1.0f;          ///< times the depth
-        glm::vec2 bridge_m{0.0f};     ///< at a closed border: into the wall, over the joint
+        glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot
+        float gap_m = 1.0e9f;         ///< how wide the slot behind that edge is; 1e9: it is none
     };
     struct Part {
         std::uint32_t material = 0;
@@ -53,11 +54,14 @@ struct SnowCaps {
 
 /// Cuts what snow lies on: opaque, unsheltered surfaces that face up, of what does not move. Open is
 /// what sees the sky overhead, by rays; an edge is open where the ground falls away beyond it, closed
-/// where a wall rises or other ground goes on.
+/// where a wall rises or other ground goes on. Over slots of up to 14 cm, as of a grating, deep snow closes.
 ///
 /// The same caps for any thread count. They reach over primitives and meshes: places that are shared
 /// are one point, so there are no cracks.
 SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options);
+
+/// Whether snow on a material has a body.
+bool holds_snow_body(const Material& material);
 
 /// Drawn snow is at most about so deep: what stands in the scene would drown.
 inline constexpr float kDeepestSnow_m = 0.4f;

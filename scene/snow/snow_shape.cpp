@@ -11,7 +11,8 @@ using glm::vec3;
 constexpr float kSunk_m = 0.012f;       // of a cap without snow, below its surface
 constexpr float kOverhang = 0.22f;      // of the depth
 constexpr float kMostOverhang_m = 0.05f;
-constexpr float kMostOverWidth = 2.0f;  // height of what stays on a post, over its half width
+constexpr float kMostOverWidth = 1.0f;  // height of what stays on a post, over its half width
+constexpr float kClosed = 1.2f;         // depth over the width of a slot, from which on snow closes it
 
 // Height over that of open ground at a share of the way from the edge (Fearing 2000 has edges round
 // off; the quarter ellipse is ours).
@@ -45,16 +46,18 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
             std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m);
         const float width = std::max(std::min(deep, 0.95f * p.support_m), 1.0e-4f);
         const float s = p.edge_m / width;
-        const float thickness = deep * rounded(s);
+        const float slot = std::clamp(2.0f * deep / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
+        const float round = rounded(s);
+        const float thickness = deep * (round + slot * (1.0f - round));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
         at.y += thickness - sunk;
-        const float bridged = std::min(thickness / 0.03f, 1.0f);
+        const float bridged = p.gap_m < 1.0f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;
         if (s < 1.0f && deep > 0.0f) {
             const float bulge = 3.5f * std::sqrt(s) * (1.0f - s) * (1.0f - s);
-            const float out = std::min(kOverhang * deep, kMostOverhang_m) * bulge;
+            const float out = std::min(kOverhang * deep, kMostOverhang_m) * bulge * (1.0f - slot);
             at.x += p.out.x * out;
             at.z += p.out.y * out;
         }

@@ -93,6 +93,24 @@ TEST(DecalKeys, RefuseWhatCannotBe)
     EXPECT_THAT(said("[decals.brick]\ncentre_m = [1, 1, 1]\n"), HasSubstr("center_m"));
 }
 
+TEST(DecalKeys, HaveNoSurfaceOfTheirOwn)
+{
+    scene::Scene scene = with("[decals.sign]\nmaterial = \"poster\"\n[materials.poster]\nroughness_factor = 0.3\n");
+    EXPECT_NO_THROW(check_decals(scene));
+    scene.materials[1].lighting_model = "lambert";
+    check_decals(scene);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("\"lambert\", which is left out"));
+    scene.materials[1].surface = "moss.glsl";
+    try {
+        check_decals(scene);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the decal \"sign\" shows the material \"poster\""));
+        EXPECT_THAT(error.what(), HasSubstr("moss.glsl"));
+    }
+}
+
 TEST(NodeKeys, GiveThingsValuesOfTheirOwn)
 {
     scene::Scene scene = two_things();

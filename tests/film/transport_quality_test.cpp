@@ -10,13 +10,16 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "film/scenes/demo_scene.h"
 #include "film/scenes/transport.h"
 #include "formulas/light/brdf.h"
 #include "scene/patches/detail/sampling.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/tracer.h"
 
@@ -116,7 +119,8 @@ struct World {
             const float facing = glm::dot(n, way) / r;
             if (facing <= 0.0f) continue;
             const bool hidden =
-                r > 0.35f && street.tracer.blocked({from, way / r, r - 0.35f});
+                r > scene::kLanternRadius_m &&
+                street.tracer.blocked({from, way / r, r - scene::kLanternRadius_m});
             if (!hidden)
                 sum += light.color * (light.intensity * facing *
                                       shared::light_attenuation(r, light.range_m));
@@ -198,6 +202,64 @@ Errors errors_of(const std::vector<double>& got, const std::vector<double>& want
             std::sqrt(stops / n)};
 }
 
+// The material whose direct light a point sees most of, how far that is, and its share of the light.
+std::string what_lights(const World& world, const Point& p)
+{
+    constexpr int kRays = 512;
+    std::map<std::uint32_t, std::pair<float, float>> light;  // by material: light, and times distance
+    float all = 0.0f;
+    for (int r = 0; r < kRays; ++r) {
+        const glm::vec3 d = scene::row_direction(p.n, r, kRays, 3);
+        const scene::RayHit hit = world.street.tracer.nearest({p.x + p.n * World::scene_lift, d});
+        if (!hit.hit()) {
+            all += kPi * world.sky(d);
+            continue;
+        }
+        glm::vec3 n = world.street.triangles.normal(hit.triangle);
+        if (hit.back) n = -n;
+        const glm::vec3 x = world.street.triangles.point(hit.triangle, hit.at);
+        const float sent =
+            luminance(world.albedo(hit.triangle, hit.at, n) * world.direct(x, n));
+        auto& entry = light[world.street.triangles.material(hit.triangle)];
+        entry.first += sent;
+        entry.second += sent * hit.distance_m;
+        all += sent;
+    }
+    const auto most =
+        std::max_element(light.begin(), light.end(),
+                         [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
+    if (most == light.end() || !(most->second.first > 0.0f)) return "the sky";
+    char text[120];
+    std::snprintf(text, sizeof text, "%.0f %% of %s at %.2f m",
+                  static_cast<double>(100.0f * most->second.first / all),
+                  world.street.scene.materials[most->first].name.c_str(),
+                  static_cast<double>(most->second.second / most->second.first));
+    return text;
+}
+
+// Where the squares of the error lie: PETRICHOR_QUALITY_WORST points of each light.
+void print_worst(const World& world, const std::vector<Point>& points,
+                 const std::vector<double>& wanted, const std::vector<double>& got)
+{
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto square = [&](std::size_t i) { return std::pow(got[i] - wanted[i], 2.0); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return square(a) > square(b); });
+    double all = 0.0, sum = 0.0;
+    for (const std::size_t i : order) all += square(i);
+    const auto most = static_cast<std::size_t>(number_of("PETRICHOR_QUALITY_WORST", 0));
+    for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+        const std::size_t i = order[k];
+        sum += square(i);
+        std::printf("    at %7.3f %7.3f %7.3f  facing %5.2f %5.2f %5.2f  %9.4g for %9.4g  %5.1f %%  %s\n",
+                    static_cast<double>(points[i].x.x), static_cast<double>(points[i].x.y),
+                    static_cast<double>(points[i].x.z), static_cast<double>(points[i].n.x),
+                    static_cast<double>(points[i].n.y), static_cast<double>(points[i].n.z), got[i],
+                    wanted[i], 100.0 * sum / all, what_lights(world, points[i]).c_str());
+    }
+}
+
 TEST(TransportQuality, PatchesComeNearAPathTracer)
 {
     const Street street;
@@ -253,16 +315,7 @@ TEST(TransportQuality, PatchesComeNearAPathTracer)
         }
         scene::add_sun(p, c.towards_sun, c.sun, direct);
         for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l) {
-            const scene::Light& light = street.scene.lights[l];
-            for (std::uint32_t i = 0; i < p.count; ++i) {
-                const glm::vec3 way = light.position_m - p.position_m[i];
-                const float r = glm::length(way);
-                const float facing = glm::dot(p.normal[i], way) / r;
-                if (facing <= 0.0f) continue;
-                direct[i] += light.color *
-                             (light.intensity * facing * shared::light_attenuation(r, light.range_m) *
-                              static_cast<float>(street.patches->lamp_reach[l][i]) / 255.0f);
-            }
+            scene::add_lamp(p, street.scene.lights[l], street.patches->lamp_reach[l], direct);
         }
         scene::Relight input;
         input.albedo = albedo;
@@ -308,6 +361,7 @@ TEST(TransportQuality, PatchesComeNearAPathTracer)
             std::printf("  %-14s %8.3f %8.3f %8.3f %8.3f   %s\n", c.name, e.rmse, e.bias, e.median,
                         e.log2, name);
         }
+        print_worst(world, points, wanted, ratio);
         EXPECT_LT(errors_of(ratio, wanted).rmse, c.most_rmse) << c.name;
         EXPECT_LT(errors_of(ratio, wanted).rmse, errors_of(today, wanted).rmse) << c.name;
     }

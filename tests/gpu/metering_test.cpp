@@ -76,6 +76,26 @@ TEST(Metering, SkyCountsAQuarterOfASurface)
     EXPECT_NEAR(*metered_ev100(half), *metered_ev100(picture) + 3.0f, 1e-4f);
 }
 
+// White is not taken for grey, by day; the darker it is, the less.
+TEST(Metering, SnowIsWhite)
+{
+    float before = -30.0f;
+    for (float luminance = 1e-3f; luminance < 6e4f; luminance *= 1.37f) {
+        std::vector<std::uint16_t> picture;
+        add_pixels(picture, 100, luminance);
+        const float plain = *metered_ev100(picture);
+        EXPECT_EQ(*metered_ev100(picture, std::vector<float>(100, 0.0f)), plain);
+        const float white = *metered_ev100(picture, std::vector<float>(100, 1.0f));
+        if (plain > 10.0f) { EXPECT_NEAR(white, plain - 1.3f, 1e-4f); }
+        if (plain < 4.0f) { EXPECT_EQ(white, plain); }
+        EXPECT_GE(white, before) << "monotone";
+        before = white;
+        std::vector<float> half(100, 0.0f);
+        std::fill_n(half.begin(), 50, 1.0f);
+        EXPECT_NEAR(*metered_ev100(picture, half), 0.5f * (plain + white), 1e-4f);
+    }
+}
+
 TEST(Metering, NothingToSeeIsNoNumber)
 {
     std::vector<std::uint16_t> black;
@@ -97,7 +117,7 @@ TEST(MeteringFrame, IsSmallAndOfTheSameShape)
     EXPECT_EQ(small.settings.width, 96);
     EXPECT_EQ(small.settings.height, 54);
     EXPECT_EQ(small.settings.samples, 1);
-    EXPECT_TRUE(small.settings.aovs.empty());
+    EXPECT_EQ(small.settings.aovs, std::vector<std::string>{"snow"});
     frame.settings.width = 3;
     frame.settings.height = 16384;
     EXPECT_EQ(metering_frame(frame).settings.width, 1);

@@ -111,5 +111,47 @@ TEST_F(ParallaxTest, WaterFillsTheRelief)
     EXPECT_GT(share_alike(seen(*renderer, deep, 0), flat), 0.99);
 }
 
+// Water half way up the relief: its rings are seen where it stands, as on ground that lies so deep.
+TEST_F(ParallaxTest, RingsLieOnTheWaterInTheRelief)
+{
+    const auto rings_on = [&](const Scene& scene) {
+        renderer->load(scene, {texture_of("ramp", [](int x) { return 2 * x; }),
+                               texture_of("height", [](int) { return 0; })});
+        Frame frame;
+        frame.camera = look({0.9f, 2.6f, 0.0f}, {0, 0, 0}, 0.35f);
+        frame.settings.width = frame.settings.height = kSize;
+        frame.settings.samples = 1;
+        frame.settings.aovs = {"cover_normal"};
+        frame.settings.time_s = 0.4;
+        frame.look.detail_distance_m = 50.0f;
+        frame.look.detail_fade_m = 2.0f;
+        frame.weather.flood_cracks = frame.weather.flood_puddles = 0.5f;
+        frame.weather.rain = 1.0f;
+        return renderer->render(frame);
+    };
+    const auto puddle = [](float y, scene::Parallax parallax) {
+        Scene scene = floor(y, parallax, 0.3f);
+        scene.materials[0].weather.wetness = scene::Wetness::Ripples;
+        return scene;
+    };
+    const RenderResult sunk = rings_on(puddle(0.0f, scene::Parallax::Occlusion));
+    const RenderResult lowered = rings_on(puddle(-0.15f, scene::Parallax::None));
+    const RenderResult flat = rings_on(puddle(0.0f, scene::Parallax::None));
+    const auto difference = [](const RenderResult& a, const RenderResult& b) {
+        double sum = 0.0;
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                for (const int c : {0, 2}) {
+                    sum += std::abs(static_cast<double>(aov(a, "cover_normal", x, y, c) -
+                                                        aov(b, "cover_normal", x, y, c)));
+                }
+            }
+        }
+        return sum;
+    };
+    ASSERT_GT(difference(flat, lowered), 0.01 * kSize * kSize) << "there are rings";
+    EXPECT_LT(difference(sunk, lowered), 0.35 * difference(flat, lowered));
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -96,6 +96,29 @@ TEST_F(PatchLightTest, FarGroundBehindANearThingIsNotLitAsThatThing)
     EXPECT_GT(ground, 1000);
 }
 
+// Below the ground, whose backs are not drawn, everything that is seen has a value.
+TEST_F(PatchLightTest, FromUnderTheGroundThePictureIsDefined)
+{
+    const Scene scene = yard(lambert(glm::vec3(0.5f)));
+    renderer->load(scene, {});
+    renderer->set_patches(traced(scene, 0.5f));
+    renderer->set_environment(constant_environment(1.0f));
+    const Frame frame = frame_from(look({0, -1.5f, 2}, {-1, 3, -3}, 1.2f));
+    const RenderResult r = renderer->render(frame);
+    int seen = 0;
+    for (int y = 0; y < r.height; ++y) {
+        for (int x = 0; x < r.width; ++x) {
+            const glm::vec3 c(pixel(r, x, y));
+            EXPECT_TRUE(std::isfinite(c.r + c.g + c.b)) << x << " " << y;
+            EXPECT_GE(std::min(c.r, std::min(c.g, c.b)), 0.0f);
+            EXPECT_LE(std::max(c.r, std::max(c.g, c.b)), 1.001f) << "more than the sky";
+            seen += std::isfinite(aov(r, "position", x, y, 1)) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(seen, 100);
+    EXPECT_EQ(renderer->render(frame).beauty, r.beauty);
+}
+
 TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
 {
     const Scene scene = yard(lambert({0.5f, 0.4f, 0.3f}));

@@ -215,6 +215,49 @@ TEST_F(Surface, WetnessChoosesWhatWaterDoes)
     EXPECT_GT(rough[3], 3e-5f) << "flow: wind on flat ground";
 }
 
+// Rings of drops lie in the world, seen from above: neither the mesh nor its texture coordinates move them; the
+// camera does.
+TEST_F(Surface, RingsLieInTheWorld)
+{
+    Frame frame = from_above({"cover_normal"});
+    flood(frame);
+    frame.weather.rain = 1.0f;
+    frame.settings.time_s = 0.4;
+    Material m = plain_material(glm::vec3(0.5f));
+    m.weather.wetness = scene::Wetness::Ripples;
+    const auto lean = [](const RenderResult& r, int x, int y) {
+        return glm::vec2(aov(r, "cover_normal", x, y, 0), aov(r, "cover_normal", x, y, 2));
+    };
+    const RenderResult rings = shot(scene_of({ground()}, {m}), frame);
+    // By how much leans differ of pixels that lie `right` apart, and how much they lean at all.
+    const auto difference = [&](const RenderResult& a, const RenderResult& b, int right) {
+        float most = 0.0f;
+        for (int y = 0; y < kSize; ++y)
+            for (int x = right; x < kSize; ++x)
+                most = std::max(most, glm::length(lean(a, x, y) - lean(b, x - right, y)));
+        return most;
+    };
+    float deepest = 0.0f;
+    for (int i = 0; i < kSize * kSize; ++i)
+        deepest = std::max(deepest, glm::length(lean(rings, i % kSize, i / kSize)));
+    ASSERT_GT(deepest, 0.01f);
+    const float same = 0.02f * deepest;
+    Primitive other = quad({-3.7f, 0, 4.3f}, {9, 0, 0}, {0, 0, -9});
+    for (glm::vec2& uv : other.uv0) uv = glm::vec2(3.0f * uv.y + 0.2f, -uv.x);
+    EXPECT_LT(difference(shot(scene_of({other}, {m}), frame), rings, 0), same) << "another mesh";
+    // 24 pixels a metre.
+    frame.camera = look({0.5f, 2, 0}, {0.5f, 0, 0});
+    frame.camera.orthographic_height_m = 2.0f;
+    EXPECT_LT(difference(rings, shot(scene_of({ground()}, {m}), frame), 12), same) << "the camera moves over them";
+    EXPECT_GT(difference(rings, shot(scene_of({ground()}, {m}), frame), 0), 0.5f * deepest);
+    // Each ring is another a moment later; without rain there are none.
+    frame.settings.time_s = 0.6;
+    EXPECT_GT(difference(rings, shot(scene_of({ground()}, {m}), frame), 12), 0.5f * deepest);
+    frame.weather.rain = 0.0f;
+    const RenderResult calm = shot(scene_of({ground()}, {m}), frame);
+    EXPECT_LT(difference(calm, calm, 1), 1e-4f);
+}
+
 // Lux's packed map: the puddle mask in red, the height in green.
 TEST_F(Surface, OneMapHoldsMaskAndHeight)
 {

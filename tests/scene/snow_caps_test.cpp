@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "scene/snow/snow_caps_file.h"
 #include "tests/scene/patch_scenes.h"
 
 namespace petrichor::scene {
@@ -149,6 +150,85 @@ TEST(SnowCaps, ReachOverJoints)
     }
     EXPECT_GE(left, right);
     EXPECT_LT(point_at(caps, {1.01f, 0, 0}).edge_m, 0.01f) << "the far side is open";
+}
+
+// Bars of 2 cm, 5 cm apart over a pit, in a level ground: thin snow leaves the slots open, deep snow closes them.
+TEST(SnowCaps, CloseOverAGrating)
+{
+    Scene scene = empty_scene();
+    add_box(scene, {-2, -0.5f, -2}, {-0.2f, 0, 2}, false);
+    add_box(scene, {0.2f, -0.5f, -2}, {2, 0, 2}, false);
+    for (int i = -2; i <= 2; ++i) {
+        const float x = 0.07f * static_cast<float>(i);
+        add_box(scene, {x - 0.01f, -0.03f, -2}, {x + 0.01f, 0, 2}, false);
+    }
+    const SnowCaps caps = caps_of(scene);
+    // Of the pixels across the grating, the share that lies under snow near its full height.
+    const auto closed = [&](float depth) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        std::vector<bool> under(400, false);
+        for (std::size_t k = 0; k + 2 < caps.indices.size(); k += 3) {
+            float low = 1e9f, left = 1e9f, right = -1e9f;
+            bool here = true;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const vec3& at = shape.positions[caps.corner_points[caps.indices[k + c]]];
+                low = std::min(low, at.y);
+                left = std::min(left, at.x);
+                right = std::max(right, at.x);
+                here = here && std::abs(at.z) < 1.0f;
+            }
+            if (!here || low < 0.6f * depth) continue;
+            for (int i = 0; i < 400; ++i) {
+                const float x = -0.2f + 0.001f * static_cast<float>(i);
+                if (x >= left && x <= right) under[static_cast<std::size_t>(i)] = true;
+            }
+        }
+        return static_cast<double>(std::count(under.begin(), under.end(), true)) / 400.0;
+    };
+    EXPECT_LT(closed(0.02f), 0.35);
+    EXPECT_GT(closed(0.15f), 0.98);
+}
+
+// A ledge of 3 cm at a wall has a cover alone: no collar of a body.
+TEST(SnowCaps, NarrowLedgesHaveNone)
+{
+    const auto body_on_a_ledge = [](float width) {
+        Scene scene = yard();
+        add_box(scene, {-0.2f - width, 0.4f, -0.2f}, {-0.2f, 0.45f, 0.2f}, false);
+        const SnowCaps caps = caps_of(scene);
+        return std::any_of(caps.indices.begin(), caps.indices.end(), [&](std::uint32_t i) {
+            return caps.points[caps.corner_points[i]].base_m.y == 0.45f;
+        });
+    };
+    EXPECT_FALSE(body_on_a_ledge(0.03f));
+    EXPECT_TRUE(body_on_a_ledge(0.12f));
+}
+
+TEST(SnowCaps, AreReadBackBitForBit)
+{
+    const Scene scene = yard();
+    const SnowCaps caps = caps_of(scene);
+    const auto bytes = snow_caps_to_bytes(caps);
+    const auto back = snow_caps_from_bytes(bytes, scene);
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(snow_caps_to_bytes(*back), bytes);
+    const std::vector<float> depth(caps.points.size(), 0.1f);
+    EXPECT_EQ(snow_shape(*back, depth).positions, snow_shape(caps, depth).positions);
+    for (std::size_t cut = 0; cut < bytes.size(); cut += bytes.size() / 37)
+        EXPECT_FALSE(snow_caps_from_bytes(std::span(bytes).first(cut), scene)) << cut;
+    auto spoiled = bytes;
+    spoiled[0] = std::byte{1};
+    EXPECT_FALSE(snow_caps_from_bytes(spoiled, scene));
+    // Another scene, another eye: another key.
+    const std::string key = snow_caps_fingerprint("rays", scene, {});
+    EXPECT_EQ(snow_caps_fingerprint("rays", yard(), {}), key);
+    EXPECT_NE(snow_caps_fingerprint("other rays", scene, {}), key);
+    SnowCapOptions eyes;
+    eyes.eyes_m = {{0, 1, 0}};
+    EXPECT_NE(snow_caps_fingerprint("rays", scene, eyes), key);
+    Scene wet = yard();
+    wet.materials[0].weather.sheltered = true;
+    EXPECT_NE(snow_caps_fingerprint("rays", wet, {}), key);
 }
 
 TEST(SnowCaps, TracksPressThemDown)

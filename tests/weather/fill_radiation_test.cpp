@@ -13,6 +13,7 @@
 #include "weather/models/physical/physical.h"
 #include "weather/physics/humidity.h"
 #include "weather/physics/longwave.h"
+#include "weather/physics/solar.h"
 #include "weather/physics/surfaces.h"
 #include "weather/readers/read_weather.h"
 
@@ -65,6 +66,17 @@ TEST(Cloud, OfLongwaveUndoesTheSky)
     EXPECT_EQ(cloud_of_longwave(t, vapour, 600), 1.0);
 }
 
+// A share of the clear sky's sun, and how much of that is diffuse.
+void fill_sun(ForcingTable& t, double of_clear, double diffuse)
+{
+    for (const std::int64_t us : t.time_us) {
+        const SunDirection sun = sun_direction(us, t.site.latitude_deg, t.site.longitude_deg);
+        const double w = of_clear * clear_sky_w_m2(sun.up);
+        t[Field::Shortwave].push_back(w);
+        t[Field::Diffuse].push_back(diffuse * w);
+    }
+}
+
 TEST(FillRadiation, TheSkysOwnWarmthSaysHowCloudyItIs)
 {
     ForcingTable t = without_sun(1);
@@ -76,6 +88,27 @@ TEST(FillRadiation, TheSkysOwnWarmthSaysHowCloudyItIs)
     EXPECT_GT(t[Field::Shortwave][20], 700);
     EXPECT_LT(t[Field::Shortwave][44], 0.7 * t[Field::Shortwave][20]);
     EXPECT_TRUE(says(report, "from longwave")) << to_text(report);
+}
+
+// Hazy air takes a fifth of the sun, and is no cloud: where the file knows the diffuse light, its share
+// says so.
+TEST(FillRadiation, DiffuseLightTellsHazeFromClouds)
+{
+    ForcingTable t = without_sun(1);
+    fill_sun(t, 0.8, 0.15);
+    t[Field::Longwave].clear();
+    ForcingTable blind = t;
+    blind[Field::Diffuse].clear();
+    ReadReport report, other;
+    fill_forcing(t, report);
+    fill_forcing(blind, other);
+    EXPECT_EQ(t[Field::Cloud][20], 0.0);
+    EXPECT_GT(blind[Field::Cloud][20], 0.5);
+    EXPECT_LT(t[Field::Longwave][20], blind[Field::Longwave][20] - 15.0);
+    t = without_sun(1);
+    fill_sun(t, 0.3, 1.0);
+    fill_forcing(t, report);
+    EXPECT_EQ(t[Field::Cloud][20], 1.0);
 }
 
 TEST(FillRadiation, WhatIsAssumedIsCalledAssumed)

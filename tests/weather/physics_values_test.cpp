@@ -268,6 +268,7 @@ TEST(Radiation, ClearSkyAndClouds)
     EXPECT_NEAR(cloudy_sky_w_m2(sine(30), 1), 122.462, kDigits3);
     for (double n = 0.05; n < 1; n += 0.05) {
         EXPECT_NEAR(cloud_fraction_of(cloudy_sky_w_m2(0.5, n), 0.5), n, 1e-9);
+        EXPECT_NEAR(cloud_fraction_of_diffuse(0.3 + 0.7 * n * n), n, 1e-9);
     }
     const double e1 = vapour_pressure_pa(kelvin(0), 80), e2 = vapour_pressure_pa(kelvin(15), 60);
     EXPECT_NEAR(clear_sky_emissivity(kelvin(0), e1), 0.73211, kDigits5);
@@ -307,6 +308,24 @@ TEST(Solar, AlmanacDirections)
     const auto early =
         sun_direction((1130932800LL + 11 * 3600 + 43 * 60 + 36) * 1000000LL, 51.48, 0.0);
     EXPECT_NEAR(early.east, 0.0, 2e-3);
+}
+
+// Within an hour of its moment it is where the almanac has it.
+TEST(Solar, NearAMomentIsTheAlmanacs)
+{
+    for (int day = 0; day < 366; day += 13) {
+        for (int hour = 0; hour < 24; hour += 5) {
+            const std::int64_t at = (1104537600LL + day * 86400 + hour * 3600) * 1000000;
+            const SunNear track(at, 57.7, 11.96);
+            for (const int minutes : {-60, -13, 0, 30, 60}) {
+                const std::int64_t us = at + minutes * 60000000LL;
+                const SunDirection a = track.at(us), b = sun_direction(us, 57.7, 11.96);
+                const double apart = std::hypot(a.east - b.east, a.north - b.north, a.up - b.up);
+                EXPECT_LT(apart, minutes == 0 ? 1e-12 : 0.05 * kPi / 180) << day << " " << hour;
+                EXPECT_NEAR(a.extraterrestrial_w_m2, b.extraterrestrial_w_m2, 0.05);
+            }
+        }
+    }
 }
 
 TEST(Air, VisibilityAndDrops)

@@ -80,7 +80,9 @@ public:
         // A low sun tells little about clouds.
         if (!std::isnan(sw) && sine > 0.17 && sun_is_known_) {
             from_ = &fills.cloud_from_sun;
-            last_ = cloud_fraction_of(sw, sine);
+            const double diffuse = table_.has(Field::Diffuse) ? table_[Field::Diffuse][row] : kMissing;
+            last_ = std::isnan(diffuse) || !(sw > 0.0) ? cloud_fraction_of(sw, sine)
+                                                       : cloud_fraction_of_diffuse(diffuse / sw);
         } else if (std::isnan(sw) && !std::isnan(lw)) {
             const double t = table_[Field::AirTemp][row];
             from_ = &fills.cloud_from_sky;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
@@ -54,10 +55,17 @@ double beam_share(std::span<const double> horizon, std::int64_t begin_us, std::i
 {
     const std::int64_t parts =
         std::max<std::int64_t>(4, (length_us + kQuarter_us - 1) / kQuarter_us);
+    // The sun's place on its yearly way is found once an hour.
+    const std::int64_t hourly =
+        length_us > 0 ? std::max<std::int64_t>(1, 4 * kQuarter_us * parts / length_us) : parts;
+    std::optional<SunNear> track;
     double up = 0.0, past = 0.0;
     for (std::int64_t i = 0; i < parts; ++i) {
         const std::int64_t at_us = begin_us + length_us * (2 * i + 1) / (2 * parts);
-        const SunDirection sun = sun_direction(at_us, latitude_deg, longitude_deg);
+        if (i % hourly == 0)
+            track.emplace(std::min(at_us + 2 * kQuarter_us, begin_us + length_us), latitude_deg,
+                          longitude_deg);
+        const SunDirection sun = track->at(at_us);
         if (!(sun.up > 0.0)) continue;
         up += sun.up;
         if (seen(horizon, sun)) past += sun.up;

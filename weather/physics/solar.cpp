@@ -55,6 +55,14 @@ Ecliptic ecliptic(double days)
     return sun;
 }
 
+// Angle from the meridian to the vernal equinox.
+detail::SinCos sidereal_time(double days, double longitude_deg)
+{
+    const double sidereal_deg = 280.46062 + 360.98564737 * days + longitude_deg;
+    const double turns = sidereal_deg / 360.0;
+    return detail::sine_cosine(2.0 * kPi * (turns - std::floor(turns)));
+}
+
 SunDirection seen_from(double latitude_deg, const Ecliptic& at, double sin_hour, double cos_hour)
 {
     const auto latitude = detail::sine_cosine(radians(latitude_deg));
@@ -75,12 +83,37 @@ SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double lon
     // Right ascension enters only through its sine and cosine: no arc tangent is needed.
     const double cos_ascension = sun.cos_longitude / sun.cos_declination;
     const double sin_ascension = sun.cos_tilt * sun.sin_longitude / sun.cos_declination;
-    const double sidereal_deg = 280.46062 + 360.98564737 * days + longitude_deg;
-    const double turns = sidereal_deg / 360.0;
-    const auto sidereal = detail::sine_cosine(2.0 * kPi * (turns - std::floor(turns)));
+    const auto sidereal = sidereal_time(days, longitude_deg);
     const double cos_hour = sidereal.cos * cos_ascension + sidereal.sin * sin_ascension;
     const double sin_hour = sidereal.sin * cos_ascension - sidereal.cos * sin_ascension;
     return seen_from(latitude_deg, sun, sin_hour, cos_hour);
+}
+
+SunNear::SunNear(std::int64_t middle_us, double latitude_deg, double longitude_deg)
+    : longitude_deg_(longitude_deg)
+{
+    const Ecliptic sun = ecliptic(days_since_2000(middle_us));
+    const auto latitude = detail::sine_cosine(radians(latitude_deg));
+    sin_latitude_ = latitude.sin;
+    cos_latitude_ = latitude.cos;
+    sin_declination_ = sun.sin_declination;
+    cos_declination_ = sun.cos_declination;
+    cos_ascension_ = sun.cos_longitude / sun.cos_declination;
+    sin_ascension_ = sun.cos_tilt * sun.sin_longitude / sun.cos_declination;
+    extraterrestrial_w_m2_ = 1361.0 / (sun.distance_au * sun.distance_au);
+}
+
+SunDirection SunNear::at(std::int64_t unix_us) const
+{
+    const auto sidereal = sidereal_time(days_since_2000(unix_us), longitude_deg_);
+    const double cos_hour = sidereal.cos * cos_ascension_ + sidereal.sin * sin_ascension_;
+    const double sin_hour = sidereal.sin * cos_ascension_ - sidereal.cos * sin_ascension_;
+    SunDirection sun;
+    sun.east = -cos_declination_ * sin_hour;
+    sun.north = cos_latitude_ * sin_declination_ - sin_latitude_ * cos_declination_ * cos_hour;
+    sun.up = sin_latitude_ * sin_declination_ + cos_latitude_ * cos_declination_ * cos_hour;
+    sun.extraterrestrial_w_m2 = extraterrestrial_w_m2_;
+    return sun;
 }
 
 SunDirection sun_by_solar_time(double day_of_year, double solar_hour, double latitude_deg)
@@ -118,6 +151,11 @@ double cloud_fraction_of(double shortwave_w_m2, double sine_elevation)
     if (!(clear > 0.0)) return 0.0;
     const double lost = detail::unit_clamped((1.0 - shortwave_w_m2 / clear) / 0.75);
     return lost > 0.0 ? detail::power(lost, 1.0 / 3.4) : 0.0;
+}
+
+double cloud_fraction_of_diffuse(double diffuse_share)
+{
+    return std::sqrt(detail::unit_clamped((diffuse_share - 0.3) / 0.7));
 }
 
 double erbs_diffuse_fraction(double kt)

@@ -16,6 +16,19 @@ struct SunDirection {
 ///   source               low-precision solar coordinates of the Astronomical Almanac
 SunDirection sun_direction(std::int64_t unix_us, double latitude_deg, double longitude_deg);
 
+/// The sun about a moment, for many times within an hour of it: where sun_direction has it, to 0.05
+/// degrees, at a fifth of the cost.
+class SunNear {
+public:
+    SunNear(std::int64_t middle_us, double latitude_deg, double longitude_deg);
+    SunDirection at(std::int64_t unix_us) const;
+
+private:
+    double longitude_deg_;
+    double sin_latitude_, cos_latitude_, sin_declination_, cos_declination_;
+    double sin_ascension_, cos_ascension_, extraterrestrial_w_m2_;
+};
+
 /// Sun by solar time (12 = noon, the sun in the south or north; hours beyond 0..24 are other days)
 /// on a day of the year (1..366), with the declination that the function above has at that noon.
 SunDirection sun_by_solar_time(double day_of_year, double solar_hour, double latitude_deg);
@@ -29,6 +42,10 @@ double clear_sky_w_m2(double sine_elevation);
 double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
+
+/// Cloud fraction 0..1 from the share of shortwave that is diffuse, 0..1: the inverse of 0.3 + 0.7 N^2
+/// (Kasten & Czeplak 1980). Unlike that of shortwave it does not depend on how clear the air is.
+double cloud_fraction_of_diffuse(double diffuse_share);
 
 /// Share of shortwave that is diffuse, 0..1, by the clearness index, >= 0 (Erbs, Klein & Duffie
 /// 1982).

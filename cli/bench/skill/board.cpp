@@ -13,6 +13,8 @@
 #include "base/output_file.h"
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
+#include "cli/bench/skill/meadow.h"
+#include "cli/bench/skill/urban.h"
 #include "cli/simulate/physical_table.h"
 #include "cli/simulate/physics_keys.h"
 #include "weather/physics/constants.h"
@@ -197,6 +199,8 @@ Board skill_board(const SkillOptions& options)
         add_rows(longwave_rows(set.winter.name, set.raw), board);
     for (const LongwaveStation& station : sets.stations)
         add_rows(longwave_rows(station.name, station.raw), board);
+    for (const LongwaveStation& station : sets.stations)
+        add_rows(meadow_rows(station, params_of(options, "lawn")), board);
     for (const RoadCase& road : sets.roads) {
         try {
             const weather::PhysicalParams params =
@@ -207,6 +211,7 @@ Board skill_board(const SkillOptions& options)
             board.notes.push_back(road.name + ": " + e.what());
         }
     }
+    for (const UrbanSite& town : sets.towns) add_rows(urban_rows(town), board);
     add_means(board);
     return board;
 }

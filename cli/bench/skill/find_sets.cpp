@@ -144,7 +144,7 @@ RoadCase road_of(const fs::path& folder, std::vector<std::string>& notes)
 // Bondville near Champaign, a row of 33 numbers every half hour, local standard time.
 LongwaveStation champaign(const std::string& text, const std::string& name)
 {
-    LongwaveStation station{name, {}};
+    LongwaveStation station{name, {}, {}, {}};
     weather::ForcingTable& t = station.raw;
     t.site = {.latitude_deg = 40.01,
               .longitude_deg = -88.29,
@@ -173,6 +173,8 @@ LongwaveStation champaign(const std::string& text, const std::string& name)
         t[Field::Shortwave].push_back(std::max(value(7), 0.0));
         t[Field::Precip].push_back(std::max(value(12), 0.0) * 25.4 / 1800.0);
         t[Field::Longwave].push_back(value(29));
+        station.wetness_v.push_back(value(13));
+        station.skin_c.push_back(value(14) < -172.0 ? weather::kMissing : value(14));
     }
     return station;
 }
@@ -189,7 +191,7 @@ void add_station(const fs::path& file, SkillSets& sets)
         return;
     weather::ReadOptions options;
     options.fill = false;
-    sets.stations.push_back({name, weather::read_weather(text, options).table});
+    sets.stations.push_back({name, weather::read_weather(text, options).table, {}, {}});
 }
 
 }  // namespace
@@ -217,6 +219,8 @@ SkillSets find_skill_sets(const std::string& folder)
                 fs::exists(file.parent_path() / "station.xml") &&
                 fs::exists(file.parent_path() / "observation.xml"))
                 sets.roads.push_back(road_of(file.parent_path(), sets.notes));
+            if (file.filename().string().rfind("DSM_", 0) == 0 && is_urban_site(file.parent_path()))
+                sets.towns.push_back(read_urban_site(file.parent_path()));
             if (file.extension() == ".dat") add_station(file, sets);
             if (file.extension() == ".dly" || file.filename().string().rfind("ghcn", 0) == 0)
                 add_daily(file, sets);
@@ -224,7 +228,8 @@ SkillSets find_skill_sets(const std::string& folder)
             sets.notes.push_back(file.string() + ": " + e.what());
         }
     }
-    if (sets.winters.empty() && sets.roads.empty() && sets.stations.empty()) {
+    if (sets.winters.empty() && sets.roads.empty() && sets.stations.empty() &&
+        sets.towns.empty()) {
         throw Error("bench: there is no data set below '" + folder + "'",
                     "Put met_X.txt beside obs_X.csv, or the files of a METRo case, into it.");
     }

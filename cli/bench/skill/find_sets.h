@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/bench/skill/road.h"
+#include "cli/bench/skill/urban_site.h"
 #include "cli/bench/skill/winter.h"
 
 namespace petrichor::cli {
@@ -13,6 +14,9 @@ namespace petrichor::cli {
 struct LongwaveStation {
     std::string name;
     weather::ForcingTable raw;  ///< as read, nothing filled
+    /// A row each, NaN where missing; empty where not measured: volt of a sensor of wetness, and what
+    /// an infrared thermometer saw of the ground.
+    std::vector<double> wetness_v, skin_c;
 };
 struct WinterSet {
     Winter winter;
@@ -23,6 +27,7 @@ struct SkillSets {
     std::vector<WinterSet> winters;
     std::vector<RoadCase> roads;
     std::vector<LongwaveStation> stations;
+    std::vector<UrbanSite> towns;
     std::vector<std::string> notes;  ///< what was found and could not be used, and why
 };
 
@@ -31,6 +36,7 @@ struct SkillSets {
 ///   met_X.txt or .csv beside obs_X.txt or .csv, X_met_hourly.csv beside X_obs_daily.csv: winters
 ///   station.xml, observation.xml and roadcast_reference.xml in one folder: a road of METRo
 ///   *.dly and ghcn* of GHCN-daily with snow depths: winters whose weather is a day's extremes
+///   DSM_X.tif and what belongs to it in a folder kronenhuset or gustav_adolfs: places in a town
 ///   *.dat of SURFRAD, and Bondville's champaign_*.dat: stations with longwave
 ///
 /// A file site.toml in the folder of a winter gives its place (table [site]); winters of Col de

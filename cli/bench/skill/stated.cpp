@@ -119,6 +119,20 @@ constexpr StatedScore kStated[] = {
     {"case042", "other condition than METRo", 0.0445, 0.05, kNoScore},
     {"case048", "other condition than METRo", 0.0112, 0.05, kNoScore},
     {"selftest", "other condition than METRo", 0.221, 0.05, kNoScore},
+    {"champaign_1998_half_hourly", "skin temperature", 3.6, 0.1, kNoScore},
+    {"champaign_1998_half_hourly", "wetness", 0.532, 0.01, kNoScore},
+    {"gustav_adolfs", "K down", 47.6, 3.0, kNoScore},
+    {"gustav_adolfs", "K up", 10.2, 1.0, kNoScore},
+    {"gustav_adolfs", "K of the sides", 73.1, 3.0, kNoScore},
+    {"gustav_adolfs", "L down", 42.9, 2.0, kNoScore},
+    {"gustav_adolfs", "L up", 41.7, 2.0, kNoScore},
+    {"gustav_adolfs", "L of the sides", 33.8, 2.0, kNoScore},
+    {"kronenhuset", "K down", 14.3, 3.0, kNoScore},
+    {"kronenhuset", "K up", 5.5, 1.0, kNoScore},
+    {"kronenhuset", "K of the sides", 39.5, 3.0, kNoScore},
+    {"kronenhuset", "L down", 32.5, 2.0, kNoScore},
+    {"kronenhuset", "L up", 7.51, 1.0, kNoScore},
+    {"kronenhuset", "L of the sides", 8.04, 1.0, kNoScore},
 };
 
 }  // namespace

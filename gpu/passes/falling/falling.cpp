@@ -28,7 +28,8 @@ void FallingTable::fill_bytes(std::span<const std::byte> bytes)
 namespace {
 
 void add_sprites(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
-                 const FallingTable& table, const ConstantsRange& constants, GraphicsDesc desc)
+                 const FallingTable& table, const ConstantsRange& constants, GraphicsDesc desc,
+                 bool hides)
 {
     Attachment picture(*targets.accumulated);
     picture.keep = true;
@@ -45,11 +46,11 @@ void add_sprites(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyM
                      {FALLING_SHELTER, sampled(*maps.shelter, targets.nearest)},
                      {FALLING_SHADOW, sampled(*maps.shadow, maps.compare)}},
         .record =
-            [desc = std::move(desc), count = table.count()](PassContext& pass) mutable {
+            [desc = std::move(desc), count = table.count(), hides](PassContext& pass) mutable {
                 desc.sets = {pass.set_types()};
                 desc.colors = pass.color_formats();
                 desc.depth = VK_FORMAT_UNDEFINED;
-                desc.over = true;
+                (hides ? desc.over_all : desc.over) = true;
                 pass.bind(pass.pipelines().graphics(desc));
                 vkCmdSetCullMode(pass.commands(), VK_CULL_MODE_NONE);
                 vkCmdSetFrontFace(pass.commands(), VK_FRONT_FACE_COUNTER_CLOCKWISE);
@@ -63,19 +64,19 @@ void add_sprites(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyM
 
 void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
                  const FallingTable& drops, const FallingTable& splashes,
-                 const ConstantsRange& constants, bool shelter, bool sun)
+                 const ConstantsRange& constants, bool shelter, bool sun, bool hides)
 {
     GraphicsDesc desc;
     if (splashes.count() > 0 && shelter) {
         desc.vertex = "splash.vert";
         desc.fragment = "splash.frag";
-        add_sprites(graph, targets, maps, sky, splashes, constants, desc);
+        add_sprites(graph, targets, maps, sky, splashes, constants, desc, hides);
     }
     if (drops.count() == 0) return;
     desc.vertex = "falling.vert";
     desc.fragment = "falling.frag";
     desc.specialization = {{FALLING_SPEC_SHELTER, shelter}, {FALLING_SPEC_SUN, sun}};
-    add_sprites(graph, targets, maps, sky, drops, constants, desc);
+    add_sprites(graph, targets, maps, sky, drops, constants, desc, hides);
 }
 
 }  // namespace petrichor::gpu

@@ -39,11 +39,11 @@ private:
 // see them.
 //
 //   reads    depth, shelter, shadow, sky_light, the tables
-//   edits    accumulated (colour; alpha counts surfaces)
+//   edits    accumulated (colour; alpha counts surfaces, or with `hides` what is hidden)
 //   variant  shelter, sun
 void add_falling(FrameGraph& graph, FrameTargets& targets, DepthMaps& maps, SkyMaps& sky,
                  const FallingTable& drops, const FallingTable& splashes,
-                 const ConstantsRange& constants, bool shelter, bool sun);
+                 const ConstantsRange& constants, bool shelter, bool sun, bool hides);
 
 }  // namespace petrichor::gpu
 

@@ -10,6 +10,7 @@
 #include "formulas/light/skin.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
+#include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/lighting/lighting_io.h"
 #define GBUFFER_FIRST_BINDING LIGHTING_GBUFFER
 #include "gpu/frame/gbuffer_read.glsl"
@@ -47,6 +48,7 @@ layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
+layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -69,6 +71,7 @@ layout(binding = LIGHTING_SKIN) uniform samplerBuffer skin_table;
 layout(binding = LIGHTING_SHARES) uniform usampler2D layer_shares;
 layout(binding = LIGHTING_LIGHT_LISTS) uniform usamplerBuffer light_lists;
 layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
+layout(binding = LIGHTING_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
 layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
@@ -215,6 +218,7 @@ vec3 model_own(LitPoint p)
 }
 
 #include "gpu/passes/lighting/area_lights.glsl"
+#include "gpu/passes/lighting/light_parts.glsl"
 
 // One light of the table; zero out of its range or behind the surface.
 vec3 punctual_light(LitPoint p, int light, ivec2 texel)
@@ -339,11 +343,14 @@ void main()
     vec3 radiance;
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
+    PartsOfLight parts;
+    if (PARTS != 0u) parts = no_parts();
     if (depth <= 0.0) {
         radiance = BACKGROUND != 0u
                        ? background(pixel_view_direction(frame, pixel))
                        : vec3(0.0);
         radiance = min(radiance, vec3(60000.0));
+        if (PARTS != 0u) parts.of[PART_BACKGROUND] = radiance;
     } else {
         const GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
@@ -460,19 +467,32 @@ void main()
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
+        bool sunny = false;
         if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
             const float visible =
                 SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
             p.sunlit = visible;
-            if (visible > 0.0 || BLEEDS) {
+            sunny = visible > 0.0 || BLEEDS;
+            if (sunny) {
                 direct += shadowed_light(p, frame.sun_direction, visible) * frame.sun_illuminance;
             }
         }
         add_lights(direct, p, texel);
         // Occlusion maps tell of the sky; on sun and lamps they are a choice.
-        radiance = model_own(p) + direct * mix(1.0, m.occlusion, frame.occlusion_direct);
+        const vec3 own = model_own(p);
+        const float direct_open = mix(1.0, m.occlusion, frame.occlusion_direct);
+        radiance = own + direct * direct_open;
+        if (PARTS != 0u) {
+            const LitPoint q = mirroring_part(p);
+            vec3 bright = vec3(0.0);
+            if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * frame.sun_illuminance;
+            add_lights(bright, q, texel);
+            parts.of[PART_EMITTED] = own;
+            parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
+            parts.of[PART_DIFFUSE_DIRECT] = (direct - bright) * direct_open;
+        }
         if (BAKED != 0u) {
             // Light of the map comes from all around; the crevices of its own it holds already.
             Surroundings s;
@@ -482,7 +502,9 @@ void main()
             s.specular_occlusion = 0.0;
             s.split_sum = split_sum(n, v, p.roughness);
             s.scale = 1.0;
-            radiance += model_surround(p, s).radiance;
+            const vec3 baked = model_surround(p, s).radiance;
+            radiance += baked;
+            if (PARTS != 0u) parts.of[PART_DIFFUSE_INDIRECT] = baked;
         }
         if (IMAGE_BASED_LIGHT != 0u) {
             const float screen =
@@ -515,6 +537,8 @@ void main()
                 coat = vec3(kept * s.specular_occlusion * s.scale);
             }
             radiance += reflected.radiance;
+            if (PARTS != 0u) parts.of[PART_DIFFUSE_INDIRECT] += reflected.radiance;
+            vec3 blurred = vec3(0.0);  // what is mirrored by the maps of the sky alone
             // The pass of reflections takes one lobe: the coat's where there is one.
             const bool coated = p.layers.coat > 0.0 && p.layers.coat_roughness < kMirrorRoughness;
             if (coated) {
@@ -522,23 +546,32 @@ void main()
                 shape = vec4(octahedral_encode(p.layers.other_normal), p.layers.coat_roughness, sky_open);
             } else if (p.layers.coat > 0.0) {
                 const float lod = p.layers.coat_roughness * float(SKY_PREFILTER_MIPS - 1);
-                radiance += coat * textureLod(specular_map, reflect(-v, p.layers.other_normal), lod).rgb * seen;
+                blurred = coat * textureLod(specular_map, reflect(-v, p.layers.other_normal), lod).rgb * seen;
+                radiance += blurred;
             }
             if (p.roughness < kMirrorRoughness && !coated) {
                 mirror = vec4(reflected.mirror, closed);
                 shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
                 const float lod = p.roughness * float(SKY_PREFILTER_MIPS - 1);
-                radiance += reflected.mirror *
-                            textureLod(specular_map, reflect(-v, mirror_normal), lod).rgb * seen;
+                const vec3 base = reflected.mirror *
+                                  textureLod(specular_map, reflect(-v, mirror_normal), lod).rgb * seen;
+                radiance += base;
+                blurred += base;
             }
+            if (PARTS != 0u) parts.of[PART_SPECULAR_INDIRECT] = blurred;
         }
         if (FOG != 0u) {
             const float kept = air_kept(position);
             const vec3 veil = textureLod(sky_map, air_level(-v), kAirMip).rgb * frame.ambient_scale;
             radiance = mix(veil, radiance, kept);
+            if (PARTS != 0u) veil_parts(parts, kept, veil);
             mirror.rgb *= kept;
         }
+    }
+    if (PARTS != 0u) {
+        limit_parts(parts, radiance, vec3(60000.0));
+        store_parts(parts, texel);
     }
     const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
     if (IMAGE_BASED_LIGHT != 0u) {

@@ -34,7 +34,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_WAYS, variant.ways},
                       {LIGHTING_SPEC_LAZAROV, variant.lazarov},
                       {LIGHTING_SPEC_HORIZON, variant.horizon},
-                      {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter}},
+                      {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter},
+                      {LIGHTING_SPEC_PARTS, variant.split}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
@@ -58,6 +59,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
+                     {LIGHTING_PARTS, storage(*variant.parts)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)}},
         .push = {},
         .groups = {}};

@@ -38,6 +38,8 @@ struct LightingVariant {
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
+    bool split = false;              ///< the light is written taken apart, too: into `parts`
+    GpuImage* parts = nullptr;       ///< never null in a pass (gpu/outputs/light_parts.h)
     GpuImage* shares = nullptr;      ///< of textures of layers; null: there are none
     std::uint32_t layers = 0;        ///< LAYERS_... of what is in the picture
     std::vector<bool> models{true};  ///< by number: something in the picture has it
@@ -47,7 +49,7 @@ struct LightingVariant {
 // the sum at once, else by the reflections.
 //
 //   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
-//   writes   radiance, mirror_weight, mirror_shape, or edits accumulated
+//   writes   radiance, mirror_weight, mirror_shape, or edits accumulated; light_parts of frames that ask
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
                   DepthMaps& depth_maps, LampShadows& lamp_shadows,

@@ -27,7 +27,8 @@
 #define LIGHTING_SPEC_SHARES 19      // textures of layers: gpu/frame/layer_shares.glsl
 #define LIGHTING_SPEC_SOFT_LAMPS 20
 #define LIGHTING_SPEC_SUN 21      // 0: it does not shine
-#define LIGHTING_SPEC_MODEL 22    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_PARTS 22    // the light is written taken apart, too
+#define LIGHTING_SPEC_MODEL 23    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -52,6 +53,7 @@
 #define LIGHTING_SKIN 20
 #define LIGHTING_SHARES 21
 #define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
-#define LIGHTING_GBUFFER 23  // depth, then the targets
+#define LIGHTING_PARTS 23
+#define LIGHTING_GBUFFER 24  // depth, then the targets
 
 #endif

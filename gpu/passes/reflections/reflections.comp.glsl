@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/noise/noise.h"
+#include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/reflections/reflections_io.h"
 #define PIXEL_LIST_BINDING REFLECTIONS_PIXELS
 #include "gpu/frame/pixel_list.glsl"
@@ -20,7 +21,12 @@ layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = REFLECTIONS_PROBES) uniform samplerBuffer probe_rows;
 layout(binding = REFLECTIONS_PROBE_LIGHT) uniform samplerBuffer probe_light;
+layout(binding = REFLECTIONS_IDENTITY) uniform sampler2D identity_map;
+layout(binding = REFLECTIONS_PARTS, rgba32f) uniform image2DArray light_parts;
+layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray label_image;
 layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
+layout(constant_id = REFLECTIONS_SPEC_SPLIT) const uint SPLIT = 0;
+layout(constant_id = REFLECTIONS_SPEC_LABEL) const uint LABEL = 0;
 
 #include "gpu/passes/reflections/probes.glsl"
 
@@ -127,6 +133,22 @@ Hit trace(vec3 origin, vec3 direction)
     return hit;
 }
 
+// What most of the mirrored light comes from, and how much of it is mirrored.
+vec2 reflection_label(vec3 weight, Hit hit, float probed)
+{
+    const vec3 shares = vec3(hit.confidence, vec2(probed, 1.0 - probed) * (1.0 - hit.confidence));
+    const float strength = (weight.r + weight.g + weight.b) / 3.0;
+    if (shares.x >= max(shares.y, shares.z)) {
+        const ivec2 at = clamp(ivec2(hit.pixel), ivec2(0), frame.size - 1);
+        if (texelFetch(depth_map, at, 0).r > 0.0) {
+            return vec2(floor(texelFetch(identity_map, at, 0).x * 65535.0 + 0.5), strength * shares.x);
+        }
+        return vec2(REFLECTS_SKY, strength * (shares.x + shares.z));
+    }
+    if (shares.y >= shares.z) return vec2(REFLECTS_PROBE, strength * shares.y);
+    return vec2(REFLECTS_SKY, strength * shares.z);
+}
+
 void main()
 {
     ivec2 texel;
@@ -134,6 +156,8 @@ void main()
     vec4 sum = texelFetch(radiance_map, texel, 0);
     const vec4 mirror = texelFetch(mirror_weight, texel, 0);
     const vec3 weight = mirror.rgb;
+    vec3 mirrored_light = vec3(0.0);
+    vec2 label = vec2(REFLECTS_NOTHING, 0.0);
     if (weight.r + weight.g + weight.b > 0.0) {
         const vec4 shape = texelFetch(mirror_shape, texel, 0);
         const float depth = texelFetch(depth_map, texel, 0).r;
@@ -164,6 +188,7 @@ void main()
         // A ray that met nothing saw the sky if the place sees much of it.
         const float open = clamp(shape.w * 1.3 - 0.05, 0.0, 1.0);
         vec3 mirrored = sky * mix(frame.bounce * 0.7, 1.0, open);
+        float probed_share = 0.0;
         if (PROBES != 0u) {
             const Probed probed = probes_around(int(PROBES), position, reflected, roughness);
             // What stands near here and not around the probe hides its sky.
@@ -171,6 +196,7 @@ void main()
             const vec3 around = probed.light.rgb * frame.ambient_scale +
                                 sky * (probed.light.a * mix(frame.bounce * 0.7, 1.0, here));
             mirrored = mix(mirrored, around, probed.share);
+            probed_share = probed.share;
         }
         // Few samples cannot tell what a wide lobe meets.
         hit.confidence *= 1.0 - smoothstep(0.16, kWide, roughness);
@@ -178,7 +204,17 @@ void main()
             const vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
             mirrored = mix(mirrored, seen, hit.confidence);
         }
-        sum.rgb += weight * mirrored;
+        mirrored_light = weight * mirrored;
+        sum.rgb += mirrored_light;
+        if (LABEL != 0u) label = reflection_label(weight, hit, probed_share);
+    }
+    if (SPLIT != 0u) {
+        // The lighting pass has put there what its maps mirror.
+        const ivec3 at = ivec3(texel, PART_SPECULAR_INDIRECT);
+        imageStore(light_parts, at, imageLoad(light_parts, at) + vec4(mirrored_light, 0.0));
+    }
+    if (LABEL != 0u && frame.sample_index == 0u) {
+        imageStore(label_image, ivec3(texel, REFLECTION_LABEL_LAYER), vec4(label, 0.0, 0.0));
     }
     if (frame.sample_index > 0u) sum += imageLoad(accumulated, texel);
     imageStore(accumulated, texel, sum);

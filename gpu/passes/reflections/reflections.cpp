@@ -8,13 +8,15 @@ namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     Pixels pixels)
+                     const MirrorOutputs& outputs, Pixels pixels)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
         .name = "reflections",
         .shader = "reflections.comp",
-        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u}},
+        .constants = {{REFLECTIONS_SPEC_PROBES, with_probes ? probes.count() : 0u},
+                      {REFLECTIONS_SPEC_SPLIT, outputs.split},
+                      {REFLECTIONS_SPEC_LABEL, outputs.label}},
         .bindings = {{REFLECTIONS_FRAME, frame_binding(constants)},
                      {REFLECTIONS_DEPTH, sampled(*targets.gbuffer.depth, nearest)},
                      {REFLECTIONS_RADIANCE, sampled(*targets.radiance, nearest)},
@@ -24,7 +26,10 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
                      {REFLECTIONS_PROBES, texels(probes.rows())},
                      {REFLECTIONS_PROBE_LIGHT, texels(probes.light())},
-                     {REFLECTIONS_PIXELS, texels(*targets.pixel_list)}},
+                     {REFLECTIONS_PIXELS, texels(*targets.pixel_list)},
+                     {REFLECTIONS_IDENTITY, sampled(*targets.gbuffer.identity, nearest)},
+                     {REFLECTIONS_PARTS, storage(*outputs.parts)},
+                     {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
         .groups = {}};
     add_over_pixels(graph, targets, std::move(pass), pixels);

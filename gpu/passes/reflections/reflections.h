@@ -8,14 +8,22 @@
 
 namespace petrichor::gpu {
 
+/// What the pass writes besides the sum.
+struct MirrorOutputs {
+    GpuImage* parts = nullptr;  ///< never null in a pass (gpu/outputs/light_parts.h)
+    bool split = false;         ///< what is mirrored, into its layer
+    GpuImage* labels = nullptr;  ///< the same, of all samples
+    bool label = false;         ///< what that is of
+};
+
 // Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky; then
 // adds the sample to the sum.
 //
 //   reads    depth, radiance, mirror_weight, mirror_shape, sky_specular, probes
-//   edits    accumulated
+//   edits    accumulated; light_parts of frames that ask
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     Pixels pixels = Pixels::All);
+                     const MirrorOutputs& outputs, Pixels pixels = Pixels::All);
 
 }  // namespace petrichor::gpu
 

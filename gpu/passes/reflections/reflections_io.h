@@ -15,8 +15,13 @@
 #define REFLECTIONS_PROBE_LIGHT 8   // levels of each probe, one after the other
 
 #define REFLECTIONS_PIXELS 9        // gpu/frame/pixel_list_io.h
+#define REFLECTIONS_IDENTITY 10
+#define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
+#define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 
 #define REFLECTIONS_SPEC_PROBES 0   // how many
+#define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
+#define REFLECTIONS_SPEC_LABEL 2    // 1: .. and what it is of
 
 // Of a probe: position, boost; low corner, blend; high corner, share of sky above.
 #define PROBE_ROWS 3

@@ -65,7 +65,9 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     SnowCover snow;
     snow.snow = 0.0;
     snow.melt = 0.0;
-    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, smoothed.y);
+    // A patch knows how steep it is; of the pixel its relief alone counts.
+    const float up = here.placed ? min(smoothed.y + 1.0 - saturate(at.normal.y), 1.0) : smoothed.y;
+    if (SNOW != 0u && amount > 0.0) snow = snow_on(at, amount, up);
     if ((SNOW & SNOW_BODY) != 0u) snow.snow = max(snow.snow, body);
 
     StandingWater water;

@@ -59,14 +59,16 @@ int transparent_layers(const GpuScene& scene, const glm::mat4& world_to_clip)
     return static_cast<int>(std::min(needed, 64u));
 }
 
-void begin_transparent(FrameGraph& graph, TransparentTargets& own, const ConstantsRange& constants)
+void begin_transparent(FrameGraph& graph, TransparentTargets& own, LightParts& parts,
+                       const ConstantsRange& constants)
 {
+    if (parts.split) clear_light_parts(graph, *parts.solid);
     add_clear(graph, own, *own.solid, constants);
 }
 
 void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,
-                     const GpuScene& scene, SkyMaps& sky, const ConstantsRange& constants,
-                     int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
+                     LightParts& parts, const GpuScene& scene, SkyMaps& sky,
+                     const ConstantsRange& constants, int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
                      const std::function<void()>& light_layer)
 {
     const SamplerHandle& nearest = targets.nearest;
@@ -75,12 +77,14 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
         draw_layer({targets.gbuffer.depth.get(), own.other_depth.get(), k == 0,
                     more && k + 1 == layers});
         add_clear(graph, own, *layer.accumulated, constants);
+        if (parts.split) clear_light_parts(graph, *parts.layer);
         light_layer();
         graph.add(ComputePass{
             .name = "transparent",
             .shader = "transparent_over.comp",
             .constants = {{TRANSPARENT_OVER_SPEC_FIRST, k == 0},
-                          {TRANSPARENT_OVER_SPEC_BODY, scene.body_shares()}},
+                          {TRANSPARENT_OVER_SPEC_BODY, scene.body_shares()},
+                          {TRANSPARENT_OVER_SPEC_SPLIT, parts.split}},
             .bindings = {{TRANSPARENT_OVER_FRAME, frame_binding(constants)},
                          {TRANSPARENT_OVER_DEPTH, sampled(*layer.gbuffer.depth, nearest)},
                          {TRANSPARENT_OVER_LIT, sampled(*layer.accumulated, nearest)},
@@ -94,7 +98,9 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
                          {TRANSPARENT_OVER_SOLID_DEPTH, sampled(*targets.gbuffer.depth, nearest)},
                          {TRANSPARENT_OVER_SKY, sampled(*sky.cube, sky.linear)},
                          {TRANSPARENT_OVER_FRONT, storage(*own.front)},
-                         {TRANSPARENT_OVER_LEFT, storage(*own.left)}},
+                         {TRANSPARENT_OVER_LEFT, storage(*own.left)},
+                         {TRANSPARENT_OVER_LIT_PARTS, storage(parts.or_none(parts.layer))},
+                         {TRANSPARENT_OVER_FRONT_PARTS, storage(parts.or_none(parts.front))}},
             .push = {},
             .groups = groups_over(layer.width, layer.height, TRANSPARENT_TILE)});
         std::swap(layer.gbuffer.depth, own.other_depth);
@@ -102,12 +108,15 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
     graph.add(ComputePass{
         .name = "transparent",
         .shader = "transparent_done.comp",
-        .constants = {},
+        .constants = {{TRANSPARENT_DONE_SPEC_SPLIT, parts.split}},
         .bindings = {{TRANSPARENT_DONE_FRAME, frame_binding(constants)},
                      {TRANSPARENT_DONE_SOLID, sampled(*own.solid, nearest)},
                      {TRANSPARENT_DONE_FRONT, sampled(*own.front, nearest)},
                      {TRANSPARENT_DONE_LEFT, sampled(*own.left, nearest)},
-                     {TRANSPARENT_DONE_ACCUMULATED, storage(*targets.accumulated)}},
+                     {TRANSPARENT_DONE_ACCUMULATED, storage(*targets.accumulated)},
+                     {TRANSPARENT_DONE_SOLID_PARTS, storage(parts.or_none(parts.solid))},
+                     {TRANSPARENT_DONE_FRONT_PARTS, storage(parts.or_none(parts.front))},
+                     {TRANSPARENT_DONE_PARTS, storage(parts.or_none(parts.sum))}},
         .push = {},
         .groups = groups_over(targets.width, targets.height, TRANSPARENT_TILE)});
 }

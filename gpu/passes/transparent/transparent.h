@@ -6,6 +6,7 @@
 
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/targets.h"
+#include "gpu/outputs/light_parts.h"
 #include "gpu/passes/sky/sky.h"
 #include "gpu/passes/surface/surface.h"
 
@@ -33,11 +34,12 @@ int transparent_layers(const GpuScene& scene, const glm::mat4& world_to_clip);
 //   then add_transparent(): `draw_layer` adds the surfaces of a layer, `light_layer` lights it
 //
 //   reads    depth, solid, the layers' G-buffers
-//   edits    accumulated
-void begin_transparent(FrameGraph& graph, TransparentTargets& own, const ConstantsRange& constants);
+//   edits    accumulated; light_parts of frames that ask, by the same ways
+void begin_transparent(FrameGraph& graph, TransparentTargets& own, LightParts& parts,
+                       const ConstantsRange& constants);
 void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,
-                     const GpuScene& scene, SkyMaps& sky, const ConstantsRange& constants,
-                     int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
+                     LightParts& parts, const GpuScene& scene, SkyMaps& sky,
+                     const ConstantsRange& constants, int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
                      const std::function<void()>& light_layer);
 
 }  // namespace petrichor::gpu

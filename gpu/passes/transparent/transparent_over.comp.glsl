@@ -8,6 +8,7 @@
 #include "formulas/light/fog.h"
 #include "formulas/weather/falling.h"
 #include "gpu/frame/gbuffer.glsl"
+#include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/transparent/transparent_io.h"
 #include "gpu/upload/material_io.h"
 
@@ -28,6 +29,9 @@ layout(binding = TRANSPARENT_OVER_SOLID_DEPTH) uniform sampler2D solid_depth;
 layout(binding = TRANSPARENT_OVER_SKY) uniform samplerCube sky_map;
 layout(binding = TRANSPARENT_OVER_FRONT, rgba32f) uniform image2D front;
 layout(binding = TRANSPARENT_OVER_LEFT, rgba16f) uniform image2D left;
+layout(constant_id = TRANSPARENT_OVER_SPEC_SPLIT) const uint SPLIT = 0u;
+layout(binding = TRANSPARENT_OVER_LIT_PARTS, rgba32f) uniform readonly image2DArray lit_parts;
+layout(binding = TRANSPARENT_OVER_FRONT_PARTS, rgba32f) uniform image2DArray front_parts;
 
 #include "gpu/frame/air.glsl"
 
@@ -95,9 +99,14 @@ void main()
     vec4 sum = FIRST != 0u ? vec4(0.0) : imageLoad(front, texel);
     vec3 rest = FIRST != 0u ? vec3(1.0) : imageLoad(left, texel).rgb;
     const float depth = texelFetch(depth_map, texel, 0).r;
+    const vec3 reaches = rest;  // the eye from this layer
+    vec3 veil_before = vec3(0.0);
+    vec3 through = vec3(0.0);
+    float own_share = 0.0;
     if (depth > 0.0) {
         const vec4 code = texelFetch(through_map, texel, 0);
         vec3 light = texelFetch(lit_map, texel, 0).rgb * code.a;
+        own_share = code.a;
         const vec2 pixel = vec2(texel) + 0.5;
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 view = pixel_view_direction(frame, pixel);
@@ -105,7 +114,9 @@ void main()
             // As the lighting does it; what shines through has its fog already.
             const float kept = air_kept(position);
             const vec3 veil = textureLod(sky_map, air_level(view), kAirMip).rgb * frame.ambient_scale;
-            light = light * kept + veil * (1.0 - kept) * (1.0 - min(code.rgb, vec3(1.0)));
+            veil_before = veil * (1.0 - kept) * (1.0 - min(code.rgb, vec3(1.0)));
+            light = light * kept + veil_before;
+            own_share *= kept;
         }
         sum.rgb += rest * light;
         const uint material = uint(texelFetch(identity_map, texel, 0).x * 65535.0 + 0.5);
@@ -130,12 +141,23 @@ void main()
                 if (!prism) behind = seen;
                 else behind[view_of] = seen[view_of];
             }
-            sum.rgb += rest * code.rgb * behind;
+            through = rest * code.rgb * behind;
+            sum.rgb += through;
             rest = vec3(0.0);
         } else {
             rest *= code.rgb;
         }
         sum.a = 1.0;
+    }
+    if (SPLIT != 0u) {
+        for (int i = 0; i < LIGHT_PARTS; ++i) {
+            const ivec3 at = ivec3(texel, i);
+            vec4 part = FIRST != 0u ? vec4(0.0) : imageLoad(front_parts, at);
+            part.rgb += reaches * own_share * imageLoad(lit_parts, at).rgb;
+            if (i == PART_VOLUME) part.rgb += reaches * veil_before;
+            if (i == PART_TRANSMISSION) part.rgb += through;
+            imageStore(front_parts, at, part);
+        }
     }
     imageStore(front, texel, sum);
     imageStore(left, texel, vec4(rest, 1.0));

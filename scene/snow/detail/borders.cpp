@@ -15,14 +15,12 @@ constexpr float kPiece_m = 0.25f;
 constexpr float kCell_m = EdgeGrid::kReach_m;
 constexpr float kStep_m = 0.05f;  // what is no lower goes on
 
-bool goes_on(const Tracer& tracer, const vec3& at, const vec2& out)
+constexpr float kWidestGap_m = 0.14f;
+
+// Ground at a place, or a step up.
+bool ground_at(const Tracer& tracer, const vec3& at)
 {
-    const vec3 way(out.x, 0.0f, out.y);
-    // A wall that rises just behind the edge.
-    if (tracer.blocked({at + vec3(0.0f, 0.06f, 0.0f) - way * 0.03f, way, 0.1f})) return true;
-    // Ground that goes on, or a step up.
-    return tracer.blocked(
-        {at + way * 0.04f + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + kStep_m});
+    return tracer.blocked({at + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + kStep_m});
 }
 
 std::uint64_t cell_of(int x, int z)
@@ -37,6 +35,22 @@ int cell_along(float v)
 }
 
 }  // namespace
+
+Beyond beyond(const Tracer& tracer, const vec3& at, const vec2& out)
+{
+    const vec3 way(out.x, 0.0f, out.y);
+    // A wall that rises just behind the edge.
+    if (tracer.blocked({at + vec3(0.0f, 0.06f, 0.0f) - way * 0.03f, way, 0.1f})) return Beyond::Wall;
+    return ground_at(tracer, at + way * 0.04f) ? Beyond::Ground : Beyond::Nothing;
+}
+
+float gap_beyond_m(const Tracer& tracer, const vec3& at, const vec2& out)
+{
+    for (float gap = 0.06f; gap < kWidestGap_m + 0.001f; gap += 0.02f) {
+        if (ground_at(tracer, at + vec3(out.x, 0.0f, out.y) * gap)) return gap;
+    }
+    return 1.0e9f;
+}
 
 Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
 {
@@ -75,8 +89,10 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer)
                 return from + along * (t / static_cast<float>(pieces));
             };
             const auto f = static_cast<float>(k);
-            auto& list = goes_on(tracer, at(f + 0.5f), out) ? borders.closed : borders.open;
-            list.push_back({at(f), at(f + 1.0f), out});
+            const bool open = beyond(tracer, at(f + 0.5f), out) == Beyond::Nothing;
+            auto& list = open ? borders.open : borders.closed;
+            list.push_back({at(f), at(f + 1.0f), out,
+                            open ? gap_beyond_m(tracer, at(f + 0.5f), out) : 1.0e9f});
         }
     }
     return borders;
@@ -109,7 +125,7 @@ NearEdge EdgeGrid::nearest(const vec3& place, const vec3& normal) const
         const float distance = glm::length(way);
         // Not of a kerb above or below.
         if (std::abs(glm::dot(way, normal)) > 0.02f + 0.12f * distance) continue;
-        if (distance < best.distance_m) best = {distance, e.out};
+        if (distance < best.distance_m) best = {distance, e.out, e.gap_m};
     }
     if (best.distance_m > kReach_m) return {};
     return best;

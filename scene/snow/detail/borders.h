@@ -16,7 +16,14 @@ struct Border {
     glm::vec3 from{0.0f};
     glm::vec3 to{0.0f};
     glm::vec2 out{0.0f};  ///< unit, world x and z
+    float gap_m = 1.0e9f;  ///< open: until ground goes on behind a slot or joint; 1e9: it does not
 };
+
+/// What lies beyond a border.
+enum class Beyond { Nothing, Wall, Ground };
+Beyond beyond(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
+/// How wide a slot is that begins at a place, until ground goes on; 1e9 when it is none.
+float gap_beyond_m(const Tracer& tracer, const glm::vec3& at, const glm::vec2& out);
 
 /// All borders of a mesh, in pieces of at most 0.25 m: open where the ground falls away beyond them, closed
 /// where a wall rises or ground goes on after a joint.
@@ -28,6 +35,7 @@ Borders borders_of(const CutMesh& mesh, const Tracer& tracer);
 struct NearEdge {
     float distance_m = 1.0e9f;
     glm::vec2 out{0.0f};
+    float gap_m = 1.0e9f;
 };
 
 /// Finds the nearest border that lies on the same surface.

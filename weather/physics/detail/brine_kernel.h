@@ -47,6 +47,10 @@ template <class Real>
 PETRICHOR_KERNEL Real brine_flux(const BrineStores<Real>& s, const Real& free_c, const Real& slope,
                                  double dt_s)
 {
+    // What is liquid through and through, or dry, has the temperature that it would have anyway.
+    const Real freezing = s.liquid - brine_water_of(s.salt, s.water, free_c);
+    const auto settled = (freezing >= 0.0) & (freezing <= 0.0);
+    if (!any(select(settled, Real(0.0), Real(1.0)) > 0.5)) return 0.0;
     const double latent = kLatentFusion / dt_s;
     const Real per_slope = 1.0 / slope;
     Real low = free_c - (s.water - s.liquid) * per_slope * latent;
@@ -59,7 +63,7 @@ PETRICHOR_KERNEL Real brine_flux(const BrineStores<Real>& s, const Real& free_c,
         low = select(warmer, middle, low);
         high = select(warmer, high, middle);
     }
-    return slope * (free_c - (low + high) * 0.5);
+    return select(settled, Real(0.0), slope * (free_c - (low + high) * 0.5));
 }
 
 // As change_phase, for the cells of the mask: `root` moves to where brine and balance agree.

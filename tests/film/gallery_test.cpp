@@ -1,0 +1,181 @@
+// The examples of docs/gallery.md: each renders, and shows what it is about.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "film/jobs/render_job.h"
+#include "film/jobs/scene_source.h"
+#include "film/scenes/light_bake.h"
+#include "tests/gpu/gpu_fixture.h"
+#include "tests/support/program.h"
+
+namespace petrichor::film {
+namespace {
+
+namespace fs = std::filesystem;
+using gpu::luminance;
+using gpu::pixel;
+using testing_program::Workplace;
+
+constexpr int kWidth = 160, kHeight = 90;
+
+std::string read_example(const std::string& path)
+{
+    return testing_program::read_file(fs::path(PETRICHOR_SOURCE_DIR) / path);
+}
+
+// Exchanges what must be there.
+std::string with(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+class Gallery : public gpu::GpuTest {
+protected:
+    static gpu::RenderResult picture(const std::string& text, const fs::path& folder)
+    {
+        Scenario scenario = parse_scenario(
+            with(text, "[output]\n", "[output]\nwidth = " + std::to_string(kWidth) + "\nheight = " +
+                                         std::to_string(kHeight) + "\nsamples = 2\n"),
+            "s.toml");
+        scenario.folder = folder;
+        Sequence sequence = make_sequence(std::move(scenario));
+        load_sequence_scene(sequence, 2);
+        RenderRequest request;
+        RenderReport report;
+        gpu::Renderer renderer = sequence_renderer(sequence, request, report);
+        return renderer.render(frame_at(sequence, {0, "", ""}).frame);
+    }
+    static gpu::RenderResult example(const std::string& text)
+    {
+        return picture(text, fs::path(PETRICHOR_SOURCE_DIR) / "data/scenarios");
+    }
+};
+
+// Balls from smooth to rough: a lamp with a size spreads its highlight, one without is a bright point.
+TEST_F(Gallery, AreaLightsHaveTheShapeOfTheirLamps)
+{
+    const std::string text = read_example("data/scenarios/area-lights.toml");
+    // On a ball of plastic and one of metal.
+    const auto brightest = [](const gpu::RenderResult& r, int left) {
+        float most = 0.0f;
+        for (int y = 62; y < 79; ++y)
+            for (int x = left; x < left + 16; ++x) most = std::max(most, luminance(pixel(r, x, y)));
+        return most;
+    };
+    const gpu::RenderResult shaped = example(text);
+    const gpu::RenderResult points = example(with(text, "area = \"ltc\"", "area = \"off\""));
+    for (const int left : {42, 104}) {
+        std::printf("  brightest of a ball: %.0f cd/m2 with a size, %.0f of points\n",
+                    static_cast<double>(brightest(shaped, left)), static_cast<double>(brightest(points, left)));
+        EXPECT_GT(brightest(points, left), 1.1f * brightest(shaped, left));
+    }
+}
+
+// Redder than the standard model where the light ends, and not where it falls straight.
+TEST_F(Gallery, SkinIsRedWhereTheLightEnds)
+{
+    const std::string text = read_example("data/scenarios/skin.toml");
+    const gpu::RenderResult skin = example(text);
+    const gpu::RenderResult plain =
+        example(with(text, "lighting_model = \"skin\"", "lighting_model = \"standard\""));
+    const auto redness = [](const gpu::RenderResult& r, int x, int y) {
+        const glm::vec3 c = pixel(r, x, y);
+        return c.g > 0.0f ? c.r / c.g : 1.0f;
+    };
+    float most = 0.0f;
+    int redder = 0, head = 0;
+    for (int y = 20; y < 60; ++y) {
+        for (int x = 64; x < 98; ++x) {
+            if (redness(plain, x, y) < 1.15f) continue;  // behind the head
+            const float more = redness(skin, x, y) / redness(plain, x, y);
+            most = std::max(most, more);
+            redder += more > 1.2f ? 1 : 0;
+            ++head;
+        }
+    }
+    std::printf("  %d pixels of the head, %d redder, most %.2f times\n", head, redder, static_cast<double>(most));
+    ASSERT_GT(head, 500);
+    EXPECT_GT(most, 1.4f);
+    EXPECT_GT(redder, head / 50);
+    EXPECT_LT(redder, head - head / 4);
+}
+
+// Each surface of one's own is seen: without them all, what has one looks different.
+TEST_F(Gallery, EverySurfaceOfOnesOwnIsSeen)
+{
+    const std::string text = read_example("data/scenarios/custom-surfaces.toml");
+    std::string plain;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("surface")) plain += line + "\n";
+    }
+    const gpu::RenderResult all = example(text), none = example(plain);
+    struct Place {
+        const char* name;
+        int left, top, right, low;
+    };
+    for (const Place& p : {Place{"urn: embers", 30, 25, 43, 40}, Place{"bust: moss", 75, 13, 88, 36},
+                           Place{"ring: rust", 116, 22, 133, 38}, Place{"ball 1: embers", 6, 60, 26, 80},
+                           Place{"ball 2: moss", 32, 60, 52, 80}, Place{"ball 4: rust", 85, 60, 104, 80},
+                           Place{"ball 5: rust", 112, 60, 131, 80}, Place{"floor: swept", 0, 82, 160, 90}}) {
+        int changed = 0;
+        for (int y = p.top; y < p.low; ++y) {
+            for (int x = p.left; x < p.right; ++x) {
+                const float a = luminance(pixel(all, x, y)), b = luminance(pixel(none, x, y));
+                changed += std::abs(a - b) > 0.08f * std::max(a, b) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(changed, 12) << p.name;
+    }
+}
+
+// Floor and wall hold the light of the sky, less of it where they meet what stands there; the sun is of the frame.
+TEST_F(Gallery, BakedLightLiesBesideTheSun)
+{
+    const Workplace place("gallery_baked");
+    const std::string text = read_example("docs/pictures/baked.toml");
+    Scenario scenario = parse_scenario(text, "s.toml");
+    scenario.folder = place.path();
+    scenario.materials.clear();
+    Sequence sequence = make_sequence(std::move(scenario));
+    load_sequence_scene(sequence, 2);
+    BakeConditions sunny;
+    sunny.sky_lux = 14000.0;
+    sunny.sun_lux = 90000.0;
+    sunny.sun_elevation_degrees = 38.0;
+    sunny.sun_azimuth_degrees = 130.0;
+    sunny.indirect = true;
+    scene::BakeOptions options;
+    options.size = 128;
+    options.rays = 32;
+    std::vector<std::string> notes;
+    write_light_maps(place / "maps", sequence.scene, bake_light(sequence.scene, sunny, {}, options, notes));
+    const gpu::RenderResult lit =
+        picture(with(text, "[output]\n", "[output]\naovs = [\"baked_light\"]\n"), place.path());
+    const auto baked = [&](int x, int y) { return gpu::aov(lit, "baked_light", x, y, 1); };
+    EXPECT_GT(baked(12, 84), 0.0f);
+    EXPECT_EQ(baked(80, 40), 0.0f) << "the plinth has none";
+    // The least and the most of the floor's row in front of the plinths.
+    float least = 1e9f, most = 0.0f, dark = 1e9f, bright = 0.0f;
+    for (int y = 56; y < 86; ++y) {
+        for (int x = 4; x < kWidth - 4; ++x) {
+            if (!(baked(x, y) > 0.0f)) continue;
+            least = std::min(least, baked(x, y));
+            most = std::max(most, baked(x, y));
+            dark = std::min(dark, luminance(pixel(lit, x, y)));
+            bright = std::max(bright, luminance(pixel(lit, x, y)));
+        }
+    }
+    std::printf("  baked %.2f to %.2f, seen %.0f to %.0f cd/m2\n", static_cast<double>(least),
+                static_cast<double>(most), static_cast<double>(dark), static_cast<double>(bright));
+    EXPECT_LT(least, 0.75f * most);
+    EXPECT_LT(dark, 0.4f * bright) << "the sun throws shadows";
+}
+
+}  // namespace
+}  // namespace petrichor::film
