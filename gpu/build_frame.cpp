@@ -390,7 +390,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (layers > 0) begin_transparent(graph, *r.transparent, *r.parts, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
-                           c.world_to_clip, c.camera_m, weather, solid);
+                           c.world_to_clip, c.camera_m, weather, *r.resolve->draws, solid);
             if (listed) {
                 add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
                 if (variant.split)

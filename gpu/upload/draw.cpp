@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace petrichor::gpu {
 
@@ -54,18 +55,56 @@ bool has_holes(const GpuScene& scene, const Draw& draw)
     return material.masked || material.blended || draw.fade != 0;
 }
 
-std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
-                                       const glm::vec3& camera_m, Draws which)
+namespace {
+
+// In the order of the scene's list.
+std::vector<const Draw*> seen_draws(const GpuScene& scene, const glm::mat4& world_to_clip, Draws which)
 {
     const Frustum frustum(world_to_clip);
-    std::vector<std::tuple<bool, float, const Draw*>> keyed;
+    std::vector<const Draw*> seen;
     for (const Draw& draw : scene.draws()) {
         if (!draw.shown) continue;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const bool blended = scene.materials()[draw.material].blended;
         if (which != Draws::All && blended != (which == Draws::LetLightThrough)) continue;
-        const float nearest = glm::length(draw.centre_m - camera_m) - draw.radius_m;
-        keyed.emplace_back(has_holes(scene, draw), nearest, &draw);
+        seen.push_back(&draw);
+    }
+    return seen;
+}
+
+// b may be the instance after a.
+bool alike(const Draw& a, const Draw& b)
+{
+    return &b == &a + 1 && a.first_index == b.first_index && a.index_count == b.index_count &&
+           a.vertex_offset == b.vertex_offset && a.material == b.material &&
+           a.mirrored == b.mirrored && a.fade == 0 && b.fade == 0;
+}
+
+// A number of 30 bits along Morton's curve (Morton 1966) through the box.
+std::uint32_t morton(const glm::vec3& p, const Bounds& box)
+{
+    const glm::vec3 size = glm::max(box.high - box.low, glm::vec3(1.0e-6f));
+    const glm::vec3 share = (p - box.low) / size;
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        // Written so that NaN is 0.
+        const auto cell = static_cast<std::uint32_t>(
+            share[axis] > 0.0f ? std::min(share[axis], 1.0f) * 1023.0f : 0.0f);
+        for (std::uint32_t bit = 0; bit < 10; ++bit)
+            code |= (cell >> bit & 1u) << (3u * bit + static_cast<std::uint32_t>(axis));
+    }
+    return code;
+}
+
+}  // namespace
+
+std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
+                                       const glm::vec3& camera_m, Draws which)
+{
+    std::vector<std::tuple<bool, float, const Draw*>> keyed;
+    for (const Draw* draw : seen_draws(scene, world_to_clip, which)) {
+        const float nearest = glm::length(draw->centre_m - camera_m) - draw->radius_m;
+        keyed.emplace_back(has_holes(scene, *draw), nearest, draw);
     }
     std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
         return std::make_pair(std::get<0>(a), std::get<1>(a)) <
@@ -74,6 +113,60 @@ std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& w
     std::vector<const Draw*> draws;
     for (const auto& entry : keyed) draws.push_back(std::get<2>(entry));
     return draws;
+}
+
+std::vector<DrawRun> visible_runs(const GpuScene& scene, const glm::mat4& world_to_clip,
+                                  const glm::vec3& camera_m, Draws which)
+{
+    const std::vector<const Draw*> seen = seen_draws(scene, world_to_clip, which);
+    std::vector<std::tuple<bool, float, DrawRun>> keyed;
+    const auto nearest_m = [&](const Draw& draw) {
+        return glm::length(draw.centre_m - camera_m) - draw.radius_m;
+    };
+    for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
+        const bool holes = has_holes(scene, *seen[begin]);
+        float nearest = nearest_m(*seen[begin]);
+        for (end = begin + 1; end < seen.size() && alike(*seen[end - 1], *seen[end]); ++end)
+            nearest = std::min(nearest, nearest_m(*seen[end]));
+        const auto count = static_cast<std::uint32_t>(end - begin);
+        if (count >= kLeastRun) {
+            keyed.emplace_back(holes, nearest, DrawRun{seen[begin], count});
+        } else {
+            for (std::size_t i = begin; i < end; ++i)
+                keyed.emplace_back(holes, nearest_m(*seen[i]), DrawRun{seen[i], 1});
+        }
+    }
+    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
+        return std::make_pair(std::get<0>(a), std::get<1>(a)) <
+               std::make_pair(std::get<0>(b), std::get<1>(b));
+    });
+    std::vector<DrawRun> runs;
+    for (const auto& entry : keyed) runs.push_back(std::get<2>(entry));
+    return runs;
+}
+
+void sort_draws(std::vector<Draw>& draws, const std::vector<GpuMaterial>& materials)
+{
+    Bounds box{glm::vec3(1e30f), glm::vec3(-1e30f)};
+    for (const Draw& draw : draws) {
+        box.low = glm::min(box.low, draw.centre_m);
+        box.high = glm::max(box.high, draw.centre_m);
+    }
+    const auto key = [&](const Draw& d) {
+        const GpuMaterial& m = materials[d.material];
+        // What is laid over a scene keeps its order: its vertices are written in it.
+        return std::make_tuple(m.blended, m.masked, m.cull == VK_CULL_MODE_NONE, d.material, d.overlay,
+                               d.overlay ? 0u : d.first_index, d.overlay ? 0 : d.vertex_offset,
+                               d.mirrored, d.overlay ? 0u : morton(d.centre_m, box));
+    };
+    std::vector<std::pair<decltype(key(Draw{})), std::size_t>> order;
+    order.reserve(draws.size());
+    for (std::size_t i = 0; i < draws.size(); ++i) order.emplace_back(key(draws[i]), i);
+    std::sort(order.begin(), order.end());
+    std::vector<Draw> sorted;
+    sorted.reserve(draws.size());
+    for (const auto& entry : order) sorted.push_back(draws[entry.second]);
+    draws = std::move(sorted);
 }
 
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene)

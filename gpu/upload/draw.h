@@ -27,6 +27,23 @@ enum class Draws { All, Solid, LetLightThrough };
 std::vector<const Draw*> visible_draws(const GpuScene& scene, const glm::mat4& world_to_clip,
                                        const glm::vec3& camera_m, Draws which = Draws::All);
 
+/// Draws of one shape and material that stand one after the other in the scene's list: one draw call, whose
+/// instances begin with the number of the first.
+struct DrawRun {
+    const Draw* first = nullptr;
+    std::uint32_t count = 1;
+};
+/// Fewer are drawn one by one, near to far.
+inline constexpr std::uint32_t kLeastRun = 8;
+
+/// As visible_draws; alike ones that are seen side by side are one run, as near as the nearest of them.
+std::vector<DrawRun> visible_runs(const GpuScene& scene, const glm::mat4& world_to_clip,
+                                  const glm::vec3& camera_m, Draws which = Draws::All);
+
+/// Sorts by state and by shape; those of one shape along a curve that keeps neighbours together, so that
+/// views see long runs of them.
+void sort_draws(std::vector<Draw>& draws, const std::vector<GpuMaterial>& materials);
+
 void bind_geometry(VkCommandBuffer commands, const GpuScene& scene);
 void set_facing(VkCommandBuffer commands, VkCullModeFlags cull, bool mirrored);
 

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "gpu/upload/detail/texel_format.h"
+#include "gpu/upload/draw.h"
 #include "gpu/upload/emissive_lights.h"
 #include "gpu/upload/material_constants.h"
 
@@ -249,13 +250,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     }
     vertices.insert(vertices.end(), overlay.vertices.begin(), overlay.vertices.end());
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
-    std::stable_sort(draws_.begin(), draws_.end(), [this](const Draw& a, const Draw& b) {
-        const auto key = [this](const Draw& d) {
-            const GpuMaterial& m = materials_[d.material];
-            return std::make_tuple(m.blended, m.masked, m.cull == VK_CULL_MODE_NONE, d.material);
-        };
-        return key(a) < key(b);
-    });
+    sort_draws(draws_, materials_);
     for (Draw& draw : draws_) {
         if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
     }

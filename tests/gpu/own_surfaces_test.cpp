@@ -205,5 +205,58 @@ TEST_F(OwnSurface, TheWindSweepsSnowOff)
     EXPECT_LT(half(windy, "snow", false), 0.8f * half(windy, "snow", true));
 }
 
+// Four strips side by side: foam, shallow, still and deep water. The mask is told by vertices.
+TEST_F(OwnSurface, ShoreWaterHasFoamShallowsAndWaves)
+{
+    Material sea = plain_material(glm::vec3(0.5f));
+    sea.surface = example("shore_water.glsl");
+    const glm::vec4 masks[] = {{1, 1, 1, 0}, {0, 1, 1, 0}, {0, 1, 0, 0}, {0, 1, 1, 1}};
+    std::vector<Primitive> strips;
+    for (int i = 0; i < 4; ++i) {
+        strips.push_back(quad({2.0f * static_cast<float>(i) - 4.0f, 0, 4}, {2, 0, 0}, {0, 0, -8}));
+        strips.back().colors.assign(4, masks[i]);
+    }
+    renderer->load(scene_of(strips, {sea}), {});
+    Frame frame;
+    frame.camera = look({0, 5, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 8.0f;
+    frame.settings.width = frame.settings.height = 96;
+    frame.settings.samples = 1;
+    frame.settings.aovs = {"base_color", "roughness", "normal", "water", "snow"};
+    frame.weather.flood_puddles = 1.0f;
+    frame.weather.snow_amount = 1.0f;
+    frame.weather.wind_m_s = {4.0f, 1.0f};
+    struct Strip {
+        float color = 0.0f, roughness = 0.0f, leaning = 0.0f, cover = 0.0f;
+    };
+    const auto strip = [&](const RenderResult& r, int number) {
+        Strip sum;
+        for (int y = 2; y < 94; ++y) {
+            for (int x = 24 * number + 2; x < 24 * number + 22; ++x) {
+                sum.color += aov(r, "base_color", x, y, 1) / 1840.0f;
+                sum.roughness += aov(r, "roughness", x, y) / 1840.0f;
+                sum.leaning += std::hypot(aov(r, "normal", x, y, 0), aov(r, "normal", x, y, 2)) / 1840.0f;
+                sum.cover += aov(r, "water", x, y) + aov(r, "snow", x, y);
+            }
+        }
+        return sum;
+    };
+    const RenderResult r = renderer->render(frame);
+    const Strip foam = strip(r, 0), shallow = strip(r, 1), still = strip(r, 2), deep = strip(r, 3);
+    EXPECT_GT(foam.color, 1.3f * shallow.color);
+    EXPECT_GT(foam.roughness, 1.2f * shallow.roughness);
+    EXPECT_GT(shallow.color, 3.0f * deep.color);
+    EXPECT_GT(shallow.leaning, 0.02f);
+    EXPECT_LT(still.leaning, 0.002f);
+    EXPECT_EQ(foam.cover + shallow.cover + still.cover + deep.cover, 0.0f);
+
+    frame.settings.time_s = 0.5;
+    const RenderResult later = renderer->render(frame);
+    EXPECT_NE(aov(later, "normal", 36, 48), aov(r, "normal", 36, 48));
+    EXPECT_NEAR(strip(later, 1).leaning, shallow.leaning, 0.3f * shallow.leaning);
+    frame.weather.wind_m_s = {14.0f, 3.0f};
+    EXPECT_GT(strip(renderer->render(frame), 3).leaning, 1.5f * deep.leaning);
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -24,7 +24,8 @@ shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
 
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
-                    const glm::vec3& camera_m, const VisibleWeather& weather, Draws draws)
+                    const glm::vec3& camera_m, const VisibleWeather& weather,
+                    GpuBuffer& draw_table, Draws draws)
 {
     graph.add(DrawPass{
         .name = "visibility",
@@ -32,7 +33,8 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
         .depth = Attachment(depth),
         .width = ids.width,
         .height = ids.height,
-        .bindings = {{VISIBILITY_FRAME, frame_binding(constants)}},
+        .bindings = {{VISIBILITY_FRAME, frame_binding(constants)},
+                     {VISIBILITY_DRAWS, texels(draw_table)}},
         .record =
             [=, &scene](PassContext& pass) {
                 GraphicsDesc opaque;
@@ -48,7 +50,9 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                 masked.attributes = {vertex_attributes()[0], vertex_attributes()[3],
                                      vertex_attributes()[4], vertex_attributes()[5]};
                 bind_geometry(pass.commands(), scene);
-                for (const Draw* draw : visible_draws(scene, world_to_clip, camera_m, draws)) {
+                for (const DrawRun& run : visible_runs(scene, world_to_clip, camera_m, draws)) {
+                    const Draw* draw = run.first;
+                    const Specialization instanced{VISIBILITY_SPEC_INSTANCED, run.count > 1};
                     const GpuMaterial& material = scene.materials()[draw->material];
                     if (has_holes(scene, *draw)) {
                         GraphicsDesc desc = masked;
@@ -57,19 +61,22 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                                                {SURFACE_SPEC_SECOND, material.second},
                                                {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
                                                {SURFACE_SPEC_SNOW, weather.snow ? material.snow : 0u},
-                                               {SURFACE_SPEC_FADE, draw->fade != 0}};
+                                               {SURFACE_SPEC_FADE, draw->fade != 0},
+                                               instanced};
                         desc.sets.push_back(types_of(material.bindings));
                         pass.bind(pass.pipelines().graphics(desc));
                         pass.bind_set(
                             1, pass.descriptors().set(pass.pipelines().set_layout(desc.sets[1]),
                                                       material.bindings));
                     } else {
+                        opaque.specialization = {instanced};
                         pass.bind(pass.pipelines().graphics(opaque));
                     }
                     set_facing(pass.commands(), material.cull, draw->mirrored);
-                    pass.push(draw_constants(scene, *draw));
-                    vkCmdDrawIndexed(pass.commands(), draw->index_count, 1, draw->first_index,
-                                     draw->vertex_offset, 0);
+                    const shared::VisibilityDraw first = draw_constants(scene, *draw);
+                    pass.push(first);
+                    vkCmdDrawIndexed(pass.commands(), draw->index_count, run.count, draw->first_index,
+                                     draw->vertex_offset, run.count > 1 ? first.draw : 0);
                 }
             },
     });

@@ -6,11 +6,12 @@
 
 layout(location = 0) in vec3 in_position;
 layout(set = 0, binding = VISIBILITY_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(push_constant, scalar) uniform Push { VisibilityDraw draw; };
+layout(location = 0) flat out uint out_draw;
+#include "gpu/passes/visibility/visibility_place.glsl"
 
 void main()
 {
-    const vec4 p = vec4(in_position, 1.0);
-    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    const vec3 world = placed(gl_InstanceIndex, in_position);
+    out_draw = INSTANCED != 0u ? uint(gl_InstanceIndex) : draw.draw;
     gl_Position = frame.world_to_clip * vec4(world, 1.0);
 }

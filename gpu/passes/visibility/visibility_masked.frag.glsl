@@ -6,9 +6,10 @@
 #include "gpu/passes/surface/parallax.glsl"
 #include "gpu/passes/visibility/visibility_io.h"
 
-layout(push_constant, scalar) uniform Push { VisibilityDraw draw; };
+#include "gpu/passes/visibility/visibility_place.glsl"
 layout(location = 0) in vec4 in_uv;
 layout(location = 1) in float in_alpha;
+layout(location = 2) flat in uint in_draw;
 layout(location = 0) out uvec2 out_id;
 
 void main()
@@ -19,6 +20,8 @@ void main()
     at.uv_dy = dFdy(in_uv);
     at.pixel = ivec2(gl_FragCoord.xy);
     at.instance_id = draw.instance_id;
+    if (INSTANCED != 0u)
+        at.instance_id = texelFetch(draw_table, int(in_draw) * RESOLVE_DRAW_TEXELS + 6).w;
     at.color = vec4(0.0, 0.0, 0.0, in_alpha);
     if (PARALLAX != PARALLAX_NONE) {
         // Holes lie in the relief, as they do where it is shaded.
@@ -32,5 +35,5 @@ void main()
     }
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (hole_in(at, alpha_at(at))) discard;
-    out_id = uvec2(draw.draw + 1u, uint(gl_PrimitiveID));
+    out_id = uvec2(in_draw + 1u, uint(gl_PrimitiveID));
 }

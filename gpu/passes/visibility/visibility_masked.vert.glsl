@@ -9,15 +9,16 @@ layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
 layout(location = 5) in vec4 in_color;
 layout(set = 0, binding = VISIBILITY_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(push_constant, scalar) uniform Push { VisibilityDraw draw; };
+layout(location = 2) flat out uint out_draw;
+#include "gpu/passes/visibility/visibility_place.glsl"
 
 layout(location = 0) out vec4 out_uv;
 layout(location = 1) out float out_alpha;
 
 void main()
 {
-    const vec4 p = vec4(in_position, 1.0);
-    const vec3 world = vec3(dot(draw.to_world[0], p), dot(draw.to_world[1], p), dot(draw.to_world[2], p));
+    const vec3 world = placed(gl_InstanceIndex, in_position);
+    out_draw = INSTANCED != 0u ? uint(gl_InstanceIndex) : draw.draw;
     out_uv = vec4(in_uv0, in_uv1);
     out_alpha = in_color.a;
     gl_Position = frame.world_to_clip * vec4(world, 1.0);

@@ -1,0 +1,95 @@
+// Instances of one mesh and material: one draw of many, the same picture.
+#include "gpu/upload/draw.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/gpu/gpu_fixture.h"
+
+namespace petrichor::gpu {
+namespace {
+
+class Instances : public GpuTest {};
+
+// A corner of a box: three sides, so that both facings are seen.
+Mesh corner()
+{
+    return {"corner",
+            {quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+             quad({0, 0, 0}, {0, 1, 0}, {0, 0, 1})}};
+}
+
+// Six by six of them, turned and scaled; every fifth is mirrored.
+Scene field(const Material& material, bool own_meshes)
+{
+    Scene scene;
+    scene.materials = {material};
+    scene.meshes = {corner()};
+    for (int i = 0; i < 36; ++i) {
+        glm::mat4 m(1.0f);
+        m = glm::translate(m, {static_cast<float>(i % 6) - 2.5f, 0.1f * static_cast<float>(i % 4),
+                               static_cast<float>(i / 6) - 2.5f});
+        m = glm::rotate(m, 0.7f * static_cast<float>(i), glm::vec3(0, 1, 0));
+        m = glm::scale(m, glm::vec3(i % 5 == 0 ? -0.8f : 0.8f, 0.6f, 0.9f));
+        if (own_meshes && i > 0) scene.meshes.push_back(corner());
+        scene.instances.push_back({"corner", own_meshes ? static_cast<std::uint32_t>(i) : 0u, m});
+    }
+    return scene;
+}
+
+Material cut_out()
+{
+    Material m = plain_material(glm::vec3(0.5f));
+    m.base_color.a = 0.6f;
+    m.alpha_mode = AlphaMode::Blend;
+    m.double_sided = true;
+    return m;
+}
+
+TEST_F(Instances, OneDrawOfManyShowsWhatManyDrawsShow)
+{
+    for (const Material& material : {plain_material(glm::vec3(0.6f, 0.4f, 0.3f)), cut_out()}) {
+        for (const SurfacePath path : {SurfacePath::Fragment, SurfacePath::Visibility}) {
+            Frame frame;
+            frame.camera = look({3, 5, 6}, {0, 0, 0});
+            frame.settings.width = frame.settings.height = 96;
+            frame.settings.samples = 2;
+            frame.settings.surface_path = path;
+            frame.settings.transparent_layers = 0;  // let through by chance: each has its own
+            frame.settings.aovs = {"normal", "depth"};
+            renderer->load(field(material, true), {});
+            const RenderResult many = renderer->render(frame);
+            renderer->load(field(material, false), {});
+            const RenderResult one = renderer->render(frame);
+            EXPECT_EQ(one.beauty, many.beauty);
+            for (std::size_t i = 0; i < one.aovs.size(); ++i)
+                EXPECT_EQ(one.aovs[i].pixels, many.aovs[i].pixels) << one.aovs[i].name;
+        }
+    }
+}
+
+TEST_F(Instances, OfOneShapeAreOneRun)
+{
+    if (!renderer) return;
+    renderer.reset();  // its device is not needed
+    const Device device(RendererOptions{.device = "", .validation = true});
+    const glm::mat4 all = glm::scale(glm::mat4(1.0f), glm::vec3(0.05f));
+    const auto runs = [&](const Scene& scene) {
+        const GpuScene on_device(device, scene, {});
+        return visible_runs(on_device, all, glm::vec3(0.0f, 5.0f, 0.0f));
+    };
+    const Material plain = plain_material(glm::vec3(0.5f));
+    // Three primitives; 28 are as modelled, 8 are mirrored.
+    const std::vector<DrawRun> one = runs(field(plain, false));
+    ASSERT_EQ(one.size(), 6u);
+    std::uint32_t instances = 0;
+    for (const DrawRun& run : one) {
+        EXPECT_TRUE(run.count == 28 || run.count == 8) << run.count;
+        instances += run.count;
+    }
+    EXPECT_EQ(instances, 108u);
+    EXPECT_EQ(runs(field(plain, true)).size(), 108u);
+}
+
+}  // namespace
+}  // namespace petrichor::gpu
