@@ -19,6 +19,7 @@
 #include "film/jobs/scene_places.h"
 #include "film/jobs/scene_source.h"
 #include "film/scenario/material_keys.h"
+#include "film/scenes/light_picture.h"
 #include "film/scenes/memory_budget.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/scene_probes.h"
@@ -241,8 +242,10 @@ void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const
     for (const SequenceVariant& variant : sequence.variants) {
         if (variant.name != job.variant) continue;
         const std::string& file = variant.conditions.sky.environment;
-        renderer.set_environment(file.empty() ? gpu::EnvironmentMap{}
-                                              : read_environment(sequence.scenario.folder / file));
+        renderer.set_environment(
+            file.empty() ? gpu::EnvironmentMap{}
+                         : read_light_picture(sequence.scenario.folder / file,
+                                              variant.conditions.sky.environment_decode));
     }
 }
 
@@ -274,7 +277,8 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
         transport.cache = user_cache();
         const auto made = prepare_patch_scene(sequence.scene, transport, report.notes);
         made->probes =
-            prepare_probes(sequence.scene, *made, scenario.render.probes, transport, report.notes);
+            prepare_probes(sequence.scene, *made, scenario.render.probes, scenario.folder, transport,
+                           report.notes);
         patches = made;
     } else if (sequence.scenario.render.image_based_light) {
         std::string why = "([render] indirect)";

@@ -153,6 +153,11 @@ void load_sequence_scene(Sequence& sequence, int threads)
     content.add(scenario.scene.animation_loop);
     content.add(scenario.render.probes.automatic);
     content.add_bytes(std::as_bytes(std::span(scenario.render.probes.places)));
+    for (const ScenarioProbePicture& picture : scenario.render.probes.pictures) {
+        if (picture.file.empty()) continue;
+        content.add(file_fingerprint(scenario.folder / picture.file));
+        content.add(static_cast<int>(picture.decode));
+    }
     if (!scenario.ground.tracks.empty()) content.add(tracks_fingerprint(scenario.ground.tracks));
     sequence.eyes_m = eyes_of(sequence);
     add_displacement(sequence, content);
@@ -161,7 +166,11 @@ void load_sequence_scene(Sequence& sequence, int threads)
         weather_textures_fingerprint(scenario.render.weather_textures, scenario.folder);
     for (SequenceVariant& variant : sequence.variants) {
         const std::string& file = variant.conditions.sky.environment;
-        if (!file.empty()) variant.environment = file_fingerprint(scenario.folder / file);
+        if (file.empty()) continue;
+        variant.environment = file_fingerprint(scenario.folder / file);
+        const LightCode decode = variant.conditions.sky.environment_decode;
+        if (decode != LightCode::Auto)
+            variant.environment += " " + std::to_string(static_cast<int>(decode));
     }
 }
 

@@ -217,6 +217,13 @@ const std::vector<Rule>& rules()
         {{"sky", "environment", "\"sky.hdr\"",
           "a lat-long HDR picture (.hdr, .exr) that lights the scene instead of the analytic sky"},
          [](Scenario& s, const TomlValue& v) { s.sky.environment = v.text(); }},
+        {{"sky", "environment_decode", "\"auto\"",
+          "how its numbers are meant: auto (float as it is, 8 bits as sRGB), float, rgbm (8 bits, "
+          "multiplier in alpha, up to 34.5) or dldr (8 bits, up to 4.6)"},
+         [](Scenario& s, const TomlValue& v) {
+             s.sky.environment_decode =
+                 static_cast<LightCode>(v.choice({"auto", "float", "rgbm", "dldr"}));
+         }},
         {{"sky", "environment_scale", "1.0", "multiplies the HDR picture, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.sky.environment_scale = v.number(0.0, 1e6); }},
         {{"sky", "environment_rotation_degrees", "0.0", "turns the HDR picture about the vertical"},
@@ -469,7 +476,9 @@ const std::vector<Rule>& rules()
           "what smooth surfaces mirror of the scene beyond the picture, with light of patches: auto (up "
           "to 4 reflection probes, placed over the ground), off (the sky), or up to 8 of your own: "
           "[{ position_m = [0.0, 1.6, 0.0], low_m = [-4.0, 0.0, -3.0], high_m = [4.0, 3.0, 3.0], "
-          "blend_m = 1.0, importance = 0.0, intensity = 1.0 }]; low_m and high_m are the walls around"},
+          "blend_m = 1.0, importance = 0.0, intensity = 1.0 }]; low_m and high_m are the walls around; "
+          "picture = \"room.hdr\" (lat-long, cd/m2; decode as of [sky] environment_decode) stands for "
+          "what would be traced"},
          [](Scenario& s, const TomlValue& v) { s.render.probes = read_probes(v); }},
         {{"render", "surface_path", "\"auto\"",
           "how surfaces are shaded: fragment, visibility (a buffer of triangle numbers, resolved), "

@@ -83,10 +83,19 @@ struct ScenarioSun {
     bool yields = false;  ///< to the sun of keys: a preset named on the command line brings its own
 };
 
+/// How the numbers of a picture of light are meant.
+enum class LightCode {
+    Auto,   ///< float as it is, 8 and 16 bits as sRGB
+    Float,  ///< as it is; whole numbers are refused
+    Rgbm,   ///< 8 bits, a multiplier in alpha
+    Dldr    ///< 8 bits, half of the light
+};
+
 struct ScenarioSky {
     KeyedNumber cloud_cover;  ///< 0..1; not given: from the weather
     KeyedNumber turbidity;
     std::string environment;  ///< lat-long HDR file relative to the scenario; empty: analytic sky
+    LightCode environment_decode = LightCode::Auto;
     double environment_scale = 1.0;
     double environment_rotation_degrees = 0.0;
     double ground_albedo = 0.2;
@@ -158,10 +167,16 @@ struct WeatherTextures {
     bool operator==(const WeatherTextures&) const = default;
 };
 
+/// A lat-long picture in place of what a probe would trace; none where file is empty.
+struct ScenarioProbePicture {
+    std::string file;  ///< relative to the scenario
+    LightCode decode = LightCode::Auto;
+};
 /// What mirrors see of a scene beyond the picture.
 struct ScenarioProbes {
     bool automatic = true;                 ///< a few, placed by what the scene is; else these
     std::vector<scene::ProbePlace> places;  ///< none and not automatic: mirrors see the sky alone
+    std::vector<ScenarioProbePicture> pictures;  ///< one a place
 };
 
 struct ScenarioRender : gpu::FrameSwitches {

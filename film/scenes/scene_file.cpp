@@ -93,25 +93,4 @@ std::string file_fingerprint(const fs::path& file)
     return hasher.text();
 }
 
-gpu::EnvironmentMap read_environment(const fs::path& file)
-{
-    const Image image = texproc::read_image(file, {.space = ColorSpace::Linear});
-    if (image.width != 2 * image.height) {
-        throw Error("environment: " + file.string() + " is " + std::to_string(image.width) + " x " +
-                        std::to_string(image.height) + ", not twice as wide as high",
-                    "Use a lat-long (equirectangular) picture.");
-    }
-    gpu::EnvironmentMap map;
-    map.width = image.width;
-    map.height = image.height;
-    map.rgb.reserve(image.pixels.size() / static_cast<std::size_t>(image.channels) * 3);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < 3; ++c)
-                map.rgb.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
-        }
-    }
-    return map;
-}
-
 }  // namespace petrichor::film

@@ -32,10 +32,6 @@ LoadedScene read_scene(const std::filesystem::path& file, const SceneFileOptions
 /// Fingerprint of the bytes of a file. Throws Error when it cannot be read.
 std::string file_fingerprint(const std::filesystem::path& file);
 
-/// Reads a lat-long HDR picture. Throws Error when it is missing, damaged, or not twice as wide as
-/// high.
-gpu::EnvironmentMap read_environment(const std::filesystem::path& file);
-
 }  // namespace petrichor::film
 
 #endif

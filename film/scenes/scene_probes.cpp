@@ -1,11 +1,13 @@
 #include "film/scenes/scene_probes.h"
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "film/data/source_fingerprint.h"
+#include "film/scenes/light_picture.h"
 #include "formulas/light/reflection_probe.h"
 #include "scene/patches/patch_file.h"
 
@@ -59,16 +61,13 @@ std::vector<std::byte> to_bytes(const std::vector<scene::TracedProbe>& probes)
     return bytes;
 }
 
-}  // namespace
-
-std::vector<scene::TracedProbe> prepare_probes(const scene::Scene& scene,
-                                               const gpu::PatchScene& made,
-                                               const ScenarioProbes& wanted,
-                                               const TransportOptions& options,
-                                               std::vector<std::string>& notes)
+std::vector<scene::TracedProbe> traced_probes(const scene::Scene& scene,
+                                              const gpu::PatchScene& made,
+                                              const ScenarioProbes& wanted,
+                                              const TransportOptions& options,
+                                              std::vector<std::string>& notes)
 {
     std::vector<scene::TracedProbe> probes;
-    if (made.patches.empty() || (!wanted.automatic && wanted.places.empty())) return probes;
     const std::string key = key_of(made, wanted);
     if (const auto bytes = options.cache.find(kKind, key)) {
         probes = from_bytes(*bytes, made.patches.count);
@@ -92,6 +91,26 @@ std::vector<scene::TracedProbe> prepare_probes(const scene::Scene& scene,
             notes.push_back(std::string(error.what()) +
                             ": reflection probes are traced again at every start. " + error.fix());
         }
+    }
+    return probes;
+}
+
+}  // namespace
+
+std::vector<scene::TracedProbe> prepare_probes(const scene::Scene& scene,
+                                               const gpu::PatchScene& made,
+                                               const ScenarioProbes& wanted,
+                                               const std::filesystem::path& folder,
+                                               const TransportOptions& options,
+                                               std::vector<std::string>& notes)
+{
+    if (made.patches.empty() || (!wanted.automatic && wanted.places.empty())) return {};
+    auto probes = traced_probes(scene, made, wanted, options, notes);
+    for (std::size_t i = 0; i < std::min(probes.size(), wanted.pictures.size()); ++i) {
+        const ScenarioProbePicture& picture = wanted.pictures[i];
+        if (picture.file.empty()) continue;
+        const gpu::EnvironmentMap map = read_light_picture(folder / picture.file, picture.decode);
+        probes[i].picture = scene::probe_picture(map.width, map.height, map.rgb);
     }
     return probes;
 }

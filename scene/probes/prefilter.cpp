@@ -1,9 +1,12 @@
 // Light of a probe from the light of its patches, one level for each roughness.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "formulas/codec/octahedral.h"
 #include "formulas/light/brdf.h"
 #include "formulas/light/reflection_probe.h"
@@ -154,11 +157,58 @@ void put(const Map& map, std::vector<glm::vec4>& all)
 
 }  // namespace
 
+std::vector<glm::vec3> probe_picture(int width, int height, std::span<const float> rgb)
+{
+    assert(width > 0 && height > 0);
+    const auto texel_at = [&](int x, int y) {
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(x);
+        return glm::vec3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+    };
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    std::vector<glm::dvec4> sums(std::size_t{kProbeSide} * kProbeSide, glm::dvec4(0.0));
+    for (int y = 0; y < height; ++y) {
+        const auto down = portable_sin_cos(0.5 * kTurn * (y + 0.5) / height);  // from the zenith
+        for (int x = 0; x < width; ++x) {
+            const auto turn = portable_sin_cos(kTurn * ((x + 0.5) / width - 0.5));
+            const glm::vec2 at = shared::octahedral_encode(
+                glm::vec3(glm::dvec3(down.sine * turn.sine, down.cosine, -down.sine * turn.cosine)));
+            const auto cell = [](float v) {
+                return std::clamp(static_cast<int>((v * 0.5f + 0.5f) * kProbeSide), 0, kProbeSide - 1);
+            };
+            sums[static_cast<std::size_t>(cell(at.y) * kProbeSide + cell(at.x))] +=
+                glm::dvec4(glm::dvec3(texel_at(x, y)), 1.0) * down.sine;
+        }
+    }
+    std::vector<glm::vec3> picture;
+    picture.reserve(sums.size());
+    for (int y = 0; y < kProbeSide; ++y) {
+        for (int x = 0; x < kProbeSide; ++x) {
+            const glm::dvec4 sum = sums[static_cast<std::size_t>(y * kProbeSide + x)];
+            if (sum.w > 0.0) {
+                picture.emplace_back(glm::dvec3(sum) / sum.w);
+                continue;
+            }
+            // Coarser than the probe: the pixel that the texel lies in.
+            const glm::vec3 d = direction_of(x, y, kProbeSide);
+            const double u = std::atan2(static_cast<double>(d.x), static_cast<double>(-d.z)) / kTurn + 0.5;
+            const double v =
+                std::acos(std::clamp(static_cast<double>(d.y), -1.0, 1.0)) / (0.5 * kTurn);
+            picture.push_back(texel_at(std::clamp(static_cast<int>(u * width), 0, width - 1),
+                                       std::clamp(static_cast<int>(v * height), 0, height - 1)));
+        }
+    }
+    return picture;
+}
+
 std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity)
 {
     std::vector<Map> sharp{{kProbeSide, {}}};
     sharp[0].texels.reserve(probe.texels.size());
+    for (const glm::vec3& radiance : probe.picture)
+        sharp[0].texels.emplace_back(radiance * probe.place.intensity, 0.0f);
     for (const ProbeTexel& texel : probe.texels) {
+        if (!probe.picture.empty()) break;
         glm::vec4 light(0.0f);
         if (texel.patch == ProbeTexel::kSky) {
             light.a = 1.0f;

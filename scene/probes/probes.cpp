@@ -82,7 +82,7 @@ TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
                         const ProbePlace& place, int threads)
 {
     constexpr int kSide = shared::kProbeSide;
-    TracedProbe probe{place, std::vector<ProbeTexel>(static_cast<std::size_t>(kSide) * kSide)};
+    TracedProbe probe{place, std::vector<ProbeTexel>(static_cast<std::size_t>(kSide) * kSide), {}};
     parallel_for(static_cast<std::size_t>(kSide), threads, [&](std::size_t row) {
         for (int x = 0; x < kSide; ++x) {
             ProbeTexel& texel = probe.texels[row * kSide + static_cast<std::size_t>(x)];

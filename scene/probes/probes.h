@@ -36,7 +36,13 @@ struct TracedProbe {
     ProbePlace place;
     /// kProbeSide x kProbeSide, directions by octahedral_decode, row 0 at -1.
     std::vector<ProbeTexel> texels;
+    /// Radiance of as many texels, in place of what was met; empty: none.
+    std::vector<glm::vec3> picture;
 };
+
+/// A lat-long picture (three floats a pixel, row 0 is up, its middle -z) as a probe holds it: each texel
+/// the mean of its solid angle.
+std::vector<glm::vec3> probe_picture(int width, int height, std::span<const float> rgb);
 
 /// One ray a texel. Deterministic for any number of threads.
 TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,

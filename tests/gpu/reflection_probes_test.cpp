@@ -109,6 +109,21 @@ TEST_F(ReflectionProbesTest, TheMoreImportantOneCounts)
     EXPECT_NEAR(mirrored(shot(hall), 0.8f).g, 4.0f, 0.2f) << "as much as each other";
 }
 
+// A picture of the place stands for what would be traced, whatever the light of the frame.
+TEST_F(ReflectionProbesTest, APictureStandsInForWhatWasTraced)
+{
+    Hall hall;
+    scene::TracedProbe& probe = hall.patches->probes[0];
+    const float blue[] = {0.0f, 0.0f, 0.5f};
+    probe.picture = scene::probe_picture(1, 1, blue);
+    probe.place.intensity = 6.0f;
+    for (const float x : {-0.8f, 0.8f}) {
+        const glm::vec3 seen = mirrored(shot(hall), x);
+        EXPECT_NEAR(seen.b, 3.0f, 0.1f) << x;
+        EXPECT_NEAR(seen.r + seen.g, 0.0f, 0.05f) << x;
+    }
+}
+
 TEST_F(ReflectionProbesTest, AProbeIsLitByTheLightOfItsFrame)
 {
     const Hall hall;
