@@ -13,8 +13,6 @@ namespace petrichor::gpu {
 
 namespace {
 
-constexpr float kSunAngularRadius = 0.00465f;
-
 static_assert(static_cast<int>(FogMode::Metres) == FOG_METRES &&
               static_cast<int>(FogMode::Exp) == FOG_EXP &&
               static_cast<int>(FogMode::Exp2) == FOG_EXP2 &&
@@ -115,7 +113,6 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.samples = static_cast<float>(s.samples);
     c.sun_angular_cos = std::cos(kSunAngularRadius);
     const auto flag = [&c](bool on, std::uint32_t bit) { c.flags |= on ? bit : 0u; };
-    flag(s.draw_sky, FRAME_SKY);
     flag(s.dither, FRAME_DITHER);
     flag(s.white_balance_k > 0.0f, FRAME_WHITE_BALANCE);
     flag(s.shelter, FRAME_SHELTER);

@@ -97,7 +97,6 @@ struct FrameConstants {
 
 SHARED_END
 
-#define FRAME_SKY 8u
 #define FRAME_DITHER 16u
 #define FRAME_SHELTER 32u
 #define FRAME_ORTHOGRAPHIC 64u

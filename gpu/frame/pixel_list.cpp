@@ -6,10 +6,20 @@
 
 namespace petrichor::gpu {
 
-void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, bool listed)
+void add_all_pixels(FrameGraph& graph, FrameTargets& targets)
 {
-    pass.constants.push_back({PIXEL_LIST_SPEC, listed});
-    if (!listed) {
+    GpuBuffer& list = *targets.pixel_list;
+    graph.add(TransferPass{.name = "adaptive",
+                           .transfers = {{nullptr, &list, Use::TransferTarget}},
+                           .record = [&list](VkCommandBuffer commands) {
+                               vkCmdFillBuffer(commands, list.buffer.get(), 0, 4, PIXEL_LIST_ALL);
+                           }});
+}
+
+void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, Pixels pixels)
+{
+    pass.constants.push_back({PIXEL_LIST_SPEC, pixels != Pixels::All});
+    if (pixels != Pixels::Listed) {
         pass.groups = groups_over(targets.width, targets.height, 8);
         graph.add(std::move(pass));
         return;

@@ -6,9 +6,19 @@
 
 namespace petrichor::gpu {
 
-/// Adds a pass over pixels, which its shader takes by gpu/frame/pixel_list.glsl: all of the
-/// picture, or those that stand in the targets' list, which is among its bindings.
-void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, bool listed);
+/// Which pixels a pass shades.
+enum class Pixels {
+    All,
+    AllForNow,  ///< with the text of those that go by a list: one pipeline serves both
+    Listed,     ///< those that stand in the targets' list
+};
+
+/// Says in the targets' list that all pixels are meant, for AllForNow.
+void add_all_pixels(FrameGraph& graph, FrameTargets& targets);
+
+/// Adds a pass whose shader takes its pixel by gpu/frame/pixel_list.glsl. The targets' list is among
+/// its bindings.
+void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, Pixels pixels);
 
 }  // namespace petrichor::gpu
 

@@ -1,12 +1,11 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 
-#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
 
 namespace petrichor::gpu {
 
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants, bool listed)
+                           const ConstantsRange& constants, Pixels pixels)
 {
     GBuffer& g = targets.gbuffer;
     add_over_pixels(
@@ -21,7 +20,7 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                                  {AMBIENT_OCCLUSION_PIXELS, texels(*targets.pixel_list)}},
                     .push = {},
                     .groups = {}},
-        listed);
+        pixels);
 }
 
 }  // namespace petrichor::gpu

@@ -3,7 +3,7 @@
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/constants_range.h"
-#include "gpu/frame/targets.h"
+#include "gpu/frame/pixel_list.h"
 
 namespace petrichor::gpu {
 
@@ -12,7 +12,7 @@ namespace petrichor::gpu {
 //   reads    depth, normals
 //   writes   screen_occlusion
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
-                           const ConstantsRange& constants, bool listed);
+                           const ConstantsRange& constants, Pixels pixels);
 
 }  // namespace petrichor::gpu
 

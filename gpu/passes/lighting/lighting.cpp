@@ -1,6 +1,5 @@
 #include "gpu/passes/lighting/lighting.h"
 
-#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/lighting/lighting_io.h"
 
 namespace petrichor::gpu {
@@ -31,11 +30,13 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_SOFT_LAMPS, variant.soft_lamps},
                       {LIGHTING_SPEC_SHARES, variant.shares != nullptr},
                       {LIGHTING_SPEC_BACKGROUND, variant.background},
+                      {LIGHTING_SPEC_SUN, variant.sun},
                       {LIGHTING_SPEC_WAYS, variant.ways},
                       {LIGHTING_SPEC_LAZAROV, variant.lazarov},
                       {LIGHTING_SPEC_HORIZON, variant.horizon},
                       {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter},
-                      {LIGHTING_SPEC_PARTS, variant.split}},
+                      {LIGHTING_SPEC_PARTS, variant.split},
+                      {LIGHTING_SPEC_FILM, variant.film}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
@@ -68,7 +69,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         pass.constants.push_back({id, variant.models[i]});
     }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
-    add_over_pixels(graph, targets, std::move(pass), variant.listed);
+    add_over_pixels(graph, targets, std::move(pass), variant.pixels);
 }
 
 }  // namespace petrichor::gpu

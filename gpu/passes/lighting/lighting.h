@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_H
 
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lighting/light_tables.h"
@@ -29,13 +30,15 @@ struct LightingVariant {
     std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool sun = true;          ///< it shines
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
-    bool listed = false;      ///< the targets' list of pixels, not all
+    Pixels pixels = Pixels::All;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;
     bool snow_scatter = false;  ///< snow is seen, and its scatter has a colour
+    bool film = false;               ///< of water, a lobe of its own
     bool split = false;              ///< the light is written taken apart, too: into `parts`
     GpuImage* parts = nullptr;       ///< never null in a pass (gpu/outputs/light_parts.h)
     GpuImage* shares = nullptr;      ///< of textures of layers; null: there are none

@@ -2,14 +2,13 @@
 
 #include <utility>
 
-#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/reflections/reflections_io.h"
 
 namespace petrichor::gpu {
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     const MirrorOutputs& outputs, bool listed)
+                     const MirrorOutputs& outputs, Pixels pixels)
 {
     const SamplerHandle& nearest = targets.nearest;
     ComputePass pass{
@@ -33,7 +32,7 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
         .groups = {}};
-    add_over_pixels(graph, targets, std::move(pass), listed);
+    add_over_pixels(graph, targets, std::move(pass), pixels);
 }
 
 }  // namespace petrichor::gpu

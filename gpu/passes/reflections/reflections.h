@@ -2,7 +2,7 @@
 #define PETRICHOR_GPU_PASSES_REFLECTIONS_REFLECTIONS_H
 
 #include "gpu/frame/constants_range.h"
-#include "gpu/frame/targets.h"
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/sky/sky.h"
 
@@ -23,7 +23,7 @@ struct MirrorOutputs {
 //   edits    accumulated; light_parts of frames that ask
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
-                     const MirrorOutputs& outputs, bool listed = false);
+                     const MirrorOutputs& outputs, Pixels pixels = Pixels::All);
 
 }  // namespace petrichor::gpu
 
