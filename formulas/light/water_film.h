@@ -45,7 +45,7 @@ SHARED_FN WaterFilm water_film(DryMaterial dry, SurfaceState state, WeatherMomen
     film.share = smooth_edge(0.0f, 1.0f, over) * (1.0f - state.water) * (1.0f - state.snow) *
                  (1.0f - state.frost) * (1.0f - moment.water_to_snow);
     // What is rough stands through the thickest film a little, and drops dent it.
-    const float least = mix(0.1f, dry.roughness, 0.2f) + 0.04f * pouring;
+    const float least = mix(0.1f, dry.roughness, 0.15f) + 0.03f * pouring;
     film.roughness = mix(max(dry.roughness, 0.1f), min(least, max(dry.roughness, 0.1f)), thick);
     film.level = 0.85f * thick;
     film.lit = 1.0f;

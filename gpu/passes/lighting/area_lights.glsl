@@ -273,8 +273,8 @@ vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
                        blurred);
     if (FILM != 0u) {
         q.film.roughness = sqrt(min(p.film.roughness * p.film.roughness + 0.5 * wide, 1.0));
-        if (IMAGE_BASED_LIGHT != 0u)
-            q.film.lit *= smoothstep(kMirrorRoughness, kMirrorRoughness + 0.1, p.film.roughness);
+        // The pass of reflections shows the pane itself, as far as it trusts its rays.
+        if (IMAGE_BASED_LIGHT != 0u) q.film.lit *= smoothstep(0.16, 0.3, p.film.roughness);
     }
     return filmed_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
 }
