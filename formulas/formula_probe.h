@@ -21,6 +21,7 @@
 #include "formulas/light/reflection_probe.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
+#include "formulas/light/water_film.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
@@ -34,7 +35,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 42;
+SHARED_CONST int kProbeKinds = 43;
 
 SHARED_FN float probe_light_map(vec4 a, vec4 b)
 {
@@ -324,6 +325,27 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
         const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
         return vec4(way.x + way.y, way.z, reflection_probe_weight(share, 1.0f + a.w, p), blend.y);
+    }
+    if (kind == 42) {
+        DryMaterial dry;
+        dry.roughness = a.x;
+        dry.porosity = a.y;
+        dry.metallic = a.z;
+        SurfaceState state;
+        state.film = a.w;
+        state.water = 0.5f * b.x;
+        state.snow = 0.5f * b.y;
+        state.frost = 0.5f * b.z;
+        WeatherMoment moment;
+        moment.film_smoothness = 0.5f * b.w;
+        moment.rain = c.x;
+        moment.water_to_snow = 0.5f * c.y;
+        WaterFilm film = water_film(dry, state, moment);
+        film.normal = probe_direction(c.x, c.y);
+        film.roughness = 0.2f + 0.8f * film.roughness;
+        const vec3 r = under_film(vec3(c.z), film, probe_direction(a.x, a.y), probe_direction(b.x, c.w));
+        m.metallic = 0.0f;
+        return vec4(r.x, film.share, film.level + film.roughness, below_film(m, c.w).specular.x);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

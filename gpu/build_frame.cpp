@@ -32,6 +32,13 @@ bool uses_patches(const Frame& frame, const FrameResources& r)
     return frame.settings.patch_light && frame.settings.image_based_light && r.patches->loaded();
 }
 
+// The sun is no point where more than one sample looks.
+bool soft_sun(const Frame& frame, const Sun& sun)
+{
+    const FrameSettings& s = frame.settings;
+    return s.soft_shadows && s.shadows && s.samples > 1 && sun.illuminance != glm::vec3(0.0f);
+}
+
 // Depth maps are drawn only when their views have changed.
 void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r,
                     bool weather, const FallingPlan& plan)
@@ -39,7 +46,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
     DepthMaps& maps = *r.depth_maps;
     const float aspect =
         static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
-    if (frame.settings.shadows) {
+    if (frame.settings.shadows && !soft_sun(frame, sun)) {
         const auto views = cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
         if (!maps.shadow_valid || views != maps.shadow_views) {
             maps.shadow_views = views;
@@ -201,6 +208,21 @@ bool soft_shadows(const Frame& frame, const FrameResources& r)
            });
 }
 
+// The sun's shadow of a sample: from another point of its disc.
+void look_from_sun(FrameGraph& graph, const Frame& frame, const Sun& sun, std::uint32_t sample,
+                   FrameResources& r)
+{
+    const FrameSettings& s = frame.settings;
+    const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height);
+    DepthMaps& maps = *r.depth_maps;
+    const auto views = cascade_views(frame.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
+                                     r.scene->bounds());
+    if (maps.shadow_valid && views == maps.shadow_views) return;
+    maps.shadow_views = views;
+    maps.shadow_valid = true;
+    add_shadow(graph, maps, *r.scene);
+}
+
 // The shadows of a sample: from another point of each lamp.
 void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstants& c,
                      std::uint32_t sample, FrameResources& r)
@@ -357,6 +379,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const bool apart = frame.lens.radius_m > 0.0f || !frame.shutter.empty();
     for (std::uint32_t i = range.first; i < range.end; ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
+        if (soft_sun(frame, sun)) look_from_sun(graph, frame, sun, i, r);
         fill_views(c, frame, weather, r);
         // Other modes of fog know nothing of what falls.
         c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
@@ -369,6 +392,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             variant.lazarov = settings.lazarov;
             variant.horizon = settings.horizon_fade > 0.0f;
             variant.fog = c.fog_per_m > 0.0f;
+            variant.film = settings.film_lobe && weathered && c.weather.film_smoothness > 0.0f;
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
         }
@@ -431,7 +455,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                              r.parts->label && i == 0},
+                             r.parts->label && i == 0},
                             pixels);
         }
         if (r.adaptive && i == 0) {

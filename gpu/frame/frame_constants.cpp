@@ -13,8 +13,6 @@ namespace petrichor::gpu {
 
 namespace {
 
-constexpr float kSunAngularRadius = 0.00465f;
-
 static_assert(static_cast<int>(FogMode::Metres) == FOG_METRES &&
               static_cast<int>(FogMode::Exp) == FOG_EXP &&
               static_cast<int>(FogMode::Exp2) == FOG_EXP2 &&

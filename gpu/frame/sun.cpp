@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formulas/light/atmosphere.h"
+#include "gpu/frame/view.h"
 
 namespace petrichor::gpu {
 
@@ -26,6 +27,14 @@ glm::vec3 direction_of(float elevation_rad, float azimuth_rad)
 glm::vec3 sun_direction(const Sky& sky)
 {
     return direction_of(sky.sun_elevation_rad, sky.sun_azimuth_rad);
+}
+
+glm::vec3 toward_sun_disc(const glm::vec3& middle, std::uint32_t sample, int samples, std::uint32_t seed)
+{
+    const glm::vec2 at = lens_offset(sample, samples, seed + 7u) * std::tan(kSunAngularRadius);
+    const glm::vec3 side =
+        glm::normalize(glm::cross(middle, std::abs(middle.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+    return glm::normalize(middle + side * at.x + glm::cross(middle, side) * at.y);
 }
 
 glm::vec3 moon_direction(const Sky& sky)

@@ -20,6 +20,11 @@ Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment);
 /// Towards the sun, unit, by the angles of the sky.
 glm::vec3 sun_direction(const Sky& sky);
 
+/// Radians: half of what the sun spans, and the moon.
+inline constexpr float kSunAngularRadius = 0.00465f;
+/// Towards a point of its disc: the middle for sample 0, evenly over it for the others.
+glm::vec3 toward_sun_disc(const glm::vec3& middle, std::uint32_t sample, int samples, std::uint32_t seed);
+
 /// Towards the moon, and its light on a plane at the ground that faces it, lux by channel; none where
 /// the sky has no moon or it is down.
 glm::vec3 moon_direction(const Sky& sky);

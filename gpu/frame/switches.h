@@ -12,7 +12,8 @@
     ROW(shelter, true, "roofs keep rain and snow off")                                           \
     ROW(falling, true, "rain and snow in the air; orthographic views show none")                 \
     ROW(motion_blur, false, "camera and scene move while the shutter is open ([camera] shutter_s)") \
-    ROW(soft_shadows, false, "of lamps by their size: each sample looks from another point of them") \
+    ROW(soft_shadows, false, "of sun and lamps by their size: each sample looks from another point of them") \
+    ROW(film_lobe, true, "a film of water has its own highlight and normal; false: as Lux 2.02")  \
     ROW(snow_body, true, "deep snow has a shape: it rounds edges, stands over them, throws shadows") \
     ROW(lamp_glow, true, "fog, rain and snow glow around lamps")                                 \
     ROW(draw_sky, true, "false: black where the scene ends")                                     \

@@ -1,6 +1,8 @@
 // The lens and the shutter: blur as wide as optics and speed say; lamps' penumbras as wide as the lamps.
+#include <algorithm>
 #include <cmath>
 
+#include "gpu/frame/sun.h"
 #include "gpu/frame/view.h"
 #include "tests/gpu/gpu_fixture.h"
 
@@ -197,6 +199,54 @@ TEST_F(LensTest, APenumbraIsAsWideAsItsLamp)
     // The lamp's width of 0.6 m is met again below the edge; the tenths at its ends are left out.
     EXPECT_GT(soft, 0.3f);
     EXPECT_LT(soft, 0.6f);
+}
+
+// A plate 40 m over the ground below a high sun: its edge's shadow spans what the sun does from there.
+TEST_F(LensTest, ThePenumbraOfTheSunIsAsWideAsItsDisc)
+{
+    constexpr float kHeight = 40.0f;
+    Scene scene = scene_of({quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}),
+                            quad({0, kHeight, 1}, {2, 0, 0}, {0, 0, -2})},
+                           {plain_material(glm::vec3(0.8f), 1.0f)});
+    scene.materials[0].double_sided = true;
+    scene.materials[0].specular = 0.0f;
+    renderer->load(scene, {});
+    Frame frame = dark(96);
+    frame.sky.sun_elevation_rad = 1.5707963f;
+    frame.camera = look({0, 4, 0}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 1.0f;
+    frame.settings.shadows = true;
+    frame.settings.exposure = 1e-4f;
+    // Along the row across the edge: how far a tenth and nine tenths of the light are apart.
+    const auto width_m = [&](bool soft) {
+        frame.settings.soft_shadows = soft;
+        const RenderResult r = renderer->render(frame);
+        std::vector<float> row;
+        for (int x = 0; x < kSize; ++x) row.push_back(pixel(r, x, kSize / 2).g);
+        const float most = *std::max_element(row.begin(), row.end());
+        int between = 0;
+        for (const float light : row) between += light > 0.1f * most && light < 0.9f * most ? 1 : 0;
+        return static_cast<float>(between) / kSize;
+    };
+    const float hard = width_m(false);
+    const float soft = width_m(true);
+    // Of a disc that an edge hides, 0.687 of its width lies between the two.
+    const float wanted = 0.687f * kHeight * 2.0f * 0.00465f;
+    EXPECT_LT(hard, 0.06f);
+    EXPECT_NEAR(soft, wanted, 0.12f * wanted + 0.02f);
+}
+
+TEST(SunDisc, IsEvenAndBeginsInItsMiddle)
+{
+    const glm::vec3 middle = glm::normalize(glm::vec3(0.3f, 0.5f, -0.8f));
+    EXPECT_LT(glm::length(toward_sun_disc(middle, 0, 64, 1) - middle), 1e-6f);
+    int inner = 0;
+    for (std::uint32_t i = 0; i < 1024; ++i) {
+        const float off = glm::length(glm::cross(toward_sun_disc(middle, i, 1024, 1), middle));
+        EXPECT_LT(off, 1.01f * kSunAngularRadius);
+        inner += off < 0.5f * kSunAngularRadius ? 1 : 0;
+    }
+    EXPECT_NEAR(inner / 1024.0, 0.25, 0.01);
 }
 
 // From whichever side a lamp is seen, its points are an even disc.

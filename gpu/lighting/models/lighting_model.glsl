@@ -17,6 +17,7 @@
 #include "formulas/light/layers.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/translucent.h"
+#include "formulas/light/water_film.h"
 
 // A surface point; weather is on it already.
 struct LitPoint {
@@ -36,6 +37,7 @@ struct LitPoint {
     Translucency translucency;  // of the material; the pass adds it
     float curvature;   // of skin, 0 flat .. 1
     float hair_shift;  // radians
+    WaterFilm film;    // of rain; the pass adds it
     float sunlit;      // 0 in the shadow of the sun .. 1
 };
 

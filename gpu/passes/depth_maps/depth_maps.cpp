@@ -80,7 +80,7 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                        .width = map.width,
                        .height = map.height,
                        .bindings = {},
-                       .record = [&scene, &view, falls](PassContext& pass) {
+                       .record = [&scene, view, falls](PassContext& pass) {
                            draw_casters(pass, scene, view.clip_from_world, falls);
                        }});
 }

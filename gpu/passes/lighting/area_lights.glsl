@@ -34,11 +34,19 @@ float shadow_on_glow(LitPoint p, float nl, float visible)
     return shadow_through(p.translucency, nl > 0.0 ? visible * min(4.0 * nl, 1.0) : visible);
 }
 
+// The answer of the surface below its film of water, and the film's.
+vec3 filmed_light(LitPoint p, vec3 l)
+{
+    const vec3 below = model_light(p, l);
+    if (FILM == 0u) return below;
+    return under_film(below, p.film, p.view, l);
+}
+
 // The answer to a light of which so much is seen, and what comes through.
 vec3 shadowed_light(LitPoint p, vec3 l, float visible)
 {
     const float nl = dot(p.normal, l);
-    vec3 radiance = model_light(p, l) * shadow_on_model(p, nl, visible);
+    vec3 radiance = filmed_light(p, l) * shadow_on_model(p, nl, visible);
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, l) *
                                             shadow_on_glow(p, nl, visible));
@@ -155,6 +163,15 @@ vec3 shape_light(LitPoint p, Outline o, float specular, float visible)
         radiance += (p.specular * sum.x + vec3(sum.y)) *
                     (cosine_share(g) * specular * kept * kept);
     }
+    if (FILM != 0u) {
+        const float film_nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
+        const Frame3 above = surface_frame(p.film.normal, p.view);
+        const vec3 g = outline_irradiance(o, lobe_frame(above, ltc_matrix(p.film.roughness, film_nv)));
+        const vec2 sum = split_sum(p.film.normal, p.view, p.film.roughness);
+        radiance *= (1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) *
+                    (1.0 - p.film.share * water_fresnel(film_nv));
+        radiance += (kWaterF0 * sum.x + sum.y) * (cosine_share(g) * specular * p.film.share * p.film.lit);
+    }
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
@@ -254,7 +271,12 @@ vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
     q.specular = p.specular * mirrored;
     q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
                        blurred);
-    return model_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+    if (FILM != 0u) {
+        q.film.roughness = sqrt(min(p.film.roughness * p.film.roughness + 0.5 * wide, 1.0));
+        // The pass of reflections shows the pane itself, as far as it trusts its rays.
+        if (IMAGE_BASED_LIGHT != 0u) q.film.lit *= smoothstep(0.16, 0.3, p.film.roughness);
+    }
+    return filmed_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
 }
 
 // Place of the surface that a neighbour sees; the own one where it sees none.

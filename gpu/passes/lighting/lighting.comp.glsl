@@ -48,6 +48,7 @@ layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
+layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
@@ -93,55 +94,7 @@ vec3 sky_irradiance(vec3 n)
     return max(e, vec3(0.0));
 }
 
-// Share of the sun's disc that is not hidden: hardware 2 x 2 comparisons on a turning disc.
-float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
-{
-    int cascade = 0;
-    while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
-    const float texel_m = frame.shadow_texel_m * frame.cascade_scale[cascade];
-    // Off the surface by a texel, more at grazing light: no acne, little peter-panning.
-    const float grazing = 1.0 - saturate(dot(normal, frame.sun_direction));
-    const vec3 lifted = position + normal * (texel_m * (1.0 + 2.0 * grazing)) +
-                        frame.sun_direction * (texel_m * 0.5);
-    const vec4 map = frame.shadow_from_world[cascade] * vec4(lifted, 1.0);
-    if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
-    const vec2 step_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
-    const float turn = 6.2831853 * dither(texel, frame.sample_index);
-    const vec2 axis = vec2(cos(turn), sin(turn)) * 1.6;
-    float lit = 0.0;
-    lit += texture(shadow_map, vec4(map.xy + step_uv * axis, cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy - step_uv * axis, cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy + step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy - step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
-    return lit * 0.25;
-}
-
-// Share of skylight that reaches a surface past buildings and roofs: each sample of the frame asks a
-// quarter of the sky's directions, so that four samples ask all of them.
-float sky_visibility(vec3 position, vec3 normal, ivec2 texel)
-{
-    const int start = int((hash_u3(uint(texel.x), uint(texel.y), 9u) + frame.sample_index) & 3u);
-    const float turn = 6.2831853 * dither(texel.yx, frame.sample_index + 5u);
-    const vec2 blur = vec2(cos(turn), sin(turn)) * (0.8 / float(textureSize(sky_visibility_map, 0).x));
-    float open = 0.0;
-    float total = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        const int i = (start + k * (SKY_DIRECTIONS / 4)) % SKY_DIRECTIONS;
-        const vec4 direction = frame.sky_direction[i];
-        const float facing = dot(normal, direction.xyz);
-        if (facing <= 0.0) continue;
-        // Directions are spread by their cosine with the vertical: undone for other normals.
-        const float weight = facing / max(direction.y, 0.2);
-        const vec3 lifted = position + normal * (direction.w * 1.2) + direction.xyz * (direction.w * 0.8);
-        const vec4 map = frame.sky_from_world[i] * vec4(lifted, 1.0);
-        const bool inside = all(lessThanEqual(abs(map.xyz - 0.5), vec3(0.5)));
-        const float seen =
-            inside ? texture(sky_visibility_map, vec4(map.xy + blur, float(i), map.z)) : 1.0;
-        open += weight * seen;
-        total += weight;
-    }
-    return total > 0.0 ? open / total : 1.0;
-}
+#include "gpu/passes/lighting/sun_and_sky_shadow.glsl"
 
 // Scale and offset of F0 for GGX.
 vec2 split_sum(vec3 n, vec3 v, float roughness)
@@ -240,7 +193,10 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
         const vec4 size = texelFetch(lights, light * LIGHT_TEXELS + 4);
         if ((WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
             return area_light(p, light, to_light, sphere.w, size, visible);
-        if ((WAYS & LIGHTS_FILL) != 0u) p.lobe.lit *= size.z;
+        if ((WAYS & LIGHTS_FILL) != 0u) {
+            p.lobe.lit *= size.z;
+            p.film.lit *= size.z;
+        }
     }
     if (RECTANGLES != 0u) {
         const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
@@ -373,6 +329,7 @@ void main()
         }
         WeatheredMaterial m = dry_material(dry);
         vec3 n = g.base_normal;
+        WaterFilm film = WaterFilm(0.0, 1.0, 0.0, 0.0, n);
         float closed = 0.0;  // share of a flat water surface over the relief
         if (WEATHER != 0u) {
             SurfaceState state;
@@ -389,7 +346,19 @@ void main()
             }
             if (GAMMA != 0u) dry.water_color.rgb = srgb_codes(dry.water_color.rgb);
             dry.snow_opacity = texelFetch(material_looks, look + 1).x;
-            m = apply_weather(dry, state, frame.weather, frame.look);
+            if (FILM != 0u) {
+                // The film is not mixed into the surface: below it that is as rough as it was.
+                WeatherMoment below = frame.weather;
+                below.film_smoothness = 0.0;
+                m = apply_weather(dry, state, below, frame.look);
+                film = water_film(dry, state, frame.weather);
+                m = below_film(m, film.share);
+                film.normal = normalize(mix(g.base_normal, g.cover_normal, film.level));
+                const float film_facing = dot(film.normal, v);
+                if (film_facing < 0.02) film.normal = normalize(film.normal + v * (0.02 - film_facing));
+            } else {
+                m = apply_weather(dry, state, frame.weather, frame.look);
+            }
             closed = closed_water(state);
             n = normalize(mix(n, g.cover_normal, m.normal_mix));
         }
@@ -414,6 +383,7 @@ void main()
         p.curvature = 0.0;
         p.hair_shift = 0.0;
         p.sunlit = 1.0;
+        p.film = film;
         vec3 mirror_normal = n;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {
             p.model = uint(LIGHTING_MODEL_LAYERED);  // with none it is the same
@@ -536,10 +506,19 @@ void main()
                 reflected.mirror *= 1.0 - kept;
                 coat = vec3(kept * s.specular_occlusion * s.scale);
             }
+            vec3 film_mirror = vec3(0.0);
+            if (FILM != 0u) {
+                const vec2 sum = split_sum(film.normal, v, film.roughness);
+                const float kept = film.share * (kWaterF0 * sum.x + sum.y);
+                reflected.radiance *= 1.0 - kept;
+                reflected.mirror *= 1.0 - kept;
+                coat *= 1.0 - kept;
+                film_mirror = vec3(kept * s.specular_occlusion * s.scale);
+            }
             radiance += reflected.radiance;
             if (PARTS != 0u) parts.of[PART_DIFFUSE_INDIRECT] += reflected.radiance;
             vec3 blurred = vec3(0.0);  // what is mirrored by the maps of the sky alone
-            // The pass of reflections takes one lobe: the coat's where there is one.
+            // The pass of reflections takes one lobe: the coat's where there is one, else the stronger.
             const bool coated = p.layers.coat > 0.0 && p.layers.coat_roughness < kMirrorRoughness;
             if (coated) {
                 mirror = vec4(coat, closed);
@@ -549,7 +528,18 @@ void main()
                 blurred = coat * textureLod(specular_map, reflect(-v, p.layers.other_normal), lod).rgb * seen;
                 radiance += blurred;
             }
-            if (p.roughness < kMirrorRoughness && !coated) {
+            const bool filmed = FILM != 0u && !coated && film.roughness < kMirrorRoughness &&
+                                (p.roughness >= kMirrorRoughness || film_mirror.g > reflected.mirror.g);
+            if (filmed) {
+                mirror = vec4(film_mirror, closed);
+                shape = vec4(octahedral_encode(film.normal), film.roughness, sky_open);
+            } else if (FILM != 0u) {
+                const float lod = film.roughness * float(SKY_PREFILTER_MIPS - 1);
+                const vec3 over = film_mirror * textureLod(specular_map, reflect(-v, film.normal), lod).rgb * seen;
+                radiance += over;
+                blurred += over;
+            }
+            if (p.roughness < kMirrorRoughness && !coated && !filmed) {
                 mirror = vec4(reflected.mirror, closed);
                 shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
