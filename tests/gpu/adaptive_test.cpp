@@ -63,7 +63,7 @@ Scene bars(float pane)
     scene.materials = std::move(materials);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         scene.meshes.push_back({"bar", {primitives[i]}});
-        scene.instances.push_back({"bar", static_cast<int>(i), glm::mat4(1.0f)});
+        scene.instances.push_back({"bar", static_cast<std::uint32_t>(i), glm::mat4(1.0f)});
     }
     return scene;
 }
