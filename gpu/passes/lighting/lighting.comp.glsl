@@ -206,9 +206,9 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     const vec3 l = to_light / max(distance_m, 1.0e-4);
     if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0 && !BLEEDS) return vec3(0.0);
     const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
-    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
     float falloff = light_attenuation(distance_m, sphere.w);
-    if (color.w > -1.5) {  // spot: cosine of the outer cone here, scale in axis.w
+    if ((WAYS & LIGHTS_CONE) != 0u && color.w > -1.5) {  // the cosine of the outer cone
+        const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
     vec3 shines = color.rgb;

@@ -112,6 +112,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         if (nearest) table.ways |= LIGHTS_NEAREST;
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
             table.ways |= LIGHTS_FILL;
+        if (spot) table.ways |= LIGHTS_CONE;
         if (light->profile >= 0) table.ways |= LIGHTS_PROFILE;
         const float kind = spot                ? std::cos(light->outer_cone_rad)
                            : !rectangle        ? LIGHT_POINT

@@ -22,6 +22,7 @@
 #define LIGHTS_NEAREST 2u   // a size, lit from the point nearest to what is mirrored
 #define LIGHTS_FILL 4u      // less than all of its highlights
 #define LIGHTS_PROFILE 8u   // a distribution or picture
+#define LIGHTS_CONE 16u     // a cone: spots
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64
