@@ -47,12 +47,11 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
     const float aspect =
         static_cast<float>(frame.settings.width) / static_cast<float>(frame.settings.height);
     if (frame.settings.shadows && !soft_sun(frame, sun)) {
-        const auto views = cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
-        if (!maps.shadow_valid || views != maps.shadow_views) {
-            maps.shadow_views = views;
-            maps.shadow_valid = true;
-            add_shadow(graph, maps, *r.scene);
-        }
+        const bool coarse = frame.settings.coarse_shadows;
+        const auto views = coarse
+                               ? coarse_views(frame.camera, aspect, sun.direction, r.scene->bounds())
+                               : cascade_views(frame.camera, aspect, sun.direction, r.scene->bounds());
+        add_shadow(graph, maps, *r.scene, *r.triangles, views, coarse ? kCoarseCascade : 0);
     }
     // They shadow skylight, and keep rain and snow off.
     const bool skylight = frame.settings.image_based_light && frame.settings.ambient_occlusion &&
@@ -62,7 +61,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
         if (!maps.sky_valid || views != maps.sky_views) {
             maps.sky_views = views;
             maps.sky_valid = true;
-            add_sky_visibility(graph, maps, *r.scene);
+            add_sky_visibility(graph, maps, *r.scene, *r.triangles);
         }
     }
     // Roofs keep drops off that are drawn one by one; what lies goes by the maps of the sky.
@@ -71,7 +70,7 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
         if (!maps.shelter_valid || !(view == maps.shelter_view)) {
             maps.shelter_view = view;
             maps.shelter_valid = true;
-            add_shelter(graph, maps, *r.scene);
+            add_shelter(graph, maps, *r.scene, *r.triangles);
         }
     }
 }
@@ -152,13 +151,16 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
                 const FrameResources& r)
 {
     const DepthMaps& maps = *r.depth_maps;
+    // One cascade holds all of what is metered: the others end before they begin.
+    const bool coarse = frame.settings.coarse_shadows;
+    c.shadow_texel_m = maps.shadow_views[coarse ? kCoarseCascade : 0].texel_m;
     for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
         c.shadow_from_world[i] = maps.shadow_views[i].map_from_world;
         c.cascade_scale[static_cast<int>(i)] =
-            maps.shadow_views[i].texel_m / std::max(maps.shadow_views[0].texel_m, 1e-9f);
+            maps.shadow_views[i].texel_m / std::max(c.shadow_texel_m, 1e-9f);
     }
-    c.shadow_texel_m = maps.shadow_views[0].texel_m;
-    c.cascade_end_m = glm::vec4(cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
+    c.cascade_end_m = glm::vec4(
+        coarse ? glm::vec3(-1.0f) : cascade_ends_m(frame.camera, r.scene->bounds()), 0.0f);
     c.shelter_from_world = maps.shelter_view.map_from_world;
     if (!maps.sky_valid) c.flags &= ~FRAME_SHELTER;
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
@@ -198,6 +200,30 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     }
 }
 
+// The triangles that the samples of a range may show; they look from one eye, the picture alone is moved.
+std::shared_ptr<const SeenDraws> seen_triangles(const Frame& frame, const Sun& sun,
+                                                const FrameResources& r, SampleRange range)
+{
+    const FrameSettings& s = frame.settings;
+    const shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), 0);
+    SampledView view{c.world_to_clip, s.width, s.height, {}};
+    for (std::uint32_t i = range.first; i < range.end; ++i)
+        view.offsets.push_back(sample_offset(i, s.seed));
+    std::vector<bool> alone(r.scene->draws().size());
+    const auto mark = [&](const Draw& draw) {
+        alone[static_cast<std::size_t>(&draw - r.scene->draws().data())] = true;
+    };
+    if (r.resolve) {
+        for (const DrawRun& run : visible_runs(*r.scene, c.world_to_clip, c.camera_m))
+            if (run.count == 1) mark(*run.first);
+    } else {
+        for (const Draw* draw : visible_draws(*r.scene, c.world_to_clip, c.camera_m)) mark(*draw);
+    }
+    return r.triangles->list(*r.scene, view, false, [&](const Draw& draw) {
+        return alone[static_cast<std::size_t>(&draw - r.scene->draws().data())];
+    });
+}
+
 // Lamps that have a size throw soft shadows where more than one sample looks.
 bool soft_shadows(const Frame& frame, const FrameResources& r)
 {
@@ -217,10 +243,7 @@ void look_from_sun(FrameGraph& graph, const Frame& frame, const Sun& sun, std::u
     DepthMaps& maps = *r.depth_maps;
     const auto views = cascade_views(frame.camera, aspect, toward_sun_disc(sun.direction, sample, s.samples, s.seed),
                                      r.scene->bounds());
-    if (maps.shadow_valid && views == maps.shadow_views) return;
-    maps.shadow_views = views;
-    maps.shadow_valid = true;
-    add_shadow(graph, maps, *r.scene);
+    add_shadow(graph, maps, *r.scene, *r.triangles, views);
 }
 
 // The shadows of a sample: from another point of each lamp.
@@ -235,7 +258,7 @@ void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstan
         lamps[k].position_m += offset;
         c.lamp_offset_m[k] = glm::vec4(offset, 0.0f);
     }
-    r.lamp_shadows->add(graph, *r.scene, lamps);
+    r.lamp_shadows->add(graph, *r.scene, *r.triangles, lamps);
 }
 
 FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
@@ -351,7 +374,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const FallingPlan plan = plan_of(frame, sun, r);
     add_depth_maps(graph, frame, sun, r, weathered, plan);
     const bool soft_lamps = soft_shadows(frame, r);
-    if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, r.lights->shadowed);
+    if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
     add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
@@ -377,6 +400,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     ConstantsRange constants{r.constants, 0};
     // Samples that do not see the same points light them each for itself.
     const bool apart = frame.lens.radius_m > 0.0f || !frame.shutter.empty();
+    const auto seen = apart ? nullptr : seen_triangles(frame, sun, r, range);
     for (std::uint32_t i = range.first; i < range.end; ++i) {
         shared::FrameConstants c = frame_constants(frame, sun, r.scene->bounds(), i);
         if (soft_sun(frame, sun)) look_from_sun(graph, frame, sun, i, r);
@@ -414,7 +438,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (layers > 0) begin_transparent(graph, *r.transparent, *r.parts, constants);
         if (r.resolve) {
             add_visibility(graph, *r.resolve->ids, *r.targets->gbuffer.depth, *r.scene, constants,
-                           c.world_to_clip, c.camera_m, weather, *r.resolve->draws, solid);
+                           c.world_to_clip, c.camera_m, weather, *r.resolve->draws, seen, solid);
             if (listed) {
                 add_ask(graph, *r.targets, *r.resolve, *r.adaptive, lit, constants);
                 if (variant.split)
@@ -425,7 +449,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                                 *r.depth_maps, *r.place, constants, weather, listed);
         } else {
             add_surface(graph, *r.targets, *r.scene, *r.surface_maps, *r.depth_maps, *r.place,
-                        constants, c.world_to_clip, c.camera_m, weather, solid);
+                        constants, c.world_to_clip, c.camera_m, weather, solid, nullptr, seen);
         }
         if (r.decals && decals_in_view(*r.scene, c.world_to_clip)) {
             add_decals(graph, *r.targets, *r.decals, *r.scene, *r.surface_maps, *r.depth_maps,

@@ -35,6 +35,7 @@ struct FrameResources {
     DecalTargets* decals = nullptr;    ///< null: the scene has none
     LightTable* lights = nullptr;
     LampGlow* lamp_glow = nullptr;
+    SeenTriangles* triangles = nullptr;
     FallingTable* falling = nullptr;
     FallingTable* splashes = nullptr;
     PatchLights* patches = nullptr;

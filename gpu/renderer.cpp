@@ -143,6 +143,7 @@ struct Renderer::Impl {
           pictures(device),
           metering(device),
           place(device),
+          triangles(device),
           light_arena(std::make_unique<MemoryArena>(device)),
           environment_arena(std::make_unique<MemoryArena>(device))
     {
@@ -304,6 +305,7 @@ struct Renderer::Impl {
     TargetSet pictures;  ///< of the frames that are asked for
     TargetSet metering;  ///< of the small ones that tell their exposure
     GpuPlace place;
+    SeenTriangles triangles;
     std::unique_ptr<MemoryArena> light_arena;
     LightTable light_table;
     std::unique_ptr<MemoryArena> environment_arena;
@@ -328,6 +330,7 @@ void Renderer::load(const Scene& scene, const std::vector<Texture>& textures,
     for (TargetSet* set : {&impl_->pictures, &impl_->metering}) set->resolve = {};
     impl_->scene = nullptr;
     impl_->patches.load(nullptr);
+    impl_->triangles.forget();
     impl_->depth_maps.forget();
     impl_->lamp_shadows.forget();
     impl_->light_tables.load(scene.light_profiles);
@@ -395,7 +398,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     }
     if (snow && snow->lay(frame)) {
         scene->lay(device, snow->vertices());
-        depth_maps.shadow_valid = false;
+        depth_maps.shadow_valid.fill(false);
     }
     const Light* scene_sun = nullptr;
     if (!frame.sky.analytic_sun) {
@@ -423,6 +426,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.sky = &sky;
     resources.lights = &light_table;
     resources.lamp_glow = &lamp_glow;
+    resources.triangles = &triangles;
     resources.falling = &falling;
     resources.splashes = &splashes;
     resources.patches = &patches;
@@ -466,6 +470,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
             prepare_lights(frame, scene_sun);
             prepare_resolve(set, frame);
         }
+        triangles.reset(*scene);
         FrameGraph graph = build_frame(frame, sun, resources, aov_groups, range, result.falling);
         graph_text += graph.describe();
         for (const PassTime& pass : graph.execute(device, pipelines, descriptors))

@@ -52,6 +52,7 @@ Frame metering_frame(const Frame& frame)
     small.shutter.clear();
     small.lens.radius_m = 0.0f;
     s.aovs = {"snow"};
+    s.coarse_shadows = true;
     s.falling = false;  // so small a picture hardly has any
     // What is unlit is divided by the exposure: it must not be metered by itself.
     s.exposure = 1e12f;

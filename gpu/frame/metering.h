@@ -10,7 +10,8 @@
 namespace petrichor::gpu {
 
 /// The small frame that is rendered in place of `frame` to meter it: its longer side at most 96
-/// pixels, one sample in their centres, no outputs besides the picture but how much snow lies where.
+/// pixels, one sample in their centres, one map of the sun's shadows, no outputs besides the picture but
+/// how much snow lies where.
 Frame metering_frame(const Frame& frame);
 
 /// EV100 (formulas/light/exposure.h) of a picture of RGBA half bits, cd/m2; alpha 0 is sky.

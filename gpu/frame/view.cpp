@@ -181,38 +181,54 @@ glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene)
     return ends;
 }
 
+namespace {
+
+// Of the slice of the view from `begin` to `end` metres: the sphere around it, whose size does not change as the camera turns.
+DepthView slice_view(const Camera& camera, float aspect, const glm::vec3& to_sun, const Bounds& scene,
+                     float begin, float end)
+{
+    const Axes axes = axes_of(camera);
+    const float half_y = scene::half_extent_m(camera, 1, 1).y;
+    const float k = half_y * half_y * (1.0f + aspect * aspect);
+    float along;
+    float radius;
+    if (camera.orthographic_height_m > 0.0f) {
+        along = 0.5f * (begin + end);
+        radius = std::sqrt(k + 0.25f * (end - begin) * (end - begin));
+    } else {
+        along = std::min(0.5f * (begin + end) * (1.0f + k), end);
+        radius = std::sqrt((end - along) * (end - along) + k * end * end);
+    }
+    const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
+    glm::vec3 centre = axes.position + axes.forward * along;
+    if (scene_radius < radius) {  // a small scene: no texels are spent around it
+        centre = 0.5f * (scene.low + scene.high);
+        radius = scene_radius;
+    }
+    return orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, kShadowMapSize);
+}
+
+}  // namespace
+
 std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float aspect,
                                                      const glm::vec3& to_sun, const Bounds& scene)
 {
-    const Axes axes = axes_of(camera);
     const glm::vec3 ends = cascade_ends_m(camera, scene);
-    const bool orthographic = camera.orthographic_height_m > 0.0f;
-    const float half_y = scene::half_extent_m(camera, 1, 1).y;
     std::array<DepthView, SHADOW_CASCADES> views;
     for (int i = 0; i < SHADOW_CASCADES; ++i) {
         const float begin = i == 0 ? camera.near_m : ends[i - 1] * 0.97f;
-        const float end = ends[i];
-        // The sphere around a slice of the view: its size does not change as the camera turns.
-        const float k = half_y * half_y * (1.0f + aspect * aspect);
-        float along;
-        float radius;
-        if (orthographic) {
-            along = 0.5f * (begin + end);
-            radius = std::sqrt(k + 0.25f * (end - begin) * (end - begin));
-        } else {
-            along = std::min(0.5f * (begin + end) * (1.0f + k), end);
-            radius = std::sqrt((end - along) * (end - along) + k * end * end);
-        }
-        const glm::vec3 scene_centre = 0.5f * (scene.low + scene.high);
-        const float scene_radius = 0.5f * glm::length(scene.high - scene.low);
-        glm::vec3 centre = axes.position + axes.forward * along;
-        if (scene_radius < radius) {  // a small scene: no texels are spent around it
-            centre = scene_centre;
-            radius = scene_radius;
-        }
         views[static_cast<std::size_t>(i)] =
-            orthographic_view(-to_sun, centre, std::max(radius, 1e-3f), scene, kShadowMapSize);
+            slice_view(camera, aspect, to_sun, scene, begin, ends[i]);
     }
+    return views;
+}
+
+std::array<DepthView, SHADOW_CASCADES> coarse_views(const Camera& camera, float aspect,
+                                                    const glm::vec3& to_sun, const Bounds& scene)
+{
+    std::array<DepthView, SHADOW_CASCADES> views;
+    views[kCoarseCascade] = slice_view(camera, aspect, to_sun, scene, camera.near_m,
+                                       cascade_ends_m(camera, scene)[SHADOW_CASCADES - 1]);
     return views;
 }
 

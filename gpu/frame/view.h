@@ -25,6 +25,12 @@ void set_camera(shared::FrameConstants& constants, const Camera& camera, int wid
 /// Ends of the shadow cascades along the view axis, metres.
 glm::vec3 cascade_ends_m(const Camera& camera, const Bounds& scene);
 
+/// The last cascade is the one that holds the whole view where one is enough.
+inline constexpr std::size_t kCoarseCascade = SHADOW_CASCADES - 1;
+/// Views of which that one alone counts.
+std::array<DepthView, SHADOW_CASCADES> coarse_views(const Camera& camera, float aspect,
+                                                    const glm::vec3& to_sun, const Bounds& scene);
+
 /// The cascades' views from the sun. `to_sun` is a unit vector.
 std::array<DepthView, SHADOW_CASCADES> cascade_views(const Camera& camera, float aspect,
                                                      const glm::vec3& to_sun, const Bounds& scene);

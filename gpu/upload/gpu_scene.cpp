@@ -149,6 +149,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         std::uint32_t first_index, index_count;
         std::int32_t vertex_offset;
         glm::vec3 low, high;
+        std::uint32_t vertex_count;
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -158,7 +159,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
             Range range{static_cast<std::uint32_t>(indices.size()),
                         static_cast<std::uint32_t>(p.indices.size()),
                         static_cast<std::int32_t>(vertices.size()), glm::vec3(1e30f),
-                        glm::vec3(-1e30f)};
+                        glm::vec3(-1e30f), static_cast<std::uint32_t>(p.positions.size())};
             for (std::size_t i = 0; i < p.positions.size(); ++i) {
                 const Vertex v = vertex_of(p, i);
                 vertices.push_back(v);
@@ -181,6 +182,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
             draw.first_index = range.first_index;
             draw.index_count = range.index_count;
             draw.vertex_offset = range.vertex_offset;
+            draw.vertex_count = range.vertex_count;
             draw.material = primitives[p].material;
             draw.instance_id = static_cast<std::uint32_t>(i);
             draw.to_world = instance.to_world;
@@ -245,6 +247,12 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
         draw.material = part.material;
         draw.instance_id = part.instance_id;
         draw.overlay = true;
+        const auto own = std::span(overlay.indices).subspan(part.first_index, part.index_count);
+        if (!own.empty()) {
+            const auto [least, most] = std::minmax_element(own.begin(), own.end());
+            draw.first_vertex = *least;
+            draw.vertex_count = *most - *least + 1;
+        }
         place_sphere(draw, part.box);
         draws_.push_back(draw);
     }
@@ -252,6 +260,7 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     sort_draws(draws_, materials_);
     for (Draw& draw : draws_) {
+        draw.most_indices = draw.index_count;
         if (draw.overlay) overlay_counts_.push_back(std::exchange(draw.index_count, 0));
     }
     // Compute shaders fetch corners through texel views; a scene beyond their size has none.
@@ -259,17 +268,20 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene, const O
     as_texels_ = texels > 0 && texels <= device.limits().maxTexelBufferElements;
     const VkBufferUsageFlags texel_usage =
         as_texels_ ? VkBufferUsageFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT} : 0;
+    const bool on_cpu = device.info().kind == "cpu";  // SeenTriangles reads both
     vertices_ = arena_.buffer(
         {.name = "scene_vertices",
          .size = vertices.size() * sizeof(Vertex),
          .usage =
              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texel_usage,
-         .texel_format = as_texels_ ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED});
+         .texel_format = as_texels_ ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED,
+         .host = on_cpu});
     indices_ = arena_.buffer(
         {.name = "scene_indices",
          .size = indices.size() * 4,
          .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texel_usage,
-         .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED});
+         .texel_format = as_texels_ ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED,
+         .host = on_cpu});
     upload_buffer(device, *vertices_, std::as_bytes(std::span(vertices)));
     upload_buffer(device, *indices_, std::as_bytes(std::span(indices)));
 }

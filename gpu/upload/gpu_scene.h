@@ -26,6 +26,9 @@ struct Draw {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     std::int32_t vertex_offset = 0;
+    std::uint32_t first_vertex = 0;  ///< from vertex_offset: the least of its indices
+    std::uint32_t vertex_count = 0;
+    std::uint32_t most_indices = 0;  ///< index_count where it is shown
     std::uint32_t material = 0;
     std::uint32_t instance_id = 0;
     std::uint32_t look = 0;  ///< number of its instance's look, from 1; 0: none

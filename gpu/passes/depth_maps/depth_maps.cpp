@@ -21,8 +21,31 @@ ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uin
     return {device.handle(), view};
 }
 
+namespace {
+
+bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
+{
+    const GpuMaterial& material = scene.materials()[draw.material];
+    if (!draw.casts || draw.index_count == 0) return false;
+    if (draw.overlay && falls != Falls::Light) return false;
+    if (material.blended && falls == Falls::Rain) return false;
+    if (material.glows && falls == Falls::Lamp) return false;
+    return material.casts_shadows || falls == Falls::Rain;
+}
+
+}  // namespace
+
+std::shared_ptr<const SeenDraws> seen_casters(SeenTriangles& triangles, const GpuScene& scene,
+                                              const glm::mat4& clip_from_world, int size, Falls falls)
+{
+    const Frustum frustum(clip_from_world);
+    return triangles.list(scene, {clip_from_world, size, size}, true, [&](const Draw& draw) {
+        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m);
+    });
+}
+
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
-                  Falls falls)
+                  Falls falls, const SeenDraws* seen)
 {
     const VkCommandBuffer commands = pass.commands();
     bind_geometry(commands, scene);
@@ -39,18 +62,16 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     masked.sets = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
 
     const Frustum frustum(clip_from_world);
+    SeenBinder binder(commands, scene, seen);
     const Pipeline* bound = nullptr;
     std::uint32_t bound_material = UINT32_MAX;
     for (const Draw& draw : scene.draws()) {
-        if (!draw.casts) continue;
+        if (!is_caster(scene, draw, falls)) continue;
         const GpuMaterial& material = scene.materials()[draw.material];
-        if (draw.index_count == 0) continue;
-        if (draw.overlay && falls != Falls::Light) continue;
-        if (material.blended && falls == Falls::Rain) continue;
-        if (material.glows && falls == Falls::Lamp) continue;
-        if (!material.casts_shadows && falls != Falls::Rain) continue;
         const bool holes = material.masked || material.blended;
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
+        const SeenRange range = binder.range_of(draw);
+        if (range.index_count == 0) continue;
         const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
         if (bound != &wanted) {
             pass.bind(wanted);
@@ -65,23 +86,25 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         // Thin things such as leaves and roofs of one polygon cast from both sides.
         set_facing(commands, VK_CULL_MODE_NONE, draw.mirrored);
         pass.push(clip_from_world * draw.to_world);
-        vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index, draw.vertex_offset, 0);
+        binder.draw(draw, range);
     }
 }
 
 namespace {
 
 void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
-                   const DepthView& view, GpuImage& map, VkImageView layer, Falls falls)
+                   SeenTriangles& triangles, const DepthView& view, GpuImage& map, VkImageView layer,
+                   Falls falls)
 {
+    const auto seen = seen_casters(triangles, scene, view.clip_from_world, map.width, falls);
     graph.add(DrawPass{.name = name,
                        .colors = {},
                        .depth = Attachment(map, layer),
                        .width = map.width,
                        .height = map.height,
                        .bindings = {},
-                       .record = [&scene, view, falls](PassContext& pass) {
-                           draw_casters(pass, scene, view.clip_from_world, falls);
+                       .record = [&scene, view, falls, seen](PassContext& pass) {
+                           draw_casters(pass, scene, view.clip_from_world, falls, seen.get());
                        }});
 }
 
@@ -119,25 +142,31 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
     }
 }
 
-void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
+void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
+                const std::array<DepthView, SHADOW_CASCADES>& views, std::size_t first)
 {
-    for (std::size_t i = 0; i < SHADOW_CASCADES; ++i) {
-        add_depth_map(graph, "shadow", scene, maps.shadow_views[i], *maps.shadow,
+    for (std::size_t i = first; i < SHADOW_CASCADES; ++i) {
+        if (maps.shadow_valid[i] && views[i] == maps.shadow_views[i]) continue;
+        maps.shadow_views[i] = views[i];
+        maps.shadow_valid[i] = true;
+        add_depth_map(graph, "shadow", scene, triangles, maps.shadow_views[i], *maps.shadow,
                       maps.shadow_layers[i].get(), Falls::Light);
     }
 }
 
-void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
+void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
+                        SeenTriangles& triangles)
 {
     for (std::size_t i = 0; i < SKY_DIRECTIONS; ++i) {
-        add_depth_map(graph, "sky_visibility", scene, maps.sky_views[i], *maps.sky,
+        add_depth_map(graph, "sky_visibility", scene, triangles, maps.sky_views[i], *maps.sky,
                       maps.sky_layers[i].get(), Falls::Sky);
     }
 }
 
-void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene)
+void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
+                 SeenTriangles& triangles)
 {
-    add_depth_map(graph, "shelter", scene, maps.shelter_view, *maps.shelter,
+    add_depth_map(graph, "shelter", scene, triangles, maps.shelter_view, *maps.shelter,
                   maps.shelter->view.get(), Falls::Rain);
 }
 

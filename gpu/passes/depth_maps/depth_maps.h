@@ -5,7 +5,7 @@
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/depth_view.h"
-#include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/seen_triangles.h"
 
 namespace petrichor::gpu {
 
@@ -22,12 +22,16 @@ struct DepthMaps {
     std::array<DepthView, SHADOW_CASCADES> shadow_views;
     DepthView shelter_view;
     std::array<DepthView, SKY_DIRECTIONS> sky_views;
-    bool shadow_valid = false;
+    std::array<bool, SHADOW_CASCADES> shadow_valid{};
     bool shelter_valid = false;
     bool sky_valid = false;
 
     /// Draws all of them again with the next frame that asks.
-    void forget() { shadow_valid = shelter_valid = sky_valid = false; }
+    void forget()
+    {
+        shadow_valid.fill(false);
+        shelter_valid = sky_valid = false;
+    }
 };
 
 /// What a map is for: light passes through what is blended, in part; rain and snow are not asked. What
@@ -38,25 +42,32 @@ enum class Falls { Light, Sky, Rain, Lamp };
 
 /// Draws every caster that the view can see.
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
-                  Falls falls);
+                  Falls falls, const SeenDraws* seen = nullptr);
+
+/// Those of the casters' triangles that a square map of `size` texels may show.
+std::shared_ptr<const SeenDraws> seen_casters(SeenTriangles& triangles, const GpuScene& scene,
+                                              const glm::mat4& clip_from_world, int size, Falls falls);
 
 /// One layer of an array as an attachment.
 ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer);
 
-// Depth of the scene from the sun, all cascades.
+// Depth of the scene from the sun: the cascades from number `first` on, those whose views have changed.
 //
 //   writes   shadow
-void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
+                const std::array<DepthView, SHADOW_CASCADES>& views, std::size_t first = 0);
 
 // Depth of the scene from all over the sky, for the shadow of skylight.
 //
 //   writes   sky
-void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+void add_sky_visibility(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
+                        SeenTriangles& triangles);
 
 // Depth of the scene along the falling rain.
 //
 //   writes   shelter
-void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene);
+void add_shelter(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene,
+                 SeenTriangles& triangles);
 
 }  // namespace petrichor::gpu
 

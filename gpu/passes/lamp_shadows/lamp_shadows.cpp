@@ -74,7 +74,8 @@ void LampShadows::reserve(int lamps)
     }
 }
 
-void LampShadows::add(FrameGraph& graph, const GpuScene& scene, const std::vector<Light>& lamps)
+void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& triangles,
+                      const std::vector<Light>& lamps)
 {
     reserve(static_cast<int>(lamps.size()));
     drawn_.resize(std::max(drawn_.size(), lamps.size()));
@@ -89,6 +90,7 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, const std::vecto
         for (int face = 0; face < 6; ++face) {
             if (!is_lit(lamp, kFaces[static_cast<std::size_t>(face)][2])) continue;
             const glm::mat4 view = lamp_face_view(wanted.position_m, face);
+            const auto seen = seen_casters(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp);
             graph.add(DrawPass{
                 .name = "lamp_shadows",
                 .colors = {},
@@ -96,8 +98,8 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, const std::vecto
                 .width = LAMP_MAP_SIZE,
                 .height = LAMP_MAP_SIZE,
                 .bindings = {},
-                .record = [&scene, view](PassContext& pass) {
-                    draw_casters(pass, scene, view, Falls::Lamp);
+                .record = [&scene, view, seen](PassContext& pass) {
+                    draw_casters(pass, scene, view, Falls::Lamp, seen.get());
                 }});
         }
     }

@@ -26,7 +26,8 @@ public:
     // Draws the maps of these lamps, where they do not hold them already.
     //
     //   writes   map
-    void add(FrameGraph& graph, const GpuScene& scene, const std::vector<Light>& lamps);
+    void add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& triangles,
+             const std::vector<Light>& lamps);
 
 private:
     struct Drawn {

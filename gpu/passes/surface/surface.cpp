@@ -24,7 +24,7 @@ const char* fragment_shader(const GBufferParts& parts)
 void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene, SurfaceMaps& maps,
                  DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
-                 const VisibleWeather& weather, Draws which, const SurfaceLayer* layer)
+                 const VisibleWeather& weather, Draws which, const SurfaceLayer* layer, std::shared_ptr<const SeenDraws> seen)
 {
     GBuffer& g = targets.gbuffer;
     const GBufferParts parts =
@@ -72,9 +72,12 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     pass.pipelines().set_layout(desc.sets[1]);
                 bind_geometry(commands, scene);
                 const auto draws = visible_draws(scene, world_to_clip, camera_m, which);
+                SeenBinder binder(commands, scene, seen.get());
                 const Pipeline* bound = nullptr;
                 std::uint32_t bound_material = UINT32_MAX;
                 const auto record = [&](const GraphicsDesc& wanted, const Draw& draw, bool shaded) {
+                    const SeenRange range = binder.range_of(draw);
+                    if (range.index_count == 0) return;
                     const GpuMaterial& material = scene.materials()[draw.material];
                     const Pipeline& pipeline = pass.pipelines().graphics(wanted);
                     if (&pipeline != bound) {
@@ -88,8 +91,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                     }
                     set_facing(commands, material.cull, draw.mirrored);
                     pass.push(draw_constants(draw));
-                    vkCmdDrawIndexed(commands, draw.index_count, 1, draw.first_index,
-                                     draw.vertex_offset, 0);
+                    binder.draw(draw, range);
                 };
                 // Depth of the opaque things first, where shading is dear: then each pixel is
                 // shaded once.

@@ -8,6 +8,7 @@
 #include "gpu/passes/depth_maps/depth_maps.h"
 #include "gpu/passes/surface_maps/surface_maps.h"
 #include "gpu/upload/draw.h"
+#include "gpu/upload/seen_triangles.h"
 #include "gpu/place/gpu_place.h"
 
 namespace petrichor::gpu {
@@ -29,7 +30,8 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                  DepthMaps& depth_maps, GpuPlace& place, const ConstantsRange& constants,
                  const glm::mat4& world_to_clip, const glm::vec3& camera_m,
                  const VisibleWeather& weather, Draws draws = Draws::All,
-                 const SurfaceLayer* layer = nullptr);
+                 const SurfaceLayer* layer = nullptr,
+                 std::shared_ptr<const SeenDraws> seen = nullptr);
 
 }  // namespace petrichor::gpu
 

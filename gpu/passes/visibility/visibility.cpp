@@ -25,7 +25,7 @@ shared::VisibilityDraw draw_constants(const GpuScene& scene, const Draw& draw)
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
                     const glm::vec3& camera_m, const VisibleWeather& weather,
-                    GpuBuffer& draw_table, Draws draws)
+                    GpuBuffer& draw_table, std::shared_ptr<const SeenDraws> seen, Draws draws)
 {
     graph.add(DrawPass{
         .name = "visibility",
@@ -34,7 +34,8 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
         .width = ids.width,
         .height = ids.height,
         .bindings = {{VISIBILITY_FRAME, frame_binding(constants)},
-                     {VISIBILITY_DRAWS, texels(draw_table)}},
+                     {VISIBILITY_DRAWS, texels(draw_table)},
+                     {VISIBILITY_NUMBERS, texels(seen ? *seen->numbers : draw_table)}},
         .record =
             [=, &scene](PassContext& pass) {
                 GraphicsDesc opaque;
@@ -50,9 +51,13 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                 masked.attributes = {vertex_attributes()[0], vertex_attributes()[3],
                                      vertex_attributes()[4], vertex_attributes()[5]};
                 bind_geometry(pass.commands(), scene);
+                SeenBinder binder(pass.commands(), scene, seen.get());
                 for (const DrawRun& run : visible_runs(scene, world_to_clip, camera_m, draws)) {
                     const Draw* draw = run.first;
+                    const SeenRange range = run.count > 1 ? SeenRange{} : binder.range_of(*draw);
+                    if (range.index_count == 0) continue;
                     const Specialization instanced{VISIBILITY_SPEC_INSTANCED, run.count > 1};
+                    const Specialization listed{VISIBILITY_SPEC_LISTED, !range.whole()};
                     const GpuMaterial& material = scene.materials()[draw->material];
                     if (has_holes(scene, *draw)) {
                         GraphicsDesc desc = masked;
@@ -62,21 +67,26 @@ void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const Gpu
                                                {SURFACE_SPEC_WATER, weather.water ? material.water : 0u},
                                                {SURFACE_SPEC_SNOW, weather.snow ? material.snow : 0u},
                                                {SURFACE_SPEC_FADE, draw->fade != 0},
-                                               instanced};
+                                               instanced,
+                                               listed};
                         desc.sets.push_back(types_of(material.bindings));
                         pass.bind(pass.pipelines().graphics(desc));
                         pass.bind_set(
                             1, pass.descriptors().set(pass.pipelines().set_layout(desc.sets[1]),
                                                       material.bindings));
                     } else {
-                        opaque.specialization = {instanced};
+                        opaque.specialization = {instanced, listed};
                         pass.bind(pass.pipelines().graphics(opaque));
                     }
                     set_facing(pass.commands(), material.cull, draw->mirrored);
-                    const shared::VisibilityDraw first = draw_constants(scene, *draw);
-                    pass.push(first);
-                    vkCmdDrawIndexed(pass.commands(), draw->index_count, run.count, draw->first_index,
-                                     draw->vertex_offset, run.count > 1 ? first.draw : 0);
+                    shared::VisibilityDraw push = draw_constants(scene, *draw);
+                    push.first_number = range.first_index / 3;
+                    pass.push(push);
+                    if (run.count > 1) {
+                        binder.draw_run(*draw, run.count, push.draw);
+                    } else {
+                        binder.draw(*draw, range);
+                    }
                 }
             },
     });

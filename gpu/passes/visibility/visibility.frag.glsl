@@ -4,10 +4,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/passes/visibility/visibility_io.h"
 
+#include "gpu/passes/visibility/visibility_number.glsl"
+
 layout(location = 0) flat in uint in_draw;
 layout(location = 0) out uvec2 out_id;
 
 void main()
 {
-    out_id = uvec2(in_draw + 1u, uint(gl_PrimitiveID));
+    out_id = uvec2(in_draw + 1u, triangle_number());
 }

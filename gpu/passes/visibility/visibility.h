@@ -5,6 +5,7 @@
 #include "gpu/frame/constants_range.h"
 #include "gpu/frame/frame_constants.h"
 #include "gpu/upload/draw.h"
+#include "gpu/upload/seen_triangles.h"
 
 namespace petrichor::gpu {
 
@@ -17,7 +18,7 @@ namespace petrichor::gpu {
 void add_visibility(FrameGraph& graph, GpuImage& ids, GpuImage& depth, const GpuScene& scene,
                     const ConstantsRange& constants, const glm::mat4& world_to_clip,
                     const glm::vec3& camera_m, const VisibleWeather& weather, GpuBuffer& draw_table,
-                    Draws draws = Draws::All);
+                    std::shared_ptr<const SeenDraws> seen, Draws draws = Draws::All);
 
 }  // namespace petrichor::gpu
 

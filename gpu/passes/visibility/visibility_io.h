@@ -8,9 +8,12 @@
 // Set 0: the frame. Set 1 (draws with holes): the material, as gpu/upload/material_io.h has it.
 #define VISIBILITY_FRAME 0
 #define VISIBILITY_DRAWS 1
+#define VISIBILITY_NUMBERS 2  // of triangles that were sorted out (gpu/upload/seen_triangles.h)
 
 // 1: many instances, numbers of the table of draws; 0: one, as it is pushed
 #define VISIBILITY_SPEC_INSTANCED 40
+// 1: the triangles of the draw were sorted out, their numbers stand in the table
+#define VISIBILITY_SPEC_LISTED 41
 
 SHARED_BEGIN
 
@@ -20,6 +23,7 @@ struct VisibilityDraw {
     uint draw;         // index into the scene's draws
     uint instance_id;
     uint fade;  // as DrawConstants has it
+    uint first_number;  // where the table has the draw's first triangle
 };
 
 SHARED_END

@@ -6,7 +6,7 @@
 #include "gpu/passes/surface/parallax.glsl"
 #include "gpu/passes/visibility/visibility_io.h"
 
-#include "gpu/passes/visibility/visibility_place.glsl"
+#include "gpu/passes/visibility/visibility_number.glsl"
 layout(location = 0) in vec4 in_uv;
 layout(location = 1) in float in_alpha;
 layout(location = 2) flat in uint in_draw;
@@ -35,5 +35,5 @@ void main()
     }
     if (FADE != 0u && faded(draw.fade, at.pixel)) discard;
     if (hole_in(at, alpha_at(at))) discard;
-    out_id = uvec2(in_draw + 1u, uint(gl_PrimitiveID));
+    out_id = uvec2(in_draw + 1u, triangle_number());
 }

@@ -1,0 +1,108 @@
+#ifndef PETRICHOR_GPU_UPLOAD_SEEN_TRIANGLES_H
+#define PETRICHOR_GPU_UPLOAD_SEEN_TRIANGLES_H
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gpu/upload/gpu_scene.h"
+
+namespace petrichor::gpu {
+
+/// Where the points lie that a view samples, and from where it looks.
+struct SampledView {
+    glm::mat4 clip_from_world{1.0f};
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec2> offsets{glm::vec2(0.0f)};  ///< of the samples, pixels from the middle of one
+};
+
+/// Indices of those of a draw's triangles that some sample may meet, in the order of the draw.
+struct SeenRange {
+    static constexpr std::uint32_t kWhole = UINT32_MAX;  ///< not sorted out: all of the scene's
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = kWhole;
+    bool whole() const { return index_count == kWhole; }
+};
+
+/// What of a scene a view may see: a range for each draw of the scene's list.
+struct SeenDraws {
+    std::vector<SeenRange> ranges;
+    const GpuBuffer* indices = nullptr;
+    GpuBuffer* numbers = nullptr;  ///< R32UI: which triangle of its draw the n-th of `indices` is
+};
+
+/// A CPU driver shades and sorts every triangle on one thread, before it knows whether a pixel shows it. Here
+/// those are left out that lie outside of the view, turn their back and are not shown from there, or lie
+/// between the samples. What rounding may decide stays, so that no picture changes.
+class SeenTriangles {
+public:
+    explicit SeenTriangles(const Device& device) : device_(&device) {}
+
+    /// Of a scene that goes away.
+    void forget() { scene_ = nullptr; }
+    /// Forgets what was listed before: no device may be drawing it.
+    void reset(const GpuScene& scene);
+
+    /// `back_faces`: those are shown whatever the materials say. Draws that are `wanted` alone are
+    /// looked at. Null: this device needs no such help, or there is no room for more.
+    template <class Wanted>
+    std::shared_ptr<const SeenDraws> list(const GpuScene& scene, const SampledView& view,
+                                          bool back_faces, const Wanted& wanted)
+    {
+        if (!indices_) return nullptr;
+        std::vector<const Draw*> draws;
+        for (const Draw& draw : scene.draws()) {
+            if (draw.index_count >= kLeastIndices && wanted(draw)) draws.push_back(&draw);
+        }
+        if (draws.empty()) return nullptr;
+        return list_of(scene, view, back_faces, draws);
+    }
+
+private:
+    static constexpr std::uint32_t kLeastIndices = 3 * 256;
+
+    std::shared_ptr<const SeenDraws> list_of(const GpuScene& scene, const SampledView& view,
+                                             bool back_faces, std::span<const Draw* const> draws);
+
+    const Device* device_;
+    std::unique_ptr<MemoryArena> arena_;
+    std::unique_ptr<GpuBuffer> indices_;
+    std::unique_ptr<GpuBuffer> numbers_;
+    std::size_t capacity_ = 0;  // triangles
+    std::size_t used_ = 0;
+    const GpuScene* scene_ = nullptr;  // that the buffers are made for
+    struct Corner {
+        float x, y;     // pixels
+        float nearer;   // 1 / w; 0: not before the eye
+    };
+    std::vector<Corner> corners_;
+};
+
+/// Draws what `seen` (null: all) has left of a draw, and binds the indices that it needs. The scene's are
+/// bound before.
+class SeenBinder {
+public:
+    SeenBinder(VkCommandBuffer commands, const GpuScene& scene, const SeenDraws* seen)
+        : commands_(commands), scene_(&scene), seen_(seen)
+    {
+    }
+    /// The part of the draw that is left; nothing of it: index_count is 0.
+    SeenRange range_of(const Draw& draw) const;
+    void draw(const Draw& draw, const SeenRange& range);
+    /// `count` instances, numbered from `first`; always whole.
+    void draw_run(const Draw& draw, std::uint32_t count, std::uint32_t first);
+
+private:
+    void bind(bool listed);
+
+    VkCommandBuffer commands_;
+    const GpuScene* scene_;
+    const SeenDraws* seen_;
+    bool listed_bound_ = false;
+};
+
+}  // namespace petrichor::gpu
+
+#endif
