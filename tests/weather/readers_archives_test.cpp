@@ -332,6 +332,19 @@ std::string refusal(const std::string& text, const ReadOptions& options = {})
 }
 
 // Where the zone is taken from the longitude, no number of a damaged file becomes a time.
+// Found by fuzzing: the mark was left out after the file was found not to be empty.
+TEST(ReadWeather, AFileOfAByteOrderMarkAloneIsEmpty)
+{
+    for (const char* text : {"\xef\xbb\xbf", "\xef\xbb\xbf\n \n", ""}) {
+        try {
+            read_weather(text);
+            FAIL() << "read";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST(ReadWeather, ALongitudeBeyondTheGlobeIsRefused)
 {
     for (const auto& [name, place] : {std::pair{"environment_canada.csv", "-75.67"},

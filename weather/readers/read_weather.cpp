@@ -94,7 +94,7 @@ void check_sun(const ForcingTable& table, ReadReport& report)
 
 const Reader& recognise_weather(std::string_view text)
 {
-    if (trimmed(text.substr(0, 1 << 16)).empty()) {
+    if (trimmed(without_mark(text).substr(0, 1 << 16)).empty()) {
         throw Error("weather: the file is empty", "Give a text file: " + known_kinds() + ".");
     }
     refuse_binary(text);
