@@ -363,7 +363,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
-    if (!r.surface_maps->generated) {
+    if (weather.any && !r.surface_maps->generated) {
         add_surface_map_sources(graph, *r.surface_maps);
         r.surface_maps->generated = true;
     }
