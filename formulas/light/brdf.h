@@ -84,14 +84,19 @@ SHARED_FN vec3 shade_direct(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float
     return shade_lobe(make_lobe(n, v, diffuse, f0, alpha), l);
 }
 
-// Window of a punctual light: 1/d^2 that reaches 0 at the range (range 0: unlimited).
+// Window of a punctual light over the square of its distance: 1/d^2 that reaches 0 at the range, > 0.
+SHARED_FN float square_attenuation(float d2_m2, float range_m)
+{
+    const float q2 = d2_m2 / (range_m * range_m);
+    return clamp(1.0f - q2 * q2, 0.0f, 1.0f) / max(d2_m2, 1.0e-4f);
+}
+
+// The same over the distance (range 0: unlimited).
 SHARED_FN float light_attenuation(float distance_m, float range_m)
 {
-    const float d2 = max(distance_m * distance_m, 1.0e-4f);
-    if (range_m <= 0.0f) return 1.0f / d2;
-    const float q = distance_m / range_m;
-    const float q2 = q * q;
-    return clamp(1.0f - q2 * q2, 0.0f, 1.0f) / d2;
+    const float d2 = distance_m * distance_m;
+    if (range_m <= 0.0f) return 1.0f / max(d2, 1.0e-4f);
+    return square_attenuation(d2, range_m);
 }
 
 // Cone of a spot light. cosine: of the angle between its axis and the direction to the point.

@@ -179,7 +179,10 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     const vec4 sphere = texelFetch(lights, light * LIGHT_TEXELS);
     const vec3 to_light = sphere.xyz - p.position;
     const float d2 = dot(to_light, to_light);
-    if (d2 >= sphere.w * sphere.w) return vec3(0.0);
+    // A CPU takes both sides of every branch: there what is dark is chosen away at the end.
+    const bool SKIPS = (WAYS & LIGHTS_SKIP) != 0u;
+    bool lit = d2 < sphere.w * sphere.w;
+    if (SKIPS && !lit) return vec3(0.0);
     float visible = 1.0;
     if (LAMP_SHADOWS != 0u) {
         const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
@@ -187,12 +190,13 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
         vec3 from = sphere.xyz;
         if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
         if (number >= 0.0) visible = lamp_visibility(number, from, p.position, faced, texel);
-        if (visible <= 0.0 && !BLEEDS) return vec3(0.0);
+        lit = lit && (visible > 0.0 || BLEEDS);
+        if (SKIPS && !lit) return vec3(0.0);
     }
     if (WAYS != 0u) {
         const vec4 size = texelFetch(lights, light * LIGHT_TEXELS + 4);
         if ((WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
-            return area_light(p, light, to_light, sphere.w, size, visible);
+            return lit ? area_light(p, light, to_light, sphere.w, size, visible) : vec3(0.0);
         if ((WAYS & LIGHTS_FILL) != 0u) {
             p.lobe.lit *= size.z;
             p.film.lit *= size.z;
@@ -200,20 +204,23 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
     }
     if (RECTANGLES != 0u) {
         const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
-        if (glow.w < LIGHT_POINT - 0.5) return rectangle_light(p, light, to_light, glow) * visible;
+        if (glow.w < LIGHT_POINT - 0.5) {
+            return lit ? rectangle_light(p, light, to_light, glow) * visible : vec3(0.0);
+        }
     }
-    const float distance_m = sqrt(d2);
-    const vec3 l = to_light / max(distance_m, 1.0e-4);
-    if (dot(p.normal, l) <= 0.0 && p.layers.transmitted <= 0.0 && !BLEEDS) return vec3(0.0);
+    const vec3 l = to_light * inversesqrt(max(d2, 1.0e-8));
+    lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS);
+    if (SKIPS && !lit) return vec3(0.0);
     const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
-    float falloff = light_attenuation(distance_m, sphere.w);
+    float falloff = square_attenuation(d2, sphere.w);
     if ((WAYS & LIGHTS_CONE) != 0u && color.w > -1.5) {  // the cosine of the outer cone
         const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
     vec3 shines = color.rgb;
     if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
-    return shadowed_light(p, l, visible) * shines * falloff;
+    const vec3 radiance = shadowed_light(p, l, visible) * shines * falloff;
+    return lit ? radiance : vec3(0.0);
 }
 
 // Adds lights far away, then those that reach this tile, in the order of the table.

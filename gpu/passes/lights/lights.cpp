@@ -99,6 +99,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     std::stable_partition(ordered.begin(), ordered.end(),
                           [](const Light* l) { return l->kind == LightKind::Directional; });
     LightTable table;
+    if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
     std::vector<glm::vec4> texels;
     for (const Light* light : ordered) {
         if (light->kind == LightKind::Directional) ++table.directional;

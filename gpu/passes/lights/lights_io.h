@@ -23,6 +23,7 @@
 #define LIGHTS_FILL 4u      // less than all of its highlights
 #define LIGHTS_PROFILE 8u   // a distribution or picture
 #define LIGHTS_CONE 16u     // a cone: spots
+#define LIGHTS_SKIP 32u     // of the device: a branch round what is dark saves its work (not so on a CPU)
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64
