@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "formulas/weather/falls_here.h"
 #include "scene/basins/water.h"
 #include "weather/moment.h"
 
@@ -12,31 +13,34 @@ namespace petrichor::film {
 namespace {
 
 constexpr double kPuddleRain_m = 0.020;  // that full puddles stand for
-// Factors in steps; rain on a windward wall passes 1.
-constexpr double kSteps = 8.0, kMostRain = 2.0;
+// Factors in steps; rain on a windward wall passes 1. Those of rain are even in its root: a tenth of
+// the rain leaves most of its film.
+constexpr double kSteps = 8.0, kRainSteps = 12.0, kMostRain = 2.0;
 
 using Class = std::array<int, 4>;
 
 int step_of(double factor)
 {
-    return static_cast<int>(std::lround(std::clamp(factor, 0.0, kMostRain) * kSteps));
+    return static_cast<int>(std::lround(std::clamp(factor, 0.0, 1.0) * kSteps));
 }
 Class class_of(const weather::PlaceFactors& f)
 {
     // Rain and snow make pictures; drying and freezing may be coarser.
-    return {step_of(f.rain), 2 * ((step_of(f.drying) + 1) / 2), 2 * ((step_of(f.freezing) + 1) / 2),
-            step_of(f.snow)};
+    return {static_cast<int>(
+                std::lround(std::sqrt(std::clamp(f.rain, 0.0, kMostRain)) * kRainSteps)),
+            2 * ((step_of(f.drying) + 1) / 2), 2 * ((step_of(f.freezing) + 1) / 2), step_of(f.snow)};
 }
 weather::PlaceFactors factors_of(const Class& c)
 {
-    return {c[0] / kSteps, c[1] / kSteps, c[2] / kSteps, c[3] / kSteps};
+    const double root = c[0] / kRainSteps;
+    return {root * root, c[1] / kSteps, c[2] / kSteps, c[3] / kSteps};
 }
 
 struct Scaling {
     const char* name;
     double weather::PlaceFactors::*factor;
 };
-// What of a script a factor scales, by the names of ArtistParams and of states set by hand.
+// What of a script a factor scales, by the names of ArtistParams.
 constexpr Scaling kScalings[] = {
     {"accumulation_rate_wetness", &weather::PlaceFactors::rain},
     {"accumulation_rate_cracks", &weather::PlaceFactors::rain},
@@ -46,16 +50,34 @@ constexpr Scaling kScalings[] = {
     {"evaporation_rate_cracks", &weather::PlaceFactors::drying},
     {"evaporation_rate_puddles", &weather::PlaceFactors::drying},
     {"water_to_snow_time_scale", &weather::PlaceFactors::freezing},
-    {"wetness", &weather::PlaceFactors::rain},
-    {"cracks", &weather::PlaceFactors::rain},
-    {"puddles", &weather::PlaceFactors::rain},
-    {"snow", &weather::PlaceFactors::snow},
 };
 
-void scale(weather::Channel& channel, double factor, double most)
+// States set by hand are what has fallen in the open: of a place, by the laws of its pixels without
+// patches.
+double film_here(double open, double share)
 {
-    for (double& value : channel.values) value = std::min(value * factor, most);
+    return open * static_cast<double>(shared::film_share(static_cast<float>(share)));
 }
+double flood_here(double open, double share)
+{
+    return open * static_cast<double>(shared::flood_share(static_cast<float>(share)));
+}
+double snow_here(double open, double share)
+{
+    return static_cast<double>(
+        shared::cover_of_share(static_cast<float>(open), static_cast<float>(share)));
+}
+struct HandSet {
+    const char* name;
+    double weather::PlaceFactors::*factor;
+    double (*here)(double open, double share);
+};
+constexpr HandSet kHandSets[] = {
+    {"wetness", &weather::PlaceFactors::rain, film_here},
+    {"cracks", &weather::PlaceFactors::rain, flood_here},
+    {"puddles", &weather::PlaceFactors::rain, flood_here},
+    {"snow", &weather::PlaceFactors::snow, snow_here},
+};
 
 }  // namespace
 
@@ -66,14 +88,21 @@ WeatherScript script_at_place(const WeatherScript& script, const weather::PlaceF
         const double factor = factors.*s.factor;
         for (const weather::ArtistParameter& p : weather::artist_parameters())
             if (p.name == s.name) out.params.*p.member *= factor;
-        for (const weather::HandSetState& state : weather::hand_set_states())
-            if (state.name == s.name)
-                out.initial.*state.member = std::min(1.0, out.initial.*state.member * factor);
         if (const auto keyed = out.timeline.parameters.find(s.name);
-            keyed != out.timeline.parameters.end())
-            scale(keyed->second, factor, 1e9);
-        if (const auto set = out.timeline.states.find(s.name); set != out.timeline.states.end())
-            scale(set->second, factor, 1.0);
+            keyed != out.timeline.parameters.end()) {
+            for (double& value : keyed->second.values) value = std::min(value * factor, 1e9);
+        }
+    }
+    for (const HandSet& set : kHandSets) {
+        const double share = factors.*set.factor;
+        if (share >= 1.0) continue;  // all that the open has
+        for (const weather::HandSetState& state : weather::hand_set_states())
+            if (state.name == set.name)
+                out.initial.*state.member = set.here(out.initial.*state.member, share);
+        if (const auto keyed = out.timeline.states.find(set.name);
+            keyed != out.timeline.states.end()) {
+            for (double& value : keyed->second.values) value = set.here(value, share);
+        }
     }
     return out;
 }

@@ -29,6 +29,12 @@ SHARED_FN float film_share(float share)
     return 1.0f - exp(-10.0f * share);
 }
 
+// Wetness by the water of a film, as the physical model's (weather/models/physical/mapping.h).
+SHARED_FN float wetness_of_film(float film_mm)
+{
+    return 1.0f - exp(-max(film_mm, 0.0f) / 0.25f);
+}
+
 // Of the level in cracks and puddles: what falls beside them runs in. 1 in the open.
 SHARED_FN float flood_share(float share)
 {

@@ -65,6 +65,14 @@ float fog_per_m(const Frame& frame)
     }
 }
 
+shared::WeatherMoment with_closed_film(shared::WeatherMoment weather)
+{
+    // Lux's 0.85 and 0.5 of a wet hour.
+    weather.film_albedo = 0.85f;
+    weather.film_smoothness = 0.5f;
+    return weather;
+}
+
 shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
                                        std::uint32_t sample_index)
 {
@@ -82,9 +90,7 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.weather = w;
     c.look = frame.look;
     if (frame.place && frame.place->shape->grid.levels > 0) {
-        // Patches hold the film itself: what all of it does to a surface (Lux: 0.85 and 0.5).
-        c.weather.film_albedo = 0.85f;
-        c.weather.film_smoothness = 0.5f;
+        c.weather = with_closed_film(w);
     }
     const float size_m = glm::length(scene.high - scene.low);
     c.ao_radius_m = std::clamp(0.03f * size_m, 0.01f, 0.7f);

@@ -20,6 +20,9 @@ struct VisibleWeather {
 shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const Bounds& scene,
                                        std::uint32_t sample_index);
 
+/// A frame's weather where patches hold the film themselves: what all of it does to a surface.
+shared::WeatherMoment with_closed_film(shared::WeatherMoment weather);
+
 /// What of the weather can show in a frame, constant water and snow of materials included.
 VisibleWeather visible_weather(const Frame& frame, bool scene_has_constant_weather);
 

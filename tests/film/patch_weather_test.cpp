@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "formulas/weather/falls_here.h"
 #include "scene/basins/water.h"
+#include "weather/models/physical/mapping.h"
 #include "weather/physics/constants.h"
 
 namespace petrichor::film {
@@ -239,6 +241,14 @@ TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)
     EXPECT_EQ(film_in(270.0), 0.0f);
 }
 
+// The renderer's text of the map says what the model's does.
+TEST(PatchWeatherOfAScene, WetnessIsThatOfTheModel)
+{
+    for (const double mm : {0.0, 0.01, 0.1, 0.25, 1.0, 5.0})
+        EXPECT_NEAR(static_cast<double>(shared::wetness_of_film(static_cast<float>(mm))),
+                    weather::wetness_of_film({}, mm), 1e-6);
+}
+
 TEST(SceneGroundKeys, DrainsAndGlobsThatMeetNothingAreSaid)
 {
     const scene::Scene scene = yard();
@@ -287,6 +297,16 @@ TEST(ArtistPlaces, KeysKnowShelterAndHollows)
     const auto again = weather::artist_moment(same.solve(), same.timeline, same.sky, 10.0).values;
     EXPECT_EQ(alone.flood_puddles, again.flood_puddles);
     EXPECT_EQ(alone.film_albedo, again.film_albedo);
+    // What is set by hand lies at a place as at a pixel without patches: a fifth of the rain leaves
+    // most of the film.
+    const WeatherScript set = read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = 12, rainfall = 0, script_controlled = 0, "
+        "wetness = 0.9, puddles = 0.5 }]",
+        "test");
+    const auto fifth = script_at_place(set, {0.2, 1.0, 1.0, 1.0});
+    const auto film = weather::artist_moment(fifth.solve(), fifth.timeline, fifth.sky, 10.0).values;
+    EXPECT_NEAR(shared::wetness_of_film(film.film_mm), 0.9f * shared::film_share(0.2f), 0.01f);
+    EXPECT_NEAR(film.flood_puddles, 0.5f * shared::flood_share(0.2f), 0.02f);
     const WeatherScript dry = script_at_place(script, {0.0, 1.0, 1.0, 1.0});
     EXPECT_EQ(weather::artist_moment(dry.solve(), dry.timeline, dry.sky, 10.0).values.film_albedo,
               0.0f);

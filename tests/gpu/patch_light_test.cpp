@@ -263,6 +263,42 @@ TEST_F(PatchLightTest, AMaterialThatChangesChangesItsLight)
     }
 }
 
+// Snow that lies on some patches alone brightens those, whatever the frame says of the open.
+TEST_F(PatchLightTest, PatchesHaveTheirOwnWeather)
+{
+    const Scene scene = yard(lambert(glm::vec3(0.2f)));
+    const auto patches = traced(scene, 0.5f);
+    const scene::Patches& p = patches->patches;
+    auto shape = std::make_shared<PlaceShape>();
+    shape->grid = scene::table_grid(p);
+    shape->table = p.table;
+    PlaceWeather place;
+    place.shape = shape;
+    place.states.assign(std::size_t{p.count} * PLACE_STATE_TEXELS, glm::vec4(0.0f));
+    const auto snowy = [&](std::size_t i) { return p.normal[i].y > 0.9f && p.position_m[i].x > 2.0f; };
+    const auto wet = [&](std::size_t i) { return p.normal[i].x < -0.9f; };
+    for (std::size_t i = 0; i < p.count; ++i) {
+        if (snowy(i)) place.states[i * PLACE_STATE_TEXELS].w = 1.0f;
+        if (wet(i)) place.states[i * PLACE_STATE_TEXELS].x = 1.0f;
+    }
+    const PatchLook look = patch_look(*patches, {}, {}, true, {}, &place);
+    for (std::size_t i = 0; i < p.count; ++i) {
+        if (snowy(i)) {
+            EXPECT_GT(look.albedo[i].y, 0.6f) << i;
+        } else if (wet(i)) {
+            EXPECT_LT(look.albedo[i].y, 0.17f) << i;
+        } else {
+            EXPECT_NEAR(look.albedo[i].y, 0.2f, 1e-3f) << i;
+        }
+    }
+    shared::WeatherMoment white;
+    white.snow_amount = 1.0f;
+    EXPECT_EQ(patch_look(*patches, white, {}, true, {}, &place).albedo, look.albedo);
+    // Of other patches it is not.
+    shape->table.pop_back();
+    EXPECT_NE(patch_look(*patches, white, {}, true, {}, &place).albedo, look.albedo);
+}
+
 TEST_F(PatchLightTest, TheSameBytesAgain)
 {
     const Scene scene = yard(plain_material({0.5f, 0.4f, 0.3f}));

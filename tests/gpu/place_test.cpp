@@ -130,6 +130,22 @@ TEST_F(PlaceTest, FilmsDarkenTheirPatchesOnly)
     EXPECT_LT(luminance(pixel(r, 14, 32)), 0.9f * luminance(pixel(r, 50, 32)));
 }
 
+// What moves and what lies beyond the patches has the frame's own film, not that of a closed one.
+TEST_F(PlaceTest, WhatHasNoPatchHasTheFilmOfTheFrame)
+{
+    load_floor();
+    renderer->load(scene_of({quad({-2, 0, 2}, {2, 0, 0}, {0, 0, -4}),
+                             quad({20, 0, 22}, {4, 0, 0}, {0, 0, -4})},
+                            {plain_material(glm::vec3(0.3f))}),
+                   {});
+    Frame frame = from_above(dry());
+    frame.camera = look({22, 6, 20}, {22, 0, 20}, 0.7f);
+    EXPECT_EQ(aov(renderer->render(frame), "film", 32, 32), 0.0f);
+    frame.weather.film_mm = 0.2f;
+    frame.weather.film_albedo = frame.weather.film_smoothness = 0.3f;
+    EXPECT_NEAR(aov(renderer->render(frame), "film", 32, 32), 1.0f - std::exp(-0.8f), 0.01f);
+}
+
 TEST_F(PlaceTest, PondsAreFlatAndAsDeepAsTheirLevel)
 {
     load_floor();

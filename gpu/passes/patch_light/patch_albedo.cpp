@@ -6,6 +6,8 @@
 
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/surface_weather.h"
+#include "gpu/frame/frame_constants.h"
+#include "gpu/frame/place_io.h"
 #include "scene/material_table.h"
 
 namespace petrichor::gpu {
@@ -68,6 +70,37 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
     return state;
 }
 
+// As a pixel takes it from its patch (gpu/passes/surface/cover.glsl): slope and shelter are in it.
+shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::WeatherMoment& w,
+                                    float height_m, const glm::vec4& shown, float frost)
+{
+    shared::SurfaceState state{};
+    const float amount =
+        shared::saturate(shown.w * m.snow_accumulation.y + m.snow_accumulation.x);
+    if (amount > 0.0f) {
+        state.snow = mean_snow(
+            amount, shared::snow_height_factor(height_m, w.snow_start_height_m, w.snow_height_blend_m),
+            1.0f, m, w.melt * m.snow_accumulation.y);
+    }
+    const glm::vec2 flood{shown.y * m.water_accumulation.y + m.water_accumulation.x,
+                          shown.z * m.water_accumulation.w + m.water_accumulation.z};
+    if (m.wetness != Wetness::None && (flood.x > 0.0f || flood.y > 0.0f)) {
+        state.water =
+            shared::water_cover(flood, m.default_height, 1.0f, 1.0f, m.water_slope_damp).anywhere;
+    }
+    state.film = shown.x;
+    state.frost = frost * (1.0f - state.water);
+    state.snow_smoothness = 0.3f;
+    return state;
+}
+
+bool belongs(const PlaceWeather* place, const scene::Patches& patches)
+{
+    return place && place->shape && place->shape->grid.levels > 0 &&
+           place->states.size() == std::size_t{patches.count} * PLACE_STATE_TEXELS &&
+           place->shape->table == patches.table;
+}
+
 // A factor now over what it was when the patches were coloured; what was 0 stays as it is.
 float over(float now, float before)
 {
@@ -93,8 +126,10 @@ std::vector<Material> changed(std::vector<Material> materials,
 
 PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weather,
                      const shared::WeatherLook& look, bool shelter,
-                     const std::vector<scene::MaterialChange>& changes)
+                     const std::vector<scene::MaterialChange>& changes, const PlaceWeather* place)
 {
+    if (!belongs(place, scene.patches)) place = nullptr;
+    const shared::WeatherMoment closed = with_closed_film(weather);
     const std::vector<Material> materials = changed(scene.materials, changes);
     const scene::Patches& p = scene.patches;
     PatchLook result;
@@ -125,7 +160,12 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         dry.water_color = m.water_color;
         dry.snow_opacity = m.snow_opacity;
         shared::WeatheredMaterial now = shared::dry_material(dry);
-        if (!m.sheltered && any_weather(weather, m)) {
+        if (!m.sheltered && place) {
+            const glm::vec4* texels = &place->states[std::size_t{i} * PLACE_STATE_TEXELS];
+            now = shared::apply_weather(
+                dry, state_of_place(m, weather, p.position_m[i].y, texels[0], texels[1].x), closed,
+                look);
+        } else if (!m.sheltered && any_weather(weather, m)) {
             const float open = shelter ? scene::visible_share(p, i, rain) : 1.0f;
             now = shared::apply_weather(
                 dry, state_of(m, weather, p.position_m[i], p.normal[i].y, open), weather, look);

@@ -19,9 +19,11 @@ struct PatchLook {
 /// height maps at the material's default, roofs by the visibility towards the falling rain. What is
 /// mirrored counts as sent back evenly.
 /// changes: of materials since the scene was loaded (Frame::materials).
+/// place: the weather of the patches themselves; counts where it is of these patches, else null.
 PatchLook patch_look(const PatchScene& patches, const shared::WeatherMoment& weather,
                      const shared::WeatherLook& look, bool shelter,
-                     const std::vector<scene::MaterialChange>& changes = {});
+                     const std::vector<scene::MaterialChange>& changes = {},
+                     const PlaceWeather* place = nullptr);
 
 }  // namespace petrichor::gpu
 

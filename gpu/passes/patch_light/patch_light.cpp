@@ -103,6 +103,13 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         hasher.add_numbers(std::span<const float>(&v.x, 3));
     hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
     hasher.add_bytes(std::as_bytes(std::span(&frame.look, 1)));
+    if (frame.place) {
+        // What shows of a patch; what it holds in SI goes on with every frame.
+        for (std::size_t i = 0; i + 1 < frame.place->states.size(); i += PLACE_STATE_TEXELS) {
+            hasher.add_numbers(std::span<const float>(&frame.place->states[i].x, 4));
+            hasher.add(frame.place->states[i + 1].x);
+        }
+    }
     add_list(hasher, frame.patch_albedo);
     hasher.add(frame.settings.shelter);
     hasher.add(frame.scene_light_scale);
@@ -124,7 +131,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     if (lit_by == lit_by_) return;
 
     PatchLook look = patch_look(*scene_, frame.weather, frame.look, frame.settings.shelter,
-                                frame.materials);
+                                frame.materials, frame.place.get());
     if (frame.patch_albedo.size() == p.count) look.albedo = frame.patch_albedo;
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
     scene::add_sun(p, sun.direction, sun.illuminance, direct);

@@ -24,6 +24,9 @@ LocalWeather weather_everywhere(SurfaceInput at)
     const Exposure open = exposure_to_sky(at);
     here.open = min(open.rain, 1.0);
     here.film = film_share(open.rain);
+    // Beside patches the frame's film is a closed one (gpu/frame/frame_constants.h): how much of it
+    // lies in the open is told by its water.
+    if (PLACE != 0u && frame.place.grid.levels > 0u) here.film *= wetness_of_film(frame.weather.film_mm);
     here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) *
                  flood_share(open.rain);
     here.snow = cover_of_share(frame.weather.snow_amount, open.snow);

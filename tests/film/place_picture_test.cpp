@@ -1,0 +1,106 @@
+// The weather of places in the picture: of a house in wind the wall that it blows on is dark.
+#include "film/weather/artist_places.h"
+#include "film/weather/patch_weather.h"
+#include "scene/patches/surfaces.h"
+#include "scene/patches/tracer.h"
+#include "tests/gpu/gpu_fixture.h"
+#include "tests/scene/patch_scenes.h"
+
+namespace petrichor::film {
+namespace {
+
+using namespace scene::patch_scenes;
+
+// A box of plaster on ground of asphalt, and its places.
+struct House {
+    scene::Scene scene = made();
+    scene::Triangles triangles{scene, {}};
+    scene::Tracer tracer{triangles};
+    scene::Patches patches = cut();
+    std::vector<scene::PatchSurface> surfaces = scene::patch_surfaces(patches, triangles, {});
+    SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+
+    static scene::Scene made()
+    {
+        scene::Scene scene = empty_scene();
+        scene.materials[0] = gpu::plain_material(glm::vec3(0.3f), 0.9f);
+        scene.materials[0].name = "asphalt";
+        scene.materials[0].weather.porosity = 0.7f;
+        add_face(scene, {-10, 0, -10}, {0, 0, 20}, {20, 0, 0});
+        scene::Material plaster = scene.materials[0];
+        plaster.name = "plaster";
+        add_box(scene, {-2, 0, -2}, {2, 3, 2}, false, add_material(scene, plaster));
+        return scene;
+    }
+    scene::Patches cut() const
+    {
+        scene::PatchOptions options;
+        options.cell_m = 0.5f;
+        options.rays = 64;
+        return scene::build_patches(tracer, options);
+    }
+};
+
+WeatherScript storm(double from_deg, double wetness)
+{
+    return read_weather_script(
+        "[weather]\nkeys = [{ time_s = 0, temperature_c = 9, rainfall = 0.0, wind_m_s = 5, "
+        "wind_from_deg = " +
+            std::to_string(from_deg) + ", cloud_cover = 1, script_controlled = 0, wetness = " +
+            std::to_string(wetness) + ", cracks = 0, puddles = 0 }]",
+        "test");
+}
+
+class PlacePicture : public gpu::GpuTest {
+protected:
+    // Luminance of the middle of a wall, `side` 1 the east one, or of the ground before it.
+    float seen(const House& house, const WeatherScript& script, float side, bool ground = false)
+    {
+        gpu::Frame frame;
+        frame.camera = ground ? gpu::look({7.0f * side, 4, 0}, {6.5f * side, 0, 0}, 0.3f)
+                              : gpu::look({8.0f * side, 1.5f, 0}, {2.0f * side, 1.5f, 0}, 0.3f);
+        frame.sky.sun_illuminance = 0.0f;
+        frame.settings.width = frame.settings.height = 32;
+        frame.settings.samples = 4;
+        frame.settings.film_lobe = false;  // what is mirrored is no darkening
+        frame.weather.visibility_m = 1e9f;
+        frame.place = ArtistPlaces(house.sites, script, 50.0, 0.0).at(0.0);
+        const gpu::RenderResult r = renderer->render(frame);
+        float sum = 0.0f;
+        for (int y = 12; y < 20; ++y)
+            for (int x = 12; x < 20; ++x) sum += gpu::luminance(gpu::pixel(r, x, y)) / 64.0f;
+        return sum;
+    }
+};
+
+// A fifth of the rain that falls in the open wets a wall as it wets a pixel without patches: all but.
+TEST_F(PlacePicture, TheWallThatTheStormBlowsOnIsDarkAndTheOtherIsDry)
+{
+    const House house;
+    renderer->load(house.scene, {});
+    renderer->set_environment(gpu::constant_environment(1.0f));
+    for (const float east : {1.0f, -1.0f}) {
+        const double from = east > 0.0f ? 90.0 : 270.0;
+        const WeatherScript wet = storm(from, 1.0), dry = storm(from, 0.0);
+        EXPECT_LT(seen(house, wet, east), 0.86f * seen(house, dry, east)) << from;
+        EXPECT_NEAR(seen(house, wet, -east), seen(house, dry, -east), 0.01f) << from;
+        EXPECT_LT(seen(house, wet, east, true), 0.86f * seen(house, dry, east, true)) << from;
+    }
+}
+
+// A road with a film of .84 looks wet.
+TEST_F(PlacePicture, AFilmOnTheRoadDarkensIt)
+{
+    const House house;
+    renderer->load(house.scene, {});
+    renderer->set_environment(gpu::constant_environment(1.0f));
+    const float dry = seen(house, storm(270.0, 0.0), 1.0f, true);
+    const float half = seen(house, storm(90.0, 0.42), 1.0f, true);
+    const float wet = seen(house, storm(90.0, 0.84), 1.0f, true);
+    EXPECT_LT(half, 0.94f * dry);
+    EXPECT_LT(wet, 0.86f * dry);
+}
+
+}  // namespace
+}  // namespace petrichor::film
