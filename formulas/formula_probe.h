@@ -13,6 +13,7 @@
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
+#include "formulas/light/grain.h"
 #include "formulas/light/iridescence.h"
 #include "formulas/light/layers.h"
 #include "formulas/light/light_map.h"
@@ -35,7 +36,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 43;
+SHARED_CONST int kProbeKinds = 44;
 
 SHARED_FN float probe_light_map(vec4 a, vec4 b)
 {
@@ -325,6 +326,12 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
         const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
         return vec4(way.x + way.y, way.z, reflection_probe_weight(share, 1.0f + a.w, p), blend.y);
+    }
+    if (kind == 43) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 h = grain_normal(n, tangent_at(n, 6.0f * a.z), probe_direction(b.x, b.y),
+                                    ggx_slope(b.z, grain_alpha(0.1f + 0.8f * b.w, c.x)));
+        return vec4(h.x, h.y, h.z, grain_share(vec3(1.0f, 50.0f * c.y, 20.0f * c.z), 40.0f * c.w));
     }
     if (kind == 42) {
         DryMaterial dry;

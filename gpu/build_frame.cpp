@@ -359,7 +359,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     const FrameSettings& settings = frame.settings;
     VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
     // Which material a pixel has is kept with the weather.
-    const bool weathered = weather.any || r.scene->decals_refused();
+    // Shares of two sets lie beside the weather, and light asks for them too.
+    const bool weathered = weather.any || r.scene->decals_refused() || r.scene->two_sets();
     weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
@@ -415,6 +416,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             if ((variant.layers & LAYERS_SKIN) != 0u) r.light_tables->need_skin();
             variant.lazarov = settings.lazarov;
             variant.horizon = settings.horizon_fade > 0.0f;
+            variant.grain = settings.anisotropic_dither > 0.0f &&
+                            (variant.layers & LAYERS_ANISOTROPY) != 0u;
             variant.fog = c.fog_per_m > 0.0f;
             variant.film = settings.film_lobe && weathered && c.weather.film_smoothness > 0.0f;
             variant.night =

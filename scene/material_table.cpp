@@ -29,6 +29,9 @@ void add_gltf_rows(std::vector<Row>& t)
     t.push_back(number<&M::occlusion_strength>("occlusion_strength", 0, 1,
                                                {"", "occlusionTexture", "strength"},
                                                "of the occlusion map; 0 none"));
+    t.push_back(choice<&M::occlusion_texture, &TextureUse::channel>(
+        "occlusion_channel", {"r", "g", "b", "a"}, {kWeather, "", "occlusionChannel"},
+        "channel of the occlusion map that is read: of Lux's combined map g, with translucency in b"));
     t.push_back(number<&M::emissive>("emissive_factor", 0, 1, {"", "", "emissiveFactor"},
                                      "linear red, green, blue, times the texture"));
     t.push_back(
@@ -379,7 +382,7 @@ const std::vector<MaterialTexture>& material_textures()
         texture<&M::normal_texture>("normal_texture", {"", "", "normalTexture"},
                                     "tangent space, green up"),
         texture<&M::occlusion_texture>("occlusion_texture", {"", "", "occlusionTexture"},
-                                       "red: 1 open .. 0 hidden from the sky"),
+                                       "1 open .. 0 hidden from the sky; occlusion_channel"),
         texture<&M::emissive_texture>("emissive_texture", {"", "", "emissiveTexture"},
                                       "sRGB colour"),
         texture<&M::light_map>("light_map_texture", {kWeather, "", "lightMapTexture"},

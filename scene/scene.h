@@ -119,6 +119,10 @@ struct SecondSet {
     float roughness = 1.0f;
     float specular = -1.0f;  ///< negative: as the first set
     float normal_scale = 1.0f;
+    bool occlusion_in_alpha = false;  ///< of the colour texture; false: red of the packed one
+    glm::vec3 scatter_color{0.0f};    ///< of a rim of fibres, as of the first set
+    float scatter_bias = 0.0f;
+    float scatter_power = 8.0f;
     bool own_water = false;  ///< false: that of the first set
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
     glm::vec4 water_color{0.0f};
@@ -195,7 +199,7 @@ struct Material {
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic
     TextureUse normal_texture;              ///< +y up
     float normal_scale = 1.0f;
-    TextureUse occlusion_texture;  ///< R
+    TextureUse occlusion_texture;
     float occlusion_strength = 1.0f;
     glm::vec3 emissive{0.0f};  ///< linear
     float emissive_strength = 1.0f;

@@ -37,6 +37,19 @@ void add_second_set_rows(std::vector<Row>& t)
     t.push_back(number<&M::second, &S::normal_scale>(
         "second_normal_scale", -kLargest, kLargest, {kWeather, "secondNormalTexture", "scale"},
         "of the second normal map's x and y; 0 flat"));
+    t.push_back(flag<&M::second, &S::occlusion_in_alpha>(
+        "second_occlusion_in_alpha", place("secondOcclusionInAlpha"),
+        "alpha of the second base colour texture is its occlusion, as in Lux; false: red of the second "
+        "packed texture is; of mix alone"));
+    t.push_back(number<&M::second, &S::scatter_color>(
+        "second_scatter_color", 0, 1, place("secondScatterColor"),
+        "as scatter_color, of the second set; of mix alone"));
+    t.push_back(number<&M::second, &S::scatter_bias>("second_scatter_bias", 0, 0.5f,
+                                                     place("secondScatterBias"),
+                                                     "as scatter_bias, of the second set"));
+    t.push_back(number<&M::second, &S::scatter_power>("second_scatter_power", 1, 10,
+                                                      place("secondScatterPower"),
+                                                      "as scatter_power, of the second set"));
     t.push_back(channel<&M::second, &S::height, &TextureUse::channel>(
         "second_height_channel", "secondHeightTexture", "channel of the second height map"));
     t.push_back(flag<&M::second, &S::own_water>(
@@ -58,7 +71,7 @@ void add_second_set_textures(std::vector<MaterialTexture>& t)
         "1 the first set, 0 the second; of detail 1 all of it; mix_mask_channel"));
     t.push_back(texture<&M::second, &S::base_color_texture>(
         "second_base_color_texture", place("secondBaseColorTexture"),
-        "sRGB colour; alpha and emission are the first set's"));
+        "sRGB colour; what is cut out or shines is the first set's; alpha: second_occlusion_in_alpha"));
     t.push_back(texture<&M::second, &S::normal_texture>(
         "second_normal_texture", place("secondNormalTexture"), "tangent space, green up"));
     t.push_back(texture<&M::second, &S::metallic_roughness_texture>(

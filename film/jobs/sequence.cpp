@@ -131,7 +131,8 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.lazarov);
     for (const float value :
          {settings.horizon_fade, settings.specular_aa, settings.specular_aa_limit,
-          settings.lod_scale, settings.adaptive}) {
+          settings.lod_scale, settings.adaptive, settings.anisotropic_dither,
+          settings.anisotropic_dither_distance_m, settings.anisotropic_dither_fade_m}) {
         hasher.add(value);
     }
     hasher.add(settings.gamma);
@@ -400,6 +401,9 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.horizon_fade = narrow(scenario.render.horizon_fade);
     settings.specular_aa = narrow(scenario.render.specular_aa);
     settings.specular_aa_limit = narrow(scenario.render.specular_aa_limit);
+    settings.anisotropic_dither = narrow(scenario.render.anisotropic_dither);
+    settings.anisotropic_dither_distance_m = narrow(scenario.render.anisotropic_dither_distance_m);
+    settings.anisotropic_dither_fade_m = narrow(scenario.render.anisotropic_dither_fade_m);
     settings.adaptive = narrow(scenario.render.adaptive);
     settings.lod_scale = narrow(scenario.render.lod_scale);
     settings.gamma = scenario.render.gamma;

@@ -452,6 +452,19 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa = v.number(0.0, 4.0); }},
         {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
+        {{"render", "anisotropic_dither", "0.0",
+          "anisotropic materials mirror their surroundings drawn out along their grain, each sample "
+          "another part of it: 0 not (one bent normal) to 1 as far as their highlights; grainy at few "
+          "samples"},
+         [](Scenario& s, const TomlValue& v) { s.render.anisotropic_dither = v.number(0.0, 1.0); }},
+        {{"render", "anisotropic_dither_distance_m", "50.0", "up to so far from the camera"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.anisotropic_dither_distance_m = v.number(0.0, 10000.0);
+         }},
+        {{"render", "anisotropic_dither_fade_m", "15.0", "over the last of which it fades"},
+         [](Scenario& s, const TomlValue& v) {
+             s.render.anisotropic_dither_fade_m = v.number(0.0, 10000.0);
+         }},
         {{"render", "adaptive", "0.02",
           "pixels whose first two samples differ by less, of the display's range, take no further ones: "
           "0 (all samples everywhere) to 1"},

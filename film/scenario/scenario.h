@@ -191,6 +191,9 @@ struct ScenarioRender : gpu::FrameSwitches {
     double horizon_fade = 0.0;      ///< 0: off
     double specular_aa = 1.0;       ///< 0: off
     double specular_aa_limit = 0.18;
+    double anisotropic_dither = 0.0;  ///< 0: off
+    double anisotropic_dither_distance_m = 50.0;
+    double anisotropic_dither_fade_m = 15.0;
     double adaptive = 0.02;         ///< 0: all samples everywhere
     double lod_scale = 1.0;
     double occlusion_direct = 0.0;  ///< how much occlusion maps darken sun and lamps too

@@ -129,21 +129,6 @@ void plan_pair(scene::TextureUse& surface, scene::TextureUse& normal, float norm
     planner.use(normal, normal_recipe);
 }
 
-void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner,
-                  bool roughness_moves)
-{
-    scene::TextureUse& surface = material.metallic_roughness_texture;
-    const scene::TextureIndex surface_image = surface.texture;
-    const scene::TextureIndex occlusion_image = material.occlusion_texture.texture;
-    plan_pair(surface, material.normal_texture, material.normal_scale,
-              roughness_moves ? nullptr : &material.roughness, scene, planner);
-    if (surface.present() && occlusion_image == surface_image) {
-        material.occlusion_texture.texture = surface.texture;  // one packed image, one read
-    } else {
-        planner.use(material.occlusion_texture, {.kind = Kind::Scalar});
-    }
-}
-
 // One channel, which then is the only one; a file with its own levels keeps all it has.
 void plan_scalar(scene::TextureUse& use, Planner& planner)
 {
@@ -153,6 +138,22 @@ void plan_scalar(scene::TextureUse& use, Planner& planner)
         use.channel = scene::Channel::R;
     }
     planner.use(use, recipe);
+}
+
+void plan_surface(scene::Material& material, const scene::Scene& scene, Planner& planner,
+                  bool roughness_moves)
+{
+    scene::TextureUse& surface = material.metallic_roughness_texture;
+    const scene::TextureIndex surface_image = surface.texture;
+    const scene::TextureIndex occlusion_image = material.occlusion_texture.texture;
+    plan_pair(surface, material.normal_texture, material.normal_scale,
+              roughness_moves ? nullptr : &material.roughness, scene, planner);
+    if (surface.present() && occlusion_image == surface_image &&
+        material.occlusion_texture.channel == scene::Channel::R) {
+        material.occlusion_texture.texture = surface.texture;  // one packed image, one read
+    } else {
+        plan_scalar(material.occlusion_texture, planner);
+    }
 }
 
 void plan_second(scene::SecondSet& second, const scene::Scene& scene, Planner& planner)

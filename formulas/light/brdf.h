@@ -35,6 +35,13 @@ SHARED_FN vec3 schlick_fresnel(vec3 f0, float lh)
     return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
 }
 
+// Between the directions to the eye and to the light; zero, not nothing, where they are opposite.
+SHARED_FN vec3 half_vector(vec3 v, vec3 l)
+{
+    const vec3 sum = v + l;
+    return sum * inversesqrt(max(dot(sum, sum), 1.0e-8f));
+}
+
 // What a lobe needs to know of the surface and the eye: the same for every light.
 struct Lobe {
     vec3 normal;

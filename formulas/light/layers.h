@@ -71,13 +71,13 @@ SHARED_FN float below_sheen(vec3 sheen, float nl, float nv, float roughness)
 SHARED_FN float anisotropic_lobe(vec3 n, vec3 t, vec3 v, vec3 l, float alpha_t, float alpha_b)
 {
     const vec3 b = cross(n, t);
-    const vec3 h = normalize(v + l);
+    const vec3 h = half_vector(v, l);
     const float nl = max(dot(n, l), 1.0e-4f);
     const float nv = max(dot(n, v), 1.0e-4f);
     const float ht = dot(h, t) / alpha_t;
     const float hb = dot(h, b) / alpha_b;
     const float nh = dot(n, h);
-    const float q = ht * ht + hb * hb + nh * nh;
+    const float q = max(ht * ht + hb * hb + nh * nh, 1.0e-6f);
     const float d = 1.0f / (kPi * alpha_t * alpha_b * q * q);
     const float from_l = length(vec3(alpha_t * dot(l, t), alpha_b * dot(l, b), nl));
     const float from_v = length(vec3(alpha_t * dot(v, t), alpha_b * dot(v, b), nv));
@@ -104,20 +104,20 @@ SHARED_FN vec3 shade_layered_lobe(Lobe lobe, vec3 l, vec3 albedo, float roughnes
     if (layers.anisotropy > 0.0f) {
         const float alpha = roughness * roughness;
         const float along = mix(alpha, 1.0f, layers.anisotropy * layers.anisotropy);
-        const float lh = clamp(dot(l, normalize(v + l)), 0.0f, 1.0f);
+        const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
         const float lobe_here = anisotropic_lobe(n, layers.tangent, v, l, along, alpha) * lobe.lit;
         base = (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * lobe_here) * max(facing, 0.0f);
     }
     if (layers.sheen.x + layers.sheen.y + layers.sheen.z > 0.0f) {
         const float nl = max(facing, 0.0f);
-        const float nh = clamp(dot(n, normalize(v + l)), 0.0f, 1.0f);
+        const float nh = clamp(dot(n, half_vector(v, l)), 0.0f, 1.0f);
         base = base * below_sheen(layers.sheen, nl, lobe.nv, layers.sheen_roughness) +
                layers.sheen * (sheen_kept(nl, lobe.nv, nh, layers.sheen_roughness) * nl);
     }
     if (layers.coat > 0.0f) {
         const float nl = max(dot(layers.other_normal, l), 0.0f);
         const float nv = clamp(abs(dot(layers.other_normal, v)), 1.0e-4f, 1.0f);
-        const vec3 h = normalize(v + l);
+        const vec3 h = half_vector(v, l);
         const float coat_alpha = max(layers.coat_roughness * layers.coat_roughness, 0.002f);
         const float coat_here = ggx_distribution(clamp(dot(layers.other_normal, h), 0.0f, 1.0f), coat_alpha) *
                                 ggx_visibility(nl, nv, coat_alpha);

@@ -97,7 +97,7 @@ SHARED_FN vec3 shade_hair(vec3 n, vec3 t, vec3 v, vec3 l, vec3 diffuse, vec3 col
     const float nl = dot(n, l);
     const float nv = dot(n, v);
     if (nl <= 0.0f || nv <= 0.0f) return vec3(0.0f);
-    const float lh = clamp(dot(l, normalize(v + l)), 0.0f, 1.0f);
+    const float lh = clamp(dot(l, half_vector(v, l)), 0.0f, 1.0f);
     const float fresnel = 0.046f + 0.954f * fifth_power(1.0f - lh);
     const float along = max(roughness * roughness, 0.01f);
     const vec3 root = normalize(n - t * shift);

@@ -78,7 +78,7 @@ SHARED_FN vec3 under_film(vec3 base, WaterFilm film, vec3 v, vec3 l)
 {
     const float nl = max(dot(film.normal, l), 0.0f);
     const float nv = clamp(abs(dot(film.normal, v)), 1.0e-4f, 1.0f);
-    const vec3 h = normalize(v + l);
+    const vec3 h = half_vector(v, l);
     const float alpha = max(film.roughness * film.roughness, 0.002f);
     const float here = ggx_distribution(clamp(dot(film.normal, h), 0.0f, 1.0f), alpha) *
                        ggx_visibility(nl, nv, alpha);

@@ -113,6 +113,9 @@ struct FrameSettings : FrameSwitches {
     float horizon_fade = 0.0f;  ///< > 0: mirrors darken below the horizon of the mesh, so fast
     float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off
     float specular_aa_limit = 0.18f;
+    float anisotropic_dither = 0.0f;  ///< 0..1: mirrors of anisotropic surfaces are drawn out by chance ..
+    float anisotropic_dither_distance_m = 50.0f;  ///< .. up to here, fading over the last of it
+    float anisotropic_dither_fade_m = 15.0f;
     float lod_scale = 1.0f;  ///< times the size by which levels of detail are chosen, > 0
     bool patch_light = true;  ///< light between surfaces by patches, when the renderer holds some
     int transparent_layers = 4;  ///< of what lets light through, exact; what is behind goes by chance

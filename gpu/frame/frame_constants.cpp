@@ -113,6 +113,8 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.horizon_fade = s.horizon_fade;
     c.specular_aa = 0.5f * s.specular_aa;
     c.specular_aa_limit = s.specular_aa_limit;
+    c.grain_dither = {s.anisotropic_dither, s.anisotropic_dither_distance_m,
+                      s.anisotropic_dither_fade_m};
     c.bounce = 0.22f + 0.25f * std::clamp(w.snow_amount, 0.0f, 1.0f);
     c.exposure = s.exposure;
     c.exposure_bias = std::exp2(s.exposure_bias_stops);

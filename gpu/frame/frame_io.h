@@ -85,6 +85,7 @@ struct FrameConstants {
     float horizon_fade;      // how fast mirrors darken below the horizon of the mesh
     float specular_aa;       // times the variance of normals inside a pixel
     float specular_aa_limit;
+    vec3 grain_dither;       // of what grained surfaces mirror: spread, distance, fade (formulas/light/grain.h)
     float occlusion_direct;  // how much occlusion maps darken direct light
     float bounce;            // share of skylight that hidden directions still send
     uint flags;

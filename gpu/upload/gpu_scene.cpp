@@ -62,6 +62,17 @@ std::uint32_t snow_bits(const scene::MaterialWeather& weather)
            (weather.snow_mapping == scene::SnowMapping::Local ? SNOW_LOCAL : 0u);
 }
 
+bool mixes(const Material& m)
+{
+    return m.second.use == scene::SecondSetUse::Mix;
+}
+
+bool scatters(const Material& m)
+{
+    return m.scatter_color != glm::vec3(0.0f) ||
+           (mixes(m) && m.second.scatter_color != glm::vec3(0.0f));
+}
+
 // LAYERS_... of a material. A roughness or a direction alone shows nothing.
 std::uint32_t layers_of(const Material& m)
 {
@@ -70,13 +81,14 @@ std::uint32_t layers_of(const Material& m)
            (m.anisotropy > 0.0f ? LAYERS_ANISOTROPY : 0u) |
            (m.diffuse_transmission > 0.0f ? LAYERS_TRANSMISSION : 0u) |
            (m.translucency > 0.0f && m.translucency_scale > 0.0f ? LAYERS_TRANSLUCENT : 0u) |
-           (m.scatter_color != glm::vec3(0.0f) ? LAYERS_SCATTER : 0u);
+           (scatters(m) ? LAYERS_SCATTER : 0u);
 }
 
 // Skin whose diffuse light has a normal of its own.
 bool softens(const Material& m)
 {
-    return m.lighting_model == "skin" && m.skin_blur > 0.0f && m.normal_texture.present();
+    const bool micro = m.second.use == scene::SecondSetUse::Detail && m.second.normal_texture.present();
+    return m.lighting_model == "skin" && m.skin_blur > 0.0f && (m.normal_texture.present() || micro);
 }
 
 std::string lighting_model_of(const Material& material)
@@ -499,7 +511,8 @@ std::uint32_t GpuScene::set_layers(GpuMaterial& material, const Material& m)
         {m.translucency, m.translucency_power, m.translucency_distortion, m.translucency_scale},
         glm::vec4(m.translucency_color, m.translucency_shadow),
         glm::vec4(m.scatter_color, m.skin_curvature),
-        {m.skin_curvature_scale, 0.0f, 0.0f, 0.0f}};
+        {m.skin_curvature_scale, m.second.scatter_bias, m.second.scatter_power, mixes(m) ? 1.0f : 0.0f},
+        glm::vec4(m.second.scatter_color, 0.0f)};
     std::memcpy(layers_->mapped + row * sizeof(texels), texels, sizeof(texels));
     return lighting_models_.count() + static_cast<std::uint32_t>(row);
 }
@@ -526,7 +539,7 @@ void GpuScene::sum_up_materials()
     glows_ = glowing(glow_sources_, current_);
     two_sets_ = any([](const Material& m) {
         return m.second.use == scene::SecondSetUse::Mix &&
-               (m.second.own_water || m.diffuse_transmission > 0.0f);
+               (m.second.own_water || m.diffuse_transmission > 0.0f || m.translucency > 0.0f || scatters(m));
     });
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;

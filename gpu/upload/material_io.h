@@ -69,6 +69,7 @@
     X(float, second_roughness_factor) \
     X(float, second_specular_factor) \
     X(float, second_normal_scale)  \
+    X(uint, second_occlusion_in_alpha) \
     X(vec4, second_water_accumulation) \
     X(vec4, second_water_color)    \
     X(uint, sheltered)             \
@@ -209,8 +210,9 @@
 //   3  translucency, translucency_power, translucency_distortion, translucency_scale
 //   4  translucency_color, translucency_shadow
 //   5  scatter_color, skin_curvature
-//   6  skin_curvature_scale, -, -, -
-#define LAYERS_TEXELS 7
+//   6  skin_curvature_scale, second_scatter_bias, second_scatter_power, 1: two sets are mixed
+//   7  second_scatter_color, -
+#define LAYERS_TEXELS 8
 
 // Which of them a material has.
 #define LAYERS_COAT 1u

@@ -58,6 +58,25 @@ TEST(PlanTextures, PairsNormalAndRoughness)
     EXPECT_EQ(scene.materials[0].occlusion_texture.texture, 2) << "read once";
 }
 
+// Lux's combined map: each use takes its channel; red of a packed file still is read with it.
+TEST(PlanTextures, OcclusionMayLieInAnotherChannelOfAFile)
+{
+    scene::Scene scene = scene_with_maps();
+    scene.materials[0].occlusion_texture.channel = scene::Channel::G;
+    scene.materials[0].maps.translucency.texture = 2;
+    scene.materials[0].maps.translucency.channel = scene::Channel::B;
+    const auto recipes = plan_textures(scene);
+    ASSERT_EQ(recipes.size(), 5u);
+    const auto& material = scene.materials[0];
+    const auto& occlusion = recipes[static_cast<std::size_t>(material.occlusion_texture.texture)];
+    const auto& translucency = recipes[static_cast<std::size_t>(material.maps.translucency.texture)];
+    EXPECT_EQ(occlusion.kind, Kind::Scalar);
+    EXPECT_EQ(occlusion.channel, 1);
+    EXPECT_EQ(occlusion.image, 2);
+    EXPECT_EQ(material.occlusion_texture.channel, scene::Channel::R) << "the only one that is left";
+    EXPECT_EQ(translucency.channel, 2);
+}
+
 // The default of `texture build`, joint, for 8-bit files: the same function with the same options.
 TEST(PrepareTextures, FiltersAsTextureBuildDoes)
 {

@@ -167,5 +167,21 @@ TEST(Layers, ATangentSurvivesItsCode)
     }
 }
 
+// An eye straight before a light that shines from straight behind has no half vector: nothing is lit, nothing is NaN.
+TEST(Layers, ALightBehindIsDarkHoweverStraight)
+{
+    const vec3 n(0.0f, 0.0f, 1.0f);
+    Layers layers{};
+    layers.anisotropy = 0.9f;
+    layers.tangent = vec3(1.0f, 0.0f, 0.0f);
+    layers.coat = 1.0f;
+    layers.coat_roughness = 0.1f;
+    layers.sheen = vec3(1.0f);
+    layers.sheen_roughness = 0.4f;
+    layers.other_normal = n;
+    const vec3 dark = shade_layers(n, n, -n, vec3(0.5f), vec3(0.5f), vec3(0.04f), 0.4f, layers);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(dark[c], 0.0f);
+}
+
 }  // namespace
 }  // namespace petrichor::shared

@@ -107,5 +107,57 @@ TEST_F(Cutout, HolesLieInTheRelief)
     }
 }
 
+// A lattice over a floor under a slanted light: its shadow begins where the light meets the relief, which lies 0.3 m
+// below the lattice everywhere.
+TEST_F(Cutout, ShadowsHaveTheHolesOfTheRelief)
+{
+    Material m = leaf();
+    m.second.use = scene::SecondSetUse::None;
+    m.weather.height.texture = 2;
+    m.weather.height_scale_m = 0.3f;
+    constexpr int kSide = 128;
+    const auto edge = [&](scene::Parallax parallax, bool lamp) {
+        m.weather.parallax = parallax;
+        renderer->load(scene_of({quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 1),
+                                 quad({-1, 1, 1}, {2, 0, 0}, {0, 0, -2})},
+                                {m, plain_material(glm::vec3(0.8f))}),
+                       textures());
+        Frame frame;
+        // Two metres of the floor, beside the lattice: x from -2 to 0.
+        frame.camera = look({-1, 5, 0}, {-1, 0, 0});
+        frame.camera.orthographic_height_m = 2.0f;
+        frame.settings.width = frame.settings.height = kSide;
+        frame.settings.samples = 1;
+        frame.settings.image_based_light = false;
+        frame.settings.exposure = 1.0f;
+        frame.weather.visibility_m = 1e9f;
+        frame.sky.sun_elevation_rad = 0.7853982f;
+        frame.sky.sun_azimuth_rad = 1.5707963f;
+        if (lamp) {
+            frame.sky.sun_elevation_rad = -1.0f;
+            Light light;
+            light.position_m = {6, 7, 0};  // 45 degrees at the edge of the hole
+            light.intensity = 1e5f;
+            frame.extra_lights = {light};
+        }
+        const RenderResult r = renderer->render(frame);
+        // Where the row in the middle turns dark, metres, from light that comes through the hole.
+        int x = 56;
+        const float bright = pixel(r, x, kSide / 2).g;
+        EXPECT_GT(bright, 0.0f);
+        while (x < kSide && pixel(r, x, kSide / 2).g > 0.5f * bright) ++x;
+        return -2.0f + 2.0f * static_cast<float>(x) / kSide;
+    };
+    // Reach of a ray at 45 degrees, shortened as parallax shortens it.
+    const float grazing = 1.0f - std::sqrt(0.5f);
+    const float shift = 0.3f * (1.0f - grazing * grazing);
+    for (const bool lamp : {false, true}) {
+        const float flat = edge(scene::Parallax::None, lamp);
+        EXPECT_NEAR(flat, -1.0f, lamp ? 0.1f : 0.04f);
+        for (const auto parallax : {scene::Parallax::Simple, scene::Parallax::Occlusion})
+            EXPECT_NEAR(edge(parallax, lamp) - flat, shift, lamp ? 0.1f : 0.04f) << lamp;
+    }
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -169,6 +169,62 @@ TEST_F(LayerTextures, ASpecularWorkflowIsTheSameMaterialToldOtherwise)
     }
 }
 
+// Lux's combined map: translucency in blue, occlusion in green, of one file.
+TEST_F(LayerTextures, OneFileHoldsOcclusionAndTranslucency)
+{
+    Material leaf = plain_material({0.5f, 0.6f, 0.3f}, 0.7f);
+    leaf.translucency = 0.8f;
+    leaf.translucency_power = 0.0f;
+    leaf.occlusion_texture = first_texture();
+    leaf.maps.translucency = first_texture();
+    const Texture occlusion = halves({90, 90, 90, 255}, {230, 230, 230, 255});
+    const Texture translucency = halves({255, 255, 255, 255}, {40, 40, 40, 255});
+    leaf.maps.translucency.texture = 1;
+    renderer->load(
+        [&] {
+            Scene two = plate(leaf);
+            two.textures.resize(2);
+            return two;
+        }(),
+        {occlusion, translucency});
+    const RenderResult apart = renderer->render(frame);
+    leaf.maps.translucency.texture = 0;
+    leaf.occlusion_texture.channel = scene::Channel::G;
+    leaf.maps.translucency.channel = scene::Channel::B;
+    EXPECT_EQ(shot(leaf, {halves({7, 90, 255, 3}, {200, 230, 40, 99})}).beauty, apart.beauty);
+    leaf.occlusion_texture.channel = scene::Channel::R;
+    EXPECT_NE(shot(leaf, {halves({7, 90, 255, 3}, {200, 230, 40, 99})}).beauty, apart.beauty);
+}
+
+// Lux has shaders apart for metal, specular colours and what lets light through; here one material may be all.
+TEST_F(LayerTextures, OneMaterialIsSpecularAndTranslucentAtOnce)
+{
+    frame.sky.sun_azimuth_rad = 3.2f;  // before the eye: it comes through
+    Material metal = plain_material({0.6f, 0.5f, 0.3f}, 0.4f);
+    metal.double_sided = true;
+    const RenderResult opaque = shot(metal);
+    metal.translucency = 0.9f;
+    metal.translucency_power = 1.0f;
+    metal.maps.translucency = first_texture();
+    const Texture map = halves({60, 60, 60, 255}, {255, 255, 255, 255});
+    const RenderResult wanted = shot(metal, {map});
+    Material told = metal;
+    told.metallic = 1.0f;  // which this workflow does not ask
+    told.roughness = 1.0f;
+    told.specular_workflow = true;
+    told.workflow_specular = glm::vec3(0.04f);
+    told.glossiness = 0.6f;
+    const RenderResult got = shot(told, {map});
+    float glow = 0.0f;
+    for (int y = 8; y < kSize - 8; y += 3) {
+        for (int x = 8; x < kSize - 8; x += 3) {
+            EXPECT_LT(difference(pixel(got, x, y), pixel(wanted, x, y)), 0.01f);
+            glow = std::max(glow, difference(pixel(opaque, x, y), pixel(wanted, x, y)));
+        }
+    }
+    EXPECT_GT(glow, 0.02f);
+}
+
 // A coat lies smooth over a bumpy base: its highlight is that of the mesh, or of its own normal map.
 TEST_F(LayerTextures, ACoatHasItsOwnNormals)
 {

@@ -161,6 +161,7 @@ void make_visible(std::string_view row, Material& m)
         m.second.water_color = {0.1f, 0.1f, 0.5f, 0.5f};
         m.second.water_accumulation = {0.5f, 1.0f, 0.5f, 1.0f};
     }
+    if (row.starts_with("second_scatter_")) m.second.scatter_color = glm::vec3(0.3f);
     if (row == "second_specular_factor") m.specular = 0.0f;  // which the second has too
     if (row == "snow_local_tiling") m.weather.snow_mapping = scene::SnowMapping::Local;
     if (row == "snow_mask_normal_scale")

@@ -124,6 +124,94 @@ TEST_F(MixSets, MasksAndHeightsShareAsTheFormulaDoes)
     EXPECT_GT(shared::mix_by_height(1.0f, {0.0f, 1.0f}).x, 0.99f) << "nothing of what has no share";
 }
 
+// Lux keeps the second set's occlusion in the alpha of its colours.
+TEST_F(MixSets, OcclusionOfTheSecondSetMayLieInItsAlpha)
+{
+    Material m = mixed();
+    m.second.base_color_texture.texture = 0;
+    m.second.metallic_roughness_texture.texture = 1;
+    const std::vector<Texture> textures = {
+        texture_of([](int x, int) { return glm::ivec4(255, 255, 255, x < 4 ? 51 : 204); }),
+        texture_of([](int, int) { return glm::ivec4(128, 255, 255, 255); })};
+    const Scene scene = scene_of({ground(0.25f, 0.25f)}, {m});
+    const auto packed = shot(scene, from_above({"occlusion", "base_color"}), textures);
+    EXPECT_NEAR(aov(packed, "occlusion", 6, 20), 0.25f + 0.75f * 128.0f / 255.0f, 0.01f);
+    m.second.occlusion_in_alpha = true;
+    const auto alpha = shot(scene_of({ground(0.25f, 0.25f)}, {m}), from_above({"occlusion", "base_color"}), textures);
+    EXPECT_NEAR(aov(alpha, "occlusion", 6, 20), 0.25f + 0.75f * 0.2f, 0.01f);
+    EXPECT_NEAR(aov(alpha, "occlusion", 40, 20), 0.25f + 0.75f * 0.8f, 0.01f);
+    EXPECT_NEAR(aov(alpha, "base_color", 6, 20), aov(packed, "base_color", 6, 20), 0.001f);
+}
+
+// Fibres of either set: where it is alone they are as those of a material of one set, between they are mixed.
+TEST_F(MixSets, EachSetHasItsOwnFibres)
+{
+    Frame frame = from_above({});
+    frame.camera = look({0, 0.6f, 2}, {0, 0, 0});
+    frame.camera.orthographic_height_m = 0.4f;
+    frame.weather.visibility_m = 1e9f;
+    frame.settings.exposure = 1e-4f;
+    Material velvet = mixed();
+    velvet.second.color = glm::vec3(kFirst);
+    velvet.second.roughness = velvet.roughness;
+    velvet.scatter_color = {0.5f, 0.1f, 0.1f};
+    velvet.scatter_power = 3.0f;
+    velvet.second.scatter_color = {0.05f, 0.1f, 0.6f};
+    velvet.second.scatter_bias = 0.3f;
+    velvet.second.scatter_power = 9.0f;
+    const auto seen = [&](const Material& m, float share) {
+        return pixel(shot(scene_of({ground(share, share)}, {m}), frame), kSize / 2, kSize / 2);
+    };
+    Material one = velvet;
+    one.second.use = scene::SecondSetUse::None;
+    Material other = one;
+    other.scatter_color = velvet.second.scatter_color;
+    other.scatter_bias = velvet.second.scatter_bias;
+    other.scatter_power = velvet.second.scatter_power;
+    const glm::vec3 first = seen(one, 1.0f), second = seen(other, 1.0f);
+    EXPECT_GT(first.r, 1.2f * second.r);
+    EXPECT_GT(second.b, 1.2f * first.b);
+    const glm::vec3 half = seen(velvet, 0.5f);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(seen(velvet, 1.0f)[c], first[c], 0.005f * first[c]);
+        EXPECT_NEAR(seen(velvet, 0.0f)[c], second[c], 0.005f * second[c]);
+    }
+    EXPECT_LT(half.r, first.r);
+    EXPECT_GT(half.r, second.r);
+    EXPECT_LT(half.b, second.b);
+    EXPECT_GT(half.b, first.b);
+    // Black fibres of the first set leave those of the second.
+    velvet.scatter_color = glm::vec3(0.0f);
+    EXPECT_GT(seen(velvet, 0.0f).b, 1.2f * seen(velvet, 1.0f).b);
+}
+
+// .. and glows with the first set alone, as Lux's.
+TEST_F(MixSets, TheGlowFromBehindIsOfTheFirstSet)
+{
+    Frame frame = from_above({});
+    frame.settings.image_based_light = false;
+    frame.settings.shadows = false;
+    frame.sky.analytic_sun = false;
+    frame.sky.sun_illuminance = 0.0f;
+    frame.settings.exposure = 1.0f;
+    Light below;
+    below.kind = LightKind::Directional;
+    below.intensity = 1000.0f;
+    below.direction = {0, 1, 0};
+    frame.extra_lights = {below};
+    Material leaf = mixed();
+    leaf.second.color = glm::vec3(kFirst);
+    leaf.translucency = 0.5f;
+    leaf.translucency_distortion = 0.0f;
+    const auto seen = [&](float share) {
+        return pixel(shot(scene_of({ground(share, share)}, {leaf}), frame), kSize / 2, kSize / 2).g;
+    };
+    const float all = seen(1.0f);
+    EXPECT_GT(all, 1.0f);
+    EXPECT_NEAR(seen(0.5f), 0.5f * all, 0.02f * all);
+    EXPECT_NEAR(seen(0.0f), 0.0f, 0.001f * all);
+}
+
 int edges(const RenderResult& r)
 {
     int count = 0;
@@ -249,7 +337,6 @@ TEST_F(MixSets, LightThatPassesIsOfTheFirstSet)
     leaf.diffuse_transmission = 0.8f;
     leaf.double_sided = true;
     Frame frame = from_above({});
-    frame.weather.film_albedo = 0.01f;  // the share is kept beside the weather
     frame.sky.sun_elevation_rad = -0.6f;
     frame.sky.sun_illuminance = 0.0f;
     Scene scene = scene_of({ground()}, {leaf});
@@ -263,6 +350,9 @@ TEST_F(MixSets, LightThatPassesIsOfTheFirstSet)
     const float half = luminance(pixel(shot(scene, frame), 24, 24));
     EXPECT_GT(all, 0.5f);
     EXPECT_NEAR(half / all, 0.5f, 0.08f);
+    // .. wet or dry: the share is kept beside the weather.
+    frame.weather.film_albedo = 0.01f;
+    EXPECT_NEAR(luminance(pixel(shot(scene, frame), 24, 24)), half, 0.05f * half);
 }
 
 // Water of its own: where it stands, and its colour. Without, that of the first set.

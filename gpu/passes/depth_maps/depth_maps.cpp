@@ -33,6 +33,15 @@ bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
     return material.casts_shadows || falls == Falls::Rain;
 }
 
+// Where a map looks from: what it sees at an infinite depth before it. w 0: a direction.
+glm::vec4 eye_of(const glm::mat4& clip_from_world)
+{
+    const glm::vec4 eye = glm::inverse(clip_from_world) * glm::vec4(0.0f, 0.0f, 1.0f, 0.0f);
+    if (std::abs(eye.w) > 1.0e-6f * glm::length(glm::vec3(eye)))
+        return glm::vec4(glm::vec3(eye) / eye.w, 1.0f);
+    return glm::vec4(glm::normalize(glm::vec3(eye)), 0.0f);
+}
+
 }  // namespace
 
 std::shared_ptr<const SeenDraws> seen_casters(SeenTriangles& triangles, const GpuScene& scene,
@@ -61,6 +70,13 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     masked.attributes = {vertex_attributes()[0], vertex_attributes()[3], vertex_attributes()[4]};
     masked.sets = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
 
+    GraphicsDesc relief = masked;
+    relief.vertex = "depth_relief.vert";
+    relief.fragment = "depth_relief.frag";
+    relief.sets[0].push_back(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    relief.specialization.push_back({DEPTH_SPEC_PARALLAX, 0});
+    const glm::vec4 eye = eye_of(clip_from_world);
+
     const Frustum frustum(clip_from_world);
     SeenBinder binder(commands, scene, seen);
     const Pipeline* bound = nullptr;
@@ -72,20 +88,29 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const SeenRange range = binder.range_of(draw);
         if (range.index_count == 0) continue;
-        const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
+        const bool deep = material.masked && material.parallax != PARALLAX_NONE;
+        if (deep) relief.specialization.back().value = material.parallax;
+        const Pipeline& wanted = pass.pipelines().graphics(deep ? relief : holes ? masked : plain);
         if (bound != &wanted) {
             pass.bind(wanted);
             bound = &wanted;
             bound_material = UINT32_MAX;
         }
         if (holes && bound_material != draw.material) {
-            const std::vector<Binding> bindings{material.bindings[0], material.bindings[1]};
+            std::vector<Binding> bindings{material.bindings[0], material.bindings[1 + TEXTURE_BASE_COLOR]};
+            if (deep) bindings.push_back(material.bindings[1 + TEXTURE_HEIGHT]);
             pass.bind_set(0, pass.descriptors().set(wanted.set_layouts[0], bindings));
             bound_material = draw.material;
         }
         // Thin things such as leaves and roofs of one polygon cast from both sides.
         set_facing(commands, VK_CULL_MODE_NONE, draw.mirrored);
-        pass.push(clip_from_world * draw.to_world);
+        const glm::mat4 clip_from_object = clip_from_world * draw.to_world;
+        if (deep) {
+            const glm::mat4 rows = glm::transpose(draw.to_world);
+            pass.push(shared::ReliefDraw{clip_from_object, {rows[0], rows[1], rows[2]}, eye});
+        } else {
+            pass.push(clip_from_object);
+        }
         binder.draw(draw, range);
     }
 }

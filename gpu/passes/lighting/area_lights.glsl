@@ -305,14 +305,19 @@ float seen_curvature(ivec2 texel, vec3 position, vec3 normal)
 
 // The rows of a material behind those of coat, sheen and anisotropy. glow: what weather leaves of light from
 // within.
-void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, float bare, float open, float glow, float view_m,
-                  ivec2 texel)
+void later_layers(inout LitPoint p, int at, LayerShares share, float first_share, float metallic, float bare, float open,
+                  float glow, float view_m, ivec2 texel)
 {
     const vec4 third = texelFetch(layers_table, at + 2);
     const vec4 sixth = texelFetch(layers_table, at + 5);
     if ((LAYERS & LAYERS_SCATTER) != 0u) {
         const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
-        p.albedo = scattered_albedo(p.albedo, sixth.rgb * ((1.0 - metallic) * open), third.y, third.z, nv);
+        const vec4 seventh = texelFetch(layers_table, at + 6);
+        // Of two sets each by its share, as Lux mixes all three.
+        const float first = seventh.w > 0.0 ? first_share : 1.0;
+        const vec3 color = mix(texelFetch(layers_table, at + 7).rgb, sixth.rgb, first);
+        const vec2 shape = mix(seventh.yz, third.yz, first);
+        p.albedo = scattered_albedo(p.albedo, color * ((1.0 - metallic) * open), shape.x, shape.y, nv);
         p.diffuse = p.albedo *
                     (1.0 - max(p.specular.r, max(p.specular.g, p.specular.b)));
     }
@@ -330,9 +335,19 @@ void later_layers(inout LitPoint p, int at, LayerShares share, float metallic, f
         const vec4 fourth = texelFetch(layers_table, at + 3);
         const vec4 fifth = texelFetch(layers_table, at + 4);
         const bool skin = p.model == uint(LIGHTING_MODEL_SKIN);
-        p.translucency = Translucency(fourth.x * glow * near * share.translucency, fourth.y, fourth.z, fourth.w, fifth.w,
+        p.translucency = Translucency(fourth.x * glow * near * share.translucency * first_share, fourth.y, fourth.z, fourth.w, fifth.w,
                                       skin ? fifth.rgb : fifth.rgb * p.diffuse);
     }
+}
+
+// What this sample of an anisotropic surface mirrors.   bent: what it does without chance
+vec3 grained_mirror(LitPoint p, vec3 bent, float view_m, ivec2 texel)
+{
+    const float wide = grain_alpha(p.roughness * p.roughness, p.layers.anisotropy) * frame.grain_dither.x;
+    const float slope = ggx_slope(dither(texel, frame.sample_index), wide);
+    const vec3 drawn = grain_normal(p.normal, p.layers.tangent, p.view, slope);
+    const float share = grain_share(frame.grain_dither, view_m);
+    return share <= 0.0 ? bent : normalize(mix(bent, drawn, share));
 }
 
 // What of the mirrored sky the mesh itself hides, though the normal map would show it (Russell 2014; with

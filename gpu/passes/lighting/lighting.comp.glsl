@@ -6,6 +6,7 @@
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
+#include "formulas/light/grain.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/fog.h"
@@ -47,6 +48,7 @@ layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
+layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
@@ -420,7 +422,7 @@ void main()
                 p.layers.sheen = second.rgb * share.sheen * open;
                 p.layers.sheen_roughness = second.w * share.sheen_roughness;
             }
-            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.metallic, bare, open, m.emission_scale, view_m, texel);
+            if ((LAYERS & LAYERS_LATER) != 0u) later_layers(p, at, share, g.first_share, g.metallic, bare, open, m.emission_scale, view_m, texel);
             if ((LAYERS & (LAYERS_ANISOTROPY | LAYERS_HAIR)) != 0u) {
                 // Along the surface as it is seen.
                 const vec3 tangent = tangent_at(g.base_normal, g.tangent * kPi);
@@ -436,6 +438,7 @@ void main()
                     const vec3 grain = cross(cross(across, v), across);
                     const float keep = 1.0 - p.layers.anisotropy * m.smoothness;
                     mirror_normal = normalize(mix(normalize(grain), n, keep * keep * keep * keep));
+                    if (GRAIN != 0u) mirror_normal = grained_mirror(p, mirror_normal, view_m, texel);
                 }
             }
         }

@@ -34,6 +34,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_WAYS, variant.ways},
                       {LIGHTING_SPEC_LAZAROV, variant.lazarov},
                       {LIGHTING_SPEC_HORIZON, variant.horizon},
+                      {LIGHTING_SPEC_GRAIN, variant.grain},
                       {LIGHTING_SPEC_SNOW_SCATTER, variant.snow_scatter},
                       {LIGHTING_SPEC_PARTS, variant.split},
                       {LIGHTING_SPEC_FILM, variant.film}},

@@ -34,6 +34,7 @@ struct LightingVariant {
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
     bool horizon = false;     ///< of the mesh
+    bool grain = false;       ///< FrameSettings::anisotropic_dither
     Pixels pixels = Pixels::All;
     bool all_lights = false;  ///< without lists: what they are tested against
     std::string shader = kLightingShader;

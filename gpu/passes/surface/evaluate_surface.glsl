@@ -63,14 +63,17 @@ SurfaceData evaluate_surface(SurfaceInput at)
     SurfaceData data;
     const Factors factors = factors_of(at);
     vec3 base = factors.base_color * at.color.rgb;
+    float second_occlusion = 1.0;
     if (has(TEXTURE_BASE_COLOR)) {
         base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift)).rgb;
     }
     if (SECOND != SECOND_NONE) {
         vec3 other = material.second_color_factor;
         if (has(TEXTURE_SECOND_BASE_COLOR)) {
-            other *= texel(second_base_color_texture,
-                           coordinates(TEXTURE_SECOND_BASE_COLOR, at, shift)).rgb;
+            const vec4 second = texel(second_base_color_texture,
+                                      coordinates(TEXTURE_SECOND_BASE_COLOR, at, shift));
+            other *= second.rgb;
+            if (material.second_occlusion_in_alpha != 0u) second_occlusion = second.a;
         }
         if (MIXED) base = base * at.shares.x + other * at.color.rgb * at.shares.y;
         if (SECOND == SECOND_DETAIL && has(TEXTURE_SECOND_BASE_COLOR)) {
@@ -92,7 +95,8 @@ SurfaceData evaluate_surface(SurfaceInput at)
     }
     float occlusion = 1.0;
     if (has(TEXTURE_OCCLUSION)) {
-        occlusion = mix(1.0, texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift)).r,
+        occlusion = mix(1.0, dot(texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift)),
+                                 material.slots[TEXTURE_OCCLUSION].channel),
                         material.occlusion_strength);
     }
     if (MIXED) {
@@ -102,6 +106,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
             other *= texel(second_metallic_roughness_texture,
                            coordinates(TEXTURE_SECOND_METALLIC_ROUGHNESS, at, shift)).rgb;
         }
+        if (material.second_occlusion_in_alpha != 0u) other.x = second_occlusion;
         const vec3 both = vec3(occlusion, roughness, metallic) * at.shares.x + other * at.shares.y;
         occlusion = both.x;
         roughness = both.y;

@@ -109,11 +109,14 @@ LayerShares layer_shares(SurfaceInput at, TangentFrame f, vec3 normal, vec2 shif
         s.other_normal = normalize(to_world(f, n));
     }
     if ((BESIDES & BESIDES_SOFT_NORMAL) != 0u) {
-        // Three levels up (Lux 2.02).
-        Uv uv = coordinates(TEXTURE_NORMAL, at, shift);
-        uv.dx *= 8.0;
-        uv.dy *= 8.0;
-        const vec3 n = unpack_normal(texel(normal_texture, uv).xy, material.normal_scale);
+        // Three levels up (Lux 2.02); without the fine bumps of a second set.
+        vec3 n = vec3(0.0, 0.0, 1.0);
+        if (has(TEXTURE_NORMAL)) {
+            Uv uv = coordinates(TEXTURE_NORMAL, at, shift);
+            uv.dx *= 8.0;
+            uv.dy *= 8.0;
+            n = unpack_normal(texel(normal_texture, uv).xy, material.normal_scale);
+        }
         s.other_normal = normalize(mix(normal, normalize(to_world(f, n)), material.skin_blur));
     }
     return s;

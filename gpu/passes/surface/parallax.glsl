@@ -91,38 +91,10 @@ void sink(inout SurfaceInput at)
     }
     const float fill = filled_relief(at);
     float t;
-    if ((PARALLAX & PARALLAX_SIMPLE) != 0u) {
-        const float first = relief_depth(at, first_set, second_set, mask, 0.0, fill);
-        t = 0.5 * (first + relief_depth(at, first_set, second_set, mask, first, fill));
-    } else {
-        const float step_t = 1.0 / material.parallax_steps;
-        float low = 0.0;  // the ray is above the relief there ..
-        float above = relief_depth(at, first_set, second_set, mask, 0.0, fill);
-        float high = 0.0;  // .. and below it here
-        float below = 0.0;
-        for (float s = step_t; s < 1.0 + 0.5 * step_t; s += step_t) {
-            const float gap = relief_depth(at, first_set, second_set, mask, s, fill) - s;
-            high = s;
-            if (gap <= 0.0) {
-                below = -gap;
-                break;
-            }
-            low = s;
-            above = gap;
-        }
-        t = above > 0.0 ? secant_depth(low, above, high, below) : 0.0;
-        for (int i = 0; i < 3; ++i) {
-            const float gap = relief_depth(at, first_set, second_set, mask, t, fill) - t;
-            if (gap > 0.0) {
-                low = t;
-                above = gap;
-            } else {
-                high = t;
-                below = -gap;
-            }
-            t = above > 0.0 ? secant_depth(low, above, high, below) : 0.0;
-        }
-    }
+#define RELIEF_DEPTH(share) relief_depth(at, first_set, second_set, mask, share, fill)
+#define RELIEF_SIMPLE ((PARALLAX & PARALLAX_SIMPLE) != 0u)
+#define RELIEF_STEPS material.parallax_steps
+#include "formulas/weather/relief_search.inc"
     const vec2 moved = pixels * saturate(t);
     at.uv += at.uv_dx * moved.x + at.uv_dy * moved.y;
     at.position += at.position_dx * moved.x + at.position_dy * moved.y;
