@@ -329,7 +329,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 43) {
         const vec3 n = probe_direction(a.x, a.y);
-        const vec3 h = grain_normal(n, tangent_at(n, 6.0f * a.z), probe_direction(b.x, b.y),
+        vec3 v = probe_direction(b.x, b.y);
+        v = normalize(v + n * (0.05f + abs(dot(n, v)) - dot(n, v)));  // the surface is seen
+        const vec3 h = grain_normal(n, tangent_at(n, 6.0f * a.z), v,
                                     ggx_slope(b.z, grain_alpha(0.1f + 0.8f * b.w, c.x)));
         return vec4(h.x, h.y, h.z, grain_share(vec3(1.0f, 50.0f * c.y, 20.0f * c.z), 40.0f * c.w));
     }
