@@ -29,7 +29,8 @@
 #define LIGHTING_SPEC_SUN 21      // 0: it does not shine
 #define LIGHTING_SPEC_PARTS 22    // the light is written taken apart, too
 #define LIGHTING_SPEC_FILM 23     // a film of water is a lobe of its own
-#define LIGHTING_SPEC_MODEL 24    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_PICTURE 24  // smooth surfaces mirror the picture itself
+#define LIGHTING_SPEC_MODEL 25    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
