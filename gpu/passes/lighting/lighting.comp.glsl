@@ -246,13 +246,9 @@ void add_all_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
 // .. so much of them.
 void add_lights(inout vec3 radiance, LitPoint p, float share, ivec2 texel)
 {
-    if (BAKED == 0u) {
-        add_all_lights(radiance, p, texel);
-        return;
-    }
-    vec3 lamps = vec3(0.0);
+    vec3 lamps = BAKED != 0u ? vec3(0.0) : radiance;
     add_all_lights(lamps, p, texel);
-    radiance += lamps * share;
+    radiance = BAKED != 0u ? radiance + lamps * share : lamps;
 }
 
 // Light from all around: what of it arrives, and what a mirror would see of it.
