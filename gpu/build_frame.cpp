@@ -333,7 +333,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) {
             add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
-                            {variant.parts, variant.split, variant.parts, false});
+                            {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture});
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
@@ -385,6 +385,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.background = settings.draw_sky;
     variant.shadows = settings.shadows && variant.sun;
     variant.image_based_light = settings.image_based_light;
+    variant.mirrors_picture = settings.reflections;
     variant.ambient_occlusion = settings.ambient_occlusion;
     variant.patch_light = uses_patches(frame, r);
     variant.emission = r.scene->emissive();
@@ -482,7 +483,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                             r.parts->label && i == 0},
+                             r.parts->label && i == 0, variant.mirrors_picture},
                             pixels);
         }
         if (r.adaptive && i == 0) {

@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string>& kinds()
 {
-    static const std::vector<std::string> names{"light_map", "indirect"};
+    static const std::vector<std::string> names{"light_map", "indirect", "shadow_mask"};
     return names;
 }
 
@@ -50,7 +50,8 @@ void add_bake_options(CLI::App& command, BakeArguments& a)
     command.add_option("--bake", a.what,
                        "light maps over the second texture coordinates, an EXR a material, and the keys "
                        "that lay them on, into the folder -o. light_map: all light; indirect: without "
-                       "what sun and lamps send straight, which stays real-time");
+                       "what sun and lamps send straight, which stays real-time; shadow_mask: that, and beside it "
+                       "how much of the sun is seen");
     number("--sky-lux", a.light.sky_lux, 0.0, 200000.0, "bake: of an overcast sky, on open ground (10000)");
     number("--sun-lux", a.light.sun_lux, 0.0, 200000.0, "bake: of the sun, on a plane that faces it (0)");
     number("--sun-elevation", a.light.sun_elevation_degrees, -90.0, 90.0, "bake: degrees (45)");
@@ -102,7 +103,8 @@ std::string bake_light_maps(const SceneView& view, const SceneViewOptions& optio
         };
     }
     film::BakeConditions light = arguments.light;
-    light.indirect = arguments.what == "indirect";
+    light.shadow_mask = arguments.what == "shadow_mask";
+    light.indirect = light.shadow_mask || arguments.what == "indirect";
     std::vector<std::string> notes;
     const scene::LightMaps baked = film::bake_light(*view.scene, light, transport, bake, notes);
     const auto files = film::write_light_maps(folder, *view.scene, baked);

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "cli/scene/lamp_lines.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/patches.h"
 #include "weather/moment.h"
 
@@ -51,6 +53,30 @@ std::vector<float> sun_values(const SceneView& view, const MapConditions& c)
             hours[i] += scene::visible_share(p, i, towards) * (24.0f / kSteps);
     }
     return hours;
+}
+
+std::vector<float> lamp_values(const SceneView& view, const MapConditions&)
+{
+    const Patches& p = view.patches();
+    std::vector<glm::vec3> lux(p.count, glm::vec3(0.0f));
+    for (const scene::Light& light : view.scene->lights) {
+        if (light.kind != scene::LightKind::Directional) scene::add_lamp(p, light, {}, lux);
+    }
+    std::vector<float> values;
+    for (const glm::vec3& l : lux) values.push_back(glm::dot(l, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+    return values;
+}
+
+// A patch right below a lamp would leave all others dark.
+std::pair<float, float> to_most_of_it(const std::vector<float>& values)
+{
+    std::vector<float> lit;
+    for (const float v : values) {
+        if (v > 0.0f) lit.push_back(v);
+    }
+    if (lit.empty()) return {0.0f, 1.0f};
+    std::sort(lit.begin(), lit.end());
+    return {0.0f, lit[(lit.size() - 1) * 95 / 100]};
 }
 
 // Neighbours look different, whatever their numbers.
@@ -226,6 +252,20 @@ const std::vector<SceneMap>& scene_maps()
                           static_cast<double>(view.patches().cell_m));
          },
          false},
+        {"lights",
+         "light of all lamps, unshadowed, and their shapes",
+         "lx",
+         {"#15181f", "#3a3f4c", "#6d6a66", "#b29a6b", "#fff0c8"},
+         lamp_values,
+         to_most_of_it,
+         [](const SceneView& view, const MapConditions&) {
+             const auto& all = view.scene->lights;
+             const auto lamps = std::count_if(all.begin(), all.end(), [](const scene::Light& light) {
+                 return light.kind != scene::LightKind::Directional;
+             });
+             return plain("%.0f lamps", static_cast<double>(lamps));
+         },
+         true, true},
     };
     return kMaps;
 }
@@ -289,6 +329,7 @@ Pixels draw_scene_map(const SceneView& view, const SceneMap& map, const MapCondi
                                                    0.5f);
         }
     });
+    if (map.lamps) draw_lamps(pixels, picture.height, *view.scene, camera);
     std::copy(strip.rgb.begin(), strip.rgb.end(),
               pixels.rgb.begin() + static_cast<std::ptrdiff_t>(pixels.width) * picture.height * 3);
     return pixels;

@@ -35,6 +35,7 @@ struct SceneMap {
     /// What is said below the picture besides the scale.
     std::function<std::string(const SceneView&, const MapConditions&)> caption;
     bool smooth = true;  ///< between patches, as light is; false: patch by patch
+    bool lamps = false;  ///< their shapes are drawn over it
 };
 const std::vector<SceneMap>& scene_maps();
 

@@ -15,8 +15,10 @@ void dual_light_map_input(inout SurfaceInput at) {}
 void dual_light_map_surface(SurfaceInput at, inout SurfaceData data)
 {
     if (!has(TEXTURE_LIGHT_MAP)) return;
-    const float fade =
-        light_map_fade(length(frame.camera_m - at.position), kRealTimeUntil_m, kBakedFrom_m);
+    // In steps of the code, so that what the map gains is what sun and lamps lose.
+    const float fade = baked_shadow_step(
+        light_map_fade(length(frame.camera_m - at.position), kRealTimeUntil_m, kBakedFrom_m));
     data.texel.baked = baked_light(
         dual_light_map(light_map_part(at, 0, 2).rgb, light_map_part(at, 1, 2).rgb, fade));
+    map_holds_direct(data, fade);
 }

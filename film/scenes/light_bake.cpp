@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/output_file.h"
 #include "formulas/light/brdf.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
@@ -96,6 +97,10 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
                             const TransportOptions& transport, const scene::BakeOptions& options,
                             std::vector<std::string>& notes)
 {
+    if (conditions.shadow_mask && !(conditions.sun_lux > 0.0 && conditions.sun_elevation_degrees > 0.0)) {
+        throw Error("light map: a shadow mask is of the sun, and no sun shines",
+                    "Say how bright and how high it is: --sun-lux 60000 --sun-elevation 35.");
+    }
     const auto patches = prepare_patch_scene(scene, transport, notes);
     const scene::Patches& p = patches->patches;
     shared::WeatherMoment weather;
@@ -127,6 +132,17 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
     scene::BakeLight light{lit.radiosity, sky, lamps};
     if (conditions.indirect) light.lamps = {};
     scene::LightMaps baked = scene::bake_light_maps(tracer, p, light, options);
+    if (conditions.shadow_mask) {
+        const scene::Light sun = sun_of(conditions);
+        scene::BakeOptions quick = options;
+        quick.rays = 16;  // they tell only what lies inside of bodies
+        quick.progress = {};
+        const std::vector<glm::vec3> dark(p.count, glm::vec3(0.0f));
+        const scene::LightMaps seen = scene::bake_light_maps(tracer, p, {dark, sky, {}, &sun}, quick);
+        for (std::size_t i = 0; i < baked.maps.size(); ++i) {
+            for (const glm::vec3& texel : seen.maps[i].lux) baked.maps[i].sun_seen.push_back(texel.x);
+        }
+    }
     tell(scene, baked, notes);
     return baked;
 }
@@ -137,20 +153,31 @@ std::vector<std::string> write_light_maps(const std::filesystem::path& folder,
     std::filesystem::create_directories(folder);
     std::vector<std::string> names;
     std::string keys = "# Light maps: irradiance in lux. They hold the sky, so none comes on top.\n";
+    if (!baked.maps.empty() && !baked.maps[0].sun_seen.empty())
+        keys += "# On the right of each, how much of the sun is seen: data/shaders/shadow_mask.glsl reads it.\n";
     for (const scene::LightMap& map : baked.maps) {
         const std::string& material = scene.materials[map.material].name;
         names.push_back("light_" + std::to_string(map.material) +
                         (material.empty() ? "" : "_" + clean(material)) + ".exr");
+        const int parts = map.sun_seen.empty() ? 1 : 2;
         std::vector<texproc::ExrChannel> channels(3);
         for (int c = 0; c < 3; ++c) {
             auto& channel = channels[static_cast<std::size_t>(c)];
             channel.name = std::string(1, "RGB"[c]);
-            for (const glm::vec3& lux : map.lux) channel.floats.push_back(lux[c]);
+            for (int y = 0; y < map.size; ++y) {
+                const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.size);
+                for (std::size_t x = 0; x < static_cast<std::size_t>(map.size); ++x)
+                    channel.floats.push_back(map.lux[row + x][c]);
+                if (parts == 1) continue;
+                const auto first = map.sun_seen.begin() + static_cast<std::ptrdiff_t>(row);
+                channel.floats.insert(channel.floats.end(), first, first + map.size);
+            }
         }
-        texproc::write_exr(folder / names.back(), map.size, map.size, channels,
+        texproc::write_exr(folder / names.back(), parts * map.size, map.size, channels,
                            {{"material", material}, {"unit", "lx"}});
         keys += "\n[materials." + in_quotes(material) + "]\nlight_map_texture = " + in_quotes(names.back()) +
                 "\nlight_map_sky = 0.0\n";
+        if (parts == 2) keys += "surface = \"shadow_mask.glsl\"\n";
     }
     names.emplace_back("light_maps.toml");
     write_text_file(folder / names.back(), keys);

@@ -20,6 +20,7 @@ struct BakeConditions {
     double north_degrees = 0.0;          ///< where north is: clockwise from -z
     double snow = 0.0;                   ///< 0..1, as WeatherMoment::snow_amount
     bool indirect = false;  ///< without what sun and lamps send straight: that stays real-time
+    bool shadow_mask = false;  ///< beside the light, how much of the sun is seen
 };
 
 /// Bakes the light maps of a scene: lamps of the scene, the sun and an overcast sky, surfaces that
@@ -32,7 +33,7 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
                             const TransportOptions& transport, const scene::BakeOptions& options,
                             std::vector<std::string>& notes);
 
-/// Writes a float EXR for each map, and light_maps.toml: the keys of a scenario that lays them on.
+/// Writes a float EXR for each map, the light on the left and on the right, if it has one, its shadow mask, and light_maps.toml: the keys of a scenario that lays them on.
 /// Returns the files' names, in the order of the maps, the keys last. Makes the folder.
 std::vector<std::string> write_light_maps(const std::filesystem::path& folder,
                                           const scene::Scene& scene, const scene::LightMaps& maps);

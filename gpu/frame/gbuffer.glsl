@@ -3,6 +3,7 @@
 #define PETRICHOR_GBUFFER_GLSL
 
 #include "formulas/codec/octahedral.h"
+#include "gpu/frame/baked_shadow.glsl"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/gbuffer_table_io.h"
 
@@ -25,6 +26,7 @@ struct GBufferTexel {
     float body;    // of a layer that light passes: share of its thickness
     vec3 baked;    // of the light map: what a white Lambert surface sends out
     float baked_sky;  // share of skylight that is in it
+    BakedShadow baked_shadow;
 };
 
 // Two numbers of 8 bits in one of 16.
@@ -62,7 +64,7 @@ GBufferCode encode_gbuffer(GBufferTexel texel, uint flags)
                            : texel.snow_smoothness;
     code.identity = vec4(float(texel.material) / 65535.0, snow, 0.0, 0.0);
     code.emission = vec4(texel.emission, texel.body);
-    code.baked = vec4(texel.baked, texel.baked_sky);
+    code.baked = vec4(texel.baked, baked_shadow_code(texel.baked_shadow, texel.baked_sky));
     return code;
 }
 
@@ -91,7 +93,8 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
     texel.emission = code.emission.rgb;
     texel.body = code.emission.a;
     texel.baked = code.baked.rgb;
-    texel.baked_sky = code.baked.a;
+    texel.baked_sky = baked_sky_of(code.baked.a);
+    texel.baked_shadow = baked_shadow_of(code.baked.a);
     return texel;
 }
 

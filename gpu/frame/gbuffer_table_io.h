@@ -24,7 +24,7 @@
 #define GBUFFER_EMISSION(ROW) ROW(emission, 6, R16G16B16A16_SFLOAT, EMISSION, "radiance")
 #define GBUFFER_BAKED(ROW)                       \
     ROW(baked, 7, R16G16B16A16_SFLOAT, BAKED,     \
-        "light map: irradiance divided by pi; share of skylight that it holds already")
+        "light map: irradiance divided by pi; share of skylight that it holds already, or codes of that and of shadows")
 
 #define GBUFFER_TABLE(ROW) \
     GBUFFER_ALWAYS(ROW) GBUFFER_WEATHER(ROW) GBUFFER_EMISSION(ROW) GBUFFER_BAKED(ROW)

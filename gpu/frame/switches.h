@@ -8,6 +8,7 @@
 #define FRAME_SWITCHES(ROW)                                                                      \
     ROW(shadows, true, "of the sun and of lamps")                                                \
     ROW(ambient_occlusion, true, "darker corners")                                               \
+    ROW(reflections, true, "smooth surfaces mirror the picture itself; false: probes and sky alone")  \
     ROW(image_based_light, true, "light from the sky or the HDR picture")                        \
     ROW(shelter, true, "roofs keep rain and snow off")                                           \
     ROW(falling, true, "rain and snow in the air; orthographic views show none")                 \

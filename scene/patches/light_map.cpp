@@ -111,6 +111,12 @@ public:
         Gathered gathered;
         gathered.inside = 2 * found < rays;
         if (gathered.inside) return gathered;
+        if (light_.seen) {
+            const glm::vec3 lux = lamp_irradiance(*light_.seen, x, n);
+            const bool faced = lux.x + lux.y + lux.z > 0.0f;
+            gathered.lux = glm::vec3(faced && lamp_seen(tracer_, *light_.seen, from) ? 1.0f : 0.0f);
+            return gathered;
+        }
         gathered.lux = sum / static_cast<float>(found);
         for (const Light& lamp : light_.lamps) {
             const glm::vec3 lux = lamp_irradiance(lamp, x, n);

@@ -18,6 +18,8 @@ struct BakeLight {
     std::span<const glm::vec3> radiosity;  ///< of leaves (PatchIrradiance::radiosity): what rays bring
     std::span<const glm::vec3> sky;        ///< pi x mean radiance of a sky bin, kSkyBins entries
     std::span<const Light> lamps;          ///< whose light falls on surfaces directly, with its shadow
+    /// If set, maps hold no light: how much of this lamp is seen, 0..1 in all channels; 0 behind its back.
+    const Light* seen = nullptr;
 };
 
 struct BakeOptions {
@@ -35,6 +37,7 @@ struct LightMap {
     std::uint32_t material = 0;
     int size = 0;
     std::vector<glm::vec3> lux;  ///< size * size, row 0 at v = 0; 0 where no island is near
+    std::vector<float> sun_seen; ///< 0..1 by texel; only of shadow masks
     int texcoord = 1;            ///< the coordinates: the second, or the first without them
     double covered = 0.0;        ///< share of texels that a surface lies on
     double shared = 0.0;         ///< share of those that several surfaces lie on: a mean of them

@@ -63,7 +63,7 @@ TEST_F(SceneCommand, HollowsAreCountedAndDrawn)
 TEST_F(SceneCommand, DrawsEveryMap)
 {
     std::vector<std::string> seen;
-    for (const std::string map : {"sky", "rain", "sun", "patches"}) {
+    for (const std::string map : {"sky", "rain", "sun", "patches", "lights"}) {
         const Outcome done = run({"tiny.glb", "--map", map, "-o", map + ".png", "--size", "160x90"});
         ASSERT_EQ(done.exit_code, 0) << done.err;
         const Image image = texproc::read_image(place / (map + ".png"));
@@ -75,6 +75,26 @@ TEST_F(SceneCommand, DrawsEveryMap)
              "--fresh"});
         EXPECT_EQ(testing_program::read_file(place / "again.png"), seen.back()) << map;
     }
+}
+
+// Yellow lines over the picture, where lamps are; other maps have none.
+TEST_F(SceneCommand, DrawsTheShapesOfLamps)
+{
+    const auto yellow = [&](const std::string& map) {
+        const std::string file = map + "_stage.png";
+        const Outcome done = run({"demo:stage", "--map", map, "-o", file, "--size", "240x135", "--cell", "1",
+                                  "--rays", "16"});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        const Image image = texproc::read_image(place / file);
+        int count = 0;
+        for (int i = 0; i < image.width * 135; ++i) {
+            const float* p = image.pixels.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(image.channels);
+            count += p[0] > 2.0f * p[2] && p[1] > 1.6f * p[2] && p[0] > 0.5f ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(yellow("lights"), 100);
+    EXPECT_EQ(yellow("sky"), 0);
 }
 
 // From the scene to its light maps and from them to the picture: light that was baked twice as strong

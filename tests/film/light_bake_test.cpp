@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "tests/scene/patch_scenes.h"
 
 namespace petrichor::film {
@@ -78,6 +79,36 @@ TEST(LightBake, IndirectLeavesTheSunOutAndKeepsItsBounces)
     // Walls see no sun from straight above; what they have comes from the ground.
     EXPECT_NEAR(walls(all.maps[1]), walls(indirect.maps[1]), 1.0f);
     EXPECT_NEAR(walls(indirect.maps[1]), 50000.0f * 0.5f * 0.136f, 500.0f);
+}
+
+// The sun stands in the east, 45 degrees high: a pillar of 2 m shadows 2 m of ground west of it.
+TEST(LightBake, AShadowMaskIsWhereTheSunIsSeen)
+{
+    scene::Scene scene = empty_scene();
+    add_face(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    unwrap(scene);
+    scene::Material stone;
+    stone.metallic = 0.0f;
+    add_box(scene, {0, 0, -2}, {0.5f, 2, 2}, false, add_material(scene, stone));
+    BakeConditions sun{.sky_lux = 0.0, .sun_lux = 50000.0, .sun_azimuth_degrees = 90.0,
+                       .indirect = true, .shadow_mask = true};
+    const auto baked = bake(scene, sun);
+    const scene::LightMap& map = baked.maps[0];
+    ASSERT_EQ(map.sun_seen.size(), map.lux.size());
+    // The ground has the 36 texels a side in the middle: 2 m x 4 m of its 64 m2, and the foot of the wall.
+    ASSERT_EQ(map.size, 48);
+    double dark = 0.0;
+    for (int y = 6; y < 42; ++y) {
+        for (int x = 6; x < 42; ++x)
+            dark += 1.0 - static_cast<double>(map.sun_seen[static_cast<std::size_t>(y * map.size + x)]);
+    }
+    EXPECT_NEAR(dark / 1296.0, 10.0 / 64.0, 0.03);
+    for (const float seen : map.sun_seen) {
+        EXPECT_GE(seen, 0.0f);
+        EXPECT_LE(seen, 1.0f);
+    }
+    sun.sun_elevation_degrees = -1.0;
+    EXPECT_THROW(bake(scene, sun), Error);
 }
 
 }  // namespace

@@ -261,5 +261,44 @@ TEST_F(LampTest, AWindowLightsTheGroundAsItsFormFactorSays)
     EXPECT_EQ(at(renderer->render(frame), 0, 0), 0.0f);
 }
 
+// Light of a pane that a metal floor sends to the eye: by rays through the picture where it is smooth, as of
+// a lamp where it is rough, and no less in between.
+TEST_F(LampTest, AWindowStandsInFloorsOfAnySmoothness)
+{
+    Material glow = plain_material(glm::vec3(0.0f));
+    glow.emissive = glm::vec3(50.0f);
+    Frame frame;
+    frame.camera = look({0, 1, 3}, {0, 0, 0}, 0.9f);
+    frame.settings.width = 96;
+    frame.settings.height = 64;
+    frame.settings.samples = 8;
+    frame.settings.exposure = 1.0f;
+    frame.settings.draw_sky = false;
+    frame.sky.sun_illuminance = 0.0f;
+    const auto mirrored = [&](float roughness, bool reflections) {
+        renderer->load(scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), quad({-0.5f, 0.1f, -1}, {1, 0, 0}, {0, 1, 0}, 1)},
+                                {plain_material(glm::vec3(0.8f), roughness, 1.0f), glow}),
+                       {});
+        frame.settings.reflections = reflections;
+        const RenderResult r = renderer->render(frame);
+        float sum = 0.0f;
+        for (int y = 36; y < 64; ++y) {
+            for (int x = 0; x < 96; ++x) sum += luminance(pixel(r, x, y));
+        }
+        return sum;
+    };
+    const float smooth = mirrored(0.1f, true), rough = mirrored(0.45f, true);
+    ASSERT_GT(smooth, 0.0f);
+    for (const float roughness : {0.2f, 0.24f, 0.29f, 0.31f}) {
+        const float between = mirrored(roughness, true);
+        std::printf("  %.2f: %.0f, smooth %.0f, rough %.0f\n", static_cast<double>(roughness),
+                    static_cast<double>(between), static_cast<double>(smooth), static_cast<double>(rough));
+        EXPECT_GT(between, 0.75f * std::min(smooth, rough)) << roughness;
+        EXPECT_LT(between, 1.35f * std::max(smooth, rough)) << roughness;
+    }
+    // Without the picture they stand there all the same.
+    EXPECT_GT(mirrored(0.2f, false), 0.5f * smooth);
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -108,6 +108,59 @@ TEST_F(OwnLightMap, ADirectionalOneIsMirroredWhereItsLightComesFrom)
     EXPECT_NEAR(from(-side.x) - from(side.x), wanted, 0.05f * wanted);
 }
 
+// What a white plate under sun and a lamp sends up, without what its map sends.
+class MappedShadow : public OwnLightMap {
+protected:
+    float lit(const Material& m, const Texture& map, float height_m, bool sun, bool lamp)
+    {
+        renderer->load(scene_of({quad({-40, 0, 40}, {80, 0, 0}, {0, 0, -80})}, {m}), {map});
+        Frame frame;
+        frame.camera = look(glm::vec3(0, height_m, 0.01f), {0, 0, 0}, 0.002f);
+        frame.settings.width = frame.settings.height = 16;
+        frame.settings.samples = 1;
+        frame.settings.image_based_light = false;
+        frame.settings.lamp_shadows = 0;
+        frame.sky.sun_elevation_rad = 1.2f;
+        if (!sun) frame.sky.sun_illuminance = 0.0f;
+        if (lamp) {
+            Light bulb;
+            bulb.kind = LightKind::Point;
+            bulb.position_m = {1.0f, 4.0f, 0.0f};
+            bulb.intensity = 4.0e5f;
+            frame.extra_lights = {bulb};
+        }
+        return pixel(renderer->render(frame), 8, 8).g;
+    }
+};
+
+TEST_F(MappedShadow, SunAndLampsFadeOutWhereADualMapHoldsThem)
+{
+    const Material m = material(example("dual_light_map.glsl"));
+    const Texture dark = map_of({{0, 0, 0, 255}, {0, 0, 0, 255}});
+    for (const bool sun : {true, false}) {
+        const float near = lit(m, dark, 10.0f, sun, !sun);
+        ASSERT_GT(near, 1000.0f);
+        EXPECT_NEAR(lit(m, dark, 30.0f, sun, !sun), 0.5f * near, 0.01f * near);
+        EXPECT_EQ(lit(m, dark, 80.0f, sun, !sun), 0.0f);
+        // Where nobody says that the map holds them, they stay.
+        EXPECT_NEAR(lit(material(""), dark, 80.0f, sun, !sun), near, 0.01f * near);
+    }
+}
+
+TEST_F(MappedShadow, AMaskTakesTheSunOverWithTheDistanceAndLeavesLamps)
+{
+    const Material m = material(example("shadow_mask.glsl"));
+    // A fifth of the sun is seen, by the map; in real time all of it.
+    const Texture map = map_of({{0, 0, 0, 255}, {51, 51, 51, 255}});
+    const float near = lit(m, map, 20.0f, true, false);
+    ASSERT_GT(near, 1000.0f);
+    EXPECT_NEAR(lit(m, map, 45.0f, true, false), 0.6f * near, 0.01f * near);
+    EXPECT_NEAR(lit(m, map, 80.0f, true, false), 0.2f * near, 0.01f * near);
+    const float lamp = lit(m, map, 20.0f, false, true);
+    ASSERT_GT(lamp, 1000.0f);
+    EXPECT_NEAR(lit(m, map, 80.0f, false, true), lamp, 0.01f * lamp);
+}
+
 TEST(LightMapSides, AreSquareToEachOtherAndEvenLightIsLight)
 {
     for (int i = 0; i < 3; ++i) {

@@ -112,5 +112,29 @@ TEST_F(WaterMirror, ShallowWaterOnASlopeFollowsIt)
     EXPECT_NEAR(aov(result, "cover_normal", 16, 12, 1), aov(result, "normal", 16, 12, 1), 0.03f);
 }
 
+// A chrome floor before a red wall under a blue sky: without the picture it mirrors the sky alone.
+TEST_F(WaterMirror, WithoutThePictureFloorsMirrorTheSky)
+{
+    renderer->load(scene_of({quad({-6, 0, 3}, {12, 0, 0}, {0, 0, -12}, 0),
+                             quad({-6, 0, -4}, {12, 0, 0}, {0, 6, 0}, 1)},
+                            {plain_material(glm::vec3(0.9f), 0.05f, 1.0f), plain_material({0.8f, 0.02f, 0.02f})}),
+                   {});
+    Frame frame;
+    frame.camera = look({0, 1.5f, 4.0f}, {0, 0, -2.0f}, 0.7f);
+    frame.settings.width = kWidth;
+    frame.settings.height = kHeight;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1.0f;
+    frame.fog.mode = FogMode::Off;
+    const RenderResult on = renderer->render(frame);
+    frame.settings.reflections = false;
+    const RenderResult off = renderer->render(frame);
+    // The floor in front of the wall, then the wall itself.
+    const glm::vec3 with = pixel(on, kWidth / 2, kHeight / 2), without = pixel(off, kWidth / 2, kHeight / 2);
+    EXPECT_GT(with.r, 3.0f * with.b);
+    EXPECT_GT(without.b, without.r);
+    EXPECT_EQ(pixel(on, kWidth / 2, 4), pixel(off, kWidth / 2, 4));
+}
+
 }  // namespace
 }  // namespace petrichor::gpu

@@ -264,8 +264,9 @@ vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
     if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
     const float alpha = p.roughness * p.roughness;
     const float blurred = min(alpha + 0.5 * wide, 1.0);
-    const float mirrored =
-        IMAGE_BASED_LIGHT != 0u ? smoothstep(kMirrorRoughness, kMirrorRoughness + 0.1, p.roughness) : 1.0;
+    // The pass of reflections shows the pane itself, as far as it trusts its rays.
+    const bool picture = IMAGE_BASED_LIGHT != 0u && PICTURE != 0u;
+    const float mirrored = picture ? smoothstep(kSharpRoughness, kWideRoughness, p.roughness) : 1.0;
     LitPoint q = p;
     q.roughness = sqrt(blurred);
     q.specular = p.specular * mirrored;
@@ -273,8 +274,7 @@ vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
                        blurred);
     if (FILM != 0u) {
         q.film.roughness = sqrt(min(p.film.roughness * p.film.roughness + 0.5 * wide, 1.0));
-        // The pass of reflections shows the pane itself, as far as it trusts its rays.
-        if (IMAGE_BASED_LIGHT != 0u) q.film.lit *= smoothstep(0.16, 0.3, p.film.roughness);
+        if (picture) q.film.lit *= smoothstep(kSharpRoughness, kWideRoughness, p.film.roughness);
     }
     return filmed_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
 }

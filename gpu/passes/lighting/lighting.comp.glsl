@@ -19,6 +19,7 @@
 #define PIXEL_LIST_BINDING LIGHTING_PIXELS
 #include "gpu/frame/pixel_list.glsl"
 #include "gpu/passes/lights/lights_io.h"
+#include "gpu/passes/reflections/reflections_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
 #include "formulas/noise/noise.h"
@@ -52,6 +53,7 @@ layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
+layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
 LIGHTING_MODELS(ROW)
@@ -226,7 +228,7 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel)
 }
 
 // Adds lights far away, then those that reach this tile, in the order of the table.
-void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
+void add_all_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
 {
     for (uint i = 0u; i < frame.directional_count; ++i) {
         const vec4 color = texelFetch(lights, int(i) * LIGHT_TEXELS + 1);
@@ -248,6 +250,14 @@ void add_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
             radiance += punctual_light(p, int(word.r * 32u) + findLSB(bits), texel);
         }
     }
+}
+
+// .. so much of them.
+void add_lights(inout vec3 radiance, LitPoint p, float share, ivec2 texel)
+{
+    vec3 lamps = BAKED != 0u ? vec3(0.0) : radiance;
+    add_all_lights(lamps, p, texel);
+    radiance = BAKED != 0u ? radiance + lamps * share : lamps;
 }
 
 // Light from all around: what of it arrives, and what a mirror would see of it.
@@ -451,15 +461,17 @@ void main()
         if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
-            const float visible =
-                SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
+            float visible = SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
+            if (BAKED != 0u) visible = mix(visible, g.baked_shadow.visible, g.baked_shadow.share);
             p.sunlit = visible;
             sunny = visible > 0.0 || BLEEDS;
             if (sunny) {
                 direct += shadowed_light(p, frame.sun_direction, visible) * frame.sun_illuminance;
             }
         }
-        add_lights(direct, p, texel);
+        // Lamps whose light the map holds are in it.
+        const float lamps = BAKED != 0u ? 1.0 - g.baked_shadow.share * g.baked_shadow.lamps : 1.0;
+        add_lights(direct, p, lamps, texel);
         // Occlusion maps tell of the sky; on sun and lamps they are a choice.
         const vec3 own = model_own(p);
         const float direct_open = mix(1.0, m.occlusion, frame.occlusion_direct);
@@ -468,7 +480,7 @@ void main()
             const LitPoint q = mirroring_part(p);
             vec3 bright = vec3(0.0);
             if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * frame.sun_illuminance;
-            add_lights(bright, q, texel);
+            add_lights(bright, q, lamps, texel);
             parts.of[PART_EMITTED] = own;
             parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
             parts.of[PART_DIFFUSE_DIRECT] = (direct - bright) * direct_open;

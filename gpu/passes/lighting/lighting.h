@@ -19,6 +19,7 @@ struct LightingVariant {
     bool weather = true;
     bool shadows = true;
     bool image_based_light = true;
+    bool mirrors_picture = true;  ///< the reflections behind it do
     bool ambient_occlusion = true;
     bool emission = true;
     bool baked = false;  ///< light maps

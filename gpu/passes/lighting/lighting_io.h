@@ -30,7 +30,8 @@
 #define LIGHTING_SPEC_PARTS 22    // the light is written taken apart, too
 #define LIGHTING_SPEC_FILM 23     // a film of water is a lobe of its own
 #define LIGHTING_SPEC_GRAIN 24    // anisotropic surfaces mirror along their grain, by chance
-#define LIGHTING_SPEC_MODEL 25    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_PICTURE 25  // smooth surfaces mirror the picture itself
+#define LIGHTING_SPEC_MODEL 26    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1

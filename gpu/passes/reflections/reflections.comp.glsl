@@ -27,12 +27,12 @@ layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray labe
 layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
 layout(constant_id = REFLECTIONS_SPEC_SPLIT) const uint SPLIT = 0;
 layout(constant_id = REFLECTIONS_SPEC_LABEL) const uint LABEL = 0;
+layout(constant_id = REFLECTIONS_SPEC_PICTURE) const uint PICTURE = 1;
 
 #include "gpu/passes/reflections/probes.glsl"
 
 const int kSteps = 32;
 const int kRefinements = 5;
-const float kWide = 0.3;  // lobes from here on take the sky
 
 struct Hit {
     vec2 pixel;
@@ -179,7 +179,7 @@ void main()
 
         Hit hit;
         hit.confidence = 0.0;
-        if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0 && roughness < kWide) {
+        if (PICTURE != 0u && (frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0 && roughness < kWideRoughness) {
             // Water stands above the relief that the depth map knows.
             hit = trace(position + n * (0.001 * view_m + 0.015 * mirror.a), ray);
         }
@@ -198,8 +198,7 @@ void main()
             mirrored = mix(mirrored, around, probed.share);
             probed_share = probed.share;
         }
-        // Few samples cannot tell what a wide lobe meets.
-        hit.confidence *= 1.0 - smoothstep(0.16, kWide, roughness);
+        hit.confidence *= 1.0 - smoothstep(kSharpRoughness, kWideRoughness, roughness);
         if (hit.confidence > 0.0) {
             const vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
             mirrored = mix(mirrored, seen, hit.confidence);

@@ -8,12 +8,13 @@
 
 namespace petrichor::gpu {
 
-/// What the pass writes besides the sum.
+/// What the pass writes besides the sum, and what it looks at.
 struct MirrorOutputs {
     GpuImage* parts = nullptr;  ///< never null in a pass (gpu/outputs/light_parts.h)
     bool split = false;         ///< what is mirrored, into its layer
     GpuImage* labels = nullptr;  ///< the same, of all samples
     bool label = false;         ///< what that is of
+    bool picture = true;        ///< the picture itself is mirrored
 };
 
 // Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky; then

@@ -4,6 +4,15 @@
 
 #define REFLECTIONS_TILE 8
 
+#include "base/interop.h"
+
+SHARED_BEGIN
+// What a ray meets counts in full up to the first roughness, and from the second on not at all: few
+// samples cannot tell what a wide lobe meets.
+SHARED_CONST float kSharpRoughness = 0.16f;
+SHARED_CONST float kWideRoughness = 0.3f;
+SHARED_END
+
 #define REFLECTIONS_FRAME 0
 #define REFLECTIONS_DEPTH 1
 #define REFLECTIONS_RADIANCE 2
@@ -22,6 +31,7 @@
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
 #define REFLECTIONS_SPEC_LABEL 2    // 1: .. and what it is of
+#define REFLECTIONS_SPEC_PICTURE 3  // 0: the picture itself is not mirrored
 
 // Of a probe: position, boost; low corner, blend; high corner, share of sky above.
 #define PROBE_ROWS 3

@@ -132,6 +132,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     }
     data.texel.baked = vec3(0.0);
     data.texel.baked_sky = 0.0;
+    data.texel.baked_shadow = no_baked_shadow();
     if (SURFACE_BAKED != 0) {
         if (has(TEXTURE_LIGHT_MAP)) {
             const vec3 lux = texel(light_map_texture, coordinates(TEXTURE_LIGHT_MAP, at, vec2(0.0))).rgb;

@@ -1,7 +1,8 @@
 // For surfaces of your own (own_surface.glsl) that decode their light map themselves. NAME_surface finds
 // the standard decode in data.texel.baked (light_map_texture times light_map_scale over pi: what a white
 // diffuser sends out) and may put another one there; data.texel.baked_sky is the share of skylight that
-// the map holds. A map of two pictures has them side by side, the first on the left.
+// the map holds. A map of two pictures has them side by side, the first on the left. What the map knows of
+// sun and lamps, map_holds_direct and map_shadows_sun tell the light.
 #ifndef PETRICHOR_OWN_LIGHT_MAP_GLSL
 #define PETRICHOR_OWN_LIGHT_MAP_GLSL
 
@@ -32,6 +33,18 @@ vec4 light_map_part(SurfaceInput at, int part, int count)
 vec3 baked_light(vec3 lux)
 {
     return min(lux * (material.light_map_scale * 0.31830989), vec3(60000.0));
+}
+
+// The map holds so much of what sun and lamps send straight, 0..1: they fade out by it.
+void map_holds_direct(inout SurfaceData data, float share)
+{
+    data.texel.baked_shadow = BakedShadow(0.0, share, 1.0);
+}
+
+// How much of the sun the map says is seen, 0..1, and how far its word stands in for the real-time shadow.
+void map_shadows_sun(inout SurfaceData data, float visible, float share)
+{
+    data.texel.baked_shadow = BakedShadow(visible, share, 0.0);
 }
 
 #endif
