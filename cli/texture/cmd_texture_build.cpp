@@ -230,7 +230,8 @@ void add_texture_build(CLI::App& texture)
     app->add_option("-o,--out", a->out, "the folder to write into; of a scene the new scene");
     app->add_option("--engine", a->choice.engines,
                     "outputs of this engine (see --list), in place of the recipe's");
-    app->add_option("--rule", a->choice.rule, "prefilter: overlap, median, ..., or none");
+    app->add_option("--rule", a->choice.rule, "prefilter: picture (default; once stored never worse than plain mips), overlap, "
+                    "median, ..., or none");
     app->add_option("--quality", a->choice.quality, "prefilter: full or quick")
         ->check(CLI::IsMember({"full", "quick"}));
     app->add_option("--format", a->choice.format, "of all outputs")

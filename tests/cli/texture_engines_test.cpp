@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/assets.h"
 #include "tests/support/program.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/codecs/files/texture.h"
@@ -82,6 +83,37 @@ TEST(TextureEngines, UnrealGetsBlueFirstAndAScript)
     EXPECT_EQ(uses, (std::map<std::string, std::string>{{"T_Wall_BC.dds", "color"},
                                                         {"T_Wall_N.dds", "normal"},
                                                         {"T_Wall_ORM.dds", "mask"}}));
+}
+
+// As a file is read that was cut and filled up, in a format without a checksum.
+TEST(TextureEngines, MapsWithEmptyRowsAreTold)
+{
+    const Workplace place("engine_zero_rows");
+    write_wall(place / "in");
+    Image rough = waves(16, 16, 1, 0.9f);
+    std::fill(rough.pixels.begin() + 16 * 10, rough.pixels.end(), 0.0f);
+    texproc::write_image(place / "in/Wall_roughness.png", rough);
+    const Outcome made =
+        run({"texture", "build", "in", "--engine", "gltf", "--no-score", "-o", "out"}, place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out,
+                HasSubstr("Wall_roughness.png as roughness: rows 10 to 15 of 16 are zero"));
+    EXPECT_THAT(made.out, Not(HasSubstr("as albedo")));
+}
+
+// Nearly flat: blocks cost more than the filter gains there.
+TEST(TextureEngines, BlocksAreNeverWorseThanPlainMipsInThem)
+{
+    NEED_ASSETS(assets);
+    const Workplace place("engine_guard");
+    const std::string scene = (assets / "models/NormalTangentTest.glb").string();
+    const Outcome made = run(
+        {"texture", "build", scene, "--engine", "unity-urp", "--size", "128", "-o", "out"}, place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const json manifest = json::parse(read_file(place / "out/manifest.json"));
+    const json& error = manifest["sets"][0]["picture_error"];
+    EXPECT_LE(error["shipped"]["rmse"].get<double>(), error["plain"]["rmse"].get<double>());
+    EXPECT_LE(error["shipped"]["flicker"].get<double>(), error["plain"]["flicker"].get<double>());
 }
 
 TEST(TextureEngines, UnityGetsMetaFilesWithLastingGuids)

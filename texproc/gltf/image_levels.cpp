@@ -218,7 +218,7 @@ PrefilterOptions pair_options(const ImageMakingOptions& options, const ImageReci
 
 }  // namespace
 
-std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe) const
+std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe, bool plain) const
 {
     Image surface = decode(recipe.image, ColorSpace::Data, 3);
     const float factor = recipe.roughness_factor;
@@ -233,7 +233,7 @@ std::vector<Image> ImageMaker::surface_levels(const ImageRecipe& recipe) const
         for (float& value : rough.pixels) value *= factor;
         put(level, rough);
     }
-    if (recipe.normal < 0 || options_.prefilter.rule == "none") return levels;
+    if (plain || recipe.normal < 0 || options_.prefilter.rule == "none") return levels;
     const Pair pair =
         to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
                       recipe.normal_scale, factor, options_.threads);
@@ -267,7 +267,7 @@ std::vector<Image> ImageMaker::normal_levels(const ImageRecipe& recipe) const
     return levels;
 }
 
-MipTexture ImageMaker::make(std::size_t number) const
+MipTexture ImageMaker::make(std::size_t number, bool plain) const
 {
     const ImageRecipe& recipe = plan_.recipes[number];
     std::vector<Image> levels;
@@ -276,7 +276,7 @@ MipTexture ImageMaker::make(std::size_t number) const
             levels = color_levels(recipe);
             break;
         case ImageMeaning::Surface:
-            levels = surface_levels(recipe);
+            levels = surface_levels(recipe, plain);
             break;
         case ImageMeaning::Normal:
             levels = normal_levels(recipe);
@@ -305,10 +305,13 @@ MipTexture ImageMaker::make(std::size_t number) const
                               .threads = options_.threads});
 }
 
-std::optional<PictureError> ImageMaker::picture_error(std::size_t number,
-                                                      const MipTexture& surface_made,
-                                                      const MipTexture& normals_made,
-                                                      bool darkened) const
+std::size_t PairPictures::level_of(int width, int height) const
+{
+    return static_cast<std::size_t>(
+        std::find(sizes.begin(), sizes.end(), LevelSize{width, height}) - sizes.begin());
+}
+
+std::optional<PairPictures> ImageMaker::pictures(std::size_t number) const
 {
     const ImageRecipe& recipe = plan_.recipes[number];
     if (recipe.normal < 0 || options_.prefilter.rule == "none") return {};
@@ -316,49 +319,43 @@ std::optional<PictureError> ImageMaker::picture_error(std::size_t number,
     const Pair pair =
         to_pair<Pair>(decode(static_cast<std::size_t>(recipe.normal), ColorSpace::Data, 3), surface,
                       recipe.normal_scale, recipe.roughness_factor, options_.threads);
-    // What a viewer reads: levels that one of the two images does not have are left to the maps.
-    Prefiltered shipped;
-    const auto levels = level_sizes(pair.normals.width, pair.normals.height);
-    shipped.normal.resize(levels.size());
-    shipped.roughness.resize(levels.size());
+    return PairPictures{
+        {to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
+         pair_options(options_, recipe), build_pictures(options_.threads)},
+        level_sizes(pair.normals.width, pair.normals.height),
+        base_shares(pair.normals, options_.threads)};
+}
+
+// Levels that one of the two images does not have are left to the maps.
+Prefiltered ImageMaker::as_read(std::size_t number, const PairPictures& pictures,
+                                const MipTexture& surface_made, const MipTexture& normals_made,
+                                bool darkened) const
+{
+    const ImageRecipe& recipe = plan_.recipes[number];
+    Prefiltered read;
+    read.normal.resize(pictures.sizes.size());
+    read.roughness.resize(pictures.sizes.size());
     const auto fill = [&](const MipTexture& made, std::vector<Image>& to, bool normals) {
         for (std::size_t k = 0; k < made.levels.size(); ++k) {
             Image level =
                 with_channels(to_image(decode_level(made, static_cast<int>(k), options_.threads),
                                        ColorSpace::Data),
                               3);
-            const auto at =
-                std::find(levels.begin(), levels.end(), LevelSize{level.width, level.height});
-            if (at == levels.end()) continue;
-            Image& place = to[static_cast<std::size_t>(at - levels.begin())];
+            const std::size_t at = pictures.level_of(level.width, level.height);
+            if (at == to.size()) continue;
             if (normals) {
-                place = scaled_normals(std::move(level), recipe.normal_scale);
+                to[at] = scaled_normals(std::move(level), recipe.normal_scale);
                 continue;
             }
-            place = channel_of(level, 1);
+            to[at] = channel_of(level, 1);
             const float stored = options_.bake_roughness ? 1.0f : recipe.roughness_factor;
-            for (float& value : place.pixels) value *= stored;
+            for (float& value : to[at].pixels) value *= stored;
         }
     };
-    fill(surface_made, shipped.roughness, false);
-    fill(normals_made, shipped.normal, true);
-    if (darkened) shipped.base_share = base_shares(pair.normals, options_.threads);
-    PictureOptions pictures = reference_pictures();
-    pictures.frames = 2;
-    pictures.samples = 8;
-    pictures.threads = options_.threads;
-    const PictureBench bench(to_raw(pair.normals, PixelType::U16),
-                             to_raw(pair.roughness, PixelType::U16), pair_options(options_, recipe),
-                             pictures);
-    const auto mean = [](const std::vector<PictureScore>& scores) {
-        PictureScore sum;
-        for (const PictureScore& score : scores) {
-            sum.rmse += score.rmse / static_cast<double>(scores.size());
-            sum.flicker += score.flicker / static_cast<double>(scores.size());
-        }
-        return sum;
-    };
-    return PictureError{mean(bench.score(shipped)), mean(bench.score({}))};
+    fill(surface_made, read.roughness, false);
+    fill(normals_made, read.normal, true);
+    if (darkened) read.base_share = pictures.base_share;
+    return read;
 }
 
 }  // namespace petrichor::texproc

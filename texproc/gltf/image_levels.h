@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "texproc/codecs/files/texture.h"
+#include "texproc/filter/area.h"
 #include "texproc/gltf/image_plan.h"
 #include "texproc/material/chains.h"
 #include "texproc/material/material.h"
+#include "texproc/prefilter/stored_guard.h"
 
 namespace petrichor::texproc {
 
@@ -23,6 +25,15 @@ struct ImageMakingOptions {
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };
 
+/// Lit floors of a surface with its normals, and what is known of both in one size.
+struct PairPictures {
+    PictureBench bench;
+    std::vector<LevelSize> sizes;
+    std::vector<Image> base_share;
+    /// The level of the chain that a level of an image is; sizes.size(): none.
+    std::size_t level_of(int width, int height) const;
+};
+
 /// Makes the images of a plan: level 0 as the source has it, smaller ones filtered by what they
 /// hold, roughness and base colour with the normals that belong to them. Sides are multiples of
 /// four, which KHR_texture_basisu asks for: others are resampled to the next smaller one.
@@ -32,14 +43,17 @@ public:
     ImageMaker(const GltfFile& file, const ImagePlan& plan, ImageMakingOptions options);
     ~ImageMaker();
 
-    /// Throws Error that names an image that cannot be read.
-    MipTexture make(std::size_t recipe) const;
+    /// Throws Error that names an image that cannot be read. plain: levels of plain mips.
+    MipTexture make(std::size_t recipe, bool plain = false) const;
 
-    /// How far lit floors are from the truth with a surface and the normals that belong to it as
-    /// they were made, and with plain mips. Nothing where they are not filtered together.
+    /// Pictures of a surface with the normals that belong to it; nothing where they are not
+    /// filtered together.
+    std::optional<PairPictures> pictures(std::size_t surface) const;
+    /// What a viewer reads of a surface and its normals as they were made.
     ///   darkened  the base colour carries what the normals lose
-    std::optional<PictureError> picture_error(std::size_t surface, const MipTexture& surface_made,
-                                              const MipTexture& normals_made, bool darkened) const;
+    Prefiltered as_read(std::size_t surface, const PairPictures& pictures,
+                        const MipTexture& surface_made, const MipTexture& normals_made,
+                        bool darkened) const;
 
     /// True when the source of a recipe was resampled.
     bool is_resampled(std::size_t recipe) const;
@@ -48,7 +62,7 @@ private:
     struct Pair;
     Image decode(std::size_t image, ColorSpace space, int channels) const;
     std::vector<Image> color_levels(const ImageRecipe& recipe) const;
-    std::vector<Image> surface_levels(const ImageRecipe& recipe) const;
+    std::vector<Image> surface_levels(const ImageRecipe& recipe, bool plain) const;
     std::vector<Image> normal_levels(const ImageRecipe& recipe) const;
     MipOptions mip_options(const ImageRecipe& recipe) const;
 

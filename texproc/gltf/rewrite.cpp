@@ -101,7 +101,9 @@ public:
     GltfBuildReport run()
     {
         make_images();
-        score();
+        find_pairs();
+        guard_pairs();
+        finish_images();
         place_textures();
         place_images();
         settle_materials();
@@ -111,8 +113,18 @@ public:
     }
 
 private:
+    // A surface with its normals, and the base colours that go with them.
+    struct Pair {
+        std::string name;  // of the first material that has it
+        std::size_t surface = 0, normals = 0;
+        std::set<std::size_t> colors{};
+        std::optional<PictureError> error{};
+    };
     void make_images();
-    void score();
+    void find_pairs();
+    void guard_pairs();
+    void guard(Pair& pair);
+    void finish_images();
     void place_textures();
     void place_images();
     void settle_materials();
@@ -130,8 +142,9 @@ private:
     ImagePlan plan_;
     ImageMaker maker_;
     GltfBuildReport report_;
-    std::vector<std::vector<std::byte>> made_;                  // files, by recipe
-    std::map<std::size_t, MipTexture> kept_;                    // recipes that are to be scored
+    std::vector<std::vector<std::byte>> made_;  // files, by recipe
+    std::vector<MipTexture> textures_made_;     // by recipe
+    std::vector<Pair> pairs_;
     std::map<std::size_t, std::vector<std::size_t>> textures_;  // by recipe: that show it
     std::set<std::size_t> replaced_textures_;               // that no longer show their old image
     std::map<std::size_t, std::size_t> images_;             // recipe -> entry of images
@@ -142,43 +155,108 @@ void Rewriter::make_images()
 {
     for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
         if (options_.stop && options_.stop()) throw Interrupted("texture build: stopped");
+        textures_made_.push_back(maker_.make(r));
+    }
+}
+
+void Rewriter::find_pairs()
+{
+    for (const TextureSlot& surface : plan_.slots) {
+        const ImageRecipe& recipe = plan_.recipes[surface.recipe];
+        if (recipe.meaning != ImageMeaning::Surface || recipe.normal < 0) continue;
+        std::optional<std::size_t> normals, color;
+        for (const TextureSlot& slot : plan_.slots) {
+            if (slot.material != surface.material) continue;
+            if (slot.keys.back() == "normalTexture") normals = slot.recipe;
+            if (slot.keys.back() == "baseColorTexture") color = slot.recipe;
+        }
+        if (!normals) continue;
+        auto pair = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
+            return p.surface == surface.recipe && p.normals == *normals;
+        });
+        if (pair == pairs_.end()) {
+            const JsonText& material = source_.json.find("materials")->at(surface.material);
+            pair = pairs_.insert(pairs_.end(), {name_of(material, "material", surface.material),
+                                                surface.recipe, *normals});
+        }
+        if (color) pair->colors.insert(*color);
+    }
+}
+
+// Levels that blocks make worse than plain mips in the same blocks become those.
+void Rewriter::guard(Pair& pair)
+{
+    const auto pictures = maker_.pictures(pair.surface);
+    if (!pictures) return;
+    const bool darkened =
+        !pair.colors.empty() &&
+        std::all_of(pair.colors.begin(), pair.colors.end(),
+                    [&](std::size_t color) { return plan_.recipes[color].normal >= 0; });
+    MipTexture& surface = textures_made_[pair.surface];
+    const MipTexture& normals = textures_made_[pair.normals];
+    const Prefiltered ours = maker_.as_read(pair.surface, *pictures, surface, normals, darkened);
+    if (options_.images.prefilter.rule != "picture") {  // another rule is asked for as it is
+        pair.error = PictureError{mean_score(pictures->bench.score(ours)),
+                                  mean_score(pictures->bench.score({}))};
+        return;
+    }
+    const MipTexture plain = maker_.make(pair.surface, true);
+    const StoredGuard chosen =
+        guard_stored(pictures->bench, ours,
+                     maker_.as_read(pair.surface, *pictures, plain, normals, false).roughness);
+    pair.error = PictureError{chosen.score, chosen.plain_score};
+    for (std::size_t k = 0; k < surface.levels.size(); ++k) {
+        const std::size_t at =
+            pictures->level_of(level_extent(surface.width, static_cast<int>(k)),
+                               level_extent(surface.height, static_cast<int>(k)));
+        if (at < chosen.plain.size() && chosen.plain[at]) surface.levels[k] = plain.levels[k];
+    }
+    if (chosen.darken) return;
+    for (const std::size_t color : pair.colors) plan_.recipes[color].normal = -1;
+}
+
+// Pairs that share a base colour with one that must not be darkened are looked at again.
+void Rewriter::guard_pairs()
+{
+    if (!options_.score && options_.images.prefilter.rule != "picture") return;
+    const auto darkened = [&](const Pair& pair) {
+        std::string each = "pair";
+        for (const std::size_t color : pair.colors)
+            each += plan_.recipes[color].normal >= 0 ? '+' : '-';
+        return each;
+    };
+    const std::vector<ImageRecipe> planned = plan_.recipes;
+    std::vector<std::string> seen(pairs_.size());
+    for (bool again = true; again;) {
+        again = false;
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            if (options_.stop && options_.stop()) throw Interrupted("texture build: stopped");
+            if (seen[i] == darkened(pairs_[i])) continue;
+            guard(pairs_[i]);
+            seen[i] = darkened(pairs_[i]);
+            again = true;
+        }
+    }
+    for (std::size_t r = 0; r < planned.size(); ++r)
+        if (planned[r] != plan_.recipes[r]) textures_made_[r] = maker_.make(r);
+}
+
+void Rewriter::finish_images()
+{
+    for (std::size_t r = 0; r < plan_.recipes.size(); ++r) {
         const ImageRecipe& recipe = plan_.recipes[r];
-        MipTexture made = maker_.make(r);
+        const MipTexture& made = textures_made_[r];
         made_.push_back(texture_bytes(made, "ktx2", options_.zstd));
         report_.images.push_back(
             {name_of(source_.json.find("images")->at(recipe.image), "image", recipe.image),
              recipe.meaning, made.width, made.height, static_cast<int>(made.levels.size()),
              image_bytes(source_, recipe.image).size(), made_.back().size(),
              maker_.is_resampled(r)});
-        const bool pair = recipe.meaning == ImageMeaning::Normal ||
-                          (recipe.meaning == ImageMeaning::Surface && recipe.normal >= 0);
-        if (options_.score && pair) kept_.emplace(r, std::move(made));
+        textures_made_[r] = {};
     }
-}
-
-// Each pair of a surface and its normals once, under the name of the first material that has it.
-void Rewriter::score()
-{
     if (!options_.score) return;
-    std::set<std::pair<std::size_t, std::size_t>> seen;
-    for (const TextureSlot& surface : plan_.slots) {
-        const ImageRecipe& recipe = plan_.recipes[surface.recipe];
-        if (recipe.meaning != ImageMeaning::Surface || recipe.normal < 0) continue;
-        std::optional<std::size_t> normals;
-        bool darkened = false;
-        for (const TextureSlot& slot : plan_.slots) {
-            if (slot.material != surface.material) continue;
-            const ImageRecipe& other = plan_.recipes[slot.recipe];
-            if (slot.keys.back() == "normalTexture") normals = slot.recipe;
-            if (slot.keys.back() == "baseColorTexture") darkened = other.normal >= 0;
-        }
-        if (!normals || !seen.insert({surface.recipe, *normals}).second) continue;
-        const auto error = maker_.picture_error(surface.recipe, kept_.at(surface.recipe),
-                                                kept_.at(*normals), darkened);
-        if (!error) continue;
-        const JsonText& material = source_.json.find("materials")->at(surface.material);
-        report_.materials.push_back({name_of(material, "material", surface.material), *error});
-    }
+    for (const Pair& pair : pairs_)
+        if (pair.error) report_.materials.push_back({pair.name, *pair.error});
 }
 
 JsonText& Rewriter::slot_json(const TextureSlot& slot)

@@ -95,10 +95,11 @@ public:
         for (const std::size_t number : prefiltered_.order()) {
             prefiltered_.aim(number, made.outputs, folder_);
             made.outputs[number] = make_output(number);
+            prefiltered_.guard(number, made.outputs, folder_, [&] { return make_output(number); });
         }
         if (const auto shipped = prefiltered_.shipped(made.outputs, folder_)) {
             made.lobe_error = prefiltered_.lobe_error(*shipped);
-            made.picture_error = prefiltered_.picture_error(*shipped);
+            made.picture_error = prefiltered_.picture_error(*shipped, made.outputs);
         }
         return made;
     }

@@ -85,8 +85,15 @@ std::vector<std::size_t> PrefilteredMaps::order() const
 {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < plan_.outputs.size(); ++i) numbers.push_back(i);
-    std::stable_partition(numbers.begin(), numbers.end(), [&](std::size_t i) {
-        return !rough_role_.empty() && !holds(plan_.outputs[i], rough_role_);
+    if (rough_role_.empty()) return numbers;
+    // Base colours last: whether they are darkened is known when roughness was looked at.
+    std::stable_sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
+        const auto turn = [&](std::size_t i) {
+            if (holds(plan_.outputs[i], rough_role_)) return 1;
+            const std::vector<std::string>& roles = plan_.outputs[i].roles;
+            return std::find(roles.begin(), roles.end(), "albedo") != roles.end() ? 2 : 0;
+        };
+        return turn(a) < turn(b);
     });
     return numbers;
 }
@@ -122,6 +129,7 @@ const std::vector<Image>* PrefilteredMaps::levels(std::size_t number, const std:
     if (rough_role_.empty() || !holds(plan_.outputs[number], role)) return nullptr;
     if (role == "normal") return &chains_.normal;
     if (role != rough_role_) return nullptr;
+    if (const auto plain = guarded_.find(number); plain != guarded_.end()) return &plain->second;
     const std::optional<std::size_t> normals = normals_of(number);
     const auto aimed = normals ? aimed_.find(*normals) : aimed_.end();
     return aimed == aimed_.end() ? &chains_.roughness : &aimed->second;
@@ -173,23 +181,72 @@ Score PrefilteredMaps::lobe_error(const Prefiltered& shipped) const
         {.light = plan_.recipe->prefilter.design_light, .texels = 16, .threads = options_.threads});
 }
 
-PictureError PrefilteredMaps::picture_error(const Prefiltered& shipped) const
+PictureError PrefilteredMaps::picture_error(const Prefiltered& shipped,
+                                            const std::vector<MadeOutput>& made) const
 {
-    PictureOptions pictures = reference_pictures();
-    pictures.frames = 2;
-    pictures.samples = 8;
-    pictures.threads = options_.threads;
-    const PictureBench bench(maps_.images.at("normal"), maps_.images.at(rough_role_), options_,
-                             pictures);
-    const auto mean = [](const std::vector<PictureScore>& scores) {
-        PictureScore sum;
-        for (const PictureScore& score : scores) {
-            sum.rmse += score.rmse / static_cast<double>(scores.size());
-            sum.flicker += score.flicker / static_cast<double>(scores.size());
-        }
-        return sum;
-    };
-    return {mean(bench.score(shipped)), mean(bench.score({}))};
+    PictureError error{mean_score(bench().score(shipped)), {}};
+    for (std::size_t i = 0; i < made.size(); ++i) {  // the output that shipped() read
+        if (!holds(plan_.outputs[i], rough_role_)) continue;
+        const auto plain = plain_scores_.find(i);
+        if (plain == plain_scores_.end()) break;
+        error.plain = plain->second;
+        return error;
+    }
+    error.plain = mean_score(bench().score({}));
+    return error;
+}
+
+const PictureBench& PrefilteredMaps::bench() const
+{
+    if (!bench_) {
+        bench_.emplace(maps_.images.at("normal"), maps_.images.at(rough_role_), options_,
+                       build_pictures(options_.threads));
+    }
+    return *bench_;
+}
+
+// Another rule is asked for as it is; 16 bits are as good as floats.
+bool PrefilteredMaps::is_guarded(const PlannedOutput& output) const
+{
+    const OutputRule& rule = output.rule;
+    return options_.rule == "picture" && holds(output, rough_role_) && rule.has_levels() &&
+           (rule.compression != "none" || rule.bits == 8);
+}
+
+Prefiltered PrefilteredMaps::as_read(std::size_t number, const std::vector<MadeOutput>& made,
+                                     const std::filesystem::path& folder) const
+{
+    Prefiltered read;
+    read.roughness = read_back(number, rough_role_, made, folder);
+    const std::optional<std::size_t> normals = normals_of(number);
+    if (normals && !made[*normals].files.empty())
+        read.normal = read_back(*normals, "normal", made, folder);
+    read.base_share = chains_.base_share;
+    return read;
+}
+
+void PrefilteredMaps::guard(std::size_t number, std::vector<MadeOutput>& made,
+                            const std::filesystem::path& folder,
+                            const std::function<MadeOutput()>& write)
+{
+    if (rough_role_.empty() || !is_guarded(plan_.outputs[number])) return;
+    const Prefiltered ours = as_read(number, made, folder);
+    if (ours.roughness.empty()) return;  // files that are not read back
+    // Blocks hardly ever make plain mips better: what beats those of floats clearly is not written
+    // a second time.
+    constexpr double kClear = 0.99;
+    const PictureScore plain = mean_score(bench().score({})), now = mean_score(bench().score(ours));
+    if (now.rmse < kClear * plain.rmse && now.flicker < kClear * plain.flicker) return;
+    const std::vector<Image> floats = bench().plain_roughness();
+    guarded_[number] = floats;
+    made[number] = write();
+    const StoredGuard chosen = guard_stored(bench(), ours, as_read(number, made, folder).roughness);
+    plain_scores_[number] = chosen.plain_score;
+    if (!chosen.darken) chains_.base_share.clear();
+    std::vector<Image>& levels = guarded_[number];
+    for (std::size_t k = 1; k < levels.size(); ++k)
+        if (k >= chosen.plain.size() || !chosen.plain[k]) levels[k] = chains_.roughness[k];
+    made[number] = write();
 }
 
 }  // namespace petrichor::texproc

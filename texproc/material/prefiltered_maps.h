@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "texproc/material/material.h"
 #include "texproc/material/source_maps.h"
 #include "texproc/prefilter/prefilter.h"
+#include "texproc/prefilter/stored_guard.h"
 #include "texproc/study/score.h"
 
 namespace petrichor::texproc {
@@ -29,6 +31,11 @@ public:
     void aim(std::size_t number, const std::vector<MadeOutput>& made,
              const std::filesystem::path& folder);
 
+    /// Looks at output `number` as it was written, and makes levels plain that its file makes worse
+    /// than plain mips in the same file. write() writes the output anew, as levels() are then.
+    void guard(std::size_t number, std::vector<MadeOutput>& made,
+               const std::filesystem::path& folder, const std::function<MadeOutput()>& write);
+
     /// Levels 1.. of a role for an output; nullptr where they are plain mips.
     const std::vector<Image>* levels(std::size_t number, const std::string& role) const;
     /// What the base colour is to be multiplied by (apply_base_shares); empty: by nothing.
@@ -42,10 +49,15 @@ public:
                                        const std::filesystem::path& folder) const;
     /// The lobe error of a chain, and how far pictures with it are from the truth.
     Score lobe_error(const Prefiltered& shipped) const;
-    PictureError picture_error(const Prefiltered& shipped) const;
+    PictureError picture_error(const Prefiltered& shipped,
+                               const std::vector<MadeOutput>& made) const;
 
 private:
     void choose_options(int threads);
+    const PictureBench& bench() const;
+    bool is_guarded(const PlannedOutput& output) const;
+    Prefiltered as_read(std::size_t number, const std::vector<MadeOutput>& made,
+                        const std::filesystem::path& folder) const;
     bool holds(const PlannedOutput& output, const std::string& role) const;
     bool changes_normals(const PlannedOutput& output) const;
     std::optional<std::size_t> normals_of(std::size_t number) const;
@@ -59,7 +71,10 @@ private:
     PrefilterOptions options_;
     int bits_ = 8;  // of the finest file
     Prefiltered chains_;
-    std::map<std::size_t, std::vector<Image>> aimed_;  // roughness, by the output of its normals
+    std::map<std::size_t, std::vector<Image>> aimed_;    // roughness, by the output of its normals
+    std::map<std::size_t, std::vector<Image>> guarded_;  // roughness with plain levels, by output
+    std::map<std::size_t, PictureScore> plain_scores_;   // of plain mips in the files of an output
+    mutable std::optional<PictureBench> bench_;
 };
 
 }  // namespace petrichor::texproc

@@ -1,6 +1,7 @@
 #include "texproc/material/source_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "texproc/filter/bake.h"
 #include "texproc/filter/normal.h"
 #include "texproc/filter/resample.h"
+#include "texproc/image/zero_rows.h"
 #include "texproc/material/chains.h"
 #include "texproc/material/one_size.h"
 #include "texproc/material/pack.h"
@@ -135,6 +137,13 @@ void read(const PlannedMaterial& plan, int threads, SourceMaps& maps)
         RawImage& image = maps.images[role] = channels_of(whole, map);
         if (is_color(role) && image.channels < 3) image = widened(image);
         check_numbers(image, map);
+        // Masks, metal and heights may well be zero; these are not.
+        constexpr std::array kNeverZero{"albedo", "normal", "roughness", "smoothness", "occlusion"};
+        if (std::find(kNeverZero.begin(), kNeverZero.end(), role) == kNeverZero.end()) continue;
+        if (const std::string zero = zero_rows(image); !zero.empty()) {
+            maps.notes.push_back(map.path.string() + " as " + role + ": " + zero +
+                                 "; look whether the file is damaged");
+        }
     }
 }
 
@@ -246,7 +255,8 @@ SourceMaps read_source_maps(const PlannedMaterial& plan, int threads)
 {
     SourceMaps maps;
     read(plan, threads, maps);
-    maps.notes = bring_to_one_size(plan, maps.images, threads);
+    for (std::string& note : bring_to_one_size(plan, maps.images, threads))
+        maps.notes.push_back(std::move(note));
     orient_normal(plan, maps);
     bake(plan, threads, maps);
     return maps;

@@ -27,6 +27,7 @@
 #include "texproc/codecs/decoder/reduce.h"
 #include "texproc/codecs/decoder/sgi.h"
 #include "texproc/codecs/decoder/texture.h"
+#include "texproc/codecs/decoder/tiff.h"
 #include "texproc/codecs/files/detail/message.h"
 #include "texproc/codecs/files/detail/protocol.h"
 
@@ -119,6 +120,7 @@ void read_pixels(std::span<const std::byte> file, const std::string& format, con
     } else if (format != "psd" || !read_psd(file, accept)) {
         if (!library) throw NeedsLibrary{};
         library->read(file, format, accept);
+        if (format == "tiff") check_tiff(file);
     }
 }
 
