@@ -40,6 +40,7 @@ bool meets(float low, float high, float offset)
 void SeenTriangles::reset(const GpuScene& scene)
 {
     used_ = 0;
+    places_.reset(scene);
     if (scene_ == &scene) return;
     scene_ = &scene;
     indices_ = nullptr;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/upload/gpu_scene.h"
+#include "gpu/upload/instance_places.h"
 
 namespace petrichor::gpu {
 
@@ -38,12 +39,18 @@ struct SeenDraws {
 /// between the samples. What rounding may decide stays, so that no picture changes.
 class SeenTriangles {
 public:
-    explicit SeenTriangles(const Device& device) : device_(&device) {}
+    explicit SeenTriangles(const Device& device) : device_(&device), places_(device) {}
 
     /// Of a scene that goes away.
-    void forget() { scene_ = nullptr; }
+    void forget()
+    {
+        scene_ = nullptr;
+        places_.forget();
+    }
     /// Forgets what was listed before: no device may be drawing it.
     void reset(const GpuScene& scene);
+    /// Of what is drawn at once in the maps of this frame.
+    InstancePlaces& places() { return places_; }
 
     /// `back_faces`: those are shown whatever the materials say. Draws that are `wanted` alone are
     /// looked at. Null: this device needs no such help, or there is no room for more.
@@ -67,6 +74,7 @@ private:
                                              bool back_faces, std::span<const Draw* const> draws);
 
     const Device* device_;
+    InstancePlaces places_;
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuBuffer> indices_;
     std::unique_ptr<GpuBuffer> numbers_;

@@ -1,5 +1,6 @@
 // Instances of one mesh and material: one draw of many, the same picture.
 #include "gpu/upload/draw.h"
+#include "gpu/passes/depth_maps/depth_maps.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -89,6 +90,34 @@ TEST_F(Instances, OfOneShapeAreOneRun)
     }
     EXPECT_EQ(instances, 108u);
     EXPECT_EQ(runs(field(plain, true)).size(), 108u);
+}
+
+TEST_F(Instances, OfOneShapeAreOneRunInDepthMaps)
+{
+    if (!renderer) return;
+    renderer.reset();  // its device is not needed
+    const Device device(RendererOptions{.device = "", .validation = true});
+    const glm::mat4 all = glm::scale(glm::mat4(1.0f), glm::vec3(0.05f));
+    for (const Material& material : {plain_material(glm::vec3(0.5f)), cut_out()}) {
+        SeenTriangles triangles(device);
+        const GpuScene one(device, field(material, false), {});
+        triangles.reset(one);
+        const Casters together = casters_in(triangles, one, all, 256, Falls::Light);
+        EXPECT_TRUE(together.single.empty());
+        ASSERT_EQ(together.runs.size(), 6u);
+        std::uint32_t instances = 0;
+        for (const Casters::Run& run : together.runs) {
+            EXPECT_EQ(run.first_place, instances);
+            instances += run.count;
+        }
+        EXPECT_EQ(instances, 108u);
+
+        const GpuScene many(device, field(material, true), {});
+        triangles.reset(many);
+        const Casters apart = casters_in(triangles, many, all, 256, Falls::Light);
+        EXPECT_EQ(apart.single.size(), 108u);
+        EXPECT_TRUE(apart.runs.empty());
+    }
 }
 
 }  // namespace

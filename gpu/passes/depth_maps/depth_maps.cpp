@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "gpu/passes/depth_maps/depth_maps_io.h"
 #include "gpu/upload/draw.h"
@@ -33,6 +34,11 @@ bool is_caster(const GpuScene& scene, const Draw& draw, Falls falls)
     return material.casts_shadows || falls == Falls::Rain;
 }
 
+bool holes_in_relief(const GpuMaterial& material)
+{
+    return material.masked && material.parallax != PARALLAX_NONE;
+}
+
 // Where a map looks from: what it sees at an infinite depth before it. w 0: a direction.
 glm::vec4 eye_of(const glm::mat4& clip_from_world)
 {
@@ -44,17 +50,53 @@ glm::vec4 eye_of(const glm::mat4& clip_from_world)
 
 }  // namespace
 
-std::shared_ptr<const SeenDraws> seen_casters(SeenTriangles& triangles, const GpuScene& scene,
-                                              const glm::mat4& clip_from_world, int size, Falls falls)
+Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
+                   int size, Falls falls)
 {
     const Frustum frustum(clip_from_world);
-    return triangles.list(scene, {clip_from_world, size, size}, true, [&](const Draw& draw) {
+    const auto wanted = [&](const Draw& draw) {
         return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m);
-    });
+    };
+    Casters casters;
+    casters.seen = triangles.list(scene, {clip_from_world, size, size}, true, wanted);
+    InstancePlaces& places = triangles.places();
+    casters.places = places.texels();
+    const auto listed = [&](const Draw& draw) {
+        return casters.seen &&
+               !casters.seen->ranges[static_cast<std::size_t>(&draw - scene.draws().data())].whole();
+    };
+    std::vector<const Draw*> alike;
+    std::vector<glm::mat4> at;
+    const auto finish = [&] {
+        std::optional<std::uint32_t> first;
+        if (casters.places && alike.size() >= kLeastRun) {
+            at.clear();
+            for (const Draw* draw : alike) at.push_back(clip_from_world * draw->to_world);
+            first = places.add(at);
+        }
+        if (first) {
+            casters.runs.push_back({alike[0], static_cast<std::uint32_t>(alike.size()), *first});
+        } else {
+            casters.single.insert(casters.single.end(), alike.begin(), alike.end());
+        }
+        alike.clear();
+    };
+    for (const Draw& draw : scene.draws()) {
+        if (!wanted(draw)) continue;
+        const bool apart = listed(draw) || holes_in_relief(scene.materials()[draw.material]);
+        if (!alike.empty() && (apart || !same_shape(*alike[0], draw))) finish();
+        if (apart) {
+            casters.single.push_back(&draw);
+        } else {
+            alike.push_back(&draw);
+        }
+    }
+    finish();
+    return casters;
 }
 
 void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
-                  Falls falls, const SeenDraws* seen)
+                  Falls falls, const Casters& casters)
 {
     const VkCommandBuffer commands = pass.commands();
     bind_geometry(commands, scene);
@@ -77,18 +119,16 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
     relief.specialization.push_back({DEPTH_SPEC_PARALLAX, 0});
     const glm::vec4 eye = eye_of(clip_from_world);
 
-    const Frustum frustum(clip_from_world);
-    SeenBinder binder(commands, scene, seen);
+    SeenBinder binder(commands, scene, casters.seen.get());
     const Pipeline* bound = nullptr;
     std::uint32_t bound_material = UINT32_MAX;
-    for (const Draw& draw : scene.draws()) {
-        if (!is_caster(scene, draw, falls)) continue;
+    for (const Draw* single : casters.single) {
+        const Draw& draw = *single;
         const GpuMaterial& material = scene.materials()[draw.material];
         const bool holes = material.masked || material.blended;
-        if (!frustum.touches(draw.centre_m, draw.radius_m)) continue;
         const SeenRange range = binder.range_of(draw);
         if (range.index_count == 0) continue;
-        const bool deep = material.masked && material.parallax != PARALLAX_NONE;
+        const bool deep = holes_in_relief(material);
         if (deep) relief.specialization.back().value = material.parallax;
         const Pipeline& wanted = pass.pipelines().graphics(deep ? relief : holes ? masked : plain);
         if (bound != &wanted) {
@@ -113,6 +153,27 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
         }
         binder.draw(draw, range);
     }
+
+    plain.vertex = "depth_only_run.vert";
+    plain.sets = {{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER}};
+    masked.vertex = "depth_masked_run.vert";
+    masked.sets.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
+    for (const Casters::Run& run : casters.runs) {
+        const GpuMaterial& material = scene.materials()[run.first->material];
+        const bool holes = material.masked || material.blended;
+        const Pipeline& wanted = pass.pipelines().graphics(holes ? masked : plain);
+        pass.bind(wanted);
+        if (holes) {
+            const std::vector<Binding> bindings{material.bindings[0],
+                                                material.bindings[1 + TEXTURE_BASE_COLOR]};
+            pass.bind_set(0, pass.descriptors().set(wanted.set_layouts[0], bindings));
+        }
+        const std::vector<Binding> places{texels(*casters.places)};
+        const std::uint32_t set = holes ? 1 : 0;
+        pass.bind_set(set, pass.descriptors().set(wanted.set_layouts[set], places));
+        set_facing(commands, VK_CULL_MODE_NONE, run.first->mirrored);
+        binder.draw_run(*run.first, run.count, run.first_place);
+    }
 }
 
 namespace {
@@ -121,15 +182,15 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                    SeenTriangles& triangles, const DepthView& view, GpuImage& map, VkImageView layer,
                    Falls falls)
 {
-    const auto seen = seen_casters(triangles, scene, view.clip_from_world, map.width, falls);
+    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls);
     graph.add(DrawPass{.name = name,
                        .colors = {},
                        .depth = Attachment(map, layer),
                        .width = map.width,
                        .height = map.height,
                        .bindings = {},
-                       .record = [&scene, view, falls, seen](PassContext& pass) {
-                           draw_casters(pass, scene, view.clip_from_world, falls, seen.get());
+                       .record = [&scene, view, falls, casters](PassContext& pass) {
+                           draw_casters(pass, scene, view.clip_from_world, falls, casters);
                        }});
 }
 

@@ -40,13 +40,25 @@ struct DepthMaps {
 /// plane.
 enum class Falls { Light, Sky, Rain, Lamp };
 
-/// Draws every caster that the view can see.
-void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
-                  Falls falls, const SeenDraws* seen = nullptr);
+/// What a map draws.
+struct Casters {
+    /// Instances of one shape and material: one draw call.
+    struct Run {
+        const Draw* first = nullptr;
+        std::uint32_t count = 1;
+        std::uint32_t first_place = 0;
+    };
+    std::vector<const Draw*> single;
+    std::vector<Run> runs;
+    GpuBuffer* places = nullptr;            ///< of the runs (gpu/upload/instance_places.h)
+    std::shared_ptr<const SeenDraws> seen;  ///< of single ones; null: all their triangles
+};
 
-/// Those of the casters' triangles that a square map of `size` texels may show.
-std::shared_ptr<const SeenDraws> seen_casters(SeenTriangles& triangles, const GpuScene& scene,
-                                              const glm::mat4& clip_from_world, int size, Falls falls);
+/// What a square map of `size` texels may show.
+Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
+                   int size, Falls falls);
+void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& clip_from_world,
+                  Falls falls, const Casters& casters);
 
 /// One layer of an array as an attachment.
 ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer);

@@ -90,7 +90,7 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& t
         for (int face = 0; face < 6; ++face) {
             if (!is_lit(lamp, kFaces[static_cast<std::size_t>(face)][2])) continue;
             const glm::mat4 view = lamp_face_view(wanted.position_m, face);
-            const auto seen = seen_casters(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp);
+            const Casters casters = casters_in(triangles, scene, view, LAMP_MAP_SIZE, Falls::Lamp);
             graph.add(DrawPass{
                 .name = "lamp_shadows",
                 .colors = {},
@@ -98,8 +98,8 @@ void LampShadows::add(FrameGraph& graph, const GpuScene& scene, SeenTriangles& t
                 .width = LAMP_MAP_SIZE,
                 .height = LAMP_MAP_SIZE,
                 .bindings = {},
-                .record = [&scene, view, seen](PassContext& pass) {
-                    draw_casters(pass, scene, view, Falls::Lamp, seen.get());
+                .record = [&scene, view, casters](PassContext& pass) {
+                    draw_casters(pass, scene, view, Falls::Lamp, casters);
                 }});
         }
     }
