@@ -33,7 +33,8 @@ scene::LightMaps bake_light(const scene::Scene& scene, const BakeConditions& con
                             const TransportOptions& transport, const scene::BakeOptions& options,
                             std::vector<std::string>& notes);
 
-/// Writes a float EXR for each map, the light on the left and on the right, if it has one, its shadow mask, and light_maps.toml: the keys of a scenario that lays them on.
+/// Writes a float EXR for each map, lux: the light on the left and on the right, if it has one, its shadow
+/// mask, 0..1; and light_maps.toml: the keys of a scenario that lays them on.
 /// Returns the files' names, in the order of the maps, the keys last. Makes the folder.
 std::vector<std::string> write_light_maps(const std::filesystem::path& folder,
                                           const scene::Scene& scene, const scene::LightMaps& maps);

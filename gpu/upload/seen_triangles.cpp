@@ -89,8 +89,8 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
         const glm::mat4 clip_from_mesh = view.clip_from_world * draw->to_world;
         const float rounding = rounding_of(view, *draw);
         // Front faces turn against the clock on the screen, whose y points down: a negative area.
-        const VkCullModeFlags cull =
-            back_faces ? VK_CULL_MODE_NONE : scene.materials()[draw->material].cull;
+        VkCullModeFlags cull = scene.materials()[draw->material].cull;
+        if (back_faces) cull = VK_CULL_MODE_NONE;
         const float hidden_sign = (cull == VK_CULL_MODE_BACK_BIT) == draw->mirrored ? -1.0f : 1.0f;
         const bool turned_away = cull != VK_CULL_MODE_NONE;
 
