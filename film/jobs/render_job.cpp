@@ -363,6 +363,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
         snow = prepare_snow(sequence.scene, sequence.eyes_m, maps.tracks, user_cache(), report.notes);
     TextureOptions options;
     options.max_size = scenario.scene.max_texture;
+    options.prefilter.rule = scenario.scene.texture_rule;
     options.threads = request.threads;
     options.stop = request.stop;
     options.blocks = block_support(renderers.front().device());

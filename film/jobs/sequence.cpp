@@ -540,6 +540,7 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
     parts["output settings"] = part([&](Hasher& hasher) {
         add_settings(hasher, frame.settings);
         hasher.add(scenario.scene.max_texture);
+        hasher.add(scenario.scene.texture_rule);
         hasher.add(scenario.render.ripple_texture_size);
     });
     // The frames around it say how it is exposed.

@@ -3,6 +3,7 @@
 #include <array>
 #include "film/scenario/probe_keys.h"
 #include "film/scenario/tracks.h"
+#include "texproc/prefilter/rules.h"
 
 namespace petrichor::film {
 namespace {
@@ -64,6 +65,14 @@ const std::vector<Rule>& rules()
         {{"scene", "max_texture", "4096",
           "larger textures are reduced to this many texels a side, 16 to 16384"},
          [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
+        {{"scene", "texture_rule", "\"picture\"",
+          "how small levels of normals and roughness are made together, as `texture build --rule`: "
+          "picture, median, lean, .., or none, plain mips; textures with levels of their own keep them"},
+         [](Scenario& s, const TomlValue& v) {
+             std::vector<std::string> words;
+             for (const texproc::Rule& rule : texproc::rules()) words.push_back(rule.name);
+             s.scene.texture_rule = words[static_cast<std::size_t>(v.choice(words))];
+         }},
         {{"scene", "ground", "\"auto\"",
           "what the scene stands on: plane, level ground out to the horizon (material \"default "
           "ground\"); none; or auto, a plane where the scene brings no ground"},

@@ -29,6 +29,7 @@ struct ScenarioScene {
     std::uint32_t demo_seed = 1;  ///< for the generated demo scene
     bool allow_outside = false;   ///< links in the scene's folder may lead out of it (command line)
     int max_texture = 4096;       ///< larger textures are reduced to this, texels
+    std::string texture_rule = "picture";  ///< small levels of normals and roughness, texproc::rules()
     StandsOn ground = StandsOn::Auto;
     double north_degrees = 0.0;   ///< where north is: clockwise from -z towards +x
     std::string variant;          ///< of its materials; empty: as the file has them

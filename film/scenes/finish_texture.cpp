@@ -241,6 +241,15 @@ void fade_to_grey(std::vector<Image>& levels)
     }
 }
 
+// What slopes with a mean normal of this length reflect of light from everywhere above, to what a flat
+// ground does: a sky gives each (1 + n.y) / 2. Under a sun it is the mean over where the sun may stand:
+// less when it is high (the length itself), more when it is low, since what turns away from it is black
+// and not less than that. (docs/textures.md, 9.)
+float lit_from_everywhere(float length)
+{
+    return 0.5f + 0.5f * length;
+}
+
 // A base colour; with a normal map its small levels are as dark as the slopes make them.
 std::vector<Image> color_levels(const scene::Scene& scene, const TextureRecipe& recipe,
                                 const texproc::MipOptions& mips, const TextureOptions& options)
@@ -263,7 +272,10 @@ std::vector<Image> color_levels(const scene::Scene& scene, const TextureRecipe& 
             metallic.emplace_back(level.width, level.height, 1, ColorSpace::Data,
                                   recipe.metallic_factor);
     }
-    texproc::apply_base_shares(levels, texproc::base_shares(normals, 1), metallic);
+    std::vector<Image> shares = texproc::base_shares(normals, 1);
+    for (Image& share : shares)
+        for (float& value : share.pixels) value = lit_from_everywhere(value);
+    texproc::apply_base_shares(levels, shares, metallic);
     return levels;
 }
 

@@ -1,6 +1,7 @@
 // The examples of docs/gallery.md: each renders, and shows what it is about.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -20,6 +21,7 @@ using gpu::pixel;
 using testing_program::Workplace;
 
 constexpr int kWidth = 160, kHeight = 90;
+constexpr int kFiner = 8;  // a side, of a fine picture
 
 std::string read_example(const std::string& path)
 {
@@ -35,12 +37,13 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 class Gallery : public gpu::GpuTest {
-protected:
-    static gpu::RenderResult picture(const std::string& text, const fs::path& folder)
+public:
+    static gpu::RenderResult picture(const std::string& text, const fs::path& folder, int finer = 1)
     {
         Scenario scenario = parse_scenario(
-            with(text, "[output]\n", "[output]\nwidth = " + std::to_string(kWidth) + "\nheight = " +
-                                         std::to_string(kHeight) + "\nsamples = 2\n"),
+            with(text, "[output]\n",
+                 "[output]\nwidth = " + std::to_string(kWidth * finer) + "\nheight = " +
+                     std::to_string(kHeight * finer) + "\nsamples = 2\n"),
             "s.toml");
         scenario.folder = folder;
         Sequence sequence = make_sequence(std::move(scenario));
@@ -50,9 +53,9 @@ protected:
         gpu::Renderer renderer = sequence_renderer(sequence, request, report);
         return renderer.render(frame_at(sequence, {0, "", ""}).frame);
     }
-    static gpu::RenderResult example(const std::string& text)
+    static gpu::RenderResult example(const std::string& text, int finer = 1)
     {
-        return picture(text, fs::path(PETRICHOR_SOURCE_DIR) / "data/scenarios");
+        return picture(text, fs::path(PETRICHOR_SOURCE_DIR) / "data/scenarios", finer);
     }
 };
 
@@ -156,6 +159,44 @@ TEST_F(Gallery, OcclusionDarkensWhereThingsMeet)
     EXPECT_GT(darker, kWidth * kHeight / 200);
     EXPECT_LT(darker, kWidth * kHeight / 3);
     EXPECT_GT(luminance(pixel(on, 110, 12)), 0.9f * luminance(pixel(off, 110, 12)));
+}
+
+// Mean light of far grass under the example's sun at that height; near: in a fine picture, which shows the stalks.
+float light_of_grass(const std::string& example, const char* elevation, bool near)
+{
+    std::string text = with(example, "elevation_degrees = 25.0", std::string("elevation_degrees = ") + elevation);
+    text = with(text, "[camera]\n", "[camera]\nev100 = 14.0\nbloom = 0.0\n");
+    text = with(text, "position_m = [-1.0, 2.2, -8.0], look_at_m = [-3.6, 2.6, 4.0], fov_degrees = 45.0",
+                std::string("position_m = [30.0, 25.0, 10.0], look_at_m = [30.0, -0.2, 35.0], fov_degrees = ") +
+                    (near ? "3.0" : "45.0"));
+    const gpu::RenderResult seen = Gallery::example(text, near ? kFiner : 1);
+    const int half_x = near ? seen.width / 2 : 4, half_y = near ? seen.height / 2 : 3;
+    double sum = 0.0;
+    for (int y = seen.height / 2 - half_y; y < seen.height / 2 + half_y; ++y) {
+        for (int x = seen.width / 2 - half_x; x < seen.width / 2 + half_x; ++x)
+            sum += static_cast<double>(luminance(pixel(seen, x, y)));
+    }
+    return static_cast<float>(sum / (4.0 * half_x * half_y));
+}
+
+// Slopes that are too small to see take light from each other: the length of their mean normal from a high sun,
+// less from a low one and the sky. Plain means know nothing of it.
+TEST_F(Gallery, FilteredTexturesAreAsBrightAsWhatTheyStandFor)
+{
+    const std::string text = read_example("data/scenarios/texture-filtering.toml");
+    const std::string plain = with(text, "texture_rule = \"picture\"", "texture_rule = \"none\"");
+    double of_filtered = 0.0, of_plain = 0.0;
+    for (const char* elevation : {"45.0", "65.0"}) {
+        const float truth = light_of_grass(plain, elevation, true);
+        const float filtered = light_of_grass(text, elevation, false);
+        const float means = light_of_grass(plain, elevation, false);
+        std::printf("  sun at %s: %.0f near, %.0f filtered, %.0f plain\n", elevation,
+                    static_cast<double>(truth), static_cast<double>(filtered), static_cast<double>(means));
+        EXPECT_NEAR(filtered / truth, 1.0f, 0.1f);
+        of_filtered += std::pow(static_cast<double>(filtered / truth) - 1.0, 2.0);
+        of_plain += std::pow(static_cast<double>(means / truth) - 1.0, 2.0);
+    }
+    EXPECT_LT(of_filtered, 0.25 * of_plain);
 }
 
 // Floor and wall hold the light of the sky, less of it where they meet what stands there; the sun is of the frame.

@@ -138,6 +138,7 @@ TEST(FrameFingerprint, ChangesWithWhatChangesThePicture)
           "[render]\nfalling_budget = 10\n", "[render]\nfalling_density = 2\n",
           "[render]\nlamp_glow = false\n",
           "[output]\naovs = [\"depth\"]\n", "[scene]\nmax_texture = 512\n",
+          "[scene]\ntexture_rule = \"none\"\n",
           "[materials.\"x\"]\nporosity = 0.5\n", "[sun]\nsource = \"scene\"\n"}) {
         EXPECT_NE(print(other, 5), base) << other;
     }

@@ -38,7 +38,8 @@ TransparentTargets make_transparent_targets(const Device& device, MemoryArena& a
                             .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
     };
     own.other_depth = image("layer_before", VK_FORMAT_D32_SFLOAT,
-                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     own.solid = image("solid", VK_FORMAT_R32G32B32A32_SFLOAT,
                       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     own.front = image("layers_front", VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT);
