@@ -193,6 +193,8 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     c.light_count = r.lights->count;
     c.light_words = r.lights->words();
     c.directional_count = r.lights->directional;
+    c.plain_lights = r.lights->plain;
+    c.shaped_lights = r.lights->shaped;
     if (uses_patches(frame, r)) {
         c.patches = r.patches->grid();
         // The same radius as PatchScene's `open`.

@@ -59,7 +59,9 @@ struct FrameConstants {
     ivec2 coarse_tiles;
     uint light_count;
     uint light_words;        // 32 lights a word
-    uint directional_count;  // first lights of the table; not in lists
+    uint directional_count;  // first lights of the table; not in lists; behind them those with a shadow,
+    uint plain_lights;       // .. from here on points and spots without one,
+    uint shaped_lights;      // .. from here on what is lit by its shape, without one
 
     float ao_radius_m;
     float ao_strength;

@@ -80,6 +80,19 @@ std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int 
 
 namespace {
 
+// How the size of a lamp is lit.
+enum class Shape { None, Rectangle, Nearest, Ltc };
+
+Shape shape_of(const Light& light, AreaLights area)
+{
+    const bool rectangle = light.kind == LightKind::Rectangle;
+    if (area != AreaLights::Off && (light.radius_m > 0.0f || light.shaped)) {
+        if (area == AreaLights::Ltc) return Shape::Ltc;
+        if (!rectangle) return Shape::Nearest;
+    }
+    return rectangle ? Shape::Rectangle : Shape::None;
+}
+
 // Intensity as the shader takes it: of what has a size, radiance.
 float strength_of(const Light& light, bool sized)
 {
@@ -96,21 +109,47 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
 {
     std::vector<const Light*> ordered;
     for (const Light& light : lights) ordered.push_back(&light);
-    std::stable_partition(ordered.begin(), ordered.end(),
-                          [](const Light* l) { return l->kind == LightKind::Directional; });
+    std::vector<int> shadow(lights.size(), -1);  // number of its shadow, by number of the light
     LightTable table;
+    const auto number_of = [&](const Light* light) {
+        return static_cast<std::size_t>(light - lights.data());
+    };
+    for (const std::size_t i : brightest(ordered, shadows, eye_m)) {
+        shadow[i] = static_cast<int>(table.shadowed.size());
+        table.shadowed.push_back(lights[i]);
+    }
+    for (const std::size_t i : brightest(ordered, kBrightestLamps, eye_m))
+        table.brightest.push_back(lights[i]);
+    const auto kind_of = [&](const Light* light) {
+        if (light->kind == LightKind::Directional) return 0;
+        if (shadow[number_of(light)] >= 0) return 1;
+        return shape_of(*light, area) == Shape::None ? 2 : 3;
+    };
+    std::stable_sort(ordered.begin(), ordered.end(), [&](const Light* x, const Light* y) {
+        return kind_of(x) < kind_of(y);
+    });
+    const auto first_of = [&](int kind) {
+        const auto first = std::find_if(ordered.begin(), ordered.end(), [&](const Light* light) {
+            return kind_of(light) >= kind;
+        });
+        return static_cast<std::uint32_t>(first - ordered.begin());
+    };
+    table.count = static_cast<std::uint32_t>(ordered.size());
+    table.directional = first_of(1);
+    table.plain = first_of(2);
+    table.shaped = first_of(3);
+    if (table.shaped > table.plain) table.ways |= LIGHTS_PLAIN;
+    if (table.count > table.shaped) table.ways |= LIGHTS_SHAPED;
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
     std::vector<glm::vec4> texels;
     for (const Light* light : ordered) {
-        if (light->kind == LightKind::Directional) ++table.directional;
         const bool spot = light->kind == LightKind::Spot;
         const bool rectangle = light->kind == LightKind::Rectangle;
-        const bool has_size = area != AreaLights::Off && (light->radius_m > 0.0f || light->shaped);
-        const bool sized = has_size && (area == AreaLights::Ltc || !rectangle);
-        const bool nearest = has_size && area == AreaLights::Nearest && !rectangle;
-        table.rectangles = table.rectangles || (rectangle && !sized);
-        if (sized && !nearest) table.ways |= LIGHTS_LTC;
-        if (nearest) table.ways |= LIGHTS_NEAREST;
+        const Shape shape = shape_of(*light, area);
+        const bool sized = shape == Shape::Ltc || shape == Shape::Nearest;
+        table.rectangles = table.rectangles || shape == Shape::Rectangle;
+        if (shape == Shape::Ltc) table.ways |= LIGHTS_LTC;
+        if (shape == Shape::Nearest) table.ways |= LIGHTS_NEAREST;
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
             table.ways |= LIGHTS_FILL;
         if (spot) table.ways |= LIGHTS_CONE;
@@ -120,25 +159,17 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                            : light->both_sides ? LIGHT_BOTH_SIDES
                                                : LIGHT_ONE_SIDE;
         texels.emplace_back(light->position_m, light_radius_m(*light));
-        texels.emplace_back(light->color * strength_of(*light, sized && !nearest), kind);
+        texels.emplace_back(light->color * strength_of(*light, shape == Shape::Ltc), kind);
         texels.emplace_back(rectangle ? light->half_u_m : light->direction,
                             std::cos(light->inner_cone_rad));
         texels.emplace_back(rectangle               ? light->half_v_m
                             : light->length_m > 0.0f ? light->up
                                                      : up_of(*light),
-                            -1.0f);
+                            static_cast<float>(shadow[number_of(light)]));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
                             0.5f * light->length_m, light->specular,
                             static_cast<float>(light->profile));
     }
-    for (const std::size_t i : brightest(ordered, kBrightestLamps, eye_m))
-        table.brightest.push_back(*ordered[i]);
-    const auto chosen = brightest(ordered, shadows, eye_m);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        texels[LIGHT_TEXELS * chosen[k] + 3].w = static_cast<float>(k);
-        table.shadowed.push_back(*ordered[chosen[k]]);
-    }
-    table.count = static_cast<std::uint32_t>(ordered.size());
     if (texels.empty()) texels.emplace_back(0.0f);
     table.texels = arena.buffer(
         {.name = "lights",

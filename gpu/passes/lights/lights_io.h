@@ -24,6 +24,8 @@
 #define LIGHTS_PROFILE 8u   // a distribution or picture
 #define LIGHTS_CONE 16u     // a cone: spots
 #define LIGHTS_SKIP 32u     // of the device: a branch round what is dark saves its work (not so on a CPU)
+#define LIGHTS_PLAIN 64u    // no shape and no shadow
+#define LIGHTS_SHAPED 128u  // a shape and no shadow
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64

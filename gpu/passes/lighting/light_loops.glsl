@@ -1,0 +1,107 @@
+// Lights of the table that reach a pixel: a loop for each kind (gpu/passes/lights/lights.h), so that what no
+// light of a loop has is left out of it.
+
+// One light of the table; zero out of its range or behind the surface.
+vec3 punctual_light(LitPoint p, int light, ivec2 texel, const bool shadowed, const bool shaped)
+{
+    const vec4 sphere = texelFetch(lights, light * LIGHT_TEXELS);
+    const vec3 to_light = sphere.xyz - p.position;
+    const float d2 = dot(to_light, to_light);
+    // A CPU takes both sides of every branch: there what is dark is chosen away at the end.
+    const bool SKIPS = (WAYS & LIGHTS_SKIP) != 0u;
+    bool lit = d2 < sphere.w * sphere.w;
+    if (SKIPS && !lit) return vec3(0.0);
+    float visible = 1.0;
+    if (LAMP_SHADOWS != 0u && shadowed) {
+        const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
+        const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
+        vec3 from = sphere.xyz;
+        if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
+        if (number >= 0.0) visible = lamp_visibility(number, from, p.position, faced, texel);
+        lit = lit && (visible > 0.0 || BLEEDS);
+        if (SKIPS && !lit) return vec3(0.0);
+    }
+    if (WAYS != 0u) {
+        const vec4 size = texelFetch(lights, light * LIGHT_TEXELS + 4);
+        if (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
+            return lit ? area_light(p, light, to_light, sphere.w, size, visible) : vec3(0.0);
+        if ((WAYS & LIGHTS_FILL) != 0u) {
+            p.lobe.lit *= size.z;
+            p.film.lit *= size.z;
+        }
+    }
+    if (RECTANGLES != 0u && shaped) {
+        const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
+        if (glow.w < LIGHT_POINT - 0.5) {
+            return lit ? rectangle_light(p, light, to_light, glow) * visible : vec3(0.0);
+        }
+    }
+    if (shaped && !shadowed) return vec3(0.0);  // all of that loop are
+    const vec3 l = to_light * inversesqrt(max(d2, 1.0e-8));
+    lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS);
+    if (SKIPS && !lit) return vec3(0.0);
+    const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
+    float falloff = square_attenuation(d2, sphere.w);
+    if ((WAYS & LIGHTS_CONE) != 0u && color.w > -1.5) {  // the cosine of the outer cone
+        const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
+        falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
+    }
+    vec3 shines = color.rgb;
+    if ((WAYS & LIGHTS_PROFILE) != 0u) shines *= light_profile(light, -l);
+    const vec3 radiance = shadowed_light(p, l, visible) * shines * falloff;
+    return lit ? radiance : vec3(0.0);
+}
+
+const bool ONE_RANGE = (LAMP_SHADOWS != 0u ? 1u : 0u) + ((WAYS & LIGHTS_PLAIN) != 0u ? 1u : 0u) +
+                           ((WAYS & LIGHTS_SHAPED) != 0u ? 1u : 0u) == 1u;
+
+// The lowest so many bits of 32.
+uint low_bits(uint count)
+{
+    return count < 32u ? (1u << count) - 1u : ~0u;
+}
+
+// Adds those of a range of the table that reach this tile, in their order.
+void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint end, const bool shadowed,
+               const bool shaped)
+{
+    if (ALL_LIGHTS != 0u) {
+        for (uint i = first; i < end; ++i) radiance += punctual_light(p, int(i), texel, shadowed, shaped);
+        return;
+    }
+    const ivec2 tile = texel / LIGHT_TILE;
+    const int list = (tile.y * frame.light_tiles.x + tile.x) * int(frame.light_words + 1u);
+    const int words = int(texelFetch(light_lists, list).r);
+    for (int i = 1; i <= words; ++i) {
+        const uvec2 word = texelFetch(light_lists, list + i).rg;
+        const uint low = word.r * 32u;
+        const uint own = ONE_RANGE ? ~0u : low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
+        for (uint bits = word.g & own; bits != 0u; bits &= bits - 1u) {
+            radiance += punctual_light(p, int(low) + findLSB(bits), texel, shadowed, shaped);
+        }
+    }
+}
+
+// Adds lights far away, then those that reach this tile, in the order of the table.
+void add_all_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
+{
+    for (uint i = 0u; i < frame.directional_count; ++i) {
+        const vec4 color = texelFetch(lights, int(i) * LIGHT_TEXELS + 1);
+        const vec4 direction = texelFetch(lights, int(i) * LIGHT_TEXELS + 2);
+        radiance += shadowed_light(p, -direction.xyz, 1.0) * color.rgb;
+    }
+    if (LAMP_SHADOWS != 0u)
+        add_range(radiance, p, texel, frame.directional_count, frame.plain_lights, true, true);
+    if ((WAYS & LIGHTS_PLAIN) != 0u)
+        add_range(radiance, p, texel, frame.plain_lights, frame.shaped_lights, false, false);
+    if ((WAYS & LIGHTS_SHAPED) != 0u)
+        add_range(radiance, p, texel, frame.shaped_lights, frame.light_count, false, true);
+}
+
+// .. so much of them.
+void add_lights(inout vec3 radiance, LitPoint p, float share, ivec2 texel)
+{
+    vec3 lamps = BAKED != 0u ? vec3(0.0) : radiance;
+    add_all_lights(lamps, p, texel);
+    radiance = BAKED != 0u ? radiance + lamps * share : lamps;
+}
