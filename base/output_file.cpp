@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/lock_within.h"
 #include "base/words.h"
 
 namespace petrichor {
@@ -29,8 +30,8 @@ constexpr std::size_t kDigits = 16;
 // What this process is writing, for remove_own_temporaries(), and the folders it has tidied. A
 // process has one set of files, so there is one of these a process.
 struct Own {
-    std::timed_mutex together;  // taken before `guard`
-    std::timed_mutex guard;
+    std::mutex together;  // taken before `guard`
+    std::mutex guard;
     std::set<fs::path> temporaries;
     std::set<fs::path> tidied;
 };
@@ -272,8 +273,8 @@ void remove_own_temporaries() noexcept
 {
     try {
         Own& mine = own();
-        std::unique_lock together(mine.together, std::chrono::milliseconds(100));
-        std::unique_lock lock(mine.guard, std::chrono::milliseconds(50));
+        std::unique_lock together = lock_within(mine.together, std::chrono::milliseconds(100));
+        std::unique_lock lock = lock_within(mine.guard, std::chrono::milliseconds(50));
         if (!lock) return;
         for (const fs::path& path : mine.temporaries) {
             std::error_code ignored;

@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/lock_within.h"
 #include "base/output_file.h"
 #include "cli/exit.h"
 
@@ -27,7 +28,7 @@ int wake_end = -1;  // the handler writes here, the watching thread reads at the
 constexpr auto kPatience = std::chrono::milliseconds(250);
 
 struct Words {
-    std::timed_mutex guard;
+    std::mutex guard;
     std::function<std::string()> text;
 };
 Words& last_words()
@@ -69,7 +70,7 @@ void end_what_does_not(int wake)
     remove_own_temporaries();
     std::string text = "interrupted: what was finished is kept";
     Words& words = last_words();
-    if (const std::unique_lock lock(words.guard, std::chrono::milliseconds(20)); lock && words.text)
+    if (const auto lock = lock_within(words.guard, std::chrono::milliseconds(20)); lock && words.text)
         text = words.text();
     if (text.empty()) ::_exit(kExitInterrupted);
     text = (::isatty(STDERR_FILENO) == 1 ? "\n" : "") + text + "\n";

@@ -59,6 +59,7 @@ struct RenderOptions {
     std::string device;
     std::vector<std::string> aovs;
     int threads = 0;
+    int in_flight = 0;
     bool resume = false;
     bool verify = false;
     std::uint64_t memory_mib = 0;
@@ -317,6 +318,7 @@ void render(const RenderOptions& options)
     request.memory_budget = options.memory_mib << 20;
     request.device = options.device;
     request.threads = options.threads;
+    request.in_flight = options.in_flight;
     request.validation = options.validate;
     request.stop = interrupted;
     ProgressWatcher watcher;
@@ -415,6 +417,11 @@ void add_render(CLI::App& app, std::vector<std::string> words)
     command->add_option("--device", o->device,
                         "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
+    command
+        ->add_option("--frames-in-flight", o->in_flight,
+                     "pictures rendered at a time, each takes the device's memory once more (on a "
+                     "CPU two to four in a long run, else one); the bytes do not depend on it")
+        ->check(CLI::Range(1, 16));
     command->add_flag(
         "--resume", o->resume,
         "keep frames whose files have the hashes they were written with and that would "

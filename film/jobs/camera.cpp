@@ -95,7 +95,7 @@ scene::Camera framing_camera(const scene::Bounds& bounds, double aspect)
         high = glm::dvec3(0.5);
     }
     const glm::dvec3 centre = 0.5 * (low + high);
-    const double azimuth = 35.0 * kDegree;
+    const double azimuth = -30.0 * kDegree;
     const double elevation = 20.0 * kDegree;
     const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                           std::cos(azimuth) * std::cos(elevation));

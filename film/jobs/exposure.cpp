@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "formulas/light/exposure.h"
 
@@ -66,21 +67,36 @@ MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<M
     return setting;
 }
 
+// Meters it, unless that is done or another thread is at it.
+Meter::Metered Meter::metered(gpu::Renderer& renderer, const Job& job)
+{
+    std::promise<std::optional<float>> promise;
+    Metered result;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = metered_.find(job);
+        if (found != metered_.end()) return found->second;
+        result = metered_.emplace(job, promise.get_future().share()).first->second;
+    }
+    try {
+        promise.set_value(renderer.meter(frame_at(*sequence_, job).frame));
+    } catch (...) {
+        promise.set_exception(std::current_exception());
+    }
+    return result;
+}
+
 ExposureFacts Meter::expose(gpu::Renderer& renderer, const Job& job, gpu::Frame& frame)
 {
     const ScenarioCamera& camera = camera_of(*sequence_, job);
     if (camera.exposure_mode == Exposure::Fixed) return {"fixed", {}};
     if (camera.exposure_mode == Exposure::Incident) return {"incident", {}};
     const auto jobs = metered_jobs(*sequence_, job);
+    // Its own share first: two threads that waited at once for each other's would never end.
+    std::vector<Metered> pending;
+    for (const MeteredJob& one : jobs) pending.push_back(metered(renderer, one.job));
     std::vector<std::optional<float>> ev100;
-    for (const MeteredJob& one : jobs) {
-        auto found = metered_.find(one.job);
-        if (found == metered_.end()) {
-            const gpu::Frame other = frame_at(*sequence_, one.job).frame;
-            found = metered_.emplace(one.job, renderer.meter(other)).first;
-        }
-        ev100.push_back(found->second);
-    }
+    for (const Metered& one : pending) ev100.push_back(one.get());
     const MeteredSetting setting = metered_setting(camera, jobs, ev100);
     frame.settings.exposure = shared::exposure_of_ev100(static_cast<float>(setting.ev100));
     ExposureFacts facts{"auto", {}};

@@ -1,7 +1,9 @@
 #ifndef PETRICHOR_FILM_JOBS_EXPOSURE_H
 #define PETRICHOR_FILM_JOBS_EXPOSURE_H
 
+#include <future>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -36,6 +38,7 @@ MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<M
                                const std::vector<std::optional<float>>& ev100);
 
 /// Finds exposures of a sequence's frames; keeps what it has metered, so that neighbours share it.
+/// Several threads may ask, each with a renderer of its own.
 class Meter {
 public:
     explicit Meter(const Sequence& sequence) : sequence_(&sequence) {}
@@ -45,8 +48,12 @@ public:
     ExposureFacts expose(gpu::Renderer& renderer, const Job& job, gpu::Frame& frame);
 
 private:
+    using Metered = std::shared_future<std::optional<float>>;
+    Metered metered(gpu::Renderer& renderer, const Job& job);
+
     const Sequence* sequence_;
-    std::map<Job, std::optional<float>> metered_;
+    std::mutex mutex_;
+    std::map<Job, Metered> metered_;
 };
 
 }  // namespace petrichor::film

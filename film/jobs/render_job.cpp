@@ -6,9 +6,11 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "base/ordered_work.h"
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "film/frames/film.h"
@@ -184,6 +186,16 @@ bool may_snow(const Sequence& sequence, const RenderRequest& request)
     return false;
 }
 
+// A renderer at work, and the picture that it is at.
+struct Worker {
+    explicit Worker(gpu::Renderer&& with) : renderer(std::move(with)) {}
+    gpu::Renderer renderer;
+    std::string environment = {};  // fingerprint of what the renderer holds
+    SequenceFrame what = {};
+    FrameFacts facts = {};
+    gpu::RenderResult result = {};
+};
+
 void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
@@ -191,41 +203,80 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
     // Before the scene loses its images.
     ScenePlaces places(sequence, request.threads, request.stop, tracing_progress(request),
                        report.notes);
-    gpu::Renderer renderer = sequence_renderer(sequence, request, report);
+    std::vector<Worker> workers;
+    for (gpu::Renderer& renderer :
+         sequence_renderers(sequence, request, pending.size(), report)) {
+        workers.emplace_back(std::move(renderer));
+    }
     const int count = static_cast<int>(pending.size());
-    if (request.watcher) request.watcher->begin(count, output, renderer.device());
-    std::string environment;  // fingerprint of what the renderer holds
+    if (request.watcher) request.watcher->begin(count, output, workers.front().renderer.device());
     {
         FrameWriter writer(request.folder, {output.exr, output.png},
                            {.stop = request.stop, .published = &tally.there});
         Meter meter(sequence);
-        for (const Pending& one : pending) {
-            if (stopped(request)) break;
-            if (one.frame.environment != environment) {
-                set_environment_of(renderer, sequence, one.job);
-                environment = one.frame.environment;
+        OrderedWork work;
+        work.begin = [&](std::size_t worker, std::size_t i) {
+            workers[worker].what = pending[i].frame;
+            workers[worker].facts = {};
+            places.place(sequence, pending[i].job, workers[worker].what, workers[worker].facts);
+        };
+        work.make = [&](std::size_t number, std::size_t i) {
+            Worker& worker = workers[number];
+            const Pending& one = pending[i];
+            if (one.frame.environment != worker.environment) {
+                set_environment_of(worker.renderer, sequence, one.job);
+                worker.environment = one.frame.environment;
             }
-            FrameFacts facts;
-            SequenceFrame what = one.frame;
-            const ExposureFacts exposure = meter.expose(renderer, one.job, what.frame);
-            places.place(sequence, one.job, what, facts);
-            gpu::RenderResult result = renderer.render(what.frame);
+            worker.facts.exposure_by = meter.expose(worker.renderer, one.job, worker.what.frame);
+            worker.result = worker.renderer.render(worker.what.frame);
+        };
+        work.finish = [&](std::size_t number, std::size_t i) {
+            Worker& worker = workers[number];
+            const Pending& one = pending[i];
+            FrameFacts facts = std::move(worker.facts);
             facts.job = one.job;
             facts.time_s = one.frame.time_s;
             facts.moment = one.frame.moment;
             facts.weather = one.frame.weather_name;
             facts.made_from = one.made_from;
-            facts.input = std::move(what.frame);
-            facts.exposure_by = exposure;
-            writer.write(std::move(facts), std::move(result));
+            facts.input = std::move(worker.what.frame);
+            writer.write(std::move(facts), std::move(worker.result));
+            report.graph = worker.renderer.describe_graph();
             if (request.watcher) request.watcher->written(writer.written());
-        }
+        };
+        run_ordered(workers.size(), pending.size(), request.stop, work);
         writer.finish();
         report.rendered = writer.written();
         if (request.watcher) request.watcher->written(report.rendered);
     }
-    report.graph = renderer.describe_graph();
-    report.validation = renderer.validation_messages();
+    for (const Worker& worker : workers) {
+        const auto& said = worker.renderer.validation_messages();
+        report.validation.insert(report.validation.end(), said.begin(), said.end());
+    }
+}
+
+// Renderers for so many pictures, within the budget.
+std::size_t renderers_for(const RenderRequest& request, const MemoryNeed& need,
+                          const gpu::DeviceInfo& device, std::size_t pictures,
+                          std::vector<std::string>& notes)
+{
+    const int wanted = request.in_flight > 0
+                           ? request.in_flight
+                           : frames_in_flight(device, request.threads, pictures);
+    const std::uint64_t budget =
+        request.memory_budget > 0 ? request.memory_budget : default_memory_budget();
+    const std::uint64_t room = (budget - std::min(budget, need.total())) / need.another() + 1;
+    const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(room, pictures));
+    const std::size_t count = std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1,
+                                                      std::max<std::size_t>(most, 1));
+    if (request.in_flight > 0 && room < static_cast<std::uint64_t>(wanted)) {
+        notes.push_back("frames in flight: " + std::to_string(count) + " instead of " +
+                        std::to_string(wanted) + ", for the memory budget (--memory)");
+    }
+    if (count > 1)
+        notes.push_back("frames in flight: " + std::to_string(count) + " at a time, each takes about " +
+                        std::to_string(need.another() >> 20) + " MiB (--frames-in-flight)");
+    return count;
 }
 
 long peak_memory_mib()
@@ -249,23 +300,42 @@ void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const
     }
 }
 
+int frames_in_flight(const gpu::DeviceInfo& device, int threads, std::size_t pictures)
+{
+    if (device.kind != "cpu") return 1;
+    const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int used = threads > 0 ? std::min(threads, cores) : cores;
+    if (used < 2) return 1;
+    const int most = std::clamp(used / 4, 2, 4);
+    return std::clamp(static_cast<int>(std::min<std::size_t>(pictures / 4, 4)), 1, most);
+}
+
 gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request,
                                 RenderReport& report)
 {
+    return std::move(sequence_renderers(sequence, request, 1, report).front());
+}
+
+std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRequest& request,
+                                              std::size_t pictures, RenderReport& report)
+{
     const Scenario& scenario = sequence.scenario;
     scene::merge_primitives(sequence.scene);
-    check_memory(
+    const MemoryNeed need = check_memory(
         sequence.scene,
         {.max_size = scenario.scene.max_texture, .threads = request.threads, .stop = request.stop},
         scenario.output.width, scenario.output.height, request.memory_budget);
     gpu::WeatherMaps maps =
         read_weather_textures(scenario.render.weather_textures, scenario.folder);
     maps.tracks = draw_tracks(scenario.ground.tracks);
-    gpu::Renderer renderer(
-        {.device = request.device,
-         .validation = request.validation,
-         .ripple_texture_size = scenario.render.ripple_texture_size},
-        maps);
+    const gpu::RendererOptions device{.device = request.device,
+                                      .validation = request.validation,
+                                      .ripple_texture_size = scenario.render.ripple_texture_size};
+    std::vector<gpu::Renderer> renderers;
+    renderers.emplace_back(device, maps);
+    const std::size_t count = renderers_for(request, need, renderers.front().device(), pictures,
+                                            report.notes);
+    while (renderers.size() < count) renderers.emplace_back(device, maps);
     std::vector<std::string>& warnings = sequence.scene.warnings;
     const auto said = static_cast<std::ptrdiff_t>(warnings.size());
     std::shared_ptr<const gpu::PatchScene> patches;
@@ -295,7 +365,7 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     options.max_size = scenario.scene.max_texture;
     options.threads = request.threads;
     options.stop = request.stop;
-    options.blocks = block_support(renderer.device());
+    options.blocks = block_support(renderers.front().device());
     options.cache = user_cache();
     options.moving_roughness.resize(sequence.scene.materials.size());
     for (const scene::MaterialChange& change :
@@ -304,9 +374,11 @@ gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request
     }
     const auto textures = prepare_textures(sequence.scene, options);
     report.notes.insert(report.notes.end(), warnings.begin() + said, warnings.end());
-    renderer.load(sequence.scene, textures, std::move(snow));
-    renderer.set_patches(std::move(patches));
-    return renderer;
+    for (gpu::Renderer& renderer : renderers) {
+        renderer.load(sequence.scene, textures, snow);
+        renderer.set_patches(patches);
+    }
+    return renderers;
 }
 
 std::string stop_message(const RenderTally& tally, const RenderRequest& request)

@@ -42,6 +42,7 @@ struct RenderRequest {
     std::string device;   ///< as in gpu::RendererOptions
     std::uint64_t memory_budget = 0;  ///< bytes that the scene may take; 0: default_memory_budget()
     int threads = 0;                  ///< of the image readers; 0: all cores
+    int in_flight = 0;                ///< pictures rendered at a time; 0: frames_in_flight()
     bool validation = false;          ///< run the validation layer; its messages are an error
     std::string command;              ///< how to go on after a stop: the command line with --resume
     StopRequest stop = {};            ///< asked between frames
@@ -65,13 +66,23 @@ struct RenderReport {
 /// scene loses its encoded images.
 gpu::Renderer sequence_renderer(Sequence& sequence, const RenderRequest& request,
                                 RenderReport& report);
+/// As many as pay for that many pictures, alike; at least one, no more than the memory budget lets.
+std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRequest& request,
+                                              std::size_t pictures, RenderReport& report);
+
+/// How many pictures a device renders at a time, of so many: one on a GPU. A CPU's driver does half
+/// of a picture (vertices, rows of commands) on one thread, so there two, or one for every four
+/// threads up to four, and one for every four pictures: each renderer is loaded by itself.
+int frames_in_flight(const gpu::DeviceInfo& device, int threads, std::size_t pictures);
+
 /// Gives it the sky's picture of the job's variant, or none; a renderer holds one at a time.
 void set_environment_of(gpu::Renderer& renderer, const Sequence& sequence, const Job& job);
 
 /// What to say when the work was stopped: how far it got, and how to go on.
 std::string stop_message(const RenderTally& tally, const RenderRequest& request);
 
-/// Renders the jobs of a range into a folder, writing while rendering: frame_0000.exr and .png
+/// Renders the jobs of a range into a folder, several at a time (the bytes do not depend on it),
+/// writing in their order while rendering: frame_0000.exr and .png
 /// (with the names of variant and view), frames.jsonl, and for each variant and view film.mp4 once
 /// every frame of it is there. The sequence's scene loses its encoded images on the way.
 ///

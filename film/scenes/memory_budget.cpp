@@ -93,12 +93,12 @@ std::uint64_t default_memory_budget()
     return memory / 4 * 3;
 }
 
-void check_memory(const scene::Scene& scene, const TextureOptions& options, int width, int height,
-                  std::uint64_t budget)
+MemoryNeed check_memory(const scene::Scene& scene, const TextureOptions& options, int width,
+                        int height, std::uint64_t budget)
 {
     if (budget == 0) budget = default_memory_budget();
     const MemoryNeed need = memory_need(scene, options, width, height);
-    if (need.total() <= budget) return;
+    if (need.total() <= budget) return need;
     std::string fix =
         "Raise the budget with --memory " + std::to_string((need.total() >> 20) + 1) + " (MiB)";
     for (int side = options.max_size / 2; side >= 256; side /= 2) {

@@ -106,7 +106,8 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     targets.gbuffer.depth =
-        target("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+        target("depth", VK_FORMAT_D32_SFLOAT,
+               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 #define ROW(name, location, format, when, meaning) \
     targets.gbuffer.name = target(#name, VK_FORMAT_##format, color);
     GBUFFER_TABLE(ROW)
@@ -115,6 +116,12 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
+    targets.depth_rows = arena.buffer({.name = "depth_rows",
+                                       .size = static_cast<VkDeviceSize>(width) *
+                                               static_cast<VkDeviceSize>(height) * sizeof(float),
+                                       .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                                VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                       .texel_format = VK_FORMAT_R32_SFLOAT});
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
     const int block = GLOW_BLOCK;

@@ -45,6 +45,7 @@ struct FrameTargets {
     std::unique_ptr<GpuImage>
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
+    std::unique_ptr<GpuBuffer> depth_rows;   ///< the depth again: a CPU reads buffers many times as fast
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuImage> lamp_glow;  ///< of blocks of pixels; alpha: how far they are
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less

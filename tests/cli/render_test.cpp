@@ -99,6 +99,21 @@ TEST_F(Render, AFrameIsTheSameHoweverItIsReached)
     EXPECT_TRUE(contents(place_ / "alone") == files);
 }
 
+TEST_F(Render, FramesInFlightHaveTheSameBytesAndAreWrittenInOrder)
+{
+    const Outcome one = render({"-o", "one", "--frames-in-flight", "1"});
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    const Outcome three = render({"-o", "three", "--frames-in-flight", "3"});
+    ASSERT_EQ(three.exit_code, 0) << three.err;
+    EXPECT_THAT(three.err, HasSubstr("3 at a time"));
+    EXPECT_TRUE(contents(place_ / "one") == contents(place_ / "three"));
+    // No room for a second renderer: fewer, which is said.
+    const Outcome tight =
+        render({"-o", "tight", "--frames-in-flight", "3", "--memory", "100", "--frames", "0:2"});
+    ASSERT_EQ(tight.exit_code, 0) << tight.err;
+    EXPECT_THAT(tight.err, HasSubstr("1 instead of 3"));
+}
+
 TEST_F(Render, ResumeRedoesWhatIsDamagedOrOtherwiseMade)
 {
     ASSERT_EQ(render({"-o", "out", "--frames", "0:2"}).exit_code, 0);

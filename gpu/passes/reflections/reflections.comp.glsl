@@ -14,6 +14,7 @@
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
 layout(binding = REFLECTIONS_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = REFLECTIONS_DEPTH) uniform sampler2D depth_map;
+layout(binding = REFLECTIONS_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
 layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
 layout(binding = REFLECTIONS_MIRROR_SHAPE) uniform sampler2D mirror_shape;
@@ -41,7 +42,8 @@ struct Hit {
 
 float scene_depth_m(vec2 pixel)
 {
-    const float d = texelFetch(depth_map, clamp(ivec2(pixel), ivec2(0), frame.size - 1), 0).r;
+    const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
+    const float d = texelFetch(depth_rows, at.y * frame.size.x + at.x).r;
     return d > 0.0 ? linear_depth(frame, d) : 1.0e9;
 }
 
@@ -90,6 +92,7 @@ Hit trace(vec3 origin, vec3 direction)
     const int steps = clamp(int(pixels / 3.0), 4, kSteps);
     float before = 0.0;
     float before_m = 1.0 / ray.from.z;
+    float met = -1.0;
     float hidden = -1.0;  // where the ray went behind what is seen
     // Off the pixel that it starts from.
     const float first = min(1.5 / pixels, 0.5);
@@ -101,31 +104,28 @@ Hit trace(vec3 origin, vec3 direction)
         // Thicker than a step goes deep, nothing is known to be.
         const float low_m = min(before_m, ray_m) * 0.985 - 0.03;
         if (ray_m > seen_m && seen_m > low_m) {
-            float low = before;
-            float high = s;
-            for (int k = 0; k < kRefinements; ++k) {
-                const float middle = 0.5 * (low + high);
-                const vec3 m = mix(ray.from, ray.to, middle);
-                if (1.0 / max(m.z, 1.0e-7) > scene_depth_m(m.xy)) {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
-            }
-            hit.pixel = mix(ray.from, ray.to, high).xy;
-            const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
-            hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
-            return hit;
+            met = s;
+            break;
         }
-        if (ray_m <= seen_m) {
-            hidden = -1.0;
-        } else if (hidden < 0.0) {
-            hidden = s;
-        }
+        hidden = ray_m <= seen_m ? -1.0 : (hidden < 0.0 ? s : hidden);
         before = s;
         before_m = ray_m;
     }
-    if (hidden >= 0.0) {
+    // After the walk, so that a CPU's lanes, which meet things at different steps, refine together.
+    if (met >= 0.0) {
+        float low = before;
+        float high = met;
+        for (int k = 0; k < kRefinements; ++k) {
+            const float middle = 0.5 * (low + high);
+            const vec3 m = mix(ray.from, ray.to, middle);
+            const bool behind = 1.0 / max(m.z, 1.0e-7) > scene_depth_m(m.xy);
+            high = behind ? middle : high;
+            low = behind ? low : middle;
+        }
+        hit.pixel = mix(ray.from, ray.to, high).xy;
+        const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
+        hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
+    } else if (hidden >= 0.0) {
         // It never came out again: what hides it is likelier what it meets than the sky.
         hit.pixel = mix(ray.from, ray.to, hidden).xy;
         hit.confidence = 0.8;

@@ -28,6 +28,8 @@ SHARED_END
 #define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 
+#define REFLECTIONS_DEPTH_ROWS 13   // the depth map again, row by row: buffers are read faster
+
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
 #define REFLECTIONS_SPEC_LABEL 2    // 1: .. and what it is of
