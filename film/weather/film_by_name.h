@@ -6,7 +6,7 @@
 namespace petrichor::film {
 
 /// Gives materials that say nothing of the film of water on them (MaterialWeather::film) what their
-/// names say: lawns a third. Blades look every way, so that a wet lawn is no mirror, and darkens by a
+/// names say: lawns and leaves a third. They look every way, so that a wet lawn is no mirror, and darkens by a
 /// tenth where stones do by a third (the surface "lawn": albedo 0.22 dry, 0.20 wet).
 void set_films_by_name(scene::Scene& scene);
 

@@ -53,6 +53,11 @@ constexpr NameWord kWords[] = {
     {"grass", "lawn"},
     {"lawn", "lawn"},
     {"meadow", "lawn"},
+    // Thin, with little heat in it: what blades are.
+    {"needle", "lawn"},
+    {"leaves", "lawn"},
+    {"foliage", "lawn"},
+    {"hedge", "lawn"},
     {"metal", "roof_metal"},
     {"steel", "roof_metal"},
     {"zinc", "roof_metal"},

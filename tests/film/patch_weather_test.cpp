@@ -242,11 +242,12 @@ TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)
 TEST(PatchWeatherOfAScene, TheFilmThatIsShownIsLiquid)
 {
     Place place;
-    auto table = rain_table(8, 4.0, 3.0, 0.0, 2);
-    for (std::size_t i = 2; i < 8; ++i) table[weather::Field::AirTemp][i] = weather::kZeroCelsiusK - 1.5;
+    auto table = rain_table(14, 4.0, 3.0, 0.0, 3);
+    for (std::size_t i = 2; i < 14; ++i)
+        table[weather::Field::AirTemp][i] = weather::kZeroCelsiusK - 12.0;
     PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
     std::size_t both = 0;
-    for (const int minutes : {90, 130, 150, 180, 210, 240, 300}) {
+    for (const int minutes : {150, 210, 300, 480}) {
         const auto at = run.at(table.time_us.front() + minutes * std::int64_t{60000000});
         for (std::size_t i = 0; i < place.patches.count; ++i) {
             const glm::vec4* s = &at->states[i * PLACE_STATE_TEXELS];

@@ -124,7 +124,7 @@ float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_
     if (shape.labels.empty() || n.y < 0.3f) return 0.0f;
     constexpr int kAcross = 4;
     const float size_m = p.level_cell_m(scene::level_of(p.key[i]));
-    float sum = 0.0f;
+    float sum = 0.0f, all = 0.0f;
     for (int k = 0; k < kAcross * kAcross; ++k) {
         const glm::vec2 way =
             ((glm::vec2(k % kAcross, k / kAcross) + 0.5f) / float{kAcross} - 0.5f) * size_m;
@@ -133,6 +133,7 @@ float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_
         if (!(cell.x >= 0.0f && cell.y >= 0.0f && cell.x < static_cast<float>(shape.basin_width) &&
               cell.y < static_cast<float>(shape.basin_depth)))
             continue;
+        all += 1.0f;
         const std::uint32_t label = shape.labels[static_cast<std::size_t>(cell.y) * shape.basin_width +
                                                  static_cast<std::size_t>(cell.x)];
         if (label == 0 || label == 0xffffffffu) continue;
@@ -141,7 +142,7 @@ float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_
         // As pixels take it (gpu/frame/place.glsl, cover.glsl).
         if (depth_m < 2.0f) sum += shared::smooth_edge(0.0f, 0.002f, depth_m);
     }
-    return sum / float{kAcross * kAcross};
+    return sum / std::max(all, 1.0f);
 }
 
 // A factor now over what it was when the patches were coloured; what was 0 stays as it is.
