@@ -196,6 +196,12 @@ void add_weather_rows(std::vector<Row>& t)
         "0 dense (metal, glaze) .. 1 porous (brick, soil): how much darker when wet; -1: from the "
         "roughness"));
     t.back().also = -1.0f;
+    t.push_back(or_also(
+        number<&M::weather, &W::film>(
+            "film", 0, 1, place("film"),
+            "how far a film of water shows: 1 on stone .. 0 never; -1: by the name, 0.35 on grass, lawn, "
+            "meadow, leaves, needles, foliage and hedge, which look every way, 1 on all else"),
+        -1.0f));
     t.push_back(choice<&M::weather, &W::wetness>(
         "wetness", {"none", "simple", "ripples", "flow", "full"}, place("wetness"),
         "standing water: none, flat, with rings of drops, with flowing waves, with both"));

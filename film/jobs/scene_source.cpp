@@ -25,6 +25,7 @@
 #include "film/scenes/snow_tracks.h"
 #include "film/scenes/scene_file.h"
 #include "film/scenes/weather_textures.h"
+#include "film/weather/film_by_name.h"
 
 namespace petrichor::film {
 namespace {
@@ -129,6 +130,7 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_material_overrides(scenario.materials, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
+    set_films_by_name(sequence.scene);
     check_decals(sequence.scene);
     const AppliedLamps lamps =
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);

@@ -21,6 +21,7 @@ constexpr float kGutterDrop_m = 2.0f;
 constexpr double kGutterShare = 0.9;
 constexpr float kSplashReach_m = 0.6f;
 constexpr int kWallSteps = 64;
+constexpr double kNoHollow_mm = 0.01;  // none, for a model that wants some
 constexpr double kGroundNear_m = 0.3;  // of the height field: higher up it is no ground
 
 struct NameWord {
@@ -52,6 +53,11 @@ constexpr NameWord kWords[] = {
     {"grass", "lawn"},
     {"lawn", "lawn"},
     {"meadow", "lawn"},
+    // Thin, with little heat in it: what blades are.
+    {"needle", "lawn"},
+    {"leaves", "lawn"},
+    {"foliage", "lawn"},
+    {"hedge", "lawn"},
     {"metal", "roof_metal"},
     {"steel", "roof_metal"},
     {"zinc", "roof_metal"},
@@ -84,10 +90,13 @@ double luminance(const glm::vec3& rgb)
     return static_cast<double>(0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b);
 }
 
-// A kind a material; its albedo is what its patches have.
+enum class GroundForm : std::uint32_t { Level, Hollow, Steep };
+
+// Three kinds a material, by form; their albedo is what its patches have.
 std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const scene::Scene& scene,
                                          std::span<const scene::PatchSurface> surfaces,
-                                         const weather::Surface& otherwise)
+                                         const weather::Surface& otherwise,
+                                         const WaterReliefs& reliefs)
 {
     std::vector<double> area(scene.materials.size(), 0.0), albedo(scene.materials.size(), 0.0);
     for (std::uint32_t i = 0; i < patches.count; ++i) {
@@ -114,6 +123,19 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
         kind.sheds_snow = kind.surface.name == "roof_metal";
         kind.splash = kind.surface.name == "lawn" ? 0.3 : 1.0;
         kinds.push_back(std::move(kind));
+    }
+    // Each as what it is where it is level, in a hollow, and where water runs off.
+    const std::vector<weather::PatchKind> dry = std::move(kinds);
+    kinds.clear();
+    for (const GroundForm form : {GroundForm::Level, GroundForm::Hollow, GroundForm::Steep}) {
+        for (std::size_t m = 0; m < dry.size(); ++m) {
+            weather::PatchKind kind = dry[m];
+            kind.surface.cracks = kind.surface.puddles = weather::uniform_hypsometry(kNoHollow_mm);
+            if (form != GroundForm::Steep && reliefs.of_material[m].unit_mm > 0.0)
+                kind.surface.puddles =
+                    store_of_relief(reliefs.of_material[m], form == GroundForm::Hollow);
+            kinds.push_back(std::move(kind));
+        }
     }
     return kinds;
 }
@@ -274,12 +296,13 @@ weather::Surface surface_of_material(const scene::Material& material,
 
 weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer& tracer,
                               std::span<const scene::PatchSurface> surfaces,
-                              const SceneGround& ground, const weather::Surface& otherwise)
+                              const SceneGround& ground, const weather::Surface& otherwise,
+                              const WaterReliefs& reliefs)
 {
     const scene::Scene& scene = tracer.triangles().scene();
     const Ways ways(patches, tracer);
     weather::PatchSet set;
-    set.kinds = kinds_of(patches, scene, surfaces, otherwise);
+    set.kinds = kinds_of(patches, scene, surfaces, otherwise, reliefs);
     set.ponds = ground.basins.pits;
     set.patches.resize(patches.count);
     for (std::uint32_t i = 0; i < patches.count; ++i) {
@@ -289,10 +312,16 @@ weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer
         p.area_m2 = std::max(static_cast<double>(patches.area_m2[i]), 1e-6);
         p.height_m = static_cast<double>(patches.position_m[i].y);
         p.kind = patches.material[i];
+        const GroundForm form = !holds_water(scene.materials[p.kind], patches.normal[i])
+                                    ? GroundForm::Steep
+                                : reliefs.hollow[i] ? GroundForm::Hollow
+                                                    : GroundForm::Level;
+        p.kind += static_cast<std::uint32_t>(form) *
+                  static_cast<std::uint32_t>(scene.materials.size());
         p.visible = patches.visible[i];
         p.sky_share = std::clamp(static_cast<double>(patches.sky_view[i]), 0.0, 1.0);
         // Materials that weather leaves alone stay dry.
-        if (scene.materials[p.kind].weather.sheltered) p.visible = {};
+        if (scene.materials[patches.material[i]].weather.sheltered) p.visible = {};
         bool is_ground = false;
         if (n.y > static_cast<double>(kGroundUp))
             p.runs_to = drain_of(ground, patches.position_m[i], is_ground);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/weather/water_relief.h"
 #include "scene/basins/hierarchy.h"
 #include "scene/patches/patches.h"
 #include "scene/patches/surfaces.h"
@@ -31,9 +32,11 @@ weather::Surface surface_of_material(const scene::Material& material,
 ///
 ///   surfaces    as scene::patch_surfaces; one a patch
 ///   otherwise   of materials whose name says nothing
+///   reliefs     of these patches
 weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer& tracer,
                               std::span<const scene::PatchSurface> surfaces,
-                              const SceneGround& ground, const weather::Surface& otherwise);
+                              const SceneGround& ground, const weather::Surface& otherwise,
+                              const WaterReliefs& reliefs);
 
 /// The hollows of a ground as ponds of a patch set: pond i is pit i + 1.
 weather::Ponds ponds_of(const SceneGround& ground);

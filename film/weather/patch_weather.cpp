@@ -67,23 +67,26 @@ float narrow(double v)
 }
 
 // The texels of gpu/frame/place_io.h.
-void put_state(const weather::PatchState& s, const weather::Surface& surface, glm::vec4* out)
+void put_state(const weather::PatchState& s, const weather::Surface& surface,
+               const WaterRelief& relief, std::uint32_t material, glm::vec4* out)
 {
     const weather::CellState& c = s.cell;
     const weather::CellDiagnostics d = weather::diagnostics(c);
     const weather::WeatherMasks masks = weather::weather_masks({}, surface, c, 3600.0);
     const double frost = 1.0 - std::exp(-s.hoar_kg_m2 / kHoarScale_kg_m2);
-    out[0] = {narrow(masks.wetness * (1.0 - masks.water_to_snow)), narrow(masks.cracks),
-              narrow(masks.puddles), narrow(masks.snow)};
-    out[1] = {narrow(frost), narrow(masks.water_to_snow), narrow(s.rain_share), 0.0f};
+    const double standing_mm = (c.crack + c.crack_ice) + (c.puddle + c.puddle_ice);
+    const float level = relief_level(relief, standing_mm);
+    out[0] = {narrow(masks.wetness), drowned_share(relief, level), narrow(masks.puddles),
+              narrow(masks.snow)};
+    out[1] = {narrow(frost), narrow(masks.water_to_snow), narrow(s.rain_share), 2.0f + level};
     const double frozen = d.swe_kg_m2 - d.snow_liquid_kg_m2 + d.surface_ice_kg_m2;
     const double all = d.swe_kg_m2 + d.surface_water_kg_m2 + d.surface_ice_kg_m2;
     out[2] = {narrow(c.film),
-              narrow(1e-3 * weather::water_level_mm(surface.puddles, c.puddle + c.puddle_ice)),
+              narrow(1e-3 * standing_mm),
               narrow(d.snow_depth_m), narrow(d.surface_ice_kg_m2)};
     out[3] = {narrow(all > 0.0 ? std::clamp(1.0 - frozen / all, 0.0, 1.0) : 1.0),
               narrow(c.surface_temp_c + weather::kZeroCelsiusK), narrow(s.rain_share),
-              narrow(s.wind_factor)};
+              static_cast<float>(material)};
 }
 
 }  // namespace
@@ -115,7 +118,10 @@ SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
 {
     SceneSites sites;
     sites.ground = scene_ground(scene, keys, sites.notes);
-    sites.set = patch_sites(patches, tracer, surfaces, sites.ground, otherwise);
+    const WaterReliefs reliefs = water_reliefs(patches, tracer.triangles(), sites.notes);
+    sites.set = patch_sites(patches, tracer, surfaces, sites.ground, otherwise, reliefs);
+    sites.relief = reliefs.of_material;
+    sites.material = patches.material;
     if (!keys.gutters)
         for (weather::WeatherPatch& p : sites.set.patches) p.gutter_share = 0.0;
     const auto shape = std::make_shared<gpu::PlaceShape>();
@@ -136,6 +142,8 @@ struct PlaceWeatherOfFile::Impl {
     std::shared_ptr<const scene::Basins> basins;
     std::vector<weather::Surface> surfaces;  // by kind
     std::vector<std::uint32_t> kind;         // of a patch
+    std::vector<WaterRelief> relief;         // by material
+    std::vector<std::uint32_t> material;     // of a patch
     std::vector<double> area_m2;
     weather::PatchWeather run;
     std::int64_t first_us;
@@ -154,7 +162,7 @@ PlaceWeatherOfFile::PlaceWeatherOfFile(const SceneSites& sites, const weather::F
     }
     impl_ = std::make_shared<Impl>(Impl{
         sites.shape, std::make_shared<const scene::Basins>(sites.ground.basins),
-        std::move(surfaces), std::move(kind), std::move(area_m2),
+        std::move(surfaces), std::move(kind), sites.relief, sites.material, std::move(area_m2),
         weather::PatchWeather(table, sites.set, params, from_us, ponds_of(sites.ground)), from_us});
 }
 
@@ -171,7 +179,8 @@ std::shared_ptr<const gpu::PlaceWeather> PlaceWeatherOfFile::at(std::int64_t utc
     place->shape = m.shape;
     place->states.resize(m.run.patches() * PLACE_STATE_TEXELS);
     for (std::size_t i = 0; i < m.run.patches(); ++i)
-        put_state(m.run.state(i), m.surfaces[m.kind[i]], &place->states[i * PLACE_STATE_TEXELS]);
+        put_state(m.run.state(i), m.surfaces[m.kind[i]], m.relief[m.material[i]],
+                  m.material[i], &place->states[i * PLACE_STATE_TEXELS]);
     scene::BasinWater water(*m.basins);
     const auto volumes = m.run.pond_volumes_m3();
     std::copy(volumes.begin(), volumes.end(), water.volume_m3.begin());

@@ -9,6 +9,7 @@
 
 #include "film/scenario/scenario.h"
 #include "film/weather/patch_sites.h"
+#include "film/weather/water_relief.h"
 #include "gpu/frame/frame.h"
 #include "scene/scene.h"
 
@@ -24,6 +25,8 @@ struct SceneSites {
     weather::PatchSet set;
     SceneGround ground;
     std::shared_ptr<const gpu::PlaceShape> shape;
+    std::vector<WaterRelief> relief;           ///< by material
+    std::vector<std::uint32_t> material;       ///< of a patch
     std::vector<std::string> notes;
 };
 SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,

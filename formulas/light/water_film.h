@@ -33,7 +33,8 @@ SHARED_FN float water_fresnel(float cosine)
 }
 
 // Of thin wetness; standing water is a surface of its own, snow and hoar frost lie over it, ice is not wet.
-// Pores drink the first of it. Its normal is left to the caller.
+// Pores drink the first of it, and what of it is frozen is in no film of the moment or of a patch. Its normal
+// is left to the caller.
 SHARED_FN WaterFilm water_film(DryMaterial dry, SurfaceState state, WeatherMoment moment)
 {
     const float pouring = saturate(2.0f * moment.rain) * step(1.0e-4f, moment.film_smoothness);
@@ -43,7 +44,7 @@ SHARED_FN WaterFilm water_film(DryMaterial dry, SurfaceState state, WeatherMomen
     const float thick = smooth_edge(0.2f, 1.0f, over);
     WaterFilm film;
     film.share = smooth_edge(0.0f, 1.0f, over) * (1.0f - state.water) * (1.0f - state.snow) *
-                 (1.0f - state.frost) * (1.0f - moment.water_to_snow);
+                 (1.0f - state.frost);
     // What is rough stands through the thickest film a little, and drops dent it.
     const float least = mix(0.1f, dry.roughness, 0.15f) + 0.03f * pouring;
     film.roughness = mix(max(dry.roughness, 0.1f), min(least, max(dry.roughness, 0.1f)), thick);

@@ -12,6 +12,8 @@ SHARED_BEGIN
 
 // Of the relief above the height that a material says: a third of the ground can hold water.
 SHARED_CONST float kGroundRelief = 2.0f;
+// Of it and of a height map without a scale: metres of height 1 over height 0, as deep as puddles are.
+SHARED_CONST float kGroundReliefUnit_m = 0.015f;
 // It repeats after so many cells, 2 km: more than whole numbers of floats of the world need.
 SHARED_CONST int kGroundPeriod = 1024;
 

@@ -36,12 +36,12 @@ uvec3 place_leaf(ivec3 cell0, int axis)
     return found;
 }
 
-// The patch at a point of a surface, kNoPatch where none is near. `turn`, -0.5 to 0.5, moves the
-// point by so much of the patch's cell along the surface: the mean over many turns blends between
+// x: the patch at a point of a surface, kNoPatch where none is near. y: the one at the point moved by
+// `turn`, -0.5 to 0.5, of the patch's cell along the surface: the mean over many turns blends between
 // patches linearly. Not across walls.
-uint place_patch(vec3 x, vec3 n, vec3 turn)
+uvec2 place_patches(vec3 x, vec3 n, vec3 turn)
 {
-    if (frame.place.grid.levels == 0u) return kNoPatch;
+    if (frame.place.grid.levels == 0u) return uvec2(kNoPatch);
     const float inverse_cell = 1.0 / frame.place.grid.cell_m;
     const vec3 lifted = x + n * (0.06 * frame.place.grid.cell_m);
     const ivec3 cell0 = patch_cell(lifted, inverse_cell);
@@ -55,7 +55,7 @@ uint place_patch(vec3 x, vec3 n, vec3 turn)
         along[most] = -1.0;
         own = place_leaf(cell0, axis);
     }
-    if (own.x == kNoPatch || turn == vec3(0.0)) return own.x;
+    if (own.x == kNoPatch || turn == vec3(0.0)) return own.xx;
     turn[axis / 2] = 0.0;
     const float cell_m = frame.place.grid.cell_m * float(1 << own.z);
     const ivec3 there = patch_cell(lifted + turn * cell_m, inverse_cell);
@@ -63,9 +63,14 @@ uint place_patch(vec3 x, vec3 n, vec3 turn)
     const ivec3 way = ivec3(there.x >> up, there.y >> up, there.z >> up) -
                       ivec3(cell0.x >> up, cell0.y >> up, cell0.z >> up) + ivec3(1);
     const uint bit = uint(way.x + 3 * way.y + 9 * way.z);
-    if (((own.y >> bit) & 1u) == 0u) return own.x;
+    if (((own.y >> bit) & 1u) == 0u) return own.xx;
     const uvec3 other = place_leaf(there, axis);
-    return other.x == kNoPatch ? own.x : other.x;
+    return uvec2(own.x, other.x == kNoPatch ? own.x : other.x);
+}
+
+uint place_patch(vec3 x, vec3 n, vec3 turn)
+{
+    return place_patches(x, n, turn).y;
 }
 
 vec4 place_state(uint patch_number, int texel)

@@ -7,9 +7,11 @@
 
 // Texels (RGBA32F) a patch in the table of states: what pixels show (place.glsl), then SI:
 //   0  film 0..1, level in cracks, level in puddles, snow amount
-//   1  frost, frozen share, share of the rain that meets it, -
-//   2  film mm, standing water m, snow m, ice kg/m2
-//   3  liquid share of all water, surface temperature K, share of the rain, share of the wind
+//   1  frost, frozen share, share of the rain that meets it, 0 or 2 + level of the water in the relief
+//   2  film mm, mean depth of the water in the relief m, snow m, ice kg/m2
+// A level is in heights of the material's relief, of water whose mean depth is that of texel 2; above -1.
+// Where there is one, texel 0 has instead of the level in cracks the share of the ground below it.
+//   3  liquid share of all water, surface temperature K, share of the rain, number of the material
 #define PLACE_STATE_TEXELS 4
 
 SHARED_BEGIN

@@ -43,6 +43,7 @@
     X(float, anisotropy_rotation)  \
     X(float, diffuse_transmission_factor) \
     X(float, porosity)             \
+    X(float, film)                 \
     X(float, default_height)       \
     X(float, height_scale_m)       \
     X(float, parallax_steps)       \

@@ -215,6 +215,13 @@ glm::vec4 Triangles::color(std::uint32_t t, Barycentric at) const
     return between(run.primitive->colors, corners_in(*run.primitive, source_[t], run.turned), at);
 }
 
+glm::vec4 Triangles::weather(std::uint32_t t, Barycentric at) const
+{
+    const Run& run = run_of(t);
+    if (run.primitive->weather.empty()) return glm::vec4(1.0f);
+    return between(run.primitive->weather, corners_in(*run.primitive, source_[t], run.turned), at);
+}
+
 glm::vec3 Triangles::shading_normal(std::uint32_t t, Barycentric at) const
 {
     const Run& run = run_of(t);

@@ -65,6 +65,8 @@ public:
     glm::vec2 uv(std::uint32_t t, Barycentric at, const TextureUse& use) const;
     /// COLOR_0, white without.
     glm::vec4 color(std::uint32_t t, Barycentric at) const;
+    /// _WEATHER, 1 everywhere without.
+    glm::vec4 weather(std::uint32_t t, Barycentric at) const;
     /// Shading normal of the mesh, unit, in the world; the face's where the mesh has none.
     glm::vec3 shading_normal(std::uint32_t t, Barycentric at) const;
     /// A masked triangle is a hole there.

@@ -1,6 +1,7 @@
 // A scene's own geometry under a weather file: where its water goes, what its patches hold.
 #include "film/weather/patch_weather.h"
 #include "film/weather/artist_places.h"
+#include "film/weather/film_by_name.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,8 @@
 
 #include "formulas/weather/falls_here.h"
 #include "scene/basins/water.h"
+#include "tests/film/rain_table.h"
 #include "weather/models/physical/mapping.h"
-#include "weather/physics/constants.h"
 
 namespace petrichor::film {
 namespace {
@@ -85,24 +86,6 @@ struct Place {
     }
 };
 
-weather::ForcingTable rain(std::size_t hours, double mm_h, double wind_m_s, double from_deg)
-{
-    weather::ForcingTable t;
-    t.site = {46.0, 8.0, 600.0};
-    for (std::size_t i = 0; i < hours; ++i) {
-        t.time_us.push_back(1431000000LL * 1000000 + static_cast<std::int64_t>(i) * 3600000000LL);
-        t[weather::Field::AirTemp].push_back(weather::kZeroCelsiusK + 12);
-        t[weather::Field::RelHumidity].push_back(90);
-        t[weather::Field::Wind].push_back(wind_m_s);
-        t[weather::Field::WindFrom].push_back(from_deg);
-        t[weather::Field::Precip].push_back(mm_h / 3600.0);
-        t[weather::Field::Cloud].push_back(1);
-    }
-    weather::ReadReport report;
-    weather::fill_forcing(t, report);
-    return t;
-}
-
 TEST(PatchSites, NamesSayWhatThingsAreMadeOf)
 {
     const auto kind = [](const char* name, float metallic = 0.0f) {
@@ -116,6 +99,20 @@ TEST(PatchSites, NamesSayWhatThingsAreMadeOf)
     EXPECT_EQ(kind("zinc roof"), "roof_metal");
     EXPECT_EQ(kind("Material.001"), "rock");
     EXPECT_EQ(kind("Material.001", 1.0f), "roof_metal");
+}
+
+TEST(FilmByName, LawnsShowAThirdOfAFilmUnlessTheirMaterialSaysMore)
+{
+    scene::Scene scene;
+    for (const char* name : {"GrassMaterial", "cobble", "Grass of a garden"}) {
+        scene.materials.emplace_back();
+        scene.materials.back().name = name;
+    }
+    scene.materials[2].weather.film = 0.8f;
+    set_films_by_name(scene);
+    EXPECT_EQ(scene.materials[0].weather.film, 0.35f);
+    EXPECT_EQ(scene.materials[1].weather.film, 1.0f);
+    EXPECT_EQ(scene.materials[2].weather.film, 0.8f);
 }
 
 TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)
@@ -156,7 +153,7 @@ TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)
 TEST(PatchWeatherOfAScene, RainFillsTheHollowAndTheBooksClose)
 {
     Place place;
-    const auto table = rain(30, 5.0, 0.0, 0.0);
+    const auto table = rain_table(30, 5.0, 0.0, 0.0);
     weather::PatchParams params;
     PlaceWeatherOfFile run(place.sites, table, params, table.time_us.front());
     const auto at = [&](int hour) { return run.at(table.time_us[static_cast<std::size_t>(hour)]); };
@@ -201,7 +198,7 @@ TEST(PatchWeatherOfAScene, TwoTenAndFortyMillimetresStandAsTheyFell)
         if (h.parent == 0) capacity += h.capacity_m3;
     double before = 0.0, out_before = -1.0;
     for (const double mm : {2.0, 10.0, 40.0}) {
-        const auto table = rain(4, mm, 0.0, 0.0);
+        const auto table = rain_table(4, mm, 0.0, 0.0);
         PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
         const auto wet = run.at(table.time_us[1]);
         const PlaceSums sums = run.sums();
@@ -233,12 +230,32 @@ TEST(PatchWeatherOfAScene, TheWallIsWetInTheWindThatBlowsOnIt)
         return n.x > 0.9f && p.y > 1.5f && p.y < 2.4f && std::abs(p.z) < 2.0f;
     });
     const auto film_in = [&](double from_deg) {
-        const auto table = rain(6, 5.0, 6.0, from_deg);
+        const auto table = rain_table(6, 5.0, 6.0, from_deg);
         PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
         return run.at(table.time_us[3])->states[wall * PLACE_STATE_TEXELS + 2].x;
     };
     EXPECT_GT(film_in(90.0), 0.2f);
     EXPECT_EQ(film_in(270.0), 0.0f);
+}
+
+// While a wet yard freezes, the film that is shown is the liquid one: no share of it is taken off twice.
+TEST(PatchWeatherOfAScene, TheFilmThatIsShownIsLiquid)
+{
+    Place place;
+    auto table = rain_table(14, 4.0, 3.0, 0.0, 3);
+    for (std::size_t i = 2; i < 14; ++i)
+        table[weather::Field::AirTemp][i] = weather::kZeroCelsiusK - 12.0;
+    PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
+    std::size_t both = 0;
+    for (const int minutes : {150, 210, 300, 480}) {
+        const auto at = run.at(table.time_us.front() + minutes * std::int64_t{60000000});
+        for (std::size_t i = 0; i < place.patches.count; ++i) {
+            const glm::vec4* s = &at->states[i * PLACE_STATE_TEXELS];
+            EXPECT_NEAR(s[0].x, shared::wetness_of_film(s[2].x), 1e-5f) << i;
+            if (s[2].x > 0.05f && s[1].y > 0.1f) ++both;
+        }
+    }
+    EXPECT_GT(both, 20u) << "film and ice at once";
 }
 
 // The renderer's text of the map says what the model's does.

@@ -3,8 +3,10 @@
 #include "film/weather/patch_weather.h"
 #include "scene/patches/surfaces.h"
 #include "scene/patches/tracer.h"
+#include "tests/film/rain_table.h"
 #include "tests/gpu/gpu_fixture.h"
 #include "tests/scene/patch_scenes.h"
+#include "texproc/codecs/files/io.h"
 
 namespace petrichor::film {
 namespace {
@@ -100,6 +102,95 @@ TEST_F(PlacePicture, AFilmOnTheRoadDarkensIt)
     const float wet = seen(house, storm(90.0, 0.84), 1.0f, true);
     EXPECT_LT(half, 0.94f * dry);
     EXPECT_LT(wet, 0.86f * dry);
+}
+
+// Setts whose relief has four levels, seen from above: a road without hollows of its geometry.
+struct Setts {
+    scene::Scene scene = made();
+    scene::Triangles triangles{scene, {}};
+    scene::Tracer tracer{triangles};
+    scene::Patches patches = cut();
+    std::vector<scene::PatchSurface> surfaces = scene::patch_surfaces(patches, triangles, {});
+    SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+
+    static scene::Scene made()
+    {
+        scene::Scene scene = empty_scene();
+        add_face(scene, {-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
+        std::vector<std::uint8_t> grey;
+        for (int i = 0; i < kTexels * kTexels; ++i) grey.push_back(height_of(i));
+        scene::EncodedImage image;
+        image.name = "heights";
+        image.bytes = texproc::encode_png8(kTexels, kTexels, 1, grey);
+        scene.textures.push_back(image);
+        scene.materials[0] = gpu::plain_material(glm::vec3(0.3f), 0.9f);
+        scene.materials[0].name = "cobble";
+        scene.materials[0].weather.height.texture = 0;
+        scene.materials[0].weather.height.scale = glm::vec2(7.0f);
+        return scene;
+    }
+    static constexpr int kTexels = 64;
+    static std::uint8_t height_of(int texel)
+    {
+        return static_cast<std::uint8_t>(85 * (texel / kTexels * 4 / kTexels));
+    }
+    // The same as the renderer reads it.
+    gpu::Texture heights() const
+    {
+        gpu::Texture texture;
+        texture.name = "heights";
+        texture.format = gpu::TexelFormat::Rgba8Unorm;
+        texture.width = texture.height = kTexels;
+        texture.mips.emplace_back();
+        for (int i = 0; i < kTexels * kTexels; ++i)
+            for (int c = 0; c < 4; ++c)
+                texture.mips[0].push_back(static_cast<std::byte>(height_of(i)));
+        return texture;
+    }
+    scene::Patches cut() const
+    {
+        scene::PatchOptions options;
+        options.cell_m = 0.5f;
+        options.rays = 64;
+        return scene::build_patches(tracer, options);
+    }
+};
+
+// An hour after a thunderstorm what the patches still hold stands in the joints of the stones: as much of
+// the road is under water as that volume reaches, and the label adds up to it.
+TEST_F(PlacePicture, WhatPatchesHoldStandsInTheirRelief)
+{
+    const Setts setts;
+    renderer->load(setts.scene, {setts.heights()});
+    const auto table = rain_table(12, 20.0, 1.0, 90.0, 2);
+    PlaceWeatherOfFile run(setts.sites, table, {}, table.time_us.front());
+    gpu::Frame frame;
+    frame.camera = gpu::look({0, 10, 0}, {0, 0, 0}, 0.6f);
+    frame.settings.width = frame.settings.height = 96;
+    frame.settings.samples = 1;
+    frame.settings.aovs = {"water", "water_depth"};
+    frame.place = run.at(table.time_us[3]);
+    const PlaceSums sums = run.sums();
+    const double mean_mm = sums.standing_kg / sums.area_m2;
+    ASSERT_GT(mean_mm, 0.7) << "setts do not drink it";
+    const gpu::RenderResult r = renderer->render(frame);
+    double label_mm = 0.0, under = 0.0;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            label_mm += 1e3 * static_cast<double>(gpu::aov(r, "water_depth", x, y)) / (96.0 * 96.0);
+            under += gpu::aov(r, "water", x, y) > 0.5f ? 1.0 / (96.0 * 96.0) : 0.0;
+        }
+    }
+    EXPECT_NEAR(label_mm, mean_mm, 0.02 * mean_mm);
+    const WaterRelief& relief = setts.sites.relief.at(0);
+    const float share = drowned_share(relief, relief_level(relief, mean_mm));
+    EXPECT_GT(share, 0.15f);
+    EXPECT_LT(share, 0.6f);
+    EXPECT_NEAR(under, static_cast<double>(share), 0.1);
+    // A day later it is gone.
+    frame.place = run.at(table.time_us.back());
+    EXPECT_LT(run.sums().standing_kg, sums.standing_kg);
 }
 
 }  // namespace

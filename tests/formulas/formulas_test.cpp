@@ -224,6 +224,30 @@ TEST(ApplyWater, DarkensAsAFilmOverAMattGroundDoes)
     }
 }
 
+// What was measured is what a whole film leaves; of paint and glaze it takes little.
+TEST(ApplyWater, SettsDarkenAsMuchAsIsMeasured)
+{
+    const auto left = [](float albedo, float porosity) {
+        DryMaterial dry{};
+        dry.base_color = glm::vec3(albedo);
+        dry.f0 = glm::vec3(0.04f);
+        dry.roughness = 0.8f;
+        dry.porosity = porosity;
+        WeatherMoment moment{};
+        moment.film_albedo = 0.85f;
+        const SurfaceState state{1.0f, 0.0f, 0.0f, 0.0f, 0.4f};
+        return apply_weather(dry, state, moment, {}).albedo.x / albedo;
+    };
+    // Angstrom 1925: sand .18 to .09, mould .14 to .08.
+    EXPECT_NEAR(left(0.18f, 1.0f), 0.5f, 0.12f);
+    EXPECT_NEAR(left(0.14f, 1.0f), 0.57f, 0.06f);
+    // Wet over dry of the energy balance's own surfaces: setts, brick, concrete.
+    EXPECT_NEAR(left(0.20f, 0.45f), 0.65f, 0.03f);
+    EXPECT_NEAR(left(0.28f, 0.75f), 0.61f, 0.05f);
+    EXPECT_NEAR(left(0.30f, 0.70f), 0.67f, 0.05f);
+    EXPECT_GT(left(0.30f, 0.05f), 0.95f);
+}
+
 TEST(ApplyWater, AMetalKeepsItsReflectanceBelowWater)
 {
     for (const float metallic : {0.0f, 1.0f}) {

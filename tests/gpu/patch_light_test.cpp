@@ -299,6 +299,48 @@ TEST_F(PatchLightTest, PatchesHaveTheirOwnWeather)
     EXPECT_NE(patch_look(*patches, white, {}, true, {}, &place).albedo, look.albedo);
 }
 
+// Ground below a pond sends back what water over it does, whichever of the two weathers of a place it is of.
+TEST_F(PatchLightTest, GroundBelowAPondIsAsDarkAsItsWater)
+{
+    const Scene scene = yard(lambert(glm::vec3(0.2f)));
+    const auto patches = traced(scene, 0.5f);
+    const scene::Patches& p = patches->patches;
+    auto shape = std::make_shared<PlaceShape>();
+    shape->grid = scene::table_grid(p);
+    shape->table = p.table;
+    shape->basin_corner_m = {-8.0f, -8.0f};
+    shape->basin_width = shape->basin_depth = 16;
+    shape->labels.assign(256, 0);
+    for (std::size_t k = 0; k < 256; ++k)
+        if (k % 16 < 4) shape->labels[k] = 1;  // x from -8 to -4
+    PlaceWeather place;
+    place.shape = shape;
+    place.states.assign(std::size_t{p.count} * PLACE_STATE_TEXELS, glm::vec4(0.0f));
+    place.levels_m = {0.0f, 0.02f};
+    const auto albedo = patch_look(*patches, {}, {}, true, {}, &place).albedo;
+    auto ponds = std::make_shared<PlaceShape>(*shape);
+    ponds->grid.levels = 0;
+    PlaceWeather alone;
+    alone.shape = ponds;
+    alone.levels_m = place.levels_m;
+    shared::WeatherMoment wet;
+    wet.flood_puddles = 1e-3f;
+    const auto without_patches = patch_look(*patches, wet, {}, true, {}, &alone).albedo;
+    int seen = 0;
+    for (std::size_t i = 0; i < p.count; ++i) {
+        if (p.normal[i].y < 0.9f || p.position_m[i].y > 0.1f) continue;
+        if (p.position_m[i].x < -4.5f) {
+            // 0.1089 below the film, 0.02 mirrored.
+            EXPECT_NEAR(albedo[i].y, 0.1089f * 0.98f + 0.02f, 2e-3f) << i;
+            EXPECT_NEAR(without_patches[i].y, albedo[i].y, 2e-3f) << i;
+            ++seen;
+        } else if (p.position_m[i].x > -3.5f) {
+            EXPECT_NEAR(albedo[i].y, 0.2f, 1e-3f) << i;
+        }
+    }
+    EXPECT_GT(seen, 50);
+}
+
 TEST_F(PatchLightTest, TheSameBytesAgain)
 {
     const Scene scene = yard(plain_material({0.5f, 0.4f, 0.3f}));

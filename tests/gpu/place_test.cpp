@@ -130,6 +130,24 @@ TEST_F(PlaceTest, FilmsDarkenTheirPatchesOnly)
     EXPECT_LT(luminance(pixel(r, 14, 32)), 0.9f * luminance(pixel(r, 50, 32)));
 }
 
+// What of the frame's water is frozen tells nothing of a film that patches hold.
+TEST_F(PlaceTest, FilmsAreNotFrozenTwice)
+{
+    load_floor();
+    auto place = dry();
+    for (std::uint32_t i = 0; i < patches.count; ++i) place->states[i * PLACE_STATE_TEXELS].x = 1.0f;
+    Frame frame = from_above(place);
+    frame.sky.sun_elevation_rad = 1.4f;
+    frame.settings.film_lobe = true;
+    const RenderResult thawed = renderer->render(frame);
+    frame.weather.water_to_snow = 0.8f;
+    const RenderResult frozen = renderer->render(frame);
+    for (int x = 8; x < 56; x += 4) EXPECT_EQ(pixel(frozen, x, 32), pixel(thawed, x, 32)) << x;
+    frame.place = dry();
+    EXPECT_GT(std::abs(luminance(pixel(renderer->render(frame), 32, 32)) - luminance(pixel(thawed, 32, 32))),
+              0.01f * luminance(pixel(thawed, 32, 32)));
+}
+
 // What moves and what lies beyond the patches has the frame's own film, not that of a closed one.
 TEST_F(PlaceTest, WhatHasNoPatchHasTheFilmOfTheFrame)
 {

@@ -8,7 +8,9 @@ namespace petrichor::weather {
 
 namespace {
 
-// One row a surface; depths of cracks and puddles in mm, infiltration in mm/h.
+// One row a surface; depths of cracks and puddles in mm, infiltration in mm/h. Setts of a street, their
+// joints closed by traffic, let a quarter of a rain of 15 l/(s ha) through (ATV-DVWK-M 153, 2000: paving
+// with tight joints runs off by 0.75).
 struct Row {
     const char* name;
     double albedo_dry, albedo_wet, emissivity, roughness_m, film, cracks_mm, puddles_mm;
@@ -19,7 +21,7 @@ constexpr Row kRows[] = {
     {"asphalt", 0.12, 0.08, 0.95, 0.005, 0.4, 1.5, 15.0, 0.0, 0.0, 0.75, 1.94e6},
     {"concrete", 0.30, 0.20, 0.94, 0.003, 0.5, 0.8, 10.0, 0.0, 0.0, 1.5, 2.1e6},
     {"paving_stones", 0.25, 0.17, 0.94, 0.005, 0.5, 4.0, 10.0, 50.0, 10.0, 1.2, 2.0e6},
-    {"cobblestone", 0.20, 0.13, 0.94, 0.01, 0.6, 8.0, 15.0, 50.0, 10.0, 1.5, 2.1e6},
+    {"cobblestone", 0.20, 0.13, 0.94, 0.01, 0.6, 8.0, 15.0, 10.0, 1.4, 1.5, 2.1e6},
     {"brick", 0.28, 0.17, 0.93, 0.005, 0.8, 4.0, 8.0, 20.0, 5.0, 0.8, 1.7e6},
     {"soil", 0.20, 0.11, 0.95, 0.01, 1.0, 5.0, 20.0, 50.0, 5.0, 1.0, 2.0e6},
     {"sand", 0.35, 0.20, 0.94, 0.003, 1.0, 3.0, 15.0, 200.0, 60.0, 0.6, 1.6e6},

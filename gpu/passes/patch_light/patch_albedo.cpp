@@ -30,6 +30,11 @@ bool any_weather(const shared::WeatherMoment& w, const MaterialWeather& m)
            m.water_accumulation.z > 0.0f || m.snow_accumulation.x > 0.0f;
 }
 
+float film_of(const MaterialWeather& m)
+{
+    return m.film >= 0.0f ? m.film : 1.0f;
+}
+
 // Cover of snow, a mean over the two masks of the snow map.
 float mean_snow(float amount, float height_factor, float up, const MaterialWeather& m, float melt)
 {
@@ -64,7 +69,8 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
         state.water =
             shared::water_cover(flood, m.default_height, 1.0f, up, m.water_slope_damp).anywhere;
     }
-    state.film = std::sqrt(open) * shared::saturate(up + 1.0f - m.water_slope_damp);
+    state.film =
+        std::sqrt(open) * shared::saturate(up + 1.0f - m.water_slope_damp) * film_of(m);
     state.frost = w.frost * open * shared::saturate(up * 0.6f + 0.5f) * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
     return state;
@@ -72,8 +78,15 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
 
 // As a pixel takes it from its patch (gpu/passes/surface/cover.glsl): slope and shelter are in it.
 shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::WeatherMoment& w,
-                                    float height_m, const glm::vec4& shown, float frost)
+                                    float height_m, const glm::vec4* texels, float pond)
 {
+    glm::vec4 shown = texels[0];
+    const float frost = texels[1].x;
+    // A level in the relief: how much lies below it is known.
+    const bool volume = texels[1].w > 0.0f;
+    const float under_water = std::max(volume ? shown.y : 0.0f, pond);
+    if (volume) shown.y = shown.z = 0.0f;
+
     shared::SurfaceState state{};
     const float amount =
         shared::saturate(shown.w * m.snow_accumulation.y + m.snow_accumulation.x);
@@ -88,7 +101,8 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
         state.water =
             shared::water_cover(flood, m.default_height, 1.0f, 1.0f, m.water_slope_damp).anywhere;
     }
-    state.film = shown.x;
+    if (m.wetness != Wetness::None) state.water = std::max(state.water, under_water);
+    state.film = shown.x * film_of(m);
     state.frost = frost * (1.0f - state.water);
     state.snow_smoothness = 0.3f;
     return state;
@@ -99,6 +113,36 @@ bool belongs(const PlaceWeather* place, const scene::Patches& patches)
     return place && place->shape && place->shape->grid.levels > 0 &&
            place->states.size() == std::size_t{patches.count} * PLACE_STATE_TEXELS &&
            place->shape->table == patches.table;
+}
+
+// Share of a patch that lies below the water of the hollow under it.
+float pond_over(const PlaceWeather* place, const scene::Patches& p, std::uint32_t i)
+{
+    if (place == nullptr || !place->shape) return 0.0f;
+    const PlaceShape& shape = *place->shape;
+    const glm::vec3 n = p.normal[i];
+    if (shape.labels.empty() || n.y < 0.3f) return 0.0f;
+    constexpr int kAcross = 4;
+    const float size_m = p.level_cell_m(scene::level_of(p.key[i]));
+    float sum = 0.0f, all = 0.0f;
+    for (int k = 0; k < kAcross * kAcross; ++k) {
+        const glm::vec2 way =
+            ((glm::vec2(k % kAcross, k / kAcross) + 0.5f) / float{kAcross} - 0.5f) * size_m;
+        const glm::vec2 at = glm::vec2(p.position_m[i].x, p.position_m[i].z) + way;
+        const glm::vec2 cell = glm::floor((at - shape.basin_corner_m) / shape.basin_cell_m);
+        if (!(cell.x >= 0.0f && cell.y >= 0.0f && cell.x < static_cast<float>(shape.basin_width) &&
+              cell.y < static_cast<float>(shape.basin_depth)))
+            continue;
+        all += 1.0f;
+        const std::uint32_t label = shape.labels[static_cast<std::size_t>(cell.y) * shape.basin_width +
+                                                 static_cast<std::size_t>(cell.x)];
+        if (label == 0 || label == 0xffffffffu) continue;
+        const float height_m = p.position_m[i].y - (n.x * way.x + n.z * way.y) / n.y;
+        const float depth_m = place->levels_m[label] - height_m;
+        // As pixels take it (gpu/frame/place.glsl, cover.glsl).
+        if (depth_m < 2.0f) sum += shared::smooth_edge(0.0f, 0.002f, depth_m);
+    }
+    return sum / std::max(all, 1.0f);
 }
 
 // A factor now over what it was when the patches were coloured; what was 0 stays as it is.
@@ -128,6 +172,7 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
                      const shared::WeatherLook& look, bool shelter,
                      const std::vector<scene::MaterialChange>& changes, const PlaceWeather* place)
 {
+    const PlaceWeather* const hollows = place;
     if (!belongs(place, scene.patches)) place = nullptr;
     const shared::WeatherMoment closed = with_closed_film(weather);
     const std::vector<Material> materials = changed(scene.materials, changes);
@@ -163,12 +208,13 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         if (!m.sheltered && place) {
             const glm::vec4* texels = &place->states[std::size_t{i} * PLACE_STATE_TEXELS];
             now = shared::apply_weather(
-                dry, state_of_place(m, weather, p.position_m[i].y, texels[0], texels[1].x), closed,
-                look);
+                dry, state_of_place(m, weather, p.position_m[i].y, texels, pond_over(place, p, i)),
+                closed, look);
         } else if (!m.sheltered && any_weather(weather, m)) {
             const float open = shelter ? scene::visible_share(p, i, rain) : 1.0f;
-            now = shared::apply_weather(
-                dry, state_of(m, weather, p.position_m[i], p.normal[i].y, open), weather, look);
+            shared::SurfaceState state = state_of(m, weather, p.position_m[i], p.normal[i].y, open);
+            if (m.wetness != Wetness::None) state.water = std::max(state.water, pond_over(hollows, p, i));
+            now = shared::apply_weather(dry, state, weather, look);
         }
         const float mirrored = std::max({now.specular.x, now.specular.y, now.specular.z});
         result.albedo.push_back(

@@ -74,11 +74,13 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     water.anywhere = 0.0;
     water.deep = 0.0;
     water.runs = 0.0;
-    if (WATER != 0u) water = water_on(at, here.flood);
-    if (here.pond_m > 0.0) {
+    water.depth_m = 0.0;
+    if (WATER != 0u) water = water_on(at, here);
+    const float depth_m = max(here.pond_m, water.depth_m);
+    if (depth_m > 0.0) {
         // A pond drowns what stands in it; its edge is as wide as a drop is high.
-        water.anywhere = max(water.anywhere, smooth_edge(0.0, 0.002, here.pond_m));
-        water.deep = max(water.deep, smooth_edge(0.0005, 0.006, here.pond_m));
+        water.anywhere = max(water.anywhere, smooth_edge(0.0, 0.002, depth_m));
+        water.deep = max(water.deep, smooth_edge(0.0005, 0.006, depth_m));
     }
     if ((SNOW & SNOW_BODY) != 0u) {
         water.anywhere *= 1.0 - body;
@@ -86,7 +88,7 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         here.film *= 1.0 - body;
     }
     // A patch knows which way it faces; the frame's film asks the slope.
-    c.film = here.film *
+    c.film = here.film * (material.film >= 0.0 ? material.film : 1.0) *
              (here.placed ? 1.0 : saturate(smoothed.y + 1.0 - material.water_slope_damp));
     water.runs *= c.film;
     if (FROST != 0u) {

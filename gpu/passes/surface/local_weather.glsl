@@ -15,6 +15,8 @@ struct LocalWeather {
     float frozen;  // share of the water
     float still;   // how far frost has stilled it
     float pond_m;  // depth below the water of a hollow
+    float level;   // of the water in the relief, in its heights, where `volume`
+    bool volume;   // the relief holds what a patch says; else as `flood` says
     bool placed;   // from a patch
 };
 
@@ -35,8 +37,18 @@ LocalWeather weather_everywhere(SurfaceInput at)
     here.frozen = frame.weather.water_to_snow;
     here.still = frame.weather.freeze_exp;
     here.pond_m = 0.0;
+    here.level = 0.0;
+    here.volume = false;
     here.placed = false;
     return here;
+}
+
+// Of the water in the relief of this material: the heights of another one mean nothing here.
+float level_in_relief(SurfaceInput at, uvec2 near, float other)
+{
+    if (uint(place_state(near.y, 3).w) == at.material_id) return other - 2.0;
+    if (uint(place_state(near.x, 3).w) == at.material_id) return place_state(near.x, 1).w - 2.0;
+    return -1.0;
 }
 
 LocalWeather local_weather(SurfaceInput at)
@@ -48,14 +60,14 @@ LocalWeather local_weather(SurfaceInput at)
     const vec3 first = vec3(hash_f(seed), hash_f(seed ^ 0x9e3779b9u), hash_f(seed ^ 0x7f4a7c15u));
     const vec3 turn =
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
-    const uint patch_number = place_patch(at.position, at.normal, turn - 0.5);
-    if (patch_number == kNoPatch) {
+    const uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
+    if (near.y == kNoPatch) {
         LocalWeather everywhere = weather_everywhere(at);
         everywhere.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
         return everywhere;
     }
-    const vec4 first_texel = place_state(patch_number, 0);
-    const vec4 second_texel = place_state(patch_number, 1);
+    const vec4 first_texel = place_state(near.y, 0);
+    const vec4 second_texel = place_state(near.y, 1);
     LocalWeather here;
     here.open = min(second_texel.z, 1.0);
     here.film = first_texel.x;
@@ -65,6 +77,8 @@ LocalWeather local_weather(SurfaceInput at)
     here.frozen = second_texel.y;
     here.still = 1.0 - exp2(-10.0 * here.frozen);
     here.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
+    here.volume = WATER != 0u && second_texel.w > 0.0;
+    here.level = here.volume ? level_in_relief(at, near, second_texel.w) : 0.0;
     here.placed = true;
     return here;
 }

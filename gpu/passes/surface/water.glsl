@@ -11,19 +11,21 @@ struct StandingWater {
     float anywhere;  // as WaterCover
     float deep;
     float runs;  // 0..1: what falls on a slope and leaves it
+    float depth_m;  // in the relief below a patch
 };
 
-// level: of the weather here, in cracks and puddles; by the material's influence, and its constant.
+// By the level of the weather here, in cracks and puddles, the material's influence on it, and its constant;
+// or by the level of the water that a patch holds.
 // A material that brings a height map says where water goes, and its hollows hold some on slopes of up
 // to 30 degrees. Others have a relief of the world's own that holds it where they are level.
-StandingWater water_on(SurfaceInput at, vec2 level)
+StandingWater water_on(SurfaceInput at, LocalWeather here)
 {
     const bool mapped = has_relief();
     const vec4 holds = water_accumulation(at);
-    const vec2 weather = level * holds.yw;
+    const vec2 weather = here.volume ? vec2(0.0, here.flood.y) : here.flood * holds.yw;
     const float levelness =
         mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
-    const vec2 flood = weather * levelness + holds.xz;
+    const vec2 flood = (here.volume ? vec2(0.0) : weather * levelness) + holds.xz;
     float height = material.default_height;
     if (mapped) {
         height = relief_height(at);
@@ -40,6 +42,12 @@ StandingWater water_on(SurfaceInput at, vec2 level)
     water.anywhere = cover.anywhere;
     water.deep = cover.deep;
     water.runs = saturate(weather.y) * (1.0 - levelness);
+    water.depth_m = 0.0;
+    if (PLACE != 0u && here.volume) {
+        const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m
+                                                                     : kGroundReliefUnit_m;
+        water.depth_m = max(here.level - height, 0.0) * unit_m * levelness;
+    }
     return water;
 }
 
