@@ -173,6 +173,26 @@ texproc::RawImage in_size(const Arguments& a, const texproc::RawImage& raw)
     return texproc::to_raw(image, raw.type);
 }
 
+// What BC6H has no place for.
+void tell_losses(const std::string& format, const texproc::RawImage& raw)
+{
+    if (!format.starts_with("bc6h")) return;
+    const Image values = texproc::to_image(raw, ColorSpace::Data);
+    const std::size_t step = static_cast<std::size_t>(values.channels);
+    const std::size_t colors = step == 2 || step == 4 ? step - 1 : step;
+    std::size_t below = 0, beyond = 0;
+    for (std::size_t i = 0; i < values.pixels.size(); ++i) {
+        if (i % step >= std::min<std::size_t>(colors, 3)) continue;
+        below += values.pixels[i] < 0.0f;
+        beyond += !(std::abs(values.pixels[i]) <= 65504.0f);
+    }
+    if (colors < step) std::cerr << "note: BC6H has no alpha, it is left out\n";
+    if (below > 0 && format == "bc6h")
+        std::cerr << "note: " << below << " numbers below 0 become 0 (bc6h-signed keeps them)\n";
+    if (beyond > 0)
+        std::cerr << "note: " << beyond << " numbers beyond half floats become the last one, 65504, or 0\n";
+}
+
 void run(const Arguments& a)
 {
     check(a);
@@ -180,6 +200,7 @@ void run(const Arguments& a)
     if (!a.size.empty() || a.scale > 0.0) raw = in_size(a, raw);
     if (a.normals && raw.channels == 3 && texproc::drops_z(a.format))
         raw = texproc::unit_normals(raw, raw.type);
+    tell_losses(a.format, raw);
     const std::string extension = extension_of(a.out);
     const texproc::PixelType type = type_for(extension, a.bits, raw.type);
     const texproc::Rounding rounding =
@@ -224,7 +245,8 @@ void add_texture_convert(CLI::App& texture)
     app->add_option("-o,--out", a->out, "the extension decides")->required();
     app->add_option(
         "--format", a->format,
-        "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7; ktx2 alone: "
+        "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7, bc6h "
+        "(light beyond 0..1; bc6h-signed keeps what is below 0); ktx2 alone: "
         "uastc uastca; default: the numbers of the image");
     app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
     app->add_flag("--linear", a->linear, "it is data (default)");
@@ -259,6 +281,7 @@ void add_texture_convert(CLI::App& texture)
         "  petrichor texture convert wall_color.png -o wall.dds --format bc7 --srgb --mips\n"
         "  petrichor texture convert wall_normal.png -o wall_n.ktx2 --format bc5 --mips --normals "
         "--zstd 18\n"
+        "  petrichor texture convert sky.hdr -o sky.dds --format bc6h --mips\n"
         "  petrichor texture convert height.exr -o height.png --bits 16\n"
         "  petrichor texture convert wall_color.png -o small.png --srgb --size 512\n"
         "  petrichor texture convert height.exr -o height_tx.exr --mips");

@@ -19,7 +19,7 @@ enum class Block {
     Bc3,   ///< BC1 and a BC4 block of alpha
     Bc4,   ///< one channel, 8 values a block
     Bc5,   ///< two BC4 blocks
-    Bc6h,  ///< RGB half floats; read only
+    Bc6h,  ///< RGB half floats, 14 modes
     Bc7,   ///< RGB or RGBA, eight modes
     Uastc,  ///< RGB or RGBA, 19 modes: Basis Universal's, from which every other format is made
 };
@@ -44,15 +44,18 @@ struct BlockOptions {
     /// Weight of the squared error of each channel. Data maps: equal. Alpha counts like the others.
     std::array<float, 4> weights{1.0f, 1.0f, 1.0f, 1.0f};
     bool punch_through = false;  ///< BC1: alpha below one half becomes transparent black
+    bool is_signed = false;      ///< BC6H: negative numbers are kept
     int threads = 0;             ///< 0: all cores; the bytes do not depend on it
 };
 
 /// Encodes an image of 8-bit codes, row by row of blocks, as the hardware wants them. Codes are
 /// taken as they are: an sRGB image is encoded in its codes. Texels past an edge repeat the edge.
 ///
-///   image   U8; channels that the format does not have are ignored; missing ones: a single channel
-///           stands for red, green and blue, missing blue is 0, missing alpha is 255
-///   throws  Error for other numbers than U8, an empty image, and formats that are read only
+/// BC6H is made from half floats, so that its squared error is relative to the light.
+///
+///   image   U8, F16 for BC6H; channels that the format does not have are ignored; missing ones: a
+///           single channel stands for red, green and blue, missing blue is 0, missing alpha is 255
+///   throws  Error for other numbers, an empty image, and formats that are read only
 std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options = {});
 

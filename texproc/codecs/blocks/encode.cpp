@@ -45,20 +45,43 @@ detail::BlockTexels gather(const RawImage& image, int bx, int by)
     return texels;
 }
 
+detail::HalfTexels gather_halves(const RawImage& image, int bx, int by)
+{
+    detail::HalfTexels texels;
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    for (int t = 0; t < 16; ++t) {
+        const int x = std::min(4 * bx + t % 4, image.width - 1);
+        const int y = std::min(4 * by + t / 4, image.height - 1);
+        const std::size_t at =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+             static_cast<std::size_t>(x)) *
+            channels;
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::uint16_t half = 0;
+            if (c < channels || channels == 1)
+                std::memcpy(&half, &image.bytes[2 * (at + (channels == 1 ? 0 : c))], 2);
+            texels.plane[c][t] = half;
+        }
+    }
+    return texels;
+}
+
 }  // namespace
 
 std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options)
 {
     const detail::BlockRow& format = detail::row_of(block);
-    if (!format.encode) {
+    if (!format.encode && !format.encode_halves) {
         throw Error(std::string("block texture: ") + format.title + " can be read, not written",
-                    "Use bc3 or bc7, or rgba16f for what is beyond 0..1.");
+                    "Use bc3 or bc7, or bc6h for what is beyond 0..1.");
     }
-    if (image.width < 1 || image.height < 1 || image.channels < 1 || image.type != PixelType::U8 ||
-        image.bytes.size() != image.values()) {
-        throw Error("block texture: it is made from 8-bit codes, at least one pixel of them",
-                    "Convert the image to 8 bits first.");
+    const PixelType type = format.encode_halves ? PixelType::F16 : PixelType::U8;
+    if (image.width < 1 || image.height < 1 || image.channels < 1 || image.type != type ||
+        image.bytes.size() != image.values() * size_of(type)) {
+        const std::string numbers = format.encode_halves ? "half floats" : "8-bit codes";
+        throw Error("block texture: it is made from " + numbers + ", at least one pixel of them",
+                    "Convert the image to " + numbers + " first.");
     }
     std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));
     const int across = (image.width + 3) / 4;
@@ -67,7 +90,13 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                      std::byte* to =
                          bytes.data() + by * static_cast<std::size_t>(across) * format.bytes;
                      for (int bx = 0; bx < across; ++bx, to += format.bytes) {
-                         format.encode(gather(image, bx, static_cast<int>(by)), options, to);
+                         const int y = static_cast<int>(by);
+                         if (format.encode_halves) {
+                             format.encode_halves(gather_halves(image, bx, y), options,
+                                                  options.is_signed, to);
+                         } else {
+                             format.encode(gather(image, bx, y), options, to);
+                         }
                      }
                  });
     return bytes;

@@ -25,7 +25,9 @@ const std::vector<Named>& block_names()
         for (const bool writable : {true, false}) {
             for (const detail::BlockRow& row : detail::block_table()) {
                 for (const detail::BlockLabel& label : row.labels) {
-                    if ((row.encode && !label.is_signed) == writable)
+                    const bool written = label.is_signed ? row.encode_halves != nullptr
+                                                         : row.encode || row.encode_halves;
+                    if (written == writable)
                         all.push_back({label.name, detail::format_of(row, label), writable});
                 }
             }
@@ -117,7 +119,7 @@ void check_writable(const TextureFormat& format)
     for (const Named& named : block_names()) {
         if (format == named.format && !named.writable) {
             throw Error(std::string("texture: ") + named.name + " can be read, not written",
-                        "Use bc7, or rgba16f for what is beyond 0..1.");
+                        "Use bc7, or bc6h for what is beyond 0..1.");
         }
     }
 }
@@ -196,7 +198,7 @@ MipTexture detail::texture_shape(std::span<const RawImage> levels,
         options.format.empty() ? own_format(first) : texture_format(options.format);
     check_writable(format);
     // Halves and floats hold linear light: only integers can be marked.
-    const bool srgb = options.srgb && (format.block || format.type == PixelType::U8);
+    const bool srgb = options.srgb && format.type == PixelType::U8;
     return {first.width, first.height, format, srgb, {}, options.format == kBlueFirst};
 }
 
@@ -225,12 +227,14 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
             .quality = options.quality,
             .weights = options.weights,
             .punch_through = *format.block == Block::Bc1 && format.channels == 4,
+            .is_signed = format.is_signed,
             .threads = options.threads};
         const int channels = std::min(level.channels, 4);
+        const PixelType type = *format.block == Block::Bc6h ? PixelType::F16 : PixelType::U8;
         texture.levels.push_back(
-            level.type == PixelType::U8 && level.channels == channels
+            level.type == type && level.channels == channels
                 ? encode_blocks(level, *format.block, blocks)
-                : encode_blocks(converted(level, PixelType::U8, channels, options), *format.block,
+                : encode_blocks(converted(level, type, channels, options), *format.block,
                                 blocks));
     }
     return texture;

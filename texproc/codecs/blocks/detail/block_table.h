@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "texproc/codecs/blocks/blocks.h"
+#include "texproc/codecs/blocks/detail/encode_bc6h.h"
 #include "texproc/codecs/blocks/detail/encode_kernel.h"
 
 namespace petrichor::texproc::detail {
@@ -34,10 +35,12 @@ struct BlockRow {
     bool halves;        ///< decoded to F16, else to U8
     bool wide;          ///< signed and exact numbers are decoded to F32
     void (*decode)(const std::byte* from, BlockSign sign, BlockBytes& to);
-    /// Null: it can only be read.
+    /// Null: it can only be read, or is made from half floats.
     void (*encode)(const BlockTexels& texels, const BlockOptions& options, std::byte* to);
     int color_model;  ///< of the Khronos data format
     std::vector<BlockLabel> labels;
+    void (*encode_halves)(const HalfTexels& texels, const BlockOptions& options, bool is_signed,
+                          std::byte* to) = nullptr;
 };
 
 const std::vector<BlockRow>& block_table();

@@ -60,8 +60,14 @@ std::vector<Sample> block_samples(const TextureFormat& format, bool srgb)
     std::vector<Sample> samples;
     for (const int channel : label->parts) {
         const bool linear = channel == kAlphaChannel && srgb && !is_basis(format);
-        samples.push_back({static_cast<int>(samples.size()) * bits, bits,
-                           channel | (linear ? kLinear : 0), 0, 0xffffffffu});
+        Sample s{static_cast<int>(samples.size()) * bits, bits, channel | (linear ? kLinear : 0), 0,
+                 0xffffffffu};
+        if (*format.block == Block::Bc6h) {
+            s.channel |= kFloat | (format.is_signed ? kSigned : 0);
+            s.lower = format.is_signed ? 0xbf800000u : 0;  // -1 and 1 as floats
+            s.upper = 0x3f800000u;
+        }
+        samples.push_back(s);
     }
     return samples;
 }
