@@ -16,9 +16,10 @@ struct Specialization {
 };
 
 /// The shader with its specialization constants made constants (those that are not given keep their
-/// defaults), and without what no branch reaches then. Arithmetic stays as it is, so it computes
-/// the same bits. Drivers read the whole of a shader before they drop what is switched off: of a
-/// large one with few features in use that is most of the time that a pipeline takes.
+/// defaults), without what no branch reaches then, as one function whose variables are values.
+/// Drivers work through the whole of a shader several times before they drop what is switched off,
+/// which is most of the time that a pipeline takes. What constants decide is computed here: last
+/// bits may differ from those of a build without SPIRV-Tools.
 ///
 /// Kept in `cache` by content. Empty when this build has no SPIRV-Tools or they cannot read the
 /// shader: the driver does it all then.
