@@ -56,7 +56,6 @@ std::vector<std::uint32_t> cut_down(std::span<const std::uint32_t> code,
     optimizer.RegisterPass(spvtools::CreateCCPPass())
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateSimplificationPass())
-        .RegisterPass(spvtools::CreateRedundancyEliminationPass())
         .RegisterPass(spvtools::CreateVectorDCEPass())
         .RegisterPass(spvtools::CreateDeadInsertElimPass())
         .RegisterPass(spvtools::CreateBlockMergePass())
