@@ -26,7 +26,7 @@ function(petrichor_add_shaders target)
             VERBATIM)
         list(APPEND headers ${header})
         string(APPEND table_includes "#include \"${header}\"\n")
-        string(APPEND table_rows "    if (name == \"${name}\") return ${symbol};\n")
+        string(APPEND table_rows "    {\"${name}\", ${symbol}},\n")
     endforeach()
     file(GENERATE OUTPUT ${output_dir}/embedded_shaders.cpp CONTENT
 "#include \"gpu/device/shaders.h\"
@@ -35,9 +35,11 @@ namespace petrichor::gpu {
 namespace {
 ${table_includes}}  // namespace
 
-std::span<const std::uint32_t> embedded_shader(const std::string& name)
+std::span<const EmbeddedShader> embedded_shaders()
 {
-${table_rows}    return {};
+    static const EmbeddedShader all[] = {
+${table_rows}    };
+    return all;
 }
 
 }  // namespace petrichor::gpu

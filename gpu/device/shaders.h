@@ -8,7 +8,13 @@
 namespace petrichor::gpu {
 
 /// SPIR-V of a shader compiled at build time; the name is its file without ".glsl", as
-/// "lighting.comp". Empty when there is none.
+/// "lighting.comp".
+struct EmbeddedShader {
+    std::string name;
+    std::span<const std::uint32_t> code;
+};
+std::span<const EmbeddedShader> embedded_shaders();
+/// Empty when there is none.
 std::span<const std::uint32_t> embedded_shader(const std::string& name);
 
 }  // namespace petrichor::gpu

@@ -61,7 +61,11 @@ std::vector<std::uint32_t> cut_down(std::span<const std::uint32_t> code,
         .RegisterPass(spvtools::CreateBlockMergePass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false);
+    // Passes take for granted that it holds.
+    spvtools::ValidatorOptions rules;
+    rules.SetScalarBlockLayout(true);
+    options.set_validator_options(rules);
+    options.set_run_validator(true);
     std::vector<std::uint32_t> words;
     if (!optimizer.Run(code.data(), code.size(), &words, options)) return {};
     return words;
