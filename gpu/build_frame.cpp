@@ -10,6 +10,7 @@
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
+#include "gpu/passes/lights/lights_io.h"
 #include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
@@ -396,7 +397,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.soft_lamps = soft_lamps;
     variant.rectangles = r.lights->rectangles;
-    variant.ways = r.lights->ways;
+    variant.ways = r.lights->ways | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
     variant.all_lights = settings.all_lights;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();

@@ -449,7 +449,9 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     std::vector<PassTime> first_passes;
     if (!before.empty()) {
         first_passes = before.execute(device, pipelines, descriptors);
-        patches.relight(frame, sun, scene_sun, scene->lights());
+        Sun through = sun;  // what a cookie lets through of it
+        if (frame.sun_cookie.first_texel >= 0) through.illuminance *= frame.sun_cookie.mean;
+        patches.relight(frame, through, scene_sun, scene->lights());
         first_passes.push_back({"patch_light", patches.relight_ms()});
         probes.relight(patches);
         if (probes.count() > 0) first_passes.push_back({"probes", probes.relight_ms()});

@@ -386,7 +386,8 @@ struct Light {
 };
 
 /// How a lamp shines by direction, at most 1: a measured distribution (IES) over angles, or a picture
-/// before a spot (cookie). kLightProfileSide squared texels, by rows.
+/// before a spot (cookie). kLightProfileSide squared texels, by rows; of a picture before the sun then the
+/// smaller ones, to one texel.
 inline constexpr int kLightProfileSide = 128;
 struct LightProfile {
     std::string name;

@@ -136,9 +136,15 @@ void load_sequence_scene(Sequence& sequence, int threads)
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), lamps.unmatched.begin(),
                                    lamps.unmatched.end());
+    std::vector<std::string> cookies;
+    for (const SequenceVariant& variant : sequence.variants)
+        cookies.push_back(variant.conditions.sun.cookie);
+    SunCookies sun = read_sun_cookies(cookies, scenario.folder, sequence.scene);
+    sequence.sun_cookies = std::move(sun.of_file);
     Hasher content;
     content.add(loaded.fingerprint);
     if (!lamps.content.empty()) content.add(lamps.content);
+    if (!sun.content.empty()) content.add(sun.content);
     for (const NodeOverride& one : scenario.nodes) {
         content.add(one.glob);
         const scene::InstanceLook& look = one.look;

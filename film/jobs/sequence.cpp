@@ -86,6 +86,13 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
     hasher.add(sky.analytic_sun);
 }
 
+void add_cookie(Hasher& hasher, const gpu::SunCookie& cookie)
+{
+    if (cookie.first_texel < 0) return;
+    hasher.add(cookie.first_texel);
+    hasher.add(cookie.size_m);
+}
+
 void add_falling(Hasher& hasher, const gpu::Falling& falling)
 {
     hasher.add(falling.air_m.x);
@@ -344,6 +351,11 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
     out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad + north_rad);
     out.sky.sun_illuminance = narrow(here.sun.illuminance_lux);
+    if (const auto cookie = sequence.sun_cookies.find(here.sun.cookie);
+        cookie != sequence.sun_cookies.end()) {
+        out.sun_cookie = cookie->second;
+        out.sun_cookie.size_m = narrow(value_at(here.sun.cookie_size_m, time_s, 8.0));
+    }
     const double clouds = static_cast<double>(out.weather.cloud_fraction);
     out.sky.cloud_cover = narrow(value_at(here.sky.cloud_cover, time_s, clouds));
     out.weather.cloud_fraction = out.sky.cloud_cover;
@@ -439,6 +451,7 @@ void add_frame(Hasher& hasher, const gpu::Frame& frame)
 {
     add_camera(hasher, frame.camera);
     add_sky(hasher, frame.sky);
+    add_cookie(hasher, frame.sun_cookie);
     add_fog(hasher, frame.fog);
     add_falling(hasher, frame.falling);
     hasher.add_bytes(std::as_bytes(std::span(&frame.weather, 1)));
@@ -498,7 +511,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
         add_camera(hasher, frame.camera);
         add_lens(hasher, frame);
     });
-    parts["sun and sky"] = part([&](Hasher& hasher) { add_sky(hasher, frame.sky); });
+    parts["sun and sky"] = part([&](Hasher& hasher) {
+        add_sky(hasher, frame.sky);
+        add_cookie(hasher, frame.sun_cookie);
+    });
     parts["fog"] = part([&](Hasher& hasher) { add_fog(hasher, frame.fog); });
     parts["falling"] = part([&](Hasher& hasher) { add_falling(hasher, frame.falling); });
     parts["weather"] = part(

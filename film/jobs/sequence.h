@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_FILM_JOBS_SEQUENCE_H
 #define PETRICHOR_FILM_JOBS_SEQUENCE_H
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,7 @@ struct Sequence {
     std::string weather_textures;  ///< of [render]'s, weather_textures_fingerprint()
     std::size_t triangles = 0;     ///< of all instances
     std::vector<glm::vec3> eyes_m = {};  ///< eyes_of(), once the scene is loaded
+    std::map<std::string, gpu::SunCookie> sun_cookies = {};  ///< by the files that conditions name
     std::vector<std::string> notes = {};  ///< about the scene: which of its animations play
 };
 

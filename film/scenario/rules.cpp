@@ -217,6 +217,14 @@ const std::vector<Rule>& rules()
         {{"sun", "illuminance_lux", "100000.0",
           "of a clear sun on a plane that faces it, 0 to 200000"},
          [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
+        {{"sun", "cookie", "\"leaves.png\"",
+          "a picture that the sun shines through, repeated: shadows of leaves, bars, clouds; black keeps it "
+          "away, colours tint it"},
+         [](Scenario& s, const TomlValue& v) { s.sun.cookie = v.text(); }},
+        {{"sun", "cookie_size_m", "8.0",
+          "side of that picture on a plane that faces the sun, 0.01 to 100000; its top is towards the sky",
+          true},
+         [](Scenario& s, const TomlValue& v) { s.sun.cookie_size_m = v.keyed(0.01, 1e5); }},
 
         {{"sky", "cloud_cover", "[[0.0, 0.9], [24.0, 0.4]]",
           "0 clear to 1 overcast; without it the weather decides", true},

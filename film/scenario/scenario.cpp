@@ -122,6 +122,13 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
     }
 }
 
+void check_sun(const ScenarioSun& sun, const TomlValue& value)
+{
+    if (!sun.cookie_size_m.given() || !sun.cookie.empty()) return;
+    throw Error(value.place() + ": sun has cookie_size_m and no cookie",
+                "Name a picture, cookie = \"leaves.png\", or leave cookie_size_m out.");
+}
+
 // Linear fog from start_m to end_m: at every key of either the end lies beyond the start.
 void check_fog(const ScenarioFog& fog, const TomlValue& value)
 {
@@ -158,6 +165,7 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
     } else {
         read_rules(scenario, table, value);
         if (table == "fog") check_fog(scenario.fog, value);
+        if (table == "sun") check_sun(scenario.sun, value);
     }
 }
 

@@ -175,4 +175,39 @@ AppliedLamps apply_lamp_overrides(const std::vector<LampOverride>& overrides,
     return applied;
 }
 
+SunCookies read_sun_cookies(const std::vector<std::string>& files, const std::filesystem::path& folder,
+                            scene::Scene& scene)
+{
+    SunCookies cookies;
+    Hasher hasher;
+    std::size_t texels = 0;
+    for (const scene::LightProfile& profile : scene.light_profiles) texels += profile.texels.size();
+    for (const std::string& file : files) {
+        if (file.empty() || cookies.of_file.contains(file)) continue;
+        if (!std::filesystem::is_regular_file(folder / file))
+            throw Error("sun.cookie: there is no picture " + file + " in the scenario's folder",
+                        "Name a picture file, beside the scenario or by its path from there.");
+        scene::LightProfile profile = read_cookie(folder / file);
+        std::vector<glm::vec3>& all = profile.texels;
+        std::size_t from = 0;
+        for (std::size_t side = scene::kLightProfileSide / 2; side > 0; side /= 2) {
+            const std::size_t before = 2 * side, next = all.size();
+            for (std::size_t y = 0; y < side; ++y)
+                for (std::size_t x = 0; x < side; ++x) {
+                    const std::size_t at = from + 2 * y * before + 2 * x;
+                    all.push_back(0.25f * (all[at] + all[at + 1] + all[at + before] + all[at + before + 1]));
+                }
+            from = next;
+        }
+        for (const glm::vec3& texel : all) hasher.add_numbers(std::span<const float>(&texel.x, 3));
+        gpu::SunCookie& cookie = cookies.of_file[file];
+        cookie.first_texel = static_cast<int>(texels);
+        cookie.mean = all.back();
+        texels += all.size();
+        scene.light_profiles.push_back(std::move(profile));
+    }
+    if (!cookies.of_file.empty()) cookies.content = hasher.text();
+    return cookies;
+}
+
 }  // namespace petrichor::film

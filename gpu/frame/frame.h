@@ -45,6 +45,13 @@ struct Sky {
     float north_rad = 0.0f;         ///< of the stars: where north is, from -z towards +x
 };
 
+/// A picture before the sun, told over the plane that faces it, fixed to the world's origin.
+struct SunCookie {
+    int first_texel = -1;      ///< in the table of all LightProfile: smaller pictures follow; none when negative
+    float size_m = 8.0f;       ///< of the picture, metres
+    glm::vec3 mean{1.0f};      ///< of its texels
+};
+
 /// How the G-buffer is filled: by fragments, or by resolving a buffer of triangle numbers.
 enum class SurfacePath {
     Auto,  ///< what is faster on the device
@@ -178,6 +185,7 @@ struct Frame {
     /// Of each sample while the shutter is open; the first is the frame's own moment. Empty: all are.
     std::vector<ShutterMoment> shutter;
     Sky sky;
+    SunCookie sun_cookie;
     Fog fog;
     Falling falling;
     shared::WeatherMoment weather;    ///< all of it: what is seen, and the SI values beside it

@@ -6,8 +6,10 @@
 #include "formulas/color/srgb.h"
 #include "formulas/color/white_balance.h"
 #include "formulas/light/fog.h"
+#include "formulas/light/sun_cookie.h"
 #include "formulas/weather/visibility.h"
 #include "gpu/frame/sun.h"
+#include "scene/scene.h"
 
 namespace petrichor::gpu {
 
@@ -87,6 +89,12 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.sample_index = sample_index;
     c.sun_direction = sun.direction;
     c.sun_illuminance = sun.illuminance;
+    const glm::vec3 right = shared::sun_cookie_right(sun.direction);
+    const float size = frame.sun_cookie.size_m;
+    c.cookie_right = right / size;
+    c.cookie_down = glm::cross(right, sun.direction) / size;
+    c.cookie_texel = frame.sun_cookie.first_texel;
+    c.cookie_texel_m = size / scene::kLightProfileSide;
     c.weather = w;
     c.look = frame.look;
     if (frame.place && frame.place->shape->grid.levels > 0) {
@@ -98,8 +106,9 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.shelter_spread_m = std::clamp(0.01f * size_m, 0.001f, 0.18f);
     c.ambient_scale = s.image_based_light ? 1.0f : 0.0f;
     c.sky_scale = 1.0f;
-    // The veil is skylight: none without it.
-    c.fog_per_m = s.image_based_light ? fog_per_m(frame) : 0.0f;
+    // Haze of the weather is skylight: none without it. A fog that was asked for stays.
+    const bool veils = s.image_based_light || frame.fog.mode != FogMode::Metres;
+    c.fog_per_m = veils ? fog_per_m(frame) : 0.0f;
     c.fog_mode = static_cast<int>(frame.fog.mode);
     c.fog_start_m = frame.fog.start_m;
     c.fog_end_m = frame.fog.end_m;

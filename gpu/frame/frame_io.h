@@ -41,6 +41,10 @@ struct FrameConstants {
     vec3 sun_direction;    // towards the sun, unit
     float shadow_texel_m;  // of the first cascade
     vec3 sun_illuminance;  // lux by channel on a facing plane, after air and clouds
+    vec3 cookie_right;     // axes of a picture before the sun, over its size in metres
+    vec3 cookie_down;
+    int cookie_texel;      // its first; none when negative
+    float cookie_texel_m;
     vec4 cascade_end_m;    // view distance where cascade i ends
     vec4 cascade_scale;    // texel size of cascade i relative to the first
 

@@ -120,6 +120,12 @@ vec3 pixel_view_direction(FrameConstants frame, vec2 pixel)
     return normalize(pixel_ray(frame, pixel));
 }
 
+// Metres across a pixel of what lies that far along the view axis.
+float pixel_width_m(FrameConstants frame, float view_m)
+{
+    return (frame.flags & FRAME_ORTHOGRAPHIC) != 0u ? length(frame.ray_dx) : view_m * frame.pixel_angle;
+}
+
 // Distance along the view axis.
 float linear_depth(FrameConstants frame, float depth)
 {

@@ -230,7 +230,9 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
         const bool by_name = key.table == "materials" || key.table == "lamps" || key.table == "decals" ||
                              key.table == "nodes";
         const std::string table = by_name ? key.table + ".\"*\"" : key.table;
-        std::string text = "[" + table + "]\n" + key.name + " = " + key.example + "\n";
+        const std::string head =
+            "[" + table + "]\n" + (key.name == "cookie_size_m" ? "cookie = \"leaves.png\"\n" : "");
+        std::string text = head + key.name + " = " + key.example + "\n";
         if (key.name == "position_m") text += "look_at_m = [0, 0, 0]\n";
         if (key.name == "look_at_m") text += "position_m = [0, 0, 0]\n";
         const bool of_keys =
@@ -240,12 +242,19 @@ TEST(Scenario, EveryDocumentedKeyIsAccepted)
         EXPECT_NO_THROW(parse_scenario(text, "s.toml")) << text;
         if (key.keyed) {
             const std::string value = key.example[0] == '[' ? "1.0" : key.example;
-            EXPECT_NO_THROW(parse_scenario("[" + table + "]\n" + key.name + " = [[0, " + value +
-                                               "], [2.5, " + value + "]]\n",
+            EXPECT_NO_THROW(parse_scenario(head + key.name + " = [[0, " + value + "], [2.5, " + value + "]]\n",
                                            "s.toml"))
                 << key.name;
         }
     }
+}
+
+TEST(Scenario, ASizeOfNoPictureIsRefused)
+{
+    EXPECT_THROW(parse_scenario("[sun]\ncookie_size_m = 3.0\n", "s.toml"), Error);
+    const Scenario s = parse_scenario("[sun]\ncookie = \"a.png\"\ncookie_size_m = 3.0\n", "s.toml");
+    EXPECT_EQ(s.sun.cookie, "a.png");
+    EXPECT_EQ(value_at(s.sun.cookie_size_m, 0.0), 3.0);
 }
 
 }  // namespace

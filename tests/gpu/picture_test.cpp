@@ -153,6 +153,18 @@ TEST_F(PictureTest, FogReachesTheSky)
     EXPECT_GT(std::abs(clear_seam - 1.0f), 0.1f);
 }
 
+TEST_F(PictureTest, FogThatIsAskedForStaysWithoutImageBasedLight)
+{
+    renderer->load(land(), {});
+    Frame frame = open_land();
+    frame.settings.image_based_light = false;
+    const float clear = luminance(pixel(renderer->render(frame), 48, 52));
+    frame.fog = {.mode = FogMode::Exp, .per_m = 1.0f};
+    const RenderResult fog = renderer->render(frame);
+    EXPECT_NEAR(luminance(pixel(fog, 48, 52)) / luminance(pixel(fog, 48, 46)), 1.0f, 0.06f) << "no seam";
+    EXPECT_GT(std::abs(luminance(pixel(fog, 48, 52)) / clear - 1.0f), 0.1f);
+}
+
 TEST_F(PictureTest, EveryNumberOfTheFogCounts)
 {
     renderer->load(land(), {});

@@ -30,8 +30,7 @@ void main()
     const vec3 position = pixel_position(frame, vec2(texel) + 0.5, depth);
     const vec3 normal = octahedral_decode(texelFetch(normal_map, texel, 0).xy);
     const float z = linear_depth(frame, depth);
-    const float metres_per_pixel =
-        (frame.flags & FRAME_ORTHOGRAPHIC) != 0u ? length(frame.ray_dx) : z * frame.pixel_angle;
+    const float metres_per_pixel = pixel_width_m(frame, z);
     const float radius_px = clamp(frame.ao_radius_m / max(metres_per_pixel, 1.0e-6), 3.0, 96.0);
     const float radius_m = radius_px * metres_per_pixel;
     const float turn = 6.2831853 * dither(texel, frame.sample_index);

@@ -5,6 +5,7 @@
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/falling.h"
 #include "gpu/frame/frame_io.h"
+#include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/falling/falling_io.h"
 #include "gpu/passes/sky/sky_light_io.h"
 
@@ -51,7 +52,7 @@ void main()
     const float wide_m = crown_radius_m(diameter, drop_speed_m_s(diameter * 1000.0), place.w);
     // Beads fly higher than the rim.
     const float high_m = 2.2 * wide_m * (1.0 - 0.3 * age);
-    const float pixel_m = frame.pixel_angle * max(view_m, 0.1);
+    const float pixel_m = pixel_width_m(frame, max(view_m, 0.1));
     // Not narrower than a pixel and a half; what is wider than it is, is fainter.
     const vec2 size_m = max(vec2(wide_m, high_m), vec2(0.75, 1.5) * pixel_m);
     const float share = wide_m * high_m / (size_m.x * size_m.y);

@@ -9,6 +9,7 @@
 #include "formulas/light/grain.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/skin.h"
+#include "formulas/light/sun_cookie.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "gpu/outputs/light_parts_io.h"
@@ -376,6 +377,7 @@ void main()
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
         bool sunny = false;
+        vec3 sunlight = vec3(0.0);
         if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
             const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
@@ -384,7 +386,8 @@ void main()
             p.sunlit = visible;
             sunny = visible > 0.0 || BLEEDS;
             if (sunny) {
-                direct += shadowed_light(p, frame.sun_direction, visible) * frame.sun_illuminance;
+                sunlight = frame.sun_illuminance * sun_cookie(position, view_m);
+                direct += shadowed_light(p, frame.sun_direction, visible) * sunlight;
             }
         }
         // Lamps whose light the map holds are in it.
@@ -397,7 +400,7 @@ void main()
         if (PARTS != 0u) {
             const LitPoint q = mirroring_part(p);
             vec3 bright = vec3(0.0);
-            if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * frame.sun_illuminance;
+            if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * sunlight;
             add_lights(bright, q, lamps, texel);
             parts.of[PART_EMITTED] = own;
             parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
@@ -493,7 +496,7 @@ void main()
         }
         if (FOG != 0u) {
             const float kept = air_kept(position);
-            const vec3 veil = textureLod(sky_map, air_level(-v), kAirMip).rgb * frame.ambient_scale;
+            const vec3 veil = textureLod(sky_map, air_level(-v), kAirMip).rgb;
             radiance = mix(veil, radiance, kept);
             if (PARTS != 0u) veil_parts(parts, kept, veil);
             mirror.rgb *= kept;

@@ -25,6 +25,39 @@ float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
     return lit * 0.25;
 }
 
+// Of one of the pictures of the sun's cookie, from its corner, which is also that of the next one.
+vec3 cookie_picture(vec2 at, int level)
+{
+    int first = frame.cookie_texel;
+    int side = LIGHT_PROFILE_SIDE;
+    for (int k = 0; k < level; ++k) {
+        first += side * side;
+        side /= 2;
+    }
+    const vec2 place = fract(at) * float(side) - 0.5;
+    const vec2 low = floor(place);
+    const vec2 part = place - low;
+    const ivec2 a = (ivec2(low) + side) % side;
+    const ivec2 b = (a + 1) % side;
+    const vec3 above = mix(texelFetch(light_profiles, first + a.y * side + a.x).rgb,
+                           texelFetch(light_profiles, first + a.y * side + b.x).rgb, part.x);
+    const vec3 below = mix(texelFetch(light_profiles, first + b.y * side + a.x).rgb,
+                           texelFetch(light_profiles, first + b.y * side + b.x).rgb, part.x);
+    return mix(above, below, part.y);
+}
+
+// What the picture before the sun lets through there.
+vec3 sun_cookie(vec3 position, float view_m)
+{
+    if ((WAYS & LIGHTS_SUN_COOKIE) == 0u) return vec3(1.0);
+    const vec2 at = vec2(dot(position, frame.cookie_right), dot(position, frame.cookie_down)) + 0.5;
+    const float last = float(findMSB(uint(LIGHT_PROFILE_SIDE)));
+    const float level = sun_cookie_level(pixel_width_m(frame, view_m), frame.cookie_texel_m, last);
+    const int low = int(level);
+    const vec3 finer = cookie_picture(at, low);
+    return mix(finer, cookie_picture(at, min(low + 1, int(last))), level - float(low));
+}
+
 // Share of skylight that reaches a surface past buildings and roofs: each sample of the frame asks a
 // quarter of the sky's directions, so that four samples ask all of them.
 float sky_visibility(vec3 position, vec3 normal, ivec2 texel)

@@ -26,6 +26,7 @@
 #define LIGHTS_SKIP 32u     // of the device: a branch round what is dark saves its work (not so on a CPU)
 #define LIGHTS_PLAIN 64u    // no shape and no shadow
 #define LIGHTS_SHAPED 128u  // a shape and no shadow
+#define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64

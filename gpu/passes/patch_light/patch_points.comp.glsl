@@ -106,7 +106,7 @@ void main()
         const float own_depth = depth;
         if (e == 0u) {
             // The pixel that lies farthest off this plane, if it does by more than pixels are wide.
-            float farthest = 1.5 * frame.pixel_angle * view_m + 0.01;
+            float farthest = 1.5 * pixel_width_m(frame, view_m) + 0.01;
             for (int i = 0; i < PATCH_BLOCK * PATCH_BLOCK / 2; ++i) {
                 const int y = i / (PATCH_BLOCK / 2);
                 const ivec2 at = min(corner + ivec2(2 * (i % (PATCH_BLOCK / 2)) + (y & 1), y), last);

@@ -15,7 +15,7 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
     const vec2 low = floor(at);
     const vec2 part = at - low;
     const vec3 from_camera = x - frame.camera_m;
-    const float pixel_m = frame.pixel_angle * view_m;
+    const float pixel_m = pixel_width_m(frame, view_m);
     // Light changes over a share of a cell; on the screen a block is no finer than it is.
     const float off_plane = 1.0 / (0.1 * frame.patches.cell_m + pixel_m);
     vec4 sent = vec4(0.0);

@@ -86,8 +86,7 @@ vec3 seen_through(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 normal
     // A lobe through a thin pane spreads about as one that is mirrored, less the less it bends.
     const float alpha = roughness * roughness * clamp(2.0 * ior - 2.0, 0.0, 1.0);
     const float wide_m = alpha * (behind_m - layer_m + thickness_m);
-    const bool level = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
-    const float pixel_m = level ? length(frame.ray_dx) : behind_m * frame.pixel_angle;
+    const float pixel_m = pixel_width_m(frame, behind_m);
     const float radius = clamp(wide_m / max(pixel_m, 1.0e-6), 0.0, 0.12 * float(frame.size.y));
     return solid_around(at, radius, texel, layer_m);
 }
@@ -113,7 +112,7 @@ void main()
         if (frame.fog_per_m > 0.0) {
             // As the lighting does it; what shines through has its fog already.
             const float kept = air_kept(position);
-            const vec3 veil = textureLod(sky_map, air_level(view), kAirMip).rgb * frame.ambient_scale;
+            const vec3 veil = textureLod(sky_map, air_level(view), kAirMip).rgb;
             veil_before = veil * (1.0 - kept) * (1.0 - min(code.rgb, vec3(1.0)));
             light = light * kept + veil_before;
             own_share *= kept;
