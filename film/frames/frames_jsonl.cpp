@@ -189,6 +189,11 @@ std::string frame_line(const FrameFacts& facts)
     }
     json["camera"] = camera_json(facts.input.camera, settings.width, settings.height);
     json["sun"] = sun_json(facts.input.sky);
+    if (const gpu::SunCookie& cookie = facts.input.sun_cookie; cookie.first_texel >= 0) {
+        json["sun"]["cookie"] = {
+            {"size_m", shortest(cookie.size_m)},
+            {"mean", {shortest(cookie.mean.r), shortest(cookie.mean.g), shortest(cookie.mean.b)}}};
+    }
     if (facts.input.sky.moon_lux > 0.0f) json["moon"] = moon_json(facts.input.sky);
     json["sky"] = sky_json(facts.input.sky);
     json["weather"] = weather_json(facts);

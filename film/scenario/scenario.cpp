@@ -122,9 +122,10 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
     }
 }
 
-void check_sun(const ScenarioSun& sun, const TomlValue& value)
+// A variant may take the cookie away (cookie = "") whose size it inherits.
+void check_sun(const ScenarioSun& sun, const TomlValue& value, const toml::table& table)
 {
-    if (!sun.cookie_size_m.given() || !sun.cookie.empty()) return;
+    if (!table.contains("cookie_size_m") || !sun.cookie.empty()) return;
     throw Error(value.place() + ": sun has cookie_size_m and no cookie",
                 "Name a picture, cookie = \"leaves.png\", or leave cookie_size_m out.");
 }
@@ -165,7 +166,7 @@ void read_table(Scenario& scenario, const std::string& table, const toml::node& 
     } else {
         read_rules(scenario, table, value);
         if (table == "fog") check_fog(scenario.fog, value);
-        if (table == "sun") check_sun(scenario.sun, value);
+        if (table == "sun") check_sun(scenario.sun, value, *node.as_table());
     }
 }
 

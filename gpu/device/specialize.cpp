@@ -23,53 +23,79 @@ namespace {
 
 constexpr const char* kCacheKind = "shaders";
 
-std::vector<std::uint32_t> cut_down(std::span<const std::uint32_t> code,
-                                    const std::vector<Specialization>& constants)
-{
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
-    for (const Specialization& constant : constants) values[constant.id] = {constant.value};
-    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
-    optimizer.SetMessageConsumer(
-        [](spv_message_level_t, const char*, const spv_position_t&, const char*) {});
-    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
-        .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
-        .RegisterPass(spvtools::CreateDeadBranchElimPass())
-        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
-        .RegisterPass(spvtools::CreateAggressiveDCEPass());
-    // One function whose variables are values: lavapipe then takes a sixth of the time for it.
-    optimizer.RegisterPass(spvtools::CreateMergeReturnPass())
-        .RegisterPass(spvtools::CreateInlineExhaustivePass())
-        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
-        .RegisterPass(spvtools::CreatePrivateToLocalPass())
-        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
-        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
-        .RegisterPass(spvtools::CreateAggressiveDCEPass())
-        .RegisterPass(spvtools::CreateScalarReplacementPass(0))
-        .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
-        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
-        .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
-        .RegisterPass(spvtools::CreateAggressiveDCEPass())
-        .RegisterPass(spvtools::CreateSSARewritePass())
-        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+// Cuts a shader down to what these constants leave of it.
+class CutDown {
+public:
+    explicit CutDown(const std::vector<Specialization>& constants) : optimizer_(SPV_ENV_VULKAN_1_3)
+    {
+        std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
+        for (const Specialization& constant : constants) values[constant.id] = {constant.value};
+        optimizer_.SetMessageConsumer(
+            [](spv_message_level_t, const char*, const spv_position_t&, const char*) {});
+        optimizer_.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+            .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+            .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+        make_one_function();
+        fold();
+    }
+
+    // What was done to a shader that is kept.
+    void add_passes(Hasher& hasher) const
+    {
+        for (const char* name : optimizer_.GetPassNames()) hasher.add(std::string(name));
+    }
+
+    // Empty for one that does not hold.
+    std::vector<std::uint32_t> run(std::span<const std::uint32_t> code) const
+    {
+        spvtools::OptimizerOptions options;
+        // Passes take for granted that it holds.
+        spvtools::ValidatorOptions rules;
+        rules.SetScalarBlockLayout(true);
+        options.set_validator_options(rules);
+        options.set_run_validator(true);
+        std::vector<std::uint32_t> words;
+        if (!optimizer_.Run(code.data(), code.size(), &words, options)) return {};
+        return words;
+    }
+
+private:
+    // .. whose variables are values: lavapipe then takes a sixth of the time for it.
+    void make_one_function()
+    {
+        optimizer_.RegisterPass(spvtools::CreateMergeReturnPass())
+            .RegisterPass(spvtools::CreateInlineExhaustivePass())
+            .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+            .RegisterPass(spvtools::CreatePrivateToLocalPass())
+            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+            .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass())
+            .RegisterPass(spvtools::CreateScalarReplacementPass(0))
+            .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+            .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass())
+            .RegisterPass(spvtools::CreateSSARewritePass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    }
+
     // What the constants and the inlined arguments decide.
-    optimizer.RegisterPass(spvtools::CreateCCPPass())
-        .RegisterPass(spvtools::CreateDeadBranchElimPass())
-        .RegisterPass(spvtools::CreateSimplificationPass())
-        .RegisterPass(spvtools::CreateVectorDCEPass())
-        .RegisterPass(spvtools::CreateDeadInsertElimPass())
-        .RegisterPass(spvtools::CreateBlockMergePass())
-        .RegisterPass(spvtools::CreateAggressiveDCEPass());
-    spvtools::OptimizerOptions options;
-    // Passes take for granted that it holds.
-    spvtools::ValidatorOptions rules;
-    rules.SetScalarBlockLayout(true);
-    options.set_validator_options(rules);
-    options.set_run_validator(true);
-    std::vector<std::uint32_t> words;
-    if (!optimizer.Run(code.data(), code.size(), &words, options)) return {};
-    return words;
-}
+    void fold()
+    {
+        optimizer_.RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateVectorDCEPass())
+            .RegisterPass(spvtools::CreateDeadInsertElimPass())
+            .RegisterPass(spvtools::CreateBlockMergePass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    }
+
+    spvtools::Optimizer optimizer_;
+};
 
 }  // namespace
 
@@ -77,9 +103,11 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
                                        const std::vector<Specialization>& constants,
                                        const ContentCache& cache)
 {
-    if (!cache.on()) return cut_down(code, constants);
+    const CutDown cut_down(constants);
+    if (!cache.on()) return cut_down.run(code);
     Hasher hasher;
-    hasher.add("specialized 2");
+    hasher.add("specialized 3");
+    cut_down.add_passes(hasher);
     hasher.add(spvSoftwareVersionString());
     hasher.add_bytes(std::as_bytes(code));
     for (const Specialization& constant : constants) {
@@ -91,7 +119,7 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> code,
         std::memcpy(words.data(), kept->data(), kept->size());
         return words;
     }
-    std::vector<std::uint32_t> words = cut_down(code, constants);
+    std::vector<std::uint32_t> words = cut_down.run(code);
     try {
         if (!words.empty()) cache.keep(kCacheKind, key, {std::as_bytes(std::span(words))});
     } catch (const Error&) {  // costs the next start some milliseconds

@@ -255,6 +255,12 @@ TEST(Scenario, ASizeOfNoPictureIsRefused)
     const Scenario s = parse_scenario("[sun]\ncookie = \"a.png\"\ncookie_size_m = 3.0\n", "s.toml");
     EXPECT_EQ(s.sun.cookie, "a.png");
     EXPECT_EQ(value_at(s.sun.cookie_size_m, 0.0), 3.0);
+    const Scenario two = parse_scenario(
+        "[sun]\ncookie = \"a.png\"\ncookie_size_m = 3.0\n[[variant]]\nname = \"bare\"\n"
+        "sun = { cookie = \"\" }\n[[variant]]\nname = \"leaves\"\n",
+        "s.toml");
+    EXPECT_EQ(two.variants.at(0).conditions.sun.cookie, "");
+    EXPECT_EQ(two.variants.at(1).conditions.sun.cookie, "a.png");
 }
 
 }  // namespace

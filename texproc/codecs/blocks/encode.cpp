@@ -22,18 +22,23 @@ const detail::EncodeKernel& detail::encode_kernel()
 
 namespace {
 
-// The 16 texels of a block in four planes; what lies past an edge repeats the edge.
+// First number of a texel of a block; what lies past an edge repeats the edge.
+std::size_t first_number(const RawImage& image, int bx, int by, int texel)
+{
+    const int x = std::min(4 * bx + texel % 4, image.width - 1);
+    const int y = std::min(4 * by + texel / 4, image.height - 1);
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+            static_cast<std::size_t>(x)) *
+           static_cast<std::size_t>(image.channels);
+}
+
+// The 16 texels of a block in four planes.
 detail::BlockTexels gather(const RawImage& image, int bx, int by)
 {
     detail::BlockTexels texels;
     const std::size_t channels = static_cast<std::size_t>(image.channels);
     for (int t = 0; t < 16; ++t) {
-        const int x = std::min(4 * bx + t % 4, image.width - 1);
-        const int y = std::min(4 * by + t / 4, image.height - 1);
-        const std::size_t at =
-            (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-             static_cast<std::size_t>(x)) *
-            channels;
+        const std::size_t at = first_number(image, bx, by, t);
         const auto code = [&](std::size_t c) {
             return static_cast<std::uint8_t>(image.bytes[at + c]);
         };
@@ -50,12 +55,7 @@ detail::HalfTexels gather_halves(const RawImage& image, int bx, int by)
     detail::HalfTexels texels;
     const std::size_t channels = static_cast<std::size_t>(image.channels);
     for (int t = 0; t < 16; ++t) {
-        const int x = std::min(4 * bx + t % 4, image.width - 1);
-        const int y = std::min(4 * by + t / 4, image.height - 1);
-        const std::size_t at =
-            (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-             static_cast<std::size_t>(x)) *
-            channels;
+        const std::size_t at = first_number(image, bx, by, t);
         for (std::size_t c = 0; c < 3; ++c) {
             std::uint16_t half = 0;
             if (c < channels || channels == 1)
