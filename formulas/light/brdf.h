@@ -71,16 +71,17 @@ SHARED_FN Lobe make_lobe(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float alpha)
 // Reflected radiance per unit irradiance on a facing plane, times nl.
 SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
 {
-    const float nl = clamp(dot(lobe.normal, l), 0.0f, 1.0f);
-    // Dot products of the half vector without the vector itself.
-    const float lv = dot(l, lobe.view);
-    const float q = inversesqrt(max(2.0f + 2.0f * lv, 1.0e-8f));
-    const float nh = clamp((dot(lobe.normal, l) + dot(lobe.normal, lobe.view)) * q, 0.0f, 1.0f);
-    const float lh = clamp((1.0f + lv) * q, 0.0f, 1.0f);
-    const float d = (nh * lobe.a2 - nh) * nh + 1.0f;
+    const float toward = dot(lobe.normal, l);
+    const float nl = clamp(toward, 0.0f, 1.0f);
+    // The half vector is (l + v) / |l + v|. Its cosines are needed squared: s = |l + v|^2 goes to the other
+    // side of the fraction, and one division is all.
+    const float s = clamp(2.0f + 2.0f * dot(l, lobe.view), 1.0e-8f, 4.0f);
+    const float lh = 0.5f * sqrt(s);
+    const float sum = max(toward + dot(lobe.normal, lobe.view), 0.0f);
+    const float d = max(s - sum * sum * (1.0f - lobe.a2), s * lobe.a2);
     const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
-    const float specular =
-        lobe.a2 * 0.5f * lobe.lit / max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-7f);
+    const float specular = lobe.a2 * 0.5f * lobe.lit * s * s /
+                           max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-7f * s * s);
     return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
 }
 
@@ -92,18 +93,20 @@ SHARED_FN vec3 shade_direct(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float
 }
 
 // Window of a punctual light over the square of its distance: 1/d^2 that reaches 0 at the range, > 0.
-SHARED_FN float square_attenuation(float d2_m2, float range_m)
+//   inverse_m         1/d
+//   inverse_range_m2  1/range^2
+SHARED_FN float square_attenuation(float d2_m2, float inverse_m, float inverse_range_m2)
 {
-    const float q2 = d2_m2 / (range_m * range_m);
-    return clamp(1.0f - q2 * q2, 0.0f, 1.0f) / max(d2_m2, 1.0e-4f);
+    const float q2 = d2_m2 * inverse_range_m2;
+    return clamp(1.0f - q2 * q2, 0.0f, 1.0f) * min(inverse_m * inverse_m, 1.0e4f);
 }
 
 // The same over the distance (range 0: unlimited).
 SHARED_FN float light_attenuation(float distance_m, float range_m)
 {
     const float d2 = distance_m * distance_m;
-    if (range_m <= 0.0f) return 1.0f / max(d2, 1.0e-4f);
-    return square_attenuation(d2, range_m);
+    const float inverse = 1.0f / max(distance_m, 1.0e-4f);
+    return square_attenuation(d2, inverse, range_m > 0.0f ? 1.0f / (range_m * range_m) : 0.0f);
 }
 
 // Cone of a spot light. cosine: of the angle between its axis and the direction to the point.

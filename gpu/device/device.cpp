@@ -152,6 +152,17 @@ struct Features {
     Features& operator=(const Features&) = delete;
 };
 
+VkPhysicalDeviceVulkan11Properties subgroups(VkPhysicalDevice device)
+{
+    VkPhysicalDeviceVulkan11Properties v11{};
+    v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &v11;
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    return v11;
+}
+
 std::string missing_features(VkPhysicalDevice device)
 {
     Features has;
@@ -167,6 +178,8 @@ std::string missing_features(VkPhysicalDevice device)
     need(has.v13.maintenance4, "maintenance4");
     need(has.core.features.shaderStorageImageExtendedFormats, "shaderStorageImageExtendedFormats");
     need(has.core.features.independentBlend, "independentBlend");
+    need(has.v12.subgroupBroadcastDynamicId, "subgroupBroadcastDynamicId");
+    need(subgroups(device).subgroupSupportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT, "ballot in subgroups");
     return missing;
 }
 
@@ -336,6 +349,7 @@ Device::Device(const RendererOptions& options)
         primitive_ids_ = has.core.features.geometryShader == VK_TRUE;
         wanted.v12.scalarBlockLayout = VK_TRUE;
         wanted.v12.hostQueryReset = VK_TRUE;
+        wanted.v12.subgroupBroadcastDynamicId = VK_TRUE;
         wanted.v13.dynamicRendering = VK_TRUE;
         wanted.v13.synchronization2 = VK_TRUE;
         wanted.v13.maintenance4 = VK_TRUE;
@@ -357,6 +371,7 @@ Device::Device(const RendererOptions& options)
         VkPhysicalDeviceProperties properties{};
         vkGetPhysicalDeviceProperties(physical_, &properties);
         limits_ = properties.limits;
+        subgroup_size_ = subgroups(physical_).subgroupSize;
         vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(

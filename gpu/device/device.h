@@ -31,6 +31,8 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     /// Fragment shaders know the number of their triangle.
     bool primitive_ids() const { return primitive_ids_; }
+    /// So many invocations of a compute shader can hand each other values.
+    std::uint32_t subgroup_size() const { return subgroup_size_; }
     const DeviceInfo& info() const { return info_; }
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
@@ -63,6 +65,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool primitive_ids_ = false;
+    std::uint32_t subgroup_size_ = 1;
     bool debug_utils_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;

@@ -471,7 +471,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     if ((material.layers & LAYERS_HAIR) != 0u) c.anisotropy_strength = 1.0f;
     material.besides = (source.specular_workflow ? BESIDES_SPECULAR_WORKFLOW : 0u) |
                        (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
-                       (softens(source) ? BESIDES_SOFT_NORMAL : 0u);
+                       (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
+                       (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u);
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,

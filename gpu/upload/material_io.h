@@ -162,6 +162,7 @@
 #define BESIDES_IRIDESCENT 2u
 #define BESIDES_SOFT_NORMAL 4u  // of skin
 #define BESIDES_SHARES 8u       // lighting reads shares in this scene
+#define BESIDES_ALONG 16u       // its light depends on the tangent
 
 // Indices of alpha_mode.
 #define ALPHA_OPAQUE 0u

@@ -68,19 +68,19 @@ vec4 ltc_matrix(float roughness, float nv)
 }
 
 // How a lamp shines that way, of its profile; `away` points from the lamp.
-vec3 light_profile(int light, vec3 away)
+vec3 light_profile(LightRow light, vec3 away)
 {
-    const float number = texelFetch(lights, light * LIGHT_TEXELS + 4).w;
+    const float number = light.size.w;
     if (number < 0.0) return vec3(1.0);
-    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
-    const vec3 up = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    const vec4 axis = light.axis;
+    const vec3 up = light.across.xyz;
     const vec3 right = cross(axis.xyz, up);
     const int first = int(number) * LIGHT_PROFILE_SIDE * LIGHT_PROFILE_SIDE;
     const vec3 at = vec3(dot(away, right), dot(away, up), dot(away, axis.xyz));
     vec2 place;
     int wrap = 0;
     if (texelFetch(light_profiles, first).w > 0.5) {
-        const float outer = texelFetch(lights, light * LIGHT_TEXELS + 1).w;
+        const float outer = light.color.w;
         const float half_m = sqrt(max(1.0 - outer * outer, 0.0)) / max(outer, 1.0e-3);
         if (at.z <= 0.0) return vec3(0.0);
         place = (vec2(at.x, -at.y) / (at.z * half_m) * 0.5 + 0.5) * float(LIGHT_PROFILE_SIDE - 1);
@@ -204,11 +204,11 @@ vec3 nearest_area_light(LitPoint p, vec3 centre, vec3 half_axis, vec4 size, vec3
 }
 
 // A lamp with a size: `size` is its texel 4.
-vec3 area_light(LitPoint p, int light, vec3 centre, float reach_m, vec4 size, float visible)
+vec3 area_light(LitPoint p, LightRow light, vec3 centre, float reach_m, vec4 size, float visible)
 {
-    const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
-    const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
-    const vec3 across = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    const vec4 color = light.color;
+    const vec4 axis = light.axis;
+    const vec3 across = light.across.xyz;
     const float far = length(centre);
     const vec3 l = centre / max(far, 1.0e-4);
     const bool spot = color.w > -1.5;
@@ -243,10 +243,10 @@ vec3 area_light(LitPoint p, int light, vec3 centre, float reach_m, vec4 size, fl
 // A glowing rectangle: exact for a matt surface that sees all of it; what is mirrored, as of a light in
 // the direction of the irradiance, blurred by its size. Surfaces that mirror the picture itself have it
 // from there.
-vec3 rectangle_light(LitPoint p, int light, vec3 centre, vec4 color)
+vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
 {
-    const vec3 half_u = texelFetch(lights, light * LIGHT_TEXELS + 2).xyz;
-    vec3 half_v = texelFetch(lights, light * LIGHT_TEXELS + 3).xyz;
+    const vec3 half_u = light.axis.xyz;
+    vec3 half_v = light.across.xyz;
     if (dot(centre, cross(half_u, half_v)) >= 0.0) {  // it is turned away
         if (color.w > LIGHT_BOTH_SIDES + 0.5) return vec3(0.0);
         half_v = -half_v;

@@ -2,9 +2,9 @@
 // light of a loop has is left out of it.
 
 // One light of the table; zero out of its range or behind the surface.
-vec3 punctual_light(LitPoint p, int light, ivec2 texel, const bool shadowed, const bool shaped)
+vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed, const bool shaped)
 {
-    const vec4 sphere = texelFetch(lights, light * LIGHT_TEXELS);
+    const vec4 sphere = light.sphere;
     const vec3 to_light = sphere.xyz - p.position;
     const float d2 = dot(to_light, to_light);
     // A CPU takes both sides of every branch: there what is dark is chosen away at the end.
@@ -13,7 +13,7 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel, const bool shadowed, con
     if (SKIPS && !lit) return vec3(0.0);
     float visible = 1.0;
     if (LAMP_SHADOWS != 0u && shadowed) {
-        const float number = texelFetch(lights, light * LIGHT_TEXELS + 3).w;
+        const float number = light.across.w;
         const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
         vec3 from = sphere.xyz;
         if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
@@ -22,7 +22,7 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel, const bool shadowed, con
         if (SKIPS && !lit) return vec3(0.0);
     }
     if (WAYS != 0u) {
-        const vec4 size = texelFetch(lights, light * LIGHT_TEXELS + 4);
+        const vec4 size = light.size;
         if (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
             return lit ? area_light(p, light, to_light, sphere.w, size, visible) : vec3(0.0);
         if ((WAYS & LIGHTS_FILL) != 0u) {
@@ -31,19 +31,20 @@ vec3 punctual_light(LitPoint p, int light, ivec2 texel, const bool shadowed, con
         }
     }
     if (RECTANGLES != 0u && shaped) {
-        const vec4 glow = texelFetch(lights, light * LIGHT_TEXELS + 1);
+        const vec4 glow = light.color;
         if (glow.w < LIGHT_POINT - 0.5) {
             return lit ? rectangle_light(p, light, to_light, glow) * visible : vec3(0.0);
         }
     }
     if (shaped && !shadowed) return vec3(0.0);  // all of that loop are
-    const vec3 l = to_light * inversesqrt(max(d2, 1.0e-8));
+    const float inverse = inversesqrt(max(d2, 1.0e-8));
+    const vec3 l = to_light * inverse;
     lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS);
     if (SKIPS && !lit) return vec3(0.0);
-    const vec4 color = texelFetch(lights, light * LIGHT_TEXELS + 1);
-    float falloff = square_attenuation(d2, sphere.w);
+    const vec4 color = light.color;
+    float falloff = square_attenuation(d2, inverse, light.inverse_reach2);
     if ((WAYS & LIGHTS_CONE) != 0u && color.w > -1.5) {  // the cosine of the outer cone
-        const vec4 axis = texelFetch(lights, light * LIGHT_TEXELS + 2);
+        const vec4 axis = light.axis;
         falloff *= spot_attenuation(dot(axis.xyz, -l), axis.w, color.w);
     }
     vec3 shines = color.rgb;
@@ -66,7 +67,7 @@ void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint en
                const bool shaped)
 {
     if (ALL_LIGHTS != 0u) {
-        for (uint i = first; i < end; ++i) radiance += punctual_light(p, int(i), texel, shadowed, shaped);
+        for (uint i = first; i < end; ++i) radiance += punctual_light(p, light_row(int(i)), texel, shadowed, shaped);
         return;
     }
     const ivec2 tile = texel / LIGHT_TILE;
@@ -76,8 +77,19 @@ void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint en
         const uvec2 word = texelFetch(light_lists, list + i).rg;
         const uint low = word.r * 32u;
         const uint own = ONE_RANGE ? ~0u : low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
-        for (uint bits = word.g & own; bits != 0u; bits &= bits - 1u) {
-            radiance += punctual_light(p, int(low) + findLSB(bits), texel, shadowed, shaped);
+        uint bits = word.g & own;
+        if (TOGETHER) {
+            while (bits != 0u) {
+                const LightRow mine = light_row(int(low) + max(findLSB(without_lowest(bits, gl_SubgroupInvocationID)), 0));
+                for (uint lane = 0u; lane < LIGHTS_AT_ONCE && bits != 0u; ++lane) {
+                    radiance += punctual_light(p, row_of_lane(mine, lane), texel, shadowed, shaped);
+                    bits &= bits - 1u;
+                }
+            }
+        } else {
+            for (; bits != 0u; bits &= bits - 1u) {
+                radiance += punctual_light(p, light_row(int(low) + findLSB(bits)), texel, shadowed, shaped);
+            }
         }
     }
 }
@@ -86,9 +98,8 @@ void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint en
 void add_all_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
 {
     for (uint i = 0u; i < frame.directional_count; ++i) {
-        const vec4 color = texelFetch(lights, int(i) * LIGHT_TEXELS + 1);
-        const vec4 direction = texelFetch(lights, int(i) * LIGHT_TEXELS + 2);
-        radiance += shadowed_light(p, -direction.xyz, 1.0) * color.rgb;
+        const LightRow light = light_row(int(i));
+        radiance += shadowed_light(p, -light.axis.xyz, 1.0) * light.color.rgb;
     }
     if (LAMP_SHADOWS != 0u)
         add_range(radiance, p, texel, frame.directional_count, frame.plain_lights, true, true);

@@ -3,6 +3,7 @@
 // the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
 #include "formulas/light/area.h"
@@ -175,6 +176,7 @@ vec3 model_own(LitPoint p)
     return radiance;
 }
 
+#include "gpu/passes/lighting/light_rows.glsl"
 #include "gpu/passes/lighting/area_lights.glsl"
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/lighting/light_loops.glsl"
@@ -231,7 +233,12 @@ Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, f
 void main()
 {
     ivec2 texel;
-    if (!this_pixel(frame.size, texel)) return;
+    const bool inside = this_pixel(frame.size, texel);
+    if (TOGETHER) {
+        texel = min(texel, frame.size - 1);  // all stay, for each other
+    } else if (!inside) {
+        return;
+    }
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
     vec3 radiance;
@@ -239,13 +246,7 @@ void main()
     vec4 shape = vec4(0.0);
     PartsOfLight parts;
     if (PARTS != 0u) parts = no_parts();
-    if (depth <= 0.0) {
-        radiance = BACKGROUND != 0u
-                       ? background(pixel_view_direction(frame, pixel))
-                       : vec3(0.0);
-        radiance = min(radiance, vec3(60000.0));
-        if (PARTS != 0u) parts.of[PART_BACKGROUND] = radiance;
-    } else {
+    if (TOGETHER || depth > 0.0) {
         const GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
@@ -502,6 +503,17 @@ void main()
             mirror.rgb *= kept;
         }
     }
+    if (depth <= 0.0) {
+        radiance = BACKGROUND != 0u ? background(pixel_view_direction(frame, pixel)) : vec3(0.0);
+        radiance = min(radiance, vec3(60000.0));
+        mirror = vec4(0.0);
+        shape = vec4(0.0);
+        if (PARTS != 0u) {
+            parts = no_parts();
+            parts.of[PART_BACKGROUND] = radiance;
+        }
+    }
+    if (TOGETHER && !inside) return;
     if (PARTS != 0u) {
         limit_parts(parts, radiance, vec3(60000.0));
         store_parts(parts, texel);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/lights/lights_io.h"
+#include "gpu/upload/morton.h"
 #include "scene/light_shape.h"
 
 namespace petrichor::gpu {
@@ -80,6 +81,19 @@ std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int 
 
 namespace {
 
+// Round all of them.
+Bounds cube_of(const std::vector<Light>& lights)
+{
+    Bounds box{glm::vec3(1.0e30f), glm::vec3(-1.0e30f)};
+    for (const Light& light : lights) {
+        box.low = glm::min(box.low, light.position_m);
+        box.high = glm::max(box.high, light.position_m);
+    }
+    const glm::vec3 size = box.high - box.low;
+    box.high = box.low + glm::vec3(std::max({size.x, size.y, size.z}));
+    return box;
+}
+
 // How the size of a lamp is lit.
 enum class Shape { None, Rectangle, Nearest, Ltc };
 
@@ -125,8 +139,15 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         if (shadow[number_of(light)] >= 0) return 1;
         return shape_of(*light, area) == Shape::None ? 2 : 3;
     };
+    // Neighbours share the words of a tile's list.
+    const Bounds box = cube_of(lights);
+    std::vector<std::uint64_t> place(lights.size());
+    for (const Light* light : ordered) {
+        const int kind = kind_of(light);
+        place[number_of(light)] = static_cast<std::uint64_t>(kind) << 32 | (kind > 0 ? morton(light->position_m, box) : 0u);
+    }
     std::stable_sort(ordered.begin(), ordered.end(), [&](const Light* x, const Light* y) {
-        return kind_of(x) < kind_of(y);
+        return place[number_of(x)] < place[number_of(y)];
     });
     const auto first_of = [&](int kind) {
         const auto first = std::find_if(ordered.begin(), ordered.end(), [&](const Light* light) {
@@ -141,6 +162,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     if (table.shaped > table.plain) table.ways |= LIGHTS_PLAIN;
     if (table.count > table.shaped) table.ways |= LIGHTS_SHAPED;
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
+    else if (device.subgroup_size() >= LIGHTS_AT_ONCE)
+        table.ways |= LIGHTS_TOGETHER;
     std::vector<glm::vec4> texels;
     for (const Light* light : ordered) {
         const bool spot = light->kind == LightKind::Spot;

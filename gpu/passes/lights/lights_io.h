@@ -26,7 +26,11 @@
 #define LIGHTS_SKIP 32u     // of the device: a branch round what is dark saves its work (not so on a CPU)
 #define LIGHTS_PLAIN 64u    // no shape and no shadow
 #define LIGHTS_SHAPED 128u  // a shape and no shadow
+#define LIGHTS_TOGETHER 512u  // of the device: invocations of a group read lights for each other
 #define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
+
+// So many at once, where a subgroup has as many invocations.
+#define LIGHTS_AT_ONCE 8u
 
 // light_coarse: one invocation a word of 32 lights
 #define LIGHT_COARSE_GROUP 64

@@ -152,7 +152,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     data.texel.porosity = porosity;
     data.texel.model = material.lighting_model;
     data.texel.tangent = 0.0;
-    if (material.anisotropy_strength > 0.0) {
+    if ((BESIDES & BESIDES_ALONG) != 0u) {
         float turn = material.anisotropy_rotation;
         if (has_layer(LAYER_TEXTURE_ANISOTROPY)) {
             const vec2 d = layer_texel(LAYER_TEXTURE_ANISOTROPY, at, shift, 1.0).rg * 2.0 - 1.0;

@@ -1,0 +1,52 @@
+// Rows of the table of lights (gpu/passes/lights/lights_io.h).
+//
+// What is read by an address that a CPU computes for each invocation costs it a load for each. Those of a
+// group look at the same list: there each reads one of the next lights, and all take them from it in turn.
+#ifndef PETRICHOR_LIGHT_ROWS_GLSL
+#define PETRICHOR_LIGHT_ROWS_GLSL
+
+const bool TOGETHER = (WAYS & LIGHTS_TOGETHER) != 0u && LISTED == 0u;
+
+struct LightRow {
+    vec4 sphere;  // centre, world metres; reach, metres
+    vec4 color;   // strength; cosine of the outer cone, or LIGHT_...
+    vec4 axis;    // direction, or half a side; cosine of the inner cone
+    vec4 across;  // up, or half the other side; number of its shadow, -1: none
+    float inverse_reach2;  // 1/m2
+    vec4 size;    // radius and half length, metres; share of the highlight; number of its profile, -1: none
+};
+
+LightRow light_row(int light)
+{
+    const int first = light * LIGHT_TEXELS;
+    LightRow row;
+    row.sphere = texelFetch(lights, first);
+    row.inverse_reach2 = 1.0 / (row.sphere.w * row.sphere.w);
+    row.color = texelFetch(lights, first + 1);
+    row.axis = texelFetch(lights, first + 2);
+    row.across = texelFetch(lights, first + 3);
+    row.size = texelFetch(lights, first + 4);
+    return row;
+}
+
+// What that invocation of the subgroup read; all of them are there.
+LightRow row_of_lane(LightRow mine, uint lane)
+{
+    LightRow row;
+    row.sphere = subgroupShuffle(mine.sphere, lane);
+    row.inverse_reach2 = subgroupShuffle(mine.inverse_reach2, lane);
+    row.color = subgroupShuffle(mine.color, lane);
+    row.axis = subgroupShuffle(mine.axis, lane);
+    row.across = subgroupShuffle(mine.across, lane);
+    row.size = subgroupShuffle(mine.size, lane);
+    return row;
+}
+
+// Bits but for so many of the lowest that are set; fewer than LIGHTS_AT_ONCE.
+uint without_lowest(uint bits, uint count)
+{
+    for (uint i = 0u; i < LIGHTS_AT_ONCE - 1u; ++i) bits = i < count ? bits & (bits - 1u) : bits;
+    return bits;
+}
+
+#endif
