@@ -81,7 +81,7 @@ SHARED_FN vec3 shade_lobe(Lobe lobe, vec3 l)
     const float d = max(s - sum * sum * (1.0f - lobe.a2), s * lobe.a2);
     const float light_term = lobe.nv * sqrt(nl * nl * (1.0f - lobe.a2) + lobe.a2);
     const float specular = lobe.a2 * 0.5f * lobe.lit * s * s /
-                           max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-7f * s * s);
+                           max(kPi * d * d * (nl * lobe.view_term + light_term), 1.0e-30f);
     return (lobe.diffuse + schlick_fresnel(lobe.f0, lh) * specular) * nl;
 }
 

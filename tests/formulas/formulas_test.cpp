@@ -73,6 +73,41 @@ TEST(Brdf, NoHighlightWithoutReflectance)
     EXPECT_EQ(shade_direct(n, n, n, glm::vec3(0), glm::vec3(0), 0.1f), glm::vec3(0));
 }
 
+// The lobe as it is computed, against its three terms, from polished to matt and most of all round the
+// mirror direction.
+TEST(Brdf, TheLobeIsTheProductOfItsTerms)
+{
+    const glm::vec3 n(0, 0, 1);
+    for (const float alpha : {0.045f * 0.045f, 0.01f, 0.05f, 0.3f, 1.0f}) {
+        const double a2 = static_cast<double>(alpha) * static_cast<double>(alpha);
+        for (int i = 0; i < 2000; ++i) {
+            const auto share = [i](double step) { return std::fmod((i + 0.5) * step, 1.0); };
+            const float slope = static_cast<float>(1.5 * share(0.618034));
+            const glm::vec3 v = glm::normalize(glm::vec3(slope, 0.3f * slope, 1.0f));
+            const float off = static_cast<float>(4.0 * share(0.754878)) * alpha;
+            const double turn = 6.2831853 * share(0.569840);
+            const glm::vec3 l = glm::normalize(
+                glm::vec3(-v.x, -v.y, v.z) +
+                off * glm::vec3(std::cos(turn), std::sin(turn), 0.3 * std::sin(2.0 * turn)));
+            if (l.z <= 0.0f) continue;
+            const glm::dvec3 h = glm::normalize(glm::dvec3(v) + glm::dvec3(l));
+            const double nl = static_cast<double>(l.z);
+            const double nv = static_cast<double>(v.z);
+            const double d = h.x * h.x + h.y * h.y + h.z * h.z * a2;
+            const double distribution = a2 / (M_PI * d * d);
+            const double visibility = 0.5 / (nl * std::sqrt(nv * nv * (1.0 - a2) + a2) +
+                                             nv * std::sqrt(nl * nl * (1.0 - a2) + a2));
+            const double lh = glm::dot(glm::dvec3(l), h);
+            const double fresnel = 0.04 + 0.96 * std::pow(1.0 - lh, 5.0);
+            const double wanted = distribution * visibility * fresnel * nl;
+            const double lobe =
+                static_cast<double>(shade_direct(n, v, l, glm::vec3(0), glm::vec3(0.04f), alpha).x);
+            // What single precision knows of how far h is from n.
+            EXPECT_NEAR(lobe, wanted, wanted * (1.0e-4 + 1.0e-6 / a2)) << alpha << " " << i;
+        }
+    }
+}
+
 TEST(Brdf, LightWindowEndsAtTheRange)
 {
     EXPECT_FLOAT_EQ(light_attenuation(2.0f, 0.0f), 0.25f);
