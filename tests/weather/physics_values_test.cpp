@@ -316,7 +316,7 @@ TEST(Solar, NearAMomentIsTheAlmanacs)
     for (int day = 0; day < 366; day += 13) {
         for (int hour = 0; hour < 24; hour += 5) {
             const std::int64_t at = (1104537600LL + day * 86400 + hour * 3600) * 1000000;
-            const SunNear track(at, 57.7, 11.96);
+            const SunNear track(at, Observer(57.7, 11.96));
             for (const int minutes : {-60, -13, 0, 30, 60}) {
                 const std::int64_t us = at + minutes * 60000000LL;
                 const SunDirection a = track.at(us), b = sun_direction(us, 57.7, 11.96);

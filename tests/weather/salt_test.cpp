@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "weather/models/physical/physical.h"
 #include "weather/physics/brine.h"
+#include "weather/physics/detail/brine_kernel.h"
+#include "weather/physics/detail/single.h"
 #include "weather/readers/road_events_text.h"
 
 namespace petrichor::weather {
@@ -51,6 +53,43 @@ TEST(Brine, FreezesWhereTheTablesSay)
     EXPECT_NEAR(freezing_point_c(0.9), -kEutecticDepression_k, 1e-9);
     for (const double c : {-0.5, -2.0, -8.0, -15.0, -20.0})
         EXPECT_NEAR(freezing_point_c(brine_strength(c)), c, 1e-9);
+}
+
+// The heat that melting takes, against the root found by halving: all states of salt, ice and water, all
+// melted, all frozen, at the eutectic and between.
+TEST(Brine, TheHeatOfMeltingIsThatOfTheOnlyRoot)
+{
+    std::uint64_t seed = 7;
+    const auto random = [&seed] {
+        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+        return static_cast<double>(seed >> 11) * 0x1p-53;
+    };
+    int between = 0, at_eutectic = 0;
+    for (int i = 0; i < 20000; ++i) {
+        detail::BrineStores<double> s;
+        s.salt = std::exp(-16.0 + 20.0 * random());
+        s.water = random() < 0.1 ? 0.0 : std::exp(-8.0 + 14.0 * random());
+        s.liquid = s.water * (random() < 0.2 ? 1.0 : random() < 0.3 ? 0.0 : random());
+        const double free_c = -40.0 + 50.0 * random(), slope = 2.0 + 60.0 * random();
+        const double dt_s = 450.0 + 3150.0 * random(), latent = kLatentFusion / dt_s;
+        double low = free_c - (s.water - s.liquid) / slope * latent;
+        double high = free_c + s.liquid / slope * latent;
+        for (int k = 0; k < 100; ++k) {
+            const double c = 0.5 * (low + high);
+            const double rest = slope * (free_c - c) +
+                                (s.liquid - brine_water_kg_m2(s.salt, s.water, c)) * latent;
+            (rest > 0.0 ? low : high) = c;
+        }
+        const double root_c = 0.5 * (low + high);
+        const double flux = detail::brine_flux(s, free_c, slope, dt_s);
+        ASSERT_NEAR(free_c - flux / slope, root_c, 1e-9)
+            << s.salt << " " << s.liquid << " of " << s.water << ", " << free_c << " C";
+        const bool eutectic = std::abs(root_c + kEutecticDepression_k) < 1e-9;
+        at_eutectic += eutectic;
+        between += !eutectic && root_c < -1e-6 && root_c > -21.0 && flux * flux > 0.0;
+    }
+    EXPECT_GT(at_eutectic, 50);
+    EXPECT_GT(between, 1000);
 }
 
 TEST(Brine, HoldsLessWaterTheColderItIs)

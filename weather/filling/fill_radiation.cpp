@@ -167,14 +167,13 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     lw.resize(n, kMissing);
     const bool place =
         !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
-    const double latitude = place ? table.site.latitude_deg : 45.0;
-    const double longitude = place ? table.site.longitude_deg : 0.0;
+    const Observer observer(place ? table.site.latitude_deg : 45.0, place ? table.site.longitude_deg : 0.0);
     Fills fills;
     CloudOfRows clouds(table, place, options.default_cloud);
     for (std::size_t i = 0; i < n; ++i) {
         double sine = 0.0;
         if (std::isnan(cloud[i]) || std::isnan(sw[i]))
-            sine = sun_direction(table.time_us[i], latitude, longitude).up;
+            sine = SunNear(table.time_us[i], observer).at(table.time_us[i]).up;
         cloud[i] = clouds.at(i, sine, fills);
         if (std::isnan(sw[i])) {
             sw[i] = cloudy_sky_w_m2(sine, cloud[i]);

@@ -73,7 +73,8 @@ double rate_over(const ForcingTable& table, Field field, const StepRows& at)
 
 // `first`: the last row at or before the beginning.
 StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t begin,
-                      std::int64_t length, SunUse use, std::span<const double> horizon)
+                      std::int64_t length, SunUse use, const Observer& observer,
+                      const Skyline& skyline)
 {
     const auto& t = table.time_us;
     const std::int64_t end = begin + length;
@@ -109,16 +110,13 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     const bool place =
         !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
     if (use == SunUse::Direction && lit && place) {
-        const SunDirection sun =
-            sun_direction(begin + length / 2, table.site.latitude_deg, table.site.longitude_deg);
+        const SunNear near(begin + length / 2, observer);
+        const SunDirection sun = near.at(begin + length / 2);
         step.sun_east = sun.east;
         step.sun_north = sun.north;
         step.sun_up = sun.up;
         step.diffuse = diffuse_fraction(step.shortwave.at(0.5), sun.up, sun.extraterrestrial_w_m2);
-        if (!horizon.empty()) {
-            step.beam = beam_share(horizon, begin, length, table.site.latitude_deg,
-                                   table.site.longitude_deg);
-        }
+        if (!skyline.empty()) step.beam = beam_share(skyline, begin, length, observer, near);
     }
     if (table.has(Field::NetShortwave)) {
         step.shortwave = {rate_over(table, Field::NetShortwave, at), 0.0};
@@ -126,6 +124,14 @@ StepForcing step_from(const ForcingTable& table, std::size_t first, std::int64_t
     }
     step.middle = moment_of(step, 0.5, 1.0);
     return step;
+}
+
+// Of a table without a place nobody asks for the sun.
+Observer observer_of(const ForcingTable& table)
+{
+    const bool placed =
+        !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
+    return placed ? Observer(table.site.latitude_deg, table.site.longitude_deg) : Observer(0.0, 0.0);
 }
 
 // The last row at or before a time; the first row for earlier times.
@@ -163,7 +169,8 @@ StationMoment moment_of(const StepForcing& step, double x, double until)
 StepForcing make_step_forcing(const ForcingTable& table, std::int64_t begin, std::int64_t length,
                               SunUse sun, std::span<const double> horizon)
 {
-    return step_from(table, row_before(table, begin), begin, length, sun, horizon);
+    return step_from(table, row_before(table, begin), begin, length, sun, observer_of(table),
+                     Skyline(horizon));
 }
 
 std::int64_t StepPlan::length_of(std::size_t step) const
@@ -191,7 +198,8 @@ StepWalk::StepWalk(const ForcingTable& table, const StepPlan& plan, std::size_t 
       step_(first_step),
       row_(row_before(table, plan.begin_of(first_step))),
       sun_(sun),
-      horizon_(horizon)
+      observer_(observer_of(table)),
+      skyline_(horizon)
 {
 }
 
@@ -199,7 +207,7 @@ StepForcing StepWalk::next()
 {
     const std::int64_t begin = plan_->begin_of(step_);
     while (row_ + 1 < table_->rows() && table_->time_us[row_ + 1] <= begin) ++row_;
-    return step_from(*table_, row_, begin, plan_->length_of(step_++), sun_, horizon_);
+    return step_from(*table_, row_, begin, plan_->length_of(step_++), sun_, observer_, skyline_);
 }
 
 std::vector<StepForcing> make_step_forcings(const ForcingTable& table, std::int64_t step_us,

@@ -5,7 +5,8 @@
 //
 //   slope (free - T) + Lf / dt (liquid - brine(T)) = 0
 //
-// falls with T all the way; halving finds its only root.
+// falls with T all the way and has one root: where all is melted, where all is frozen, at the eutectic, or
+// between them. There, times the salt's share in brine, it is a polynomial, and Newton's steps find the root.
 #ifndef PETRICHOR_WEATHER_PHYSICS_DETAIL_BRINE_KERNEL_H
 #define PETRICHOR_WEATHER_PHYSICS_DETAIL_BRINE_KERNEL_H
 
@@ -16,7 +17,8 @@
 
 namespace petrichor::weather::detail {
 
-constexpr int kBrineHalvings = 40;
+constexpr int kBrineSteps = 4;
+constexpr double kFirstShare_1_k = 0.0155;  // salt in brine over its depression, as it is at some 5 K
 
 // Bodnar 1993, for a depression of 0 .. 21.2 K: salt in brine that is about to freeze, 0..0.233.
 template <class Real>
@@ -53,17 +55,33 @@ PETRICHOR_KERNEL Real brine_flux(const BrineStores<Real>& s, const Real& free_c,
     if (!any(select(settled, Real(0.0), Real(1.0)) > 0.5)) return 0.0;
     const double latent = kLatentFusion / dt_s;
     const Real per_slope = 1.0 / slope;
-    Real low = free_c - (s.water - s.liquid) * per_slope * latent;
-    Real high = free_c + s.liquid * per_slope * latent;
-    for (int i = 0; i < kBrineHalvings; ++i) {
-        const Real middle = (low + high) * 0.5;
-        const Real rest = slope * (free_c - middle) +
-                          (s.liquid - brine_water_of(s.salt, s.water, middle)) * latent;
-        const auto warmer = rest > 0.0;
-        low = select(warmer, middle, low);
-        high = select(warmer, high, middle);
+    const Real melted = free_c - (s.water - s.liquid) * per_slope * latent;
+    const Real frozen = free_c + s.liquid * per_slope * latent;
+    // Depressions d between which it lies; share(d) (slope (free + d) + (liquid + salt) Lf / dt) = salt Lf / dt.
+    const Real zero = 0.0, eutectic = kEutecticDepression_k;
+    const Real low = clamped(frozen * -1.0, zero, eutectic);
+    const Real high = clamped(melted * -1.0, zero, eutectic);
+    const Real constant = slope * free_c + (s.liquid + s.salt) * latent;
+    const Real wanted = s.salt * latent;
+    // The first guess takes share(d) for straight.
+    const Real steep = wanted * slope * (4.0 / kFirstShare_1_k);
+    const Real size = square_root(constant * constant + steep) + larger(constant, constant * -1.0);
+    const Real guess = select(constant > 0.0, wanted * (2.0 / kFirstShare_1_k) / size, size * 0.5 * per_slope);
+    Real d = clamped(guess, low, high);
+    for (int i = 0; i < kBrineSteps; ++i) {
+        const Real share = brine_share_of(d);
+        const Real rise = (d * (d * 0.001671 - 0.0884) + 1.78) * 0.01;
+        const Real other = slope * d + constant;
+        const Real rest = share * other - wanted;
+        d = clamped(d - rest / (rise * other + share * slope), low, high);
     }
-    return select(settled, Real(0.0), slope * (free_c - (low + high) * 0.5));
+    Real root_c = d * -1.0;
+    const Real at_eutectic = slope * (free_c + eutectic) +
+                             (s.liquid - brine_water_of(s.salt, s.water, Real(-kEutecticDepression_k))) * latent;
+    root_c = select(at_eutectic < 0.0, Real(-kEutecticDepression_k), root_c);
+    root_c = select(frozen < -kEutecticDepression_k, frozen, root_c);
+    root_c = select(brine_water_of(s.salt, s.water, melted) >= s.water, melted, root_c);
+    return select(settled, zero, slope * (free_c - root_c));
 }
 
 // As change_phase, for the cells of the mask: `root` moves to where brine and balance agree.
@@ -78,6 +96,9 @@ PETRICHOR_KERNEL void change_brine(const SurfacePoint<Real, Mask, Wetness>& p,
     left.water = larger(s.water - vapour, zero);
     left.liquid = smaller(s.liquid, left.water);
     const Real flux = brine_flux(left, root.surface_c, root.slope, dt_s);
+    // Where nothing freezes or melts the root is found.
+    const Mask moved = salted & ((flux > zero) | (flux < zero));
+    if (!any(moved)) return;
     SurfaceRoot<Real, Wetness> held = root;
     held.surface_c = root.surface_c - flux / root.slope;
     for (int i = 0; i < 2; ++i) {
@@ -87,9 +108,9 @@ PETRICHOR_KERNEL void change_brine(const SurfacePoint<Real, Mask, Wetness>& p,
         held.surface_c = held.surface_c + (at.balance - flux) / at.slope;
     }
     follow(held.vapour, p, held.surface_c);
-    take(salted, held, root);
-    change.melt_flux = select(salted, flux, change.melt_flux);
-    change.melting = select(salted & (flux > zero), Real(1.0), change.melting);
+    take(moved, held, root);
+    change.melt_flux = select(moved, flux, change.melt_flux);
+    change.melting = select(moved & (flux > zero), Real(1.0), change.melting);
 }
 
 // Salt under a pack eats it from below, with the heat of the ground; where brine is weaker than the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "weather/forcing/forcing.h"
+#include "weather/physics/horizon.h"
 
 namespace petrichor::weather::detail {
 
@@ -78,7 +79,8 @@ private:
     const StepPlan* plan_;
     std::size_t step_, row_;
     SunUse sun_;
-    std::span<const double> horizon_;
+    Observer observer_;
+    Skyline skyline_;
 };
 
 /// All steps, for many cells.
