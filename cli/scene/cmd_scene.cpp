@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/output_file.h"
 #include "base/words.h"
 #include "cli/commands.h"
 #include "cli/rooms.h"
@@ -15,6 +16,8 @@
 #include "cli/scene/scene_view.h"
 #include "film/jobs/camera.h"
 #include "film/jobs/sequence.h"
+#include "film/scenes/demo_scene.h"
+#include "scene/gltf/glb_writer.h"
 #include "texproc/codecs/files/io.h"
 
 namespace petrichor::cli {
@@ -30,6 +33,7 @@ struct SceneOptions {
     MapConditions conditions;
     BakeArguments bake;
     std::optional<double> rain_mm;
+    std::string glb;
 };
 
 std::vector<std::string> map_names()
@@ -47,6 +51,24 @@ const SceneMap& find_map(const std::string& name)
     }
     throw Error("scene: no map \"" + name + "\"." + did_you_mean(name, map_names()),
                 "Use: " + join_words(map_names()) + ".");
+}
+
+// The demo's scenes for other programs.
+void write_demo(const SceneOptions& options)
+{
+    if (options.view.file.rfind("demo:", 0) != 0) {
+        throw Error("scene: --glb writes a scene of the demo, got " + options.view.file,
+                    "Use demo:street or demo:stage; a scene of your own is a file already.");
+    }
+    if (!options.map.empty() || !options.bake.what.empty() || options.json)
+        throw Error("scene: --glb is not of --map, --bake and --json", "Run the program once for each.");
+    if (std::filesystem::path(options.glb).extension() != ".glb")
+        throw Error("scene: --glb writes a .glb file, got \"" + options.glb + "\"", "Add --glb street.glb.");
+    const auto loaded = load_demo(options.view.file, {.threads = options.view.threads}, user_cache(), "scene");
+    const std::vector<std::byte> bytes = scene::write_glb(loaded.scene);
+    write_text_file(options.glb, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    std::cout << options.glb << ": " << loaded.scene.meshes.size() << " meshes, " << loaded.scene.materials.size()
+              << " materials, " << bytes.size() / 1048576 << " MiB\n";
 }
 
 void check(const SceneOptions& options)
@@ -84,6 +106,7 @@ void write_basins(const SceneOptions& options, const SceneView& view, const Grou
 void run(SceneOptions options)
 {
     check(options);
+    if (!options.glb.empty()) return write_demo(options);
     options.view.quiet = options.json;
     const SceneView view = open_scene(options.view);
     if (!options.bake.what.empty()) {
@@ -134,6 +157,7 @@ void add_scene(CLI::App& app)
                         "basins: rain that has run together, mm (without end)")
         ->check(CLI::Range(0.0, 100000.0));
     command->add_option("-o,--output", o->output, "where the picture goes, .png, or the folder of light maps");
+    command->add_option("--glb", o->glb, "write a scene of the demo as glTF, for other programs, and stop");
     command->add_option("--camera", o->camera, "of the scene (its first, else one that frames it)");
     command->add_option("--size", o->size, "of the picture (960x540)");
     command->add_option("--wind-from", o->conditions.wind_from_degrees,

@@ -20,10 +20,10 @@ struct LocalWeather {
     bool placed;   // from a patch
 };
 
-LocalWeather weather_everywhere(SurfaceInput at)
+LocalWeather weather_everywhere(SurfaceInput at, bool asked)
 {
     LocalWeather here;
-    const Exposure open = exposure_to_sky(at);
+    const Exposure open = exposure_to_sky(at, asked);
     here.open = min(open.rain, 1.0);
     here.film = film_share(open.rain);
     // Beside patches the frame's film is a closed one (gpu/frame/frame_constants.h): how much of it
@@ -53,7 +53,7 @@ float level_in_relief(SurfaceInput at, uvec2 near, float other)
 
 LocalWeather local_weather(SurfaceInput at)
 {
-    if (PLACE == 0u) return weather_everywhere(at);
+    if (PLACE == 0u) return weather_everywhere(at, true);
     // A turn of its own for every pixel, evenly spread over its samples: their mean blends between
     // patches.
     const uint seed = hash_u3(uint(at.pixel.x), uint(at.pixel.y), 29u);
@@ -62,7 +62,7 @@ LocalWeather local_weather(SurfaceInput at)
         fract(first + float(frame.sample_index) * vec3(0.8191725, 0.6710436, 0.5497005));
     const uvec2 near = place_patches(at.position, at.normal, turn - 0.5);
     if (near.y == kNoPatch) {
-        LocalWeather everywhere = weather_everywhere(at);
+        LocalWeather everywhere = weather_everywhere(at, near.y == kNoPatch);
         everywhere.pond_m = at.normal.y > 0.3 ? place_depth(at.position) : 0.0;
         return everywhere;
     }

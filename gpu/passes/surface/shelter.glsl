@@ -24,7 +24,7 @@ vec3 stray(SurfaceInput at)
 }
 
 // By the depth maps of the sky, along the few directions that rain and snow come from.
-Exposure exposure_to_sky(SurfaceInput at)
+Exposure exposure_to_sky(SurfaceInput at, bool asked)
 {
     Exposure open;
     open.rain = 1.0;
@@ -35,7 +35,7 @@ Exposure exposure_to_sky(SurfaceInput at)
     open.snow = 0.0;
     open.sky = 0.0;
     const vec3 strayed = at.position + stray(at);
-    for (uint k = 0u; k < frame.fall_count; ++k) {
+    for (uint k = 0u; k < (asked ? frame.fall_count : 0u); ++k) {
         const vec4 fall = frame.falls[k];
         const int i = int(fall.x);
         const vec4 from = frame.sky_direction[i];

@@ -1,0 +1,121 @@
+"""Compares Petrichor with Cycles on the scenes of scenes.py:
+
+    check.py PETRICHOR [NAME ...] [--keep FOLDER] [--samples N]   fails where a limit is passed
+    check.py PETRICHOR [NAME ...] --accept [SAMPLES]              renders the references anew (needs blender)
+
+References (NAME.exr, half float) lie beside this file. Relative errors are of the sum of red, green and
+blue where the reference has light; FLIP is of both pictures as a display would show them.
+"""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+import scenes
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def pixels(petrichor, picture, folder):
+    """Red, green and blue of a picture, row after row."""
+    dds = folder / (picture.stem + "_pixels.dds")
+    run(petrichor, "texture", "convert", picture, "-o", dds, "--format", "rgba32f")
+    data = dds.read_bytes()
+    height, width = struct.unpack_from("<2I", data, 12)
+    if (width, height) != scenes.SIZE:
+        sys.exit(f"{picture}: {width} x {height}, wanted {scenes.SIZE}")
+    values = struct.unpack(f"<{4 * width * height}f", data[-16 * width * height:])
+    return [values[i:i + 3] for i in range(0, len(values), 4)]
+
+
+def png(path, linear, scale):
+    width, height = scenes.SIZE
+
+    def code(x):
+        x = min(max(x * scale, 0.0), 1.0)
+        return int(255.0 * (12.92 * x if x <= 0.0031308 else 1.055 * x ** (1.0 / 2.4) - 0.055) + 0.5)
+
+    rows = b"".join(b"\0" + bytes(code(x) for p in linear[y * width:(y + 1) * width] for x in p) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def compare(petrichor, name, folder, samples):
+    """Median relative error, share of light and FLIP."""
+    out = folder / name
+    scenario = street(petrichor, folder) if name == "street" else scenes.write(name, folder, samples)
+    run(petrichor, "render", scenario, "-o", out, "--frames", "0")
+    ours = pixels(petrichor, out / "frame_0000.exr", folder)
+    theirs = pixels(petrichor, HERE / f"{name}.exr", folder)
+    sums = [(sum(a), sum(b)) for a, b in zip(ours, theirs)]
+    bright = sorted(b for _, b in sums)[int(0.98 * len(sums))]
+    lit = [(a, b) for a, b in sums if b > 1.0e-3 * bright]
+    errors = sorted(abs(a - b) / b for a, b in lit)
+    scale = 2.4 / bright
+    png(folder / f"{name}_ours.png", ours, scale)
+    png(folder / f"{name}_cycles.png", theirs, scale)
+    flip = json.loads(run(petrichor, "texture", "compare", folder / f"{name}_cycles.png", folder / f"{name}_ours.png", "-o", folder / f"{name}_flip.png", "--json"))["flip"]["mean"]
+    return errors[len(errors) // 2], errors[int(0.9 * len(errors))], sum(a for a, _ in lit) / sum(b for _, b in lit), flip
+
+
+def street(petrichor, folder):
+    run(petrichor, "scene", "demo:street", "--glb", folder / "demo.glb")
+    return scenes.write_street((folder / "demo.glb").read_bytes(), folder)
+
+
+def accept(petrichor, name, folder, samples):
+    full = folder / f"{name}_full.exr"
+    run("blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python", HERE / "render_cycles.py", "--", name, full, samples,
+        *([folder / "street.glb"] if name == "street" and street(petrichor, folder) else []))
+    run(petrichor, "texture", "convert", full, "-o", HERE / f"{name}.exr", "--bits", "16")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("petrichor")
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--keep")
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--accept", type=int, nargs="?", const=1024)
+    asked = parser.parse_args()
+    if subprocess.run([asked.petrichor, "doctor", "--json"], capture_output=True).returncode != 0 and os.environ.get("PETRICHOR_REQUIRE_GPU") != "1":
+        print("skipped: no device that renders")
+        return 77
+    folder = pathlib.Path(asked.keep or tempfile.mkdtemp(prefix="petrichor-cycles-"))
+    folder.mkdir(parents=True, exist_ok=True)
+    failed = False
+    try:
+        for name in asked.names or scenes.LIMITS:
+            if asked.accept:
+                accept(asked.petrichor, name, folder, asked.accept)
+            middle, high, light, flip = compare(asked.petrichor, name, folder, asked.samples)
+            most, most_flip = scenes.LIMITS[name]
+            bad = not ((most is None or middle <= most) and flip <= most_flip)
+            failed = failed or bad
+            print(f"{name:16} error median {100 * middle:6.2f} %{'' if most is None else f' (at most {100 * most:g})'}, 90 of 100 below {100 * high:6.2f} %, "
+                  f"light {light:.3f}, FLIP {flip:.4f} (at most {most_flip:g}){'  FAILED' if bad else ''}", flush=True)
+    finally:
+        if not asked.keep:
+            shutil.rmtree(folder)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

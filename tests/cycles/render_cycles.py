@@ -1,0 +1,122 @@
+"""Renders a scene of scenes.py with Cycles, inside Blender:
+
+    blender -b --factory-startup -noaudio --python render_cycles.py -- NAME OUT.exr [SAMPLES [STREET.glb]]
+"""
+import math
+import pathlib
+import sys
+
+import bpy
+import mathutils
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import scenes  # noqa: E402
+
+name, out, *rest = sys.argv[sys.argv.index("--") + 1:]
+bpy.ops.wm.read_factory_settings(use_empty=True)
+scene = bpy.context.scene
+
+
+def placed(thing, axes):
+    x, y, z, p = axes
+    thing.matrix_world = mathutils.Matrix([[x[i], y[i], z[i], p[i]] for i in range(3)] + [[0, 0, 0, 1]])
+
+
+def material(called):
+    made = bpy.data.materials.new(called)
+    made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    if called in scenes.MATT:
+        shader = tree.nodes.new("ShaderNodeBsdfDiffuse")
+        shader.inputs["Color"].default_value = (*scenes.MATT[called], 1.0)
+        shader.inputs["Roughness"].default_value = 0.0
+    else:
+        shader = tree.nodes.new("ShaderNodeBsdfGlossy")
+        shader.distribution = "GGX"
+        shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        shader.inputs["Roughness"].default_value = scenes.METAL[called]
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    return made
+
+
+
+def build(told):
+    materials = {}
+    for number, mesh in enumerate(told["meshes"]):
+        data = bpy.data.meshes.new(f"mesh{number}")
+        data.from_pydata(mesh.positions, [], mesh.triangles)
+        data.use_auto_smooth = True
+        data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
+        data.normals_split_custom_set_from_vertices(mesh.normals)
+        data.materials.append(materials.setdefault(mesh.material, None) or material(mesh.material))
+        materials[mesh.material] = data.materials[0]
+        scene.collection.objects.link(bpy.data.objects.new(data.name, data))
+    if told["sun"]:
+        sun = bpy.data.lights.new("sun", "SUN")
+        sun.energy, sun.angle = told["sun"]["lux"], 0.0
+        thing = bpy.data.objects.new("sun", sun)
+        scene.collection.objects.link(thing)
+        placed(thing, scenes.looking(told["sun"]["towards"], (0.0, 0.0, 0.0)))
+    for position, candela in told["lamps"]:
+        lamp = bpy.data.lights.new("lamp", "POINT")
+        most = max(candela)
+        lamp.energy, lamp.color, lamp.shadow_soft_size = 4.0 * math.pi * most, [c / most for c in candela], 0.0
+        thing = bpy.data.objects.new("lamp", lamp)
+        thing.location = position
+        scene.collection.objects.link(thing)
+    camera = bpy.data.cameras.new("camera")
+    camera.sensor_fit, camera.angle_y, camera.clip_start = "VERTICAL", told["fov"], 0.05
+    eye = bpy.data.objects.new("camera", camera)
+    scene.collection.objects.link(eye)
+    placed(eye, told["camera"])
+    scene.camera = eye
+
+
+def load_street(path):
+    """By Blender's own importer, whose z is up; of its lights none is kept."""
+    import numpy
+    numpy.bool = bool  # which it asks for by a name that is gone
+    bpy.ops.import_scene.gltf(filepath=path)
+    for thing in [o for o in bpy.data.objects if o.type == "LIGHT"]:
+        bpy.data.objects.remove(thing)
+    sun = bpy.data.lights.new("sun", "SUN")
+    sun.energy, sun.angle = scenes.STREET["lux"], 0.0
+    thing = bpy.data.objects.new("sun", sun)
+    scene.collection.objects.link(thing)
+    x, y, z = scenes.STREET["towards"]
+    placed(thing, scenes.looking((x, -z, y), (0.0, 0.0, 0.0)))
+    scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA" and o.name.startswith("main"))
+    scene.camera.data.sensor_fit, scene.camera.data.angle_y = "VERTICAL", 0.75
+
+
+if name == "street":
+    sky, bounces = scenes.STREET["sky"], 8
+    load_street(rest[1])
+else:
+    told = scenes.SCENES[name]()
+    sky, bounces = told["sky"], told["bounces"]
+    build(told)
+scene.world = bpy.data.worlds.new("sky")
+scene.world.use_nodes = True
+scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = sky
+render, cycles = scene.render, scene.cycles
+render.engine = "CYCLES"
+render.resolution_x, render.resolution_y = scenes.SIZE
+render.resolution_percentage = 100
+render.film_transparent = False
+cycles.device, cycles.seed = "CPU", 1
+cycles.samples = int(rest[0]) if rest else 256
+cycles.use_adaptive_sampling = cycles.use_denoising = False
+cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
+cycles.sample_clamp_indirect = 0.0
+cycles.blur_glossy = 0.0
+cycles.caustics_reflective = cycles.caustics_refractive = False
+cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+scene.view_settings.view_transform = "Standard"
+render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
+render.image_settings.exr_codec = "ZIP"
+render.filepath = out
+bpy.ops.render.render(write_still=True)

@@ -1,0 +1,257 @@
+"""Small scenes whose materials and lights mean the same to any renderer: Lambert, and white metals of GGX.
+
+Each is told once and becomes a glTF file with a scenario for Petrichor (write()) and meshes for Blender
+(render_cycles.py). Metres, y up; a camera looks along its own -z. Light in lux, candela and cd/m2.
+"""
+import json
+import math
+import pathlib
+import struct
+
+
+class Mesh:
+    """Triangles with a normal at each corner."""
+
+    def __init__(self, material):
+        self.material = material
+        self.positions, self.normals, self.triangles = [], [], []
+
+    def quad(self, corner, u, v):
+        """A parallelogram that is seen from where u turns to v against the clock."""
+        n = unit(cross(u, v))
+        first = len(self.positions)
+        for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
+            self.positions.append(tuple(corner[i] + s * u[i] + t * v[i] for i in range(3)))
+            self.normals.append(n)
+        self.triangles += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
+        return self
+
+    def box(self, low, high, turn=0.0):
+        size = [high[i] - low[i] for i in range(3)]
+        middle = [0.5 * (low[i] + high[i]) for i in range(3)]
+        c, s = math.cos(turn), math.sin(turn)
+
+        def turned(x, y, z):
+            return (c * x + s * z, y, c * z - s * x)
+
+        for axis in range(3):
+            for side in (-1, 1):
+                u, v, n = [0.0] * 3, [0.0] * 3, [0.0] * 3
+                a, b = (axis + 1) % 3, (axis + 2) % 3
+                u[a], v[b], n[axis] = size[a], side * size[b], side * 0.5 * size[axis]
+                corner = turned(*[n[i] - 0.5 * u[i] - 0.5 * v[i] for i in range(3)])
+                self.quad(tuple(middle[i] + corner[i] for i in range(3)), turned(*u), turned(*v))
+        return self
+
+    def ball(self, centre, radius, rings=96):
+        first = len(self.positions)
+        for i in range(rings + 1):
+            theta = math.pi * i / rings
+            for j in range(2 * rings + 1):
+                phi = math.pi * j / rings
+                n = (math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi))
+                self.normals.append(n)
+                self.positions.append(tuple(centre[k] + radius * n[k] for k in range(3)))
+        row = 2 * rings + 1
+        for i in range(rings):
+            for j in range(2 * rings):
+                a = first + i * row + j
+                if i > 0:
+                    self.triangles.append((a, a + 1, a + row + 1))
+                if i < rings - 1:
+                    self.triangles.append((a, a + row + 1, a + row))
+        return self
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    size = math.sqrt(sum(x * x for x in a))
+    return tuple(x / size for x in a)
+
+
+def looking(position, at):
+    """Columns of the axes of something that looks along its own -z, and where it is."""
+    z = unit(tuple(position[i] - at[i] for i in range(3)))
+    x = unit(cross((0.0, 1.0, 0.0), z))
+    return x, cross(z, x), z, position
+
+
+MATT = {"grey": (0.5, 0.5, 0.5), "white": (0.8, 0.8, 0.8), "red": (0.7, 0.15, 0.1),
+        "green": (0.15, 0.6, 0.2), "blue": (0.1, 0.2, 0.7)}
+METAL = {"metal_01": 0.12, "metal_02": 0.2, "metal_03": 0.3, "metal_05": 0.5, "metal_08": 0.8}
+
+
+def floor(material, half=12.0):
+    return Mesh(material).quad((-half, 0.0, half), (2.0 * half, 0.0, 0.0), (0.0, 0.0, -2.0 * half))
+
+
+def lambert_sun():
+    """Matt boxes and balls under a sharp sun, its light alone."""
+    return {
+        "meshes": [floor("grey"), Mesh("red").box((-2.4, 0, -1.5), (-0.9, 2.2, 0.0), 0.4),
+                   Mesh("white").ball((0.6, 1.0, 0.2), 1.0), Mesh("blue").box((2.0, 0, -1.0), (3.2, 1.2, 0.2), -0.3),
+                   Mesh("green").ball((2.5, 0.5, 1.6), 0.5), Mesh("white").box((-1.5, 0, 1.4), (-0.5, 0.6, 2.0), 0.8)],
+        "sun": {"lux": 3.0, "towards": unit((0.5, 0.75, 0.45))}, "lamps": [], "sky": 0.0, "bounces": 0,
+        "camera": looking((1.5, 3.4, 7.5), (0.4, 0.7, 0.0)), "fov": 0.75}
+
+
+def ggx_lamps():
+    """White metals of five roughnesses over a matt floor, by three lamps and the sun, their light alone."""
+    balls = [Mesh(name).ball((-3.2 + 1.6 * i, 0.7, 0.0), 0.7) for i, name in enumerate(METAL)]
+    return {
+        "meshes": [floor("grey")] + balls + [Mesh("metal_05").box((-1.4, 0, 1.5), (-0.4, 0.7, 2.1), 0.5)],
+        "sun": {"lux": 1.5, "towards": unit((-0.4, 0.7, 0.6))},
+        "lamps": [((-3.0, 2.6, 2.5), (14.0, 12.0, 9.0)), ((0.5, 3.2, 1.5), (10.0, 10.0, 10.0)), ((3.6, 1.6, 2.8), (6.0, 8.0, 12.0))],
+        "sky": 0.0, "bounces": 0, "camera": looking((0.6, 2.6, 7.0), (0.0, 0.6, 0.2)), "fov": 0.8}
+
+
+def courtyard(sky, sun):
+    walls = [Mesh("grey").quad((-3, 0, 3), (6, 0, 0), (0, 0, -6)),
+             Mesh("red").quad((-3, 0, 3), (0, 0, -6), (0, 3, 0)), Mesh("green").quad((3, 0, -3), (0, 0, 6), (0, 3, 0)),
+             Mesh("white").quad((-3, 0, -3), (6, 0, 0), (0, 3, 0)),
+             Mesh("white").box((-1.7, 0, -1.7), (-0.4, 1.7, -0.6), 0.4), Mesh("white").box((0.6, 0, -0.2), (1.7, 0.8, 0.9), -0.3)]
+    return {"meshes": walls, "sun": {"lux": sun, "towards": unit((0.35, 0.8, 0.5))} if sun else None, "lamps": [],
+            "sky": sky, "bounces": 8, "camera": looking((0.0, 2.6, 7.6), (0.0, 1.2, 0.0)), "fov": 0.62}
+
+
+def lambert_bounce():
+    """A court of coloured walls in the sun: what they send each other counts."""
+    return courtyard(0.0, 3.0)
+
+
+def lambert_sky():
+    """The same court under an even sky."""
+    return courtyard(1.0, 0.0)
+
+
+STREET = {"lux": 3.0, "towards": unit((0.35, 0.62, 0.55)), "sky": 0.3}
+SCENES = {f.__name__: f for f in (lambert_sun, ggx_lamps, lambert_bounce, lambert_sky)}
+# Light that one surface sends another is solved on patches; light of lamps and sun is exact.
+LIMITS = {"lambert_sun": (0.01, 0.03), "ggx_lamps": (0.01, 0.03), "lambert_bounce": (0.05, 0.06), "lambert_sky": (0.05, 0.06),
+          "street": (None, 0.08)}
+SIZE = (320, 180)
+
+
+def matrix(axes):
+    x, y, z, position = axes
+    return [*x, 0.0, *y, 0.0, *z, 0.0, *position, 1.0]
+
+
+def glb(scene):
+    """The scene as a binary glTF file."""
+    names = [*MATT, *METAL]
+    materials = [{"name": n, "pbrMetallicRoughness": {"baseColorFactor": [*c, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}} for n, c in MATT.items()]
+    materials += [{"name": n, "pbrMetallicRoughness": {"baseColorFactor": [1.0] * 4, "metallicFactor": 1.0, "roughnessFactor": r}} for n, r in METAL.items()]
+    binary, views, accessors, meshes, nodes, lights = b"", [], [], [], [], []
+
+    def add(data, target, **facts):
+        nonlocal binary
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data), "target": target})
+        binary += data + b"\0" * (-len(data) % 4)
+        accessors.append({"bufferView": len(views) - 1, **facts})
+        return len(accessors) - 1
+
+    for mesh in scene["meshes"]:
+        count = len(mesh.positions)
+        columns = list(zip(*mesh.positions))
+        p = add(b"".join(struct.pack("<3f", *x) for x in mesh.positions), 34962, componentType=5126, count=count, type="VEC3",
+                min=[min(c) for c in columns], max=[max(c) for c in columns])
+        n = add(b"".join(struct.pack("<3f", *x) for x in mesh.normals), 34962, componentType=5126, count=count, type="VEC3")
+        t = add(b"".join(struct.pack("<3I", *x) for x in mesh.triangles), 34963, componentType=5125, count=3 * len(mesh.triangles), type="SCALAR")
+        meshes.append({"primitives": [{"attributes": {"POSITION": p, "NORMAL": n}, "indices": t, "material": names.index(mesh.material)}]})
+        nodes.append({"mesh": len(meshes) - 1})
+    if scene["sun"]:
+        lights.append({"type": "directional", "intensity": scene["sun"]["lux"], "color": [1.0, 1.0, 1.0]})
+        towards = scene["sun"]["towards"]
+        nodes.append({"matrix": matrix(looking(towards, (0.0, 0.0, 0.0))), "extensions": {"KHR_lights_punctual": {"light": 0}}})
+    for position, candela in scene["lamps"]:
+        most = max(candela)
+        lights.append({"type": "point", "intensity": most, "color": [c / most for c in candela]})
+        nodes.append({"translation": list(position), "extensions": {"KHR_lights_punctual": {"light": len(lights) - 1}}})
+    nodes.append({"camera": 0, "matrix": matrix(scene["camera"])})
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
+                "materials": materials, "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}],
+                "cameras": [{"type": "perspective", "perspective": {"yfov": scene["fov"], "aspectRatio": SIZE[0] / SIZE[1], "znear": 0.05, "zfar": 100.0}}]}
+    if lights:
+        document["extensionsUsed"] = ["KHR_lights_punctual"]
+        document["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) + struct.pack("<I4s", len(text), b"JSON") + text +
+            struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def even_sky():
+    """A Radiance picture, one everywhere."""
+    return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + bytes((128, 128, 128, 129)) * 32
+
+
+def scenario(name, scene, samples):
+    """What Petrichor is asked for: this light and nothing else."""
+    around = scene["sky"] > 0.0 or scene["bounces"] > 0
+    lines = ["[scene]", f'file = "{name}.glb"', 'ground = "none"', "[sun]", 'source = "scene"', "[sky]", 'environment = "even.hdr"',
+             f"environment_scale = {scene['sky']}", "[fog]", 'mode = "off"', "[weather]", 'keys = [{ time_s = 0.0, temperature_c = 15.0, rainfall = 0.0 }]', "duration_s = 1.0", "[lights]", 'lamps = "on"', "[render]",
+             "reflections = false", "dither = false", "lamp_glow = false", "falling = false", "specular_aa = 0.0", "adaptive = 0.0",
+             "lamp_shadows = 16", f"image_based_light = {str(around).lower()}", f"ambient_occlusion = {str(around).lower()}",
+             f'indirect = "{"patches" if around else "ambient"}"', 'probes = "off"', f"draw_sky = {str(scene['sky'] > 0.0).lower()}",
+             "[output]", f"width = {SIZE[0]}", f"height = {SIZE[1]}", f"samples = {samples}", "frames = 1", "film = false"]
+    for matt in MATT:
+        lines += [f'[materials."{matt}"]', 'lighting_model = "lambert"']
+    return "\n".join(lines) + "\n"
+
+
+def lit_street(data):
+    """The demo's street, a glTF file, with one directional light and nothing that glows.
+
+    Its leaves lose the normals of the round thing that they are a part of: Cycles draws what looks away from
+    the eye by them black. Both renderers take those of the triangles then.
+    """
+    size = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20:20 + size])
+    for material in document["materials"]:
+        material.pop("emissiveFactor", None)
+        material.pop("emissiveTexture", None)
+    leaves = [i for i, m in enumerate(document["materials"]) if m["name"] in ("plants", "grass ground")]
+    for primitive in [p for m in document["meshes"] for p in m["primitives"] if p.get("material") in leaves]:
+        for attribute in ("NORMAL", "TANGENT"):
+            primitive["attributes"].pop(attribute, None)
+    document["extensions"]["KHR_lights_punctual"]["lights"] = [{"type": "directional", "intensity": STREET["lux"], "color": [1.0, 1.0, 1.0]}]
+    nodes = document["nodes"]
+    for node in nodes:
+        if "KHR_lights_punctual" in node.get("extensions", {}):
+            del node["extensions"]
+    nodes.append({"matrix": matrix(looking(STREET["towards"], (0.0, 0.0, 0.0))), "extensions": {"KHR_lights_punctual": {"light": 0}}})
+    document["scenes"][0]["nodes"].append(len(nodes) - 1)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + size:]
+    return struct.pack("<4sII", b"glTF", 2, 20 + len(text) + len(rest)) + struct.pack("<I4s", len(text), b"JSON") + text + rest
+
+
+def write_street(glb_of_demo, folder, samples=64):
+    """The same for the demo's street, all that the renderer has on."""
+    folder = pathlib.Path(folder)
+    (folder / "street.glb").write_bytes(lit_street(glb_of_demo))
+    (folder / "even.hdr").write_bytes(even_sky())
+    lines = ["[scene]", 'file = "street.glb"', "[sun]", 'source = "scene"', "[sky]", 'environment = "even.hdr"', f"environment_scale = {STREET['sky']}", "[fog]",
+             'mode = "off"', "[weather]", 'keys = [{ time_s = 0.0, temperature_c = 15.0, rainfall = 0.0 }]', "duration_s = 1.0", "[lights]", 'lamps = "off"',
+             "[output]", f"width = {SIZE[0]}", f"height = {SIZE[1]}", f"samples = {samples}", "frames = 1", "film = false",
+             '[materials."*"]', "diffuse_transmission_factor = 0.0", "occlusion_strength = 0.0"]
+    path = folder / "street.toml"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def write(name, folder, samples=64):
+    """Writes the glTF file, its sky and the scenario; gives the scenario's path."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    scene = SCENES[name]()
+    (folder / f"{name}.glb").write_bytes(glb(scene))
+    (folder / "even.hdr").write_bytes(even_sky())
+    path = folder / f"{name}.toml"
+    path.write_text(scenario(name, scene, samples))
+    return path
