@@ -1,10 +1,12 @@
 #version 460
-// How much of the sky's light nearby geometry takes away: taps on a disc around the pixel, weighed by
-// the height of what they find above the surface (McGuire et al. 2011). Each sample of the frame turns
-// the disc, so that the average is smooth.
+// How much of the light from all around nearby geometry takes away: over a slice of directions through the
+// eye's, the horizon on either side is the highest of some depths, and what lies above it is counted by its
+// cosine in closed form (Jimenez et al. 2016). Slices turn from pixel to pixel and from sample to sample, so
+// that the average is smooth.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
+#include "formulas/light/area.h"
 #include "formulas/noise/noise.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion_io.h"
 #define PIXEL_LIST_BINDING AMBIENT_OCCLUSION_PIXELS
@@ -15,8 +17,38 @@ layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants
 layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform sampler2D depth_map;
 layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform sampler2D normal_map;
 layout(binding = AMBIENT_OCCLUSION_TARGET, r8) uniform writeonly image2D target;
+#include "gpu/frame/geometry_normal.glsl"
 
-const int kTaps = 8;
+const int kSlices = 2;  // across each other
+const int kSteps = 3;  // of either side of a slice
+
+// Cosine, to the eye, of the horizon on one side; `low` where nothing is higher.
+float horizon(ivec2 texel, vec3 x, vec3 to_eye, vec2 way_px, float radius_m, float start, float low)
+{
+    float highest = low;
+    for (int i = 0; i < kSteps; ++i) {
+        const float r = (float(i) + start) / float(kSteps);
+        const ivec2 at = texel + ivec2(round(way_px * (r * r)));
+        const float d = depth_at(at);
+        const vec3 v = position_at(at, max(d, 1.0e-9)) - x;
+        const float far2 = dot(v, v);
+        // What is farther than the radius belongs to the light, not to what takes it away.
+        const float there = d > 0.0 && at != texel ? clamp(5.0 - 5.0 * far2 / (radius_m * radius_m), 0.0, 1.0) : 0.0;
+        highest = max(highest, mix(low, dot(v, to_eye) * inversesqrt(max(far2, 1.0e-12)), there));
+    }
+    return highest;
+}
+
+// Light by its cosine above a horizon, of one side of a slice.   cosine, sine: of the angle by which the normal
+// leans from the eye to this side
+float above(float horizon_cosine, float cosine, float sine)
+{
+    const float c = clamp(horizon_cosine, -1.0, 1.0);
+    const float s = sqrt(1.0 - c * c);
+    // cos(2 h - lean), of the horizon's angle h
+    const float doubled = (2.0 * c * c - 1.0) * cosine + 2.0 * s * c * sine;
+    return 0.25 * (cosine + 2.0 * arc_cosine(c) * sine - doubled);
+}
 
 void main()
 {
@@ -27,29 +59,40 @@ void main()
         imageStore(target, texel, vec4(1.0));
         return;
     }
-    const vec3 position = pixel_position(frame, vec2(texel) + 0.5, depth);
-    const vec3 normal = octahedral_decode(texelFetch(normal_map, texel, 0).xy);
+    const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
     const float metres_per_pixel = pixel_width_m(frame, z);
+    const vec3 normal = geometry_normal(texel, mesh, depth);
+    const vec3 to_eye = -pixel_view_direction(frame, vec2(texel) + 0.5);
+    // Off the depths of the surface itself.
+    const vec3 x = mesh + (normal + to_eye) * (0.0007 * z);
     const float radius_px = clamp(frame.ao_radius_m / max(metres_per_pixel, 1.0e-6), 3.0, 96.0);
     const float radius_m = radius_px * metres_per_pixel;
-    const float turn = 6.2831853 * dither(texel, frame.sample_index);
-    const float start = dither(texel.yx + 37, frame.sample_index);
+    const vec3 right = normalize(frame.ray_dx);
+    const vec3 down = normalize(frame.ray_dy);
+    // Turn and start of a pixel's samples fill the square evenly (Roberts 2018).
+    const float turn = fract(dither(texel, 0u) + 0.7548777 * float(frame.sample_index));
+    const float start = fract(dither(texel.yx + 37, 0u) + 0.5698403 * float(frame.sample_index));
 
-    float sum = 0.0;
-    for (int i = 0; i < kTaps; ++i) {
-        const float r = (float(i) + start) / float(kTaps);
-        const float angle = turn + 2.3999632 * float(i);
-        const vec2 offset = vec2(cos(angle), sin(angle)) * (r * radius_px);
-        const ivec2 at = clamp(texel + ivec2(round(offset)), ivec2(0), frame.size - 1);
-        const float d = texelFetch(depth_map, at, 0).r;
-        if (d <= 0.0 || at == texel) continue;
-        const vec3 v = pixel_position(frame, vec2(at) + 0.5, d) - position;
-        const float vv = dot(v, v);
-        const float vn = dot(v, normal) - 0.0015 * z;
-        const float falloff = max(0.0, 1.0 - vv / (radius_m * radius_m));
-        sum += falloff * max(vn, 0.0) * inversesqrt(vv + 1.0e-6);
+    const vec2 first = vec2(cos(1.5707963 * turn), sin(1.5707963 * turn));
+    float open = 0.0;
+    float whole = 0.0;  // of the same slices with nothing near: one by one they are more or less than 1
+    for (int s = 0; s < kSlices; ++s) {
+        const vec2 way = s == 0 ? first : vec2(-first.y, first.x);
+        const vec3 along = right * way.x + down * way.y;
+        const vec3 level = along - to_eye * dot(along, to_eye);
+        const vec3 axis = normalize(cross(along, to_eye));
+        const vec3 flat_normal = normal - axis * dot(normal, axis);
+        const float size = max(length(flat_normal), 1.0e-6);
+        const float cosine = clamp(dot(flat_normal, to_eye) / size, 0.0, 1.0);
+        const float side = dot(level, flat_normal) >= 0.0 ? 1.0 : -1.0;
+        const float leans = side * arc_cosine(cosine);
+        const float sine = side * sqrt(1.0 - cosine * cosine);
+        const float before = horizon(texel, x, to_eye, way * radius_px, radius_m, start, -sine);
+        const float behind = horizon(texel, x, to_eye, -way * radius_px, radius_m, start, sine);
+        whole += size * (cosine + leans * sine);
+        open += size * (above(before, cosine, sine) + above(behind, cosine, -sine));
     }
-    const float open = clamp(1.0 - frame.ao_strength * sum * (2.0 / float(kTaps)), 0.0, 1.0);
+    open = clamp(1.0 - frame.ao_strength * (1.0 - open / whole), 0.0, 1.0);
     imageStore(target, texel, vec4(open));
 }

@@ -199,10 +199,10 @@ Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, f
     a.irradiance = light.rgb;
     if (AMBIENT_OCCLUSION != 0u) {
         // Relief smaller than a patch: what the pixel sees over what its patch does, both with the
-        // light that crevices send back.
+        // light that crevices send back. The picture does not show all that is near: it takes away only.
         const vec3 own = bounced_occlusion(p.albedo, screen);
         const vec3 mean = bounced_occlusion(p.albedo, light.w);
-        a.irradiance *= min(own / max(mean, vec3(0.05)), vec3(2.0));
+        a.irradiance *= min(own / max(mean, vec3(0.05)), vec3(1.0));
     }
     // A mirror sees about as much more or less than sky as a matt surface does.
     const vec3 sky = sky_irradiance(p.normal);
