@@ -46,6 +46,22 @@ TEST_F(SceneCommand, SaysWhatItSees)
     EXPECT_NE(words.out.find("found in the cache"), std::string::npos);
 }
 
+TEST_F(SceneCommand, WritesADemoSceneForOtherPrograms)
+{
+    const Outcome written = run({"demo:stage", "--glb", "stage.glb"});
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    const auto told = nlohmann::json::parse(run({"demo:stage", "--json"}).out);
+    const auto read = nlohmann::json::parse(run({"stage.glb", "--json"}).out);
+    EXPECT_EQ(read["triangles"], told["triangles"]);
+    EXPECT_EQ(read["patches"]["count"], told["patches"]["count"]);
+    const std::vector<std::vector<std::string>> mistakes{{"tiny.glb", "--glb", "copy.glb"}, {"demo:stage", "--glb", "stage.txt"},
+                                                         {"demo:stage", "--glb", "copy.glb", "--json"}};
+    for (const auto& mistake : mistakes) {
+        EXPECT_EQ(run(mistake).exit_code, 2) << mistake[2];
+        EXPECT_FALSE(std::filesystem::exists(place / mistake[2])) << mistake[2];
+    }
+}
+
 TEST_F(SceneCommand, HollowsAreCountedAndDrawn)
 {
     const Outcome full = run({"tiny.glb", "--json", "--map", "basins", "-o", "full.png"});
