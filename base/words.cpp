@@ -161,11 +161,26 @@ bool is_utf8(std::string_view text)
     return true;
 }
 
-std::string number_text(double value)
+namespace {
+
+template <typename Number>
+std::string shortest(Number value)
 {
     std::array<char, 32> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return std::string(buffer.data(), end.ptr);
+}
+
+}  // namespace
+
+std::string number_text(double value)
+{
+    return shortest(value);
+}
+
+std::string number_text(float value)
+{
+    return shortest(value);
 }
 
 }  // namespace petrichor

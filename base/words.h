@@ -32,6 +32,7 @@ bool is_utf8(std::string_view text);
 
 /// The shortest decimal text that reads back as the same number: "0.1", "-3", "1e-20".
 std::string number_text(double value);
+std::string number_text(float value);
 
 }  // namespace petrichor
 

@@ -12,6 +12,7 @@
 #include "cli/progress.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/contact_sheet.h"
+#include "cli/texture/maps/material_file.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/filter/area.h"
 #include "texproc/filter/bake.h"
@@ -25,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::vector<std::string> kinds;
-    std::string out, sheet;
+    std::vector<std::string> kinds, set;
+    std::string out, sheet, color;
     int size = 1024, bits = 8, threads = 0;
     std::uint32_t seed = 1;
     bool list = false;
@@ -48,50 +49,88 @@ constexpr WeatherTexture kWeather[] = {
      [](int size, std::uint32_t) { return texproc::skin_ring(size); }},
 };
 
-std::vector<std::string> all_names()
+void list_line(const std::string& name, const std::string& meaning)
 {
-    std::vector<std::string> names;
-    for (const texproc::MaterialKindInfo& kind : texproc::material_kinds())
-        names.push_back(kind.name);
-    for (const WeatherTexture& weather : kWeather) names.push_back(weather.name);
-    return names;
+    std::cout << "  " << name << std::string(name.size() < 18 ? 18 - name.size() : 1, ' ') << meaning
+              << "\n";
 }
 
-void list_kinds()
+void list_all()
 {
-    const auto line = [](const std::string& name, const std::string& meaning) {
-        std::cout << "  " << name << std::string(name.size() < 18 ? 18 - name.size() : 1, ' ')
-                  << meaning << "\n";
-    };
-    std::cout << "Materials (albedo, normal, height, roughness, occlusion, metallic, puddle):\n";
+    std::cout << "Materials (albedo, normal, height, roughness, occlusion, metallic, puddle);\n"
+                 "--list NAME shows what can be set:\n";
     for (const texproc::MaterialKindInfo& kind : texproc::material_kinds())
-        line(kind.name, kind.meaning);
+        list_line(kind.name, kind.meaning);
+    std::cout << "Presets (data/materials; a file of yours does as well):\n";
+    for (const std::string& name : material_presets())
+        list_line(name, named_material(name).note);
     std::cout << "Textures of weather and skin:\n";
-    for (const WeatherTexture& weather : kWeather) line(weather.name, weather.meaning);
+    for (const WeatherTexture& weather : kWeather) list_line(weather.name, weather.meaning);
 }
 
-std::vector<std::string> wanted_kinds(const Arguments& a)
+void list_parameters(const NamedMaterial& material)
 {
-    const std::vector<std::string> known = all_names();
-    std::vector<std::string> wanted;
-    for (const std::string& kind : a.kinds) {
-        if (kind == "all") return known;
-        if (std::find(known.begin(), known.end(), kind) == known.end()) {
-            throw Error(
-                "texture generate: there is no kind '" + kind + "'." + did_you_mean(kind, known),
-                "Use all, or one of: " + join_words(known) + ".");
+    const texproc::MaterialKindInfo& info =
+        texproc::material_kinds()[static_cast<std::size_t>(material.recipe.kind)];
+    std::cout << material.name << ": " << (material.note.empty() ? info.meaning : material.note) << "\n";
+    for (const texproc::MaterialParameter& p : info.parameters) {
+        const auto found = material.recipe.values.find(p.name);
+        const float value = found == material.recipe.values.end() ? p.usual : found->second;
+        list_line(p.name, number_text(value) + "  (" + number_text(p.low) + ".." +
+                              number_text(p.high) + ", " + p.unit + ") " + p.meaning);
+    }
+}
+
+const WeatherTexture* weather_texture(const std::string& name)
+{
+    const auto found = std::find_if(std::begin(kWeather), std::end(kWeather),
+                                    [&](const WeatherTexture& w) { return w.name == name; });
+    return found == std::end(kWeather) ? nullptr : &*found;
+}
+
+// What is to be made; a weather texture has a name alone.
+std::vector<NamedMaterial> wanted(const Arguments& a)
+{
+    std::vector<std::string> names = a.kinds;
+    if (std::find(names.begin(), names.end(), "all") != names.end()) {
+        names.clear();
+        for (const texproc::MaterialKindInfo& kind : texproc::material_kinds()) names.push_back(kind.name);
+        for (const std::string& preset : material_presets()) names.push_back(preset);
+        if (a.set.empty() && a.color.empty()) {
+            for (const WeatherTexture& weather : kWeather) names.push_back(weather.name);
         }
-        wanted.push_back(kind);
     }
-    if (wanted.empty()) {
-        throw Error("texture generate: no kind was named",
-                    "Use all, or one of: " + join_words(known) + ".");
+    if (names.empty()) {
+        throw Error("texture generate: no material was named",
+                    "Name some, for example cobble; --list shows them.");
     }
-    return wanted;
+    std::vector<NamedMaterial> materials;
+    for (const std::string& name : names) {
+        const bool weather = weather_texture(name) != nullptr;
+        if (weather && !(a.set.empty() && a.color.empty())) {
+            throw Error("texture generate: " + name + " has no parameters and no colour",
+                        "Leave out --set and --color, or make it in a command of its own.");
+        }
+        NamedMaterial material = weather ? NamedMaterial{name, {}, {}, {}} : named_material(name);
+        for (const NamedMaterial& other : materials) {
+            if (other.name == material.name) {
+                throw Error("texture generate: two materials are named " + material.name,
+                            "Their files would have the same names: make them in two folders.");
+            }
+        }
+        material.recipe.size = a.size;
+        material.recipe.seed = a.seed;
+        material.recipe.threads = a.threads;
+        if (!a.color.empty()) material.recipe.color = parse_color(a.color, "--color");
+        for (const std::string& assignment : a.set) set_parameter(material.recipe, assignment);
+        materials.push_back(std::move(material));
+    }
+    return materials;
 }
 
-void write_material(const Arguments& a, const std::string& name, const texproc::MaterialMaps& maps)
+void write_material(const Arguments& a, const NamedMaterial& material, const texproc::MaterialMaps& maps)
 {
+    const std::string& name = material.name;
     ScratchFolder scratch(a.out);  // half a material on a full disk helps nobody
     const fs::path folder = scratch.path();
     std::vector<std::string> files;
@@ -106,7 +145,7 @@ void write_material(const Arguments& a, const std::string& name, const texproc::
         files.push_back(name + "_" + role + ".png");
         texproc::write_image(folder / files.back(), *image, {.bits = bits, .threads = a.threads});
     }
-    const nlohmann::ordered_json facts{{"kind", name},
+    const nlohmann::ordered_json facts{{"kind", material.kind},
                                        {"seed", a.seed},
                                        {"size", a.size},
                                        {"tile_m", maps.tile_m},
@@ -117,6 +156,10 @@ void write_material(const Arguments& a, const std::string& name, const texproc::
     files.push_back(name + ".json");
     write_text_file(folder / files.back(),
                     facts.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    files.push_back(name + ".toml");
+    write_text_file(folder / files.back(),
+                    "# petrichor texture generate " + name + ".toml --size " + std::to_string(a.size) +
+                        " --seed " + std::to_string(a.seed) + "\n" + material_file_text(material));
     scratch.publish(files);
 }
 
@@ -169,35 +212,33 @@ void draw(ContactSheet& sheet, const Image& texture, const std::string& name, in
 void run(const Arguments& a)
 {
     if (a.list) {
-        list_kinds();
+        if (a.kinds.empty()) list_all();
+        for (const std::string& name : a.kinds) list_parameters(named_material(name));
         return;
     }
-    const std::vector<std::string> kinds = wanted_kinds(a);
+    const std::vector<NamedMaterial> materials = wanted(a);
     if (a.out.empty() && a.sheet.empty()) {
         throw Error("texture generate: nowhere to write", "Give -o FOLDER, or --sheet FILE.png.");
     }
     constexpr int kCell = 256, kColumns = 3, kStepX = 2 * kCell + 30, kStepY = kCell + 40;
-    const int rows = (static_cast<int>(kinds.size()) + kColumns - 1) / kColumns;
+    const int rows = (static_cast<int>(materials.size()) + kColumns - 1) / kColumns;
     ContactSheet sheet(kColumns * kStepX + 20, rows * kStepY + 10);
-    Progress progress("texture generate", static_cast<int>(kinds.size()));
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
+    Progress progress("texture generate", static_cast<int>(materials.size()));
+    for (std::size_t k = 0; k < materials.size(); ++k) {
         const int x = 20 + static_cast<int>(k) % kColumns * kStepX,
                   y = 32 + static_cast<int>(k) / kColumns * kStepY;
-        if (const auto kind = texproc::find_material_kind(kinds[k])) {
-            const texproc::MaterialMaps maps =
-                texproc::generate_material(*kind, a.size, a.seed, a.threads);
-            if (!a.out.empty()) write_material(a, kinds[k], maps);
-            if (!a.sheet.empty()) draw(sheet, maps, kinds[k], x, y, kCell);
-        } else {
-            const auto weather =
-                std::find_if(std::begin(kWeather), std::end(kWeather),
-                             [&](const WeatherTexture& w) { return w.name == kinds[k]; });
+        const NamedMaterial& material = materials[k];
+        if (const WeatherTexture* weather = weather_texture(material.name)) {
             const Image texture = weather->make(a.size, a.seed);
             if (!a.out.empty()) {
-                texproc::write_image(fs::path(a.out) / (kinds[k] + ".png"), texture,
+                texproc::write_image(fs::path(a.out) / (material.name + ".png"), texture,
                                      {.bits = a.bits, .threads = a.threads});
             }
-            if (!a.sheet.empty()) draw(sheet, texture, kinds[k], x, y, kCell);
+            if (!a.sheet.empty()) draw(sheet, texture, material.name, x, y, kCell);
+        } else {
+            const texproc::MaterialMaps maps = texproc::generate_material(material.recipe);
+            if (!a.out.empty()) write_material(a, material, maps);
+            if (!a.sheet.empty()) draw(sheet, maps, material.name, x, y, kCell);
         }
         progress.update(static_cast<int>(k) + 1);
     }
@@ -213,9 +254,14 @@ void add_texture_generate(CLI::App& texture)
     auto a = std::make_shared<Arguments>();
     CLI::App* app =
         texture.add_subcommand("generate", "tileable materials and weather textures from a seed");
-    app->add_option("kinds", a->kinds, "which, or all; --list shows them");
+    app->add_option("materials", a->kinds,
+                    "kinds, presets, files of yours (.toml), or all; --list shows them");
     app->add_option("-o,--out", a->out,
-                    "folder: KIND_albedo.png, KIND_normal.png, ..., KIND.json (size in metres)");
+                    "folder: NAME_albedo.png, NAME_normal.png, ..., NAME.json (size in metres), NAME.toml "
+                    "(the preset that makes it again)");
+    app->add_option("--set", a->set, "NAME=NUMBER of a material; --list MATERIAL shows names and units")
+        ->allow_extra_args(false);
+    app->add_option("--color", a->color, "mean albedo as an sRGB colour, #rrggbb");
     app->add_option("--seed", a->seed, "another one, another stone")->capture_default_str();
     app->add_option("--size", a->size, "texels of a side")
         ->check(CLI::Range(16, 8192))
@@ -224,11 +270,15 @@ void add_texture_generate(CLI::App& texture)
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str();
     app->add_option("--sheet", a->sheet, "PNG with all of them, lit");
-    app->add_flag("--list", a->list, "show the kinds");
+    app->add_flag("--list", a->list, "show the materials, or what can be set of those that are named");
     app->add_option("--threads", a->threads, "0: all cores; the bytes do not depend on it");
     app->footer(
         "Examples:\n  petrichor texture generate cobble brick --seed 7 --size 2048 -o materials\n"
-        "  petrichor texture generate all --sheet kinds.png");
+        "  petrichor texture generate --list asphalt\n"
+        "  petrichor texture generate asphalt --set tile_m=4 --set cracks=0.8 --set patches=3 --size 2048 -o road\n"
+        "  petrichor texture generate all --sheet kinds.png\n\n"
+        "A preset of yours, path.toml:\n"
+        "  kind = \"gravel\"\n  color = \"#b9a888\"\n  [parameters]\n  stone_m = 0.012");
     app->callback([a] { run(*a); });
 }
 

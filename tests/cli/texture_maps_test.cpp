@@ -147,7 +147,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"inspect_text", {"inspect", "text.png", "rough.png"}, "text.png"},
         Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet needs"},
         Mistake{"generate_kind", {"generate", "cobbel", "-o", "made"}, "Did you mean \"cobble\"?"},
-        Mistake{"generate_none", {"generate", "-o", "made"}, "no kind"},
+        Mistake{"generate_parameter", {"generate", "brick", "--set", "joints_m=0.01", "-o", "made"}, "Did you mean \"joint_m\"?"},
+        Mistake{"generate_range", {"generate", "brick", "--set", "joint_m=1", "-o", "made"}, "0.002 to 0.025"},
+        Mistake{"generate_number", {"generate", "brick", "--set", "joint_m=wide", "-o", "made"}, "NAME=NUMBER"},
+        Mistake{"generate_color", {"generate", "brick", "--color", "#12345", "-o", "made"}, "#rrggbb"},
+        Mistake{"generate_preset", {"generate", "bad.toml", "-o", "made"}, "bad.toml"},
+        Mistake{"generate_twice", {"generate", "brick", "brick", "-o", "made"}, "two materials"},
+        Mistake{"generate_ripple_set", {"generate", "ripple", "--set", "tile_m=1", "-o", "made"}, "has no parameters"},
+        Mistake{"generate_none", {"generate", "-o", "made"}, "no material was named"},
         Mistake{"generate_size", {"generate", "cobble", "--size", "4", "-o", "made"}, "--size"}),
     [](const auto& test) { return test.param.name; });
 
@@ -364,6 +371,36 @@ TEST(TextureTools, GeneratedSetsAreRecognisedByBuild)
         run({"texture", "build", "made", "--engine", "unity-hdrp", "-o", "out"}, place);
     EXPECT_EQ(built.exit_code, 0) << built.err;
     EXPECT_TRUE(fs::exists(place / "out/brick_MaskMap.dds"));
+}
+
+TEST(TextureTools, APresetMakesTheMaterialAgain)
+{
+    const Workplace place("texture_presets");
+    const Outcome listed = run({"texture", "generate", "--list"}, place);
+    EXPECT_THAT(listed.out, HasSubstr("old_road"));
+    EXPECT_THAT(run({"texture", "generate", "--list", "old_road"}, place).out, HasSubstr("patches"));
+    const Outcome made = run({"texture", "generate", "old_road", "--size", "64", "--set", "wear=0.3", "--color",
+                              "#6e6a64", "-o", "made"},
+                             place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(json::parse(read_file(place / "made/old_road.json"))["kind"], "asphalt");
+    const std::string written = read_file(place / "made/old_road.toml");
+    EXPECT_THAT(written, HasSubstr("wear = 0.3"));
+    EXPECT_THAT(written, HasSubstr("color = \"#6e6a64\""));
+    const Outcome again =
+        run({"texture", "generate", "made/old_road.toml", "--size", "64", "-o", "again"}, place);
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    for (const char* file : {"old_road_albedo.png", "old_road_height.png", "old_road_roughness.png", "old_road.toml"})
+        EXPECT_EQ(read_file(place / "made" / file), read_file(place / "again" / file)) << file;
+}
+
+TEST(TextureTools, EveryPresetOfTheProjectIsMade)
+{
+    const Workplace place("texture_all");
+    const Outcome made = run({"texture", "generate", "all", "--size", "32", "-o", "made"}, place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    for (const char* name : {"gravel", "slate", "moss", "mud", "snow", "river_gravel", "rusty_sheet", "farm_track"})
+        EXPECT_TRUE(fs::exists(place / "made" / (std::string(name) + "_albedo.png"))) << name;
 }
 
 // Rows for every task, ours always timed, others timed or named as missing.

@@ -171,6 +171,52 @@ TEST_P(Material, IsFoundByName)
     EXPECT_FALSE(GetParam().meaning.empty());
 }
 
+// No parameter is without effect, at either end of what it accepts.
+TEST_P(Material, EveryParameterChangesIt)
+{
+    constexpr int kSmall = 96;
+    for (const MaterialParameter& parameter : GetParam().parameters) {
+        MaterialRecipe recipe{GetParam().kind, kSmall, 3, 2, {}, {}};
+        // Some need something to act on.
+        if (GetParam().kind == MaterialKind::Mud && parameter.name == "plate_m") recipe.values["cracks"] = 0.9f;
+        // Grains and gaps of millimetres are too fine for few texels.
+        if (parameter.name == "grain_m" || parameter.name == "gap_m") recipe.values["tile_m"] = 0.15f;
+        if (GetParam().kind == MaterialKind::Asphalt || GetParam().kind == MaterialKind::Gravel ||
+            GetParam().kind == MaterialKind::Soil || GetParam().kind == MaterialKind::Mud)
+            recipe.values["tile_m"] = 0.4f;
+        if (GetParam().kind == MaterialKind::Plank && parameter.name == "gap_m") recipe.values["board_m"] = 0.05f;
+        const MaterialMaps usual = generate_material(recipe);
+        EXPECT_LE(parameter.low, parameter.usual) << parameter.name;
+        EXPECT_GE(parameter.high, parameter.usual) << parameter.name;
+        EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
+        for (const float value : {parameter.low, parameter.high}) {
+            if (value == parameter.usual) continue;
+            recipe.values[parameter.name] = value;
+            const MaterialMaps other = generate_material(recipe);
+            bool changed = other.height_scale_m != usual.height_scale_m;
+            const auto a = images_of(usual), b = images_of(other);
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                changed = changed || !same_bits(*a[i].second, *b[i].second);
+                for (const float v : b[i].second->pixels)
+                    ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << parameter.name << " = " << value << ": " << b[i].first;
+            }
+            EXPECT_TRUE(changed) << parameter.name << " = " << value;
+        }
+    }
+}
+
+TEST_P(Material, TakesTheColorThatIsAsked)
+{
+    MaterialRecipe recipe{GetParam().kind, 96, 3, 2, {}, glm::vec3(0.20f, 0.15f, 0.11f)};
+    const MaterialMaps maps = generate_material(recipe);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (std::size_t k = c; k < maps.albedo.pixels.size(); k += 3) sum += static_cast<double>(maps.albedo.pixels[k]);
+        const double asked = static_cast<double>((*recipe.color)[static_cast<int>(c)]);
+        EXPECT_NEAR(sum * 3.0 / static_cast<double>(maps.albedo.pixels.size()), asked, 0.01 * asked);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Material, testing::ValuesIn(material_kinds()),
                          [](const auto& test) { return test.param.name; });
 
@@ -218,6 +264,116 @@ TEST(Generate, MetalsAreMetalAndStonesAreNot)
     EXPECT_GT(mean(generate_material(MaterialKind::MetalPlate, 128, 1, 1).metallic), 0.8);
     EXPECT_EQ(mean(generate_material(MaterialKind::Cobble, 128, 1, 1).metallic), 0.0);
     EXPECT_EQ(mean(generate_material(MaterialKind::Plank, 128, 1, 1).metallic), 0.0);
+}
+
+double mean_of(const Image& image)
+{
+    double sum = 0.0;
+    for (const float v : image.pixels) sum += static_cast<double>(v);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+double share_below(const Image& image, float limit)
+{
+    const auto below = std::count_if(image.pixels.begin(), image.pixels.end(), [&](float v) { return v < limit; });
+    return static_cast<double>(below) / static_cast<double>(image.pixels.size());
+}
+
+TEST(Generate, LengthsAreMetres)
+{
+    // A painted line is as wide as is asked.
+    const auto white = [](float line_m) {
+        const MaterialMaps road = generate_material({MaterialKind::Asphalt, 512, 1, 2,
+                                                     {{"tile_m", 2.0f}, {"wear", 0.0f}, {"cracks", 0.0f}, {"marking_m", line_m}}, {}});
+        int count = 0;
+        for (std::size_t k = 0; k < road.albedo.pixels.size(); k += 3) count += road.albedo.pixels[k] > 0.35f ? 1 : 0;
+        return 2.0 * count / (512.0 * 512.0);
+    };
+    EXPECT_EQ(white(0.0f), 0.0);
+    EXPECT_NEAR(white(0.12f), 0.12, 0.012);
+    EXPECT_NEAR(white(0.30f), 0.30, 0.02);
+    // Wider joints take their share of the setts.
+    const auto low = [](float joint_m) {
+        const MaterialMaps setts = generate_material({MaterialKind::Cobble, 384, 1, 2, {{"joint_m", joint_m}}, {}});
+        return share_below(setts.height, 0.3f);
+    };
+    EXPECT_GT(low(0.030f), 1.5 * low(0.011f));
+    // A drift of half a metre is ten times one of five centimetres, whatever lies on it.
+    const auto snow = [](float drift_m) {
+        return generate_material({MaterialKind::Snow, 128, 1, 2, {{"drift_m", drift_m}, {"ripples", 0.0f}}, {}}).height_scale_m;
+    };
+    EXPECT_NEAR(snow(0.4f) / snow(0.04f), 10.0, 1.5);
+    // Twice the relief, twice the height; none, a plane.
+    const auto relief = [](float factor) {
+        return generate_material({MaterialKind::Slate, 128, 1, 2, {{"relief", factor}}, {}}).height_scale_m;
+    };
+    EXPECT_NEAR(relief(2.0f), 2.0f * relief(1.0f), 1e-5f);
+    EXPECT_EQ(relief(0.0f), 0.0f);
+}
+
+TEST(Generate, GravelHasTheStonesThatAreAsked)
+{
+    // Larger stones: fewer steps of the surface from texel to texel.
+    const auto rough = [](float stone_m) {
+        const MaterialMaps maps = generate_material({MaterialKind::Gravel, 512, 1, 2, {{"stone_m", stone_m}}, {}});
+        double steps = 0.0;
+        for (int y = 0; y < 512; ++y) {
+            for (int x = 1; x < 512; ++x) {
+                const bool a = maps.height.at(x, y, 0) > 0.5f, b = maps.height.at(x - 1, y, 0) > 0.5f;
+                steps += a != b ? 1.0 : 0.0;
+            }
+        }
+        return steps;
+    };
+    const double coarse = rough(0.10f), usual = rough(0.05f);
+    EXPECT_GT(usual, 1.5 * coarse);
+    EXPECT_LT(usual, 3.0 * coarse);
+}
+
+TEST(Generate, WaterDarkensAndSmooths)
+{
+    for (const MaterialKind kind : {MaterialKind::Cobble, MaterialKind::Mud, MaterialKind::Plank}) {
+        const MaterialMaps dry = generate_material({kind, 128, 1, 2, {}, {}});
+        const MaterialMaps damp = generate_material({kind, 128, 1, 2, {{"wetness", 0.5f}}, {}});
+        const MaterialMaps wet = generate_material({kind, 128, 1, 2, {{"wetness", 1.0f}}, {}});
+        EXPECT_LT(mean_of(damp.albedo), 0.95 * mean_of(dry.albedo));
+        EXPECT_LT(mean_of(wet.albedo), 0.95 * mean_of(damp.albedo));
+        EXPECT_LT(mean_of(wet.roughness), mean_of(damp.roughness) - 0.02);
+        EXPECT_TRUE(same_bits(dry.height, wet.height));
+    }
+}
+
+TEST(Generate, RefusesWhatNoKindHas)
+{
+    EXPECT_THROW(generate_material({MaterialKind::Brick, 64, 1, 1, {{"joints_m", 0.01f}}, {}}), Error);
+    EXPECT_THROW(generate_material({MaterialKind::Brick, 64, 1, 1, {{"joint_m", 1.0f}}, {}}), Error);
+    EXPECT_THROW(generate_material({MaterialKind::Brick, 64, 1, 1, {{"joint_m", NAN}}, {}}), Error);
+    try {
+        generate_material({MaterialKind::Brick, 64, 1, 1, {{"joints_m", 0.01f}}, {}});
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("joint_m"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Noise, BordersOfCellsAreAsFarAsTheySay)
+{
+    // Walking towards a border by what it says never crosses it; stepping past it does, somewhere.
+    for (int k = 0; k < 300; ++k) {
+        const float x = 0.617f * static_cast<float>(k), y = 0.283f * static_cast<float>(k);
+        const CellBorder here = cell_border(x, y, 64, 64, 5);
+        EXPECT_EQ(here.id, cell_noise(x, y, 64, 64, 5).id);
+        EXPECT_EQ(here.id, cell_border(x + 64.0f, y - 64.0f, 64, 64, 5).id);
+        bool left = false;
+        for (int a = 0; a < 64; ++a) {
+            const float angle = 0.0981748f * static_cast<float>(a);
+            const auto at = [&](float r) {
+                return cell_noise(x + r * std::cos(angle), y + r * std::sin(angle), 64, 64, 5).id;
+            };
+            EXPECT_EQ(at(0.98f * here.distance), here.id);
+            left = left || at(1.03f * here.distance + 0.002f) != here.id;
+        }
+        EXPECT_TRUE(left);
+    }
 }
 
 TEST(Generate, TakesAnySizeInRange)

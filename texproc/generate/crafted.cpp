@@ -44,13 +44,13 @@ std::vector<float> scratch_layer(const MaterialSurface& surface, int count, floa
     return box_blur(layer, size, size >= 1024 ? 1 : 0, surface.threads);
 }
 
-}  // namespace
-
 void make_plank(MaterialSurface& surface)
 {
-    surface.tile_m = 1.2f;
-    constexpr int kBoards = 8;
-    const float board_m = surface.tile_m / kBoards;
+    const int boards = surface.cells(surface.value("board_m"));
+    const float board_m = surface.tile_m / static_cast<float>(boards);
+    const float gap_m = surface.value("gap_m");
+    const float knots = 0.9f * (1.0f - surface.value("knots"));
+    const float grey = 2.0f * surface.value("wear");
     const auto bend = noise_layer(surface, {0.15f, 0.60f, 4, 0.45f, 1});
     const auto fibre = noise_layer(surface, {0.006f, 0.24f, 3, 0.7f, 2});
     const auto pore = noise_layer(surface, {0.0028f, 0.06f, 1, 0.7f, 3});
@@ -63,7 +63,7 @@ void make_plank(MaterialSurface& surface)
     const std::uint32_t seed = hash_u32(surface.seed + 5u);
 
     shade_texels(surface, [&](float x, float y, std::size_t k) {
-        const int board = std::min(static_cast<int>(x / board_m), kBoards - 1);
+        const int board = std::min(static_cast<int>(x / board_m), boards - 1);
         const std::uint32_t h = hash_cell(board, 0, seed);
         const float middle = (static_cast<float>(board) + 0.5f) * board_m;
         const float lx = x - middle;
@@ -71,7 +71,7 @@ void make_plank(MaterialSurface& surface)
         const float joint_y = surface.tile_m * hash_unit(h, 1);
         float from_joint = y - joint_y;
         from_joint -= surface.tile_m * std::round(from_joint / surface.tile_m);
-        const float side = 0.5f * board_m - std::abs(lx) - 0.0013f + 0.0005f * edge_noise[k];
+        const float side = 0.5f * board_m - std::abs(lx) - 0.5f * gap_m + 0.0005f * edge_noise[k];
         const float d = std::min(side, std::abs(from_joint) - 0.0009f);
 
         // Year rings cut lengthwise: lines along the board that part and flow round its knots.
@@ -79,7 +79,7 @@ void make_plank(MaterialSurface& surface)
         float knot = 0.0f;  // 1 in its middle, 0 at its rim
         float knot_ring = 0.0f;
         for (std::uint32_t s = 0; s < 2; ++s) {
-            if (hash_unit(h, 20 + s) < 0.45f) continue;
+            if (hash_unit(h, 20 + s) < knots) continue;
             const float radius = 0.007f + 0.006f * hash_unit(h, 32 + s);
             const float kx = lx - 0.30f * board_m * hash_signed(h, 24 + s) + 0.004f * bend[k];
             float ky = y - surface.tile_m * hash_unit(h, 28 + s);
@@ -125,7 +125,7 @@ void make_plank(MaterialSurface& surface)
         color = mix(color, vec3(0.60f, 0.52f, 0.46f) * color, 0.75f * late);
         color *= 1.0f + 0.12f * fibre[k] + 0.07f * pore[k];
         color = mix(color, kGrey * (1.0f + 0.12f * fibre[k] - 0.2f * late),
-                    0.55f * smooth_step(-0.6f, 0.9f, weather[k] + 0.3f * hash_signed(h, 8)));
+                    std::min(grey * 0.55f * smooth_step(-0.6f, 0.9f, weather[k] + 0.3f * hash_signed(h, 8)), 1.0f));
         color = mix(color, vec3(0.30f, 0.24f, 0.20f) * color, 0.85f * saturate(knot_shade));
         color *= 0.35f + 0.65f * smooth_step(0.0f, 0.0035f, d);
         color = mix(color, vec3(0.060f, 0.044f, 0.036f), head);
@@ -143,52 +143,86 @@ void make_plank(MaterialSurface& surface)
 
 void make_metal_plate(MaterialSurface& surface)
 {
-    surface.tile_m = 0.8f;
+    const float scratched = 2.0f * surface.value("scratches");
+    const float rusty = surface.value("rust");
     const auto waves = noise_layer(surface, {0.20f, 0.20f, 3, 0.4f, 1});
-    const auto warp_x = noise_layer(surface, {0.030f, 0.030f, 3, 0.6f, 2});
-    const auto warp_y = noise_layer(surface, {0.030f, 0.030f, 3, 0.6f, 3});
+    const auto warp_x = noise_layer(surface, {0.030f, 0.030f, 4, 0.6f, 2});
+    const auto warp_y = noise_layer(surface, {0.030f, 0.030f, 4, 0.6f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
     const auto dull = noise_layer(surface, {0.20f, 0.20f, 5, 0.55f, 5});
-    const auto scratches = scratch_layer(surface, 220, 0.24f, 6);
-    const int cells = surface.cells(0.020f);
-    const float to_cells = static_cast<float>(cells) / surface.tile_m;
+    const auto run = noise_layer(surface, {0.020f, 0.40f, 4, 0.6f, 7});
+    const auto scratches = scratch_layer(surface, static_cast<int>(110.0f * scratched), 0.24f, 6);
+    const float spangle_m = surface.value("spangle_m");
     const std::uint32_t seed = hash_u32(surface.seed + 21u);
+    // Large crystals first, small ones where those left room.
+    struct Grid {
+        int cells;
+        float to_cells;
+    };
+    const auto grid = [&](float size_m) {
+        const int cells = surface.cells(size_m);
+        return Grid{cells, static_cast<float>(cells) / surface.tile_m};
+    };
+    const Grid large = grid(1.35f * spangle_m), small = grid(0.55f * spangle_m);
     shade_texels(surface, [&](float x, float y, std::size_t k) {
-        // Spangle: zinc crystals, each reflecting a little differently, with feathered edges.
-        const CellPoint crystal = cell_noise(x * to_cells + 0.35f * warp_x[k],
-                                             y * to_cells + 0.35f * warp_y[k], cells, cells, seed);
+        // Spangle: zinc crystals grow from a seed in arms, each reflecting a little differently.
+        const auto crystal_at = [&](const Grid& g, std::uint32_t salt) {
+            const float wander = 0.22f * spangle_m;
+            return cell_noise((x + wander * warp_x[k]) * g.to_cells, (y + wander * warp_y[k]) * g.to_cells,
+                              g.cells, g.cells, seed + salt);
+        };
+        CellPoint crystal = crystal_at(large, 0u);
+        float size_m = 1.35f * spangle_m;
+        if (hash_unit(crystal.id, 4) < 0.45f) {
+            crystal = crystal_at(small, 1u);
+            size_m = 0.55f * spangle_m;
+        }
         const float tone = hash_signed(crystal.id, 1);
         const float angle = 6.2831853f * hash_unit(crystal.id, 2);
-        const float feather = portable_sin(
-            55.0f * (crystal.dx * portable_cos(angle) + crystal.dy * portable_sin(angle)) +
-            3.0f * warp_x[k]);
+        const float along = crystal.dx * portable_cos(angle) + crystal.dy * portable_sin(angle);
+        const float across = crystal.dy * portable_cos(angle) - crystal.dx * portable_sin(angle);
+        // Arms of a fir branch: ribs that lean away from two axes.
+        const float rib = portable_sin(58.0f * (std::abs(along) + 0.8f * std::abs(across)) + 2.0f * warp_x[k]);
+        const float feather = rib * smooth_step(0.02f, 0.25f, crystal.second - crystal.nearest);
+        const float border = 1.0f - smooth_step(0.01f, 0.07f, crystal.second - crystal.nearest);
         const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
+        // Red rust comes through from below in spots that run down.
+        const float spot = dull[k] + 0.55f * warp_x[k] + 0.30f * run[k] + 0.18f * fine[k];
+        const float red = rusty > 0.0f ? smooth_step(1.15f - 1.9f * rusty, 1.45f - 1.9f * rusty, spot) : 0.0f;
+        const float stain = rusty > 0.0f ? smooth_step(1.0f - 1.6f * rusty, 1.9f - 1.6f * rusty,
+                                                       dull[k] + 0.7f * run[k]) : 0.0f;
         MaterialTexel texel;
-        texel.height_m = 0.00050f * waves[k] + 0.000010f * tone + 0.000008f * fine[k] -
-                         0.00020f * scratches[k] + 0.00003f * white_rust;
-        vec3 color = vec3(0.545f, 0.560f, 0.575f) * (1.0f + 0.11f * tone + 0.025f * feather);
+        // Each crystal is a facet: a degree or so out of the sheet's plane.
+        const float tilt = 0.010f * size_m * (along * hash_signed(crystal.id, 5) + across * hash_signed(crystal.id, 6));
+        texel.height_m = 0.00050f * waves[k] + tilt - 0.00001f * border + 0.000004f * feather +
+                         0.000006f * fine[k] - 0.00012f * scratches[k] + 0.00003f * white_rust +
+                         red * (0.00025f + 0.00022f * fine[k]);
+        vec3 color = vec3(0.545f, 0.560f, 0.575f) * (1.0f + 0.17f * tone + 0.05f * feather - 0.08f * border);
         color *= 1.0f - 0.14f * smooth_step(-0.2f, 0.9f, dull[k]);
         color = mix(color, vec3(0.70f, 0.71f, 0.72f), 0.75f * saturate(4.0f * scratches[k]));
         color = mix(color, vec3(0.47f, 0.47f, 0.46f), 0.6f * white_rust);
+        color = mix(color, vec3(0.26f, 0.15f, 0.085f), 0.45f * stain);
+        color = mix(color, mix(vec3(0.085f, 0.030f, 0.016f), vec3(0.250f, 0.105f, 0.038f),
+                               saturate(0.45f + 0.35f * fine[k] + 0.35f * warp_y[k] + 0.25f * dull[k])), red);
         texel.albedo = color;
-        texel.metallic = 1.0f - 0.55f * white_rust;
-        texel.roughness = 0.36f + 0.07f * tone + 0.015f * feather +
-                          0.10f * smooth_step(-0.2f, 0.9f, dull[k]) + 0.25f * white_rust -
-                          0.30f * scratches[k] + 0.02f * fine[k];
+        texel.metallic = (1.0f - 0.55f * white_rust) * (1.0f - 0.4f * stain) * (1.0f - red);
+        texel.roughness = mix(0.36f + 0.09f * tone + 0.03f * feather + 0.05f * border +
+                              0.10f * smooth_step(-0.2f, 0.9f, dull[k]) + 0.25f * white_rust -
+                              0.30f * scratches[k] + 0.02f * fine[k] + 0.15f * stain, 0.92f, red);
         return texel;
     });
 }
 
 void make_painted_iron(MaterialSurface& surface)
 {
-    surface.tile_m = 0.8f;
+    const float chipped = 0.16f * (surface.value("wear") - 0.5f);
     const auto cast = noise_layer(surface, {0.012f, 0.012f, 3, 0.55f, 1});
     const auto waves = noise_layer(surface, {0.13f, 0.13f, 4, 0.45f, 2});
     const auto wear = noise_layer(surface, {0.10f, 0.10f, 6, 0.62f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
     shade_texels(surface, [&](float, float, std::size_t k) {
-        const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k]);
-        const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k]);
+        const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k] + 4.0f * chipped);
+        const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k] + 4.0f * chipped);
         MaterialTexel texel;
         texel.height_m =
             0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip + chip * 0.00015f * fine[k];
@@ -203,46 +237,24 @@ void make_painted_iron(MaterialSurface& surface)
     });
 }
 
-void make_standing_seam(MaterialSurface& surface)
+}  // namespace
+
+std::vector<KindRow> wood_and_metal_kinds()
 {
-    surface.tile_m = 1.6f;
-    constexpr int kSheets = 4;
-    const float sheet_m = surface.tile_m / kSheets;
-    const auto can = noise_layer(surface, {0.20f, 0.53f, 3, 0.45f, 1});
-    const auto streak = noise_layer(surface, {0.032f, 0.53f, 5, 0.6f, 2});
-    const auto patch = noise_layer(surface, {0.27f, 0.40f, 6, 0.58f, 3});
-    const auto fine = noise_layer(surface, {0.008f, 0.008f, 2, 0.6f, 4});
-    const std::uint32_t seed = hash_u32(surface.seed + 31u);
-    const vec3 kVerdigris(0.190f, 0.345f, 0.285f);
-    const vec3 kPale(0.330f, 0.475f, 0.405f);
-    const vec3 kBronze(0.120f, 0.078f, 0.050f);
-    shade_texels(surface, [&](float x, float y, std::size_t k) {
-        const int sheet = std::min(static_cast<int>(x / sheet_m), kSheets - 1);
-        const std::uint32_t h = hash_cell(sheet, 0, seed);
-        const float to_seam = std::min(x - static_cast<float>(sheet) * sheet_m,
-                                       static_cast<float>(sheet + 1) * sheet_m - x);
-        const float seam = 1.0f - smooth_step(0.006f, 0.011f, to_seam);
-        const float foot = 1.0f - smooth_step(0.008f, 0.035f, to_seam);
-        // Flat cross welts where two sheets meet down the slope.
-        float welt_y = y - surface.tile_m * hash_unit(h, 1);
-        welt_y -= surface.tile_m * std::round(welt_y / surface.tile_m);
-        const float welt =
-            smooth_step(-0.012f, -0.010f, welt_y) * smooth_step(0.010f, 0.007f, welt_y);
-        MaterialTexel texel;
-        texel.height_m = 0.0140f * seam + 0.0013f * can[k] * (1.0f - foot) +
-                         0.0016f * welt * (1.0f - seam) + 0.00005f * fine[k] + 0.0008f * foot;
-        const float run = smooth_step(0.0f, 1.1f, streak[k] + 0.4f * patch[k]);
-        vec3 color = mix(kVerdigris, kPale, smooth_step(-0.2f, 1.1f, streak[k] - 0.6f * patch[k]));
-        const float bare = saturate(smooth_step(0.25f, 0.95f, patch[k] + 0.25f * streak[k]) +
-                                    0.55f * seam * smooth_step(-0.4f, 0.5f, patch[k]));
-        color = mix(color, kBronze, 0.78f * bare);
-        color = mix(color, 0.62f * color, 0.35f * run + 0.4f * foot * (1.0f - seam));
-        color *= 1.0f + 0.05f * fine[k] + 0.05f * hash_signed(h, 2);
-        texel.albedo = color;
-        texel.metallic = 0.55f * bare;
-        texel.roughness = mix(0.68f, 0.46f, bare) + 0.04f * fine[k] + 0.06f * run;
-        return texel;
-    });
+    return {{MaterialKind::Plank, "plank", "weathered boards, grain along v", 1.2f,
+             {{"board_m", "m", 0.15f, 0.03f, 1.0f, "width of a board"},
+              {"gap_m", "m", 0.0026f, 0.0f, 0.02f, "between boards"},
+              {"knots", "share", 0.5f, 0.0f, 1.0f, "how knotty the wood is"},
+              {"wear", "share", 0.5f, 0.0f, 1.0f, "grey of sun and rain"}},
+             make_plank},
+            {MaterialKind::MetalPlate, "metal_plate", "galvanised sheet with spangle and scratches", 0.8f,
+             {{"spangle_m", "m", 0.020f, 0.003f, 0.1f, "size of the zinc's crystals"},
+              {"scratches", "share", 0.5f, 0.0f, 1.0f, "of use"},
+              {"rust", "share", 0.0f, 0.0f, 1.0f, "red rust where the zinc is gone"}},
+             make_metal_plate},
+            {MaterialKind::PaintedIron, "painted_iron", "dark paint on cast iron, chipped and rusty", 0.8f,
+             {{"wear", "share", 0.5f, 0.0f, 1.0f, "chips of the paint, rust about them"}},
+             make_painted_iron}};
 }
 
 }  // namespace petrichor::texproc::detail

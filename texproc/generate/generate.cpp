@@ -1,33 +1,51 @@
 #include "texproc/generate/generate.h"
 
-#include <array>
+#include <algorithm>
 #include <thread>
 
 #include "base/error.h"
+#include "base/words.h"
+#include "formulas/weather/apply_weather.h"
 #include "texproc/generate/detail/material_texels.h"
 
 namespace petrichor::texproc {
 
 using namespace detail;
 
+namespace {
+
+const std::vector<KindRow>& rows()
+{
+    static const std::vector<KindRow> all = [] {
+        std::vector<KindRow> joined;
+        for (const auto& kinds : {stone_kinds(), masonry_kinds(), roof_kinds(), road_kinds(), ground_kinds(),
+                                  wood_and_metal_kinds(), gravel_kinds(), soft_kinds()}) {
+            joined.insert(joined.end(), kinds.begin(), kinds.end());
+        }
+        std::sort(joined.begin(), joined.end(),
+                  [](const KindRow& a, const KindRow& b) { return a.kind < b.kind; });
+        return joined;
+    }();
+    return all;
+}
+
+}  // namespace
+
 const std::vector<MaterialKindInfo>& material_kinds()
 {
-    static const std::vector<MaterialKindInfo> kinds = {
-        {MaterialKind::Cobble, "cobble", "worn granite setts in irregular courses"},
-        {MaterialKind::Brick, "brick", "brickwork in running bond, chipped and sooty"},
-        {MaterialKind::Asphalt, "asphalt", "stone chippings in bitumen, fine cracks"},
-        {MaterialKind::Concrete, "concrete", "cast concrete with pores and stains"},
-        {MaterialKind::Paving, "paving", "riven stone slabs in courses"},
-        {MaterialKind::Granite, "granite", "bush-hammered granite without joints"},
-        {MaterialKind::Plank, "plank", "weathered boards, grain along v"},
-        {MaterialKind::RoofTile, "roof_tile", "clay plain tiles with rounded tails"},
-        {MaterialKind::Soil, "soil", "trodden earth with pebbles"},
-        {MaterialKind::GrassGround, "grass_ground", "short grass over soil"},
-        {MaterialKind::MetalPlate, "metal_plate", "galvanised sheet with spangle and scratches"},
-        {MaterialKind::PaintedIron, "painted_iron", "dark paint on cast iron, chipped and rusty"},
-        {MaterialKind::StandingSeam, "standing_seam", "patinated sheet roof with seams"},
-        {MaterialKind::Plaster, "plaster", "lime plaster with stains and hair cracks"},
-    };
+    static const std::vector<MaterialKindInfo> kinds = [] {
+        std::vector<MaterialKindInfo> infos;
+        for (const KindRow& row : rows()) {
+            MaterialKindInfo info{row.kind, row.name, row.meaning, {}};
+            info.parameters = {
+                {"tile_m", "m", row.tile_m, 0.1f, 50.0f, "edge of the square that repeats"},
+                {"relief", "factor", 1.0f, 0.0f, 4.0f, "of all heights"},
+                {"wetness", "share", 0.0f, 0.0f, 1.0f, "film of water in colour and roughness (0 where weather comes later)"}};
+            info.parameters.insert(info.parameters.end(), row.parameters.begin(), row.parameters.end());
+            infos.push_back(std::move(info));
+        }
+        return infos;
+    }();
     return kinds;
 }
 
@@ -41,37 +59,67 @@ std::optional<MaterialKind> find_material_kind(std::string_view name)
 
 namespace {
 
-void make_surface(MaterialKind kind, MaterialSurface& surface)
+// Every parameter, chosen or as usual.
+std::map<std::string, float, std::less<>> all_values(const MaterialRecipe& recipe,
+                                                     const MaterialKindInfo& info)
 {
-    switch (kind) {
-        case MaterialKind::Cobble:
-            return make_cobble(surface);
-        case MaterialKind::Brick:
-            return make_brick(surface);
-        case MaterialKind::Asphalt:
-            return make_asphalt(surface);
-        case MaterialKind::Concrete:
-            return make_concrete(surface);
-        case MaterialKind::Paving:
-            return make_paving(surface);
-        case MaterialKind::Granite:
-            return make_granite(surface);
-        case MaterialKind::Plank:
-            return make_plank(surface);
-        case MaterialKind::RoofTile:
-            return make_roof_tile(surface);
-        case MaterialKind::Soil:
-            return make_soil(surface);
-        case MaterialKind::GrassGround:
-            return make_grass_ground(surface);
-        case MaterialKind::MetalPlate:
-            return make_metal_plate(surface);
-        case MaterialKind::PaintedIron:
-            return make_painted_iron(surface);
-        case MaterialKind::StandingSeam:
-            return make_standing_seam(surface);
-        case MaterialKind::Plaster:
-            return make_plaster(surface);
+    std::map<std::string, float, std::less<>> values;
+    std::vector<std::string> names;
+    for (const MaterialParameter& parameter : info.parameters) {
+        values[parameter.name] = parameter.usual;
+        names.push_back(parameter.name);
+    }
+    for (const auto& [name, value] : recipe.values) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) {
+            throw Error("material " + info.name + ": there is no parameter '" + name + "'." +
+                            did_you_mean(name, names),
+                        "It has " + join_words(names) + ".");
+        }
+        const MaterialParameter& parameter =
+            info.parameters[static_cast<std::size_t>(found - names.begin())];
+        if (!(value >= parameter.low && value <= parameter.high)) {
+            throw Error("material " + info.name + ": " + name + " is " +
+                            number_text(value) + ", outside of " +
+                            number_text(parameter.low) + " to " +
+                            number_text(parameter.high),
+                        "It means: " + parameter.meaning + ".");
+        }
+        values[name] = value;
+    }
+    return values;
+}
+
+// Gives the texels another mean: partly by the channels, so that stones of two colours stay two, partly by lightness
+// alone, so that no strange hues come up. What would pass 1 stays at it.
+void recolor(std::vector<MaterialTexel>& texels, const glm::vec3& color)
+{
+    glm::dvec3 sum(0.0);
+    for (const MaterialTexel& texel : texels) sum += glm::dvec3(texel.albedo);
+    const glm::vec3 mean = glm::max(glm::vec3(sum / static_cast<double>(texels.size())), glm::vec3(1e-4f));
+    const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
+    const float mean_light = glm::dot(mean, weights);
+    for (MaterialTexel& texel : texels) {
+        const float light = glm::dot(texel.albedo, weights) / mean_light;
+        texel.albedo = color * mix(texel.albedo / mean, glm::vec3(light), 0.65f);
+    }
+}
+
+// A film as the renderer lays it on dry surfaces (formulas/weather/apply_weather.h): matt ground is darker and
+// smoother below it.
+void wet(std::vector<MaterialTexel>& texels, float film)
+{
+    for (MaterialTexel& texel : texels) {
+        shared::WeatheredMaterial dry{};
+        dry.albedo = glm::clamp(texel.albedo, 0.0f, 1.0f);
+        dry.specular = glm::mix(glm::vec3(0.04f), texel.albedo, texel.metallic);
+        dry.smoothness = 1.0f - texel.roughness;
+        dry.metallic = texel.metallic;
+        const float porosity = saturate((texel.roughness - 0.5f) / 0.4f);
+        const shared::WeatheredMaterial wet =
+            shared::apply_water(dry, glm::vec2(film), 0.0f, glm::vec4(0.0f), porosity);
+        texel.albedo = wet.albedo;
+        texel.roughness = 1.0f - wet.smoothness;
     }
 }
 
@@ -128,18 +176,33 @@ void add_normals(const MaterialSurface& surface, const std::vector<float>& heigh
 
 MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, int threads)
 {
+    return generate_material({kind, size, seed, threads, {}, {}});
+}
+
+MaterialMaps generate_material(const MaterialRecipe& recipe)
+{
+    const int size = recipe.size;
     if (!(size >= 16 && size <= 8192)) {
         throw Error("material: the size must be 16 to 8192 texels, got " + std::to_string(size),
                     "Choose a size in that range, for example 1024.");
     }
+    const auto index = static_cast<std::size_t>(recipe.kind);
     MaterialSurface surface;
     surface.size = size;
-    surface.threads = threads > 0
-                          ? std::min(threads, 256)
+    surface.threads = recipe.threads > 0
+                          ? std::min(recipe.threads, 256)
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    surface.seed = hash_u32(seed * 0x9e3779b1u + static_cast<std::uint32_t>(kind) * 7919u + 1u);
+    surface.seed =
+        hash_u32(recipe.seed * 0x9e3779b1u + static_cast<std::uint32_t>(recipe.kind) * 7919u + 1u);
+    surface.values = all_values(recipe, material_kinds()[index]);
+    surface.tile_m = surface.value("tile_m");
     surface.texels.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-    make_surface(kind, surface);
+    rows()[index].make(surface);
+    if (recipe.color) recolor(surface.texels, *recipe.color);
+    const float film = surface.value("wetness");
+    if (film > 0.0f) wet(surface.texels, film);
+    const float relief = surface.value("relief");
+    for (MaterialTexel& texel : surface.texels) texel.height_m *= relief;
 
     float low = surface.texels.front().height_m;
     float high = low;

@@ -2,6 +2,8 @@
 #define PETRICHOR_TEXPROC_GENERATE_GENERATE_H
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,12 +28,38 @@ enum class MaterialKind {
     PaintedIron,   ///< dark paint on cast iron, chipped, with rust
     StandingSeam,  ///< patinated sheet roof, a seam every 0.4 m, v down the slope
     Plaster,       ///< lime plaster: trowel marks, stains, hair cracks
+    Gravel,        ///< broken or rounded stone of several sizes, heaped
+    Slate,         ///< riven roofing slates, v down the slope
+    Moss,          ///< cushions of small shoots
+    Mud,           ///< wet or dried earth: wheel ruts, shrinkage cracks
+    Snow,          ///< wind-packed snow: drifts, ripples, grains
+};
+
+/// A number of a kind that can be chosen.
+struct MaterialParameter {
+    std::string name;     ///< "joint_m"
+    std::string unit;     ///< "m", "share" (0..1), "count", "factor"
+    float usual = 0.0f;   ///< what it is unless chosen
+    float low = 0.0f;     ///< accepted: low..high
+    float high = 1.0f;
+    std::string meaning;  ///< one line
 };
 
 struct MaterialKindInfo {
     MaterialKind kind;
     std::string name;     ///< as on the command line: "roof_tile"
     std::string meaning;  ///< one line
+    std::vector<MaterialParameter> parameters;  ///< those that all kinds have (tile_m, relief, wetness) first
+};
+
+/// What to make. The same recipe gives the same bits on any machine.
+struct MaterialRecipe {
+    MaterialKind kind = MaterialKind::Cobble;
+    int size = 1024;         ///< texels of a side, 16..8192
+    std::uint32_t seed = 1;
+    int threads = 0;         ///< 0: all cores
+    std::map<std::string, float, std::less<>> values;  ///< of its parameters; the others are as usual
+    std::optional<glm::vec3> color;  ///< mean albedo, linear 0..1, in place of the kind's own
 };
 
 /// All kinds, in the order of the enumeration.
@@ -58,7 +86,10 @@ struct MaterialMaps {
 ///
 ///   size     16 .. 8192 texels
 ///   threads  0: all cores
-///   throws   Error when size is out of range.
+///   throws   Error when size or a value is out of range or no parameter has that name.
+MaterialMaps generate_material(const MaterialRecipe& recipe);
+
+/// The same with all parameters as usual.
 MaterialMaps generate_material(MaterialKind kind, int size, std::uint32_t seed, int threads = 0);
 
 }  // namespace petrichor::texproc

@@ -1,17 +1,34 @@
-// Walls and roofs: brick, plaster, clay tiles.
+// Walls: brick, plaster.
 #include <array>
 
 #include "texproc/generate/detail/material_texels.h"
 
 namespace petrichor::texproc::detail {
 
+namespace {
+
 using glm::vec3;
 
 void make_brick(MaterialSurface& surface)
 {
-    surface.tile_m = 1.8f;  // 8 bricks of 225 mm, 24 courses of 75 mm, joints of 10 mm
-    const Courses courses(surface.tile_m, {.rows = 24, .stone_length_m = 0.225f, .half_bond = true},
+    // As usual 8 bricks of 225 mm and 24 courses of 75 mm, joints of 10 mm included.
+    const float length_m = surface.value("brick_length_m");
+    const float course_m = surface.value("course_m");
+    const float joint_m = surface.value("joint_m");
+    const float worn = 2.0f * surface.value("wear");
+    const float sooty = 2.0f * surface.value("soot");
+    const Courses courses(surface.tile_m,
+                          {.rows = surface.cells(course_m), .stone_length_m = length_m, .half_bond = true},
                           surface.seed);
+    // Whole bricks fill the tile, so they may be a little longer than asked.
+    const auto kept = [&](float asked_m, int count) {
+        const float more_m = surface.tile_m / static_cast<float>(count) - asked_m;
+        return std::abs(more_m) > 1e-5f ? more_m : 0.0f;
+    };
+    const float kept_x = kept(length_m, std::max(2, surface.cells(length_m)));
+    const float kept_y = kept(course_m, surface.cells(course_m));
+    const float half_length_m = 0.1073f + 0.5f * ((length_m - 0.225f) + kept_x - (joint_m - 0.010f));
+    const float half_height_m = 0.0324f + 0.5f * ((course_m - 0.075f) + kept_y - (joint_m - 0.010f));
     const auto warp_x = noise_layer(surface, {0.05f, 0.05f, 4, 0.55f, 1});
     const auto warp_y = noise_layer(surface, {0.60f, 0.15f, 5, 0.45f, 2});
     const auto chips = noise_layer(surface, {0.030f, 0.030f, 3, 0.6f, 3});
@@ -38,12 +55,12 @@ void make_brick(MaterialSurface& surface)
         const float turn = 0.011f * hash_signed(id, 3);
         const float local_x = (px - centre_x) + turn * (py - centre_y);
         const float local_y = (py - centre_y) - turn * (px - centre_x);
-        const float half_x = 0.1073f + 0.0016f * hash_signed(id, 4);
-        const float half_y = 0.0324f + 0.0012f * hash_signed(id, 5);
+        const float half_x = half_length_m + 0.0016f * hash_signed(id, 4);
+        const float half_y = half_height_m + 0.0012f * hash_signed(id, 5);
         float d = rounded_inside(half_x - std::abs(local_x), half_y - std::abs(local_y), 0.0075f);
         d += 0.0011f * chips[k] + 0.0004f * rough[k];
         // Lost corners and edges: deeper where the chip noise peaks, only on some bricks.
-        const float fragile = smooth_step(0.35f, 1.0f, hash_unit(id, 6));
+        const float fragile = worn * smooth_step(0.35f, 1.0f, hash_unit(id, 6));
         const float near_edge = 1.0f - saturate(d / 0.0075f);
         const float lost =
             fragile * smooth_step(0.25f, 0.9f, chips[k] + 0.4f * warp_x[k]) * (0.25f + near_edge);
@@ -78,7 +95,7 @@ void make_brick(MaterialSurface& surface)
         color = mix(color, kSoot, saturate(burnt + 0.5f * flame * hash_unit(id, 16)));
         color *= 1.0f + 0.15f * rough[k] + 0.10f * crease[k] + 0.06f * sand[k];
         color = mix(color, 1.25f * color + vec3(0.02f), 0.5f * lost);
-        const float weathered = smooth_step(-0.05f, 0.75f, soot[k]);
+        const float weathered = std::min(sooty * smooth_step(-0.05f, 0.75f, soot[k]), 1.0f);
         color = mix(color, 0.45f * color + 0.5f * kSoot, 0.7f * weathered);
         const float bloom = smooth_step(0.40f, 0.9f, -soot[k] + 0.25f * chips[k]);
         color = mix(color, vec3(0.42f, 0.36f, 0.31f), 0.22f * bloom);
@@ -95,7 +112,8 @@ void make_brick(MaterialSurface& surface)
 
 void make_plaster(MaterialSurface& surface)
 {
-    surface.tile_m = 2.4f;
+    const float stained = 2.0f * surface.value("stains");
+    const float cracked = 2.0f * surface.value("cracks");
     const auto waves = noise_layer(surface, {0.48f, 0.34f, 4, 0.5f, 1});
     const auto trowel = noise_layer(surface, {0.16f, 0.08f, 4, 0.5f, 2});
     const auto grain = noise_layer(surface, {0.008f, 0.008f, 2, 0.7f, 3});
@@ -113,7 +131,7 @@ void make_plaster(MaterialSurface& surface)
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         // Hair cracks: seams of large warped cells, only where the wall has moved.
         float crack = 0.0f;
-        const float moved = smooth_step(0.15f, 0.7f, stain[k]);
+        const float moved = std::min(cracked * smooth_step(0.15f, 0.7f, stain[k]), 1.0f);
         if (moved > 0.0f) {
             const CellPoint cell =
                 cell_noise(x * to_cells + 0.16f * crack_x[k], y * to_cells + 0.16f * crack_y[k],
@@ -128,9 +146,9 @@ void make_plaster(MaterialSurface& surface)
         texel.height_m = 0.0016f * waves[k] + 0.0011f * (1.0f - sweep) + 0.00022f * grain[k] -
                          0.0011f * crack - 0.0016f * thin;
         vec3 color = mix(kLime, kPale, smooth_step(-0.8f, 0.8f, waves[k] + 0.5f * crack_y[k]));
-        const float streak = smooth_step(0.05f, 0.8f, drip[k] + 0.5f * stain[k]);
+        const float streak = stained * smooth_step(0.05f, 0.8f, drip[k] + 0.5f * stain[k]);
         color = mix(color, kDamp, 0.34f * streak);
-        color = mix(color, 0.72f * kDamp, 0.42f * smooth_step(0.15f, 0.8f, stain[k]));
+        color = mix(color, 0.72f * kDamp, stained * 0.42f * smooth_step(0.15f, 0.8f, stain[k]));
         color *= 1.0f + 0.035f * grain[k] + 0.05f * trowel[k];
         color = mix(color, vec3(0.42f, 0.38f, 0.33f), 0.7f * thin);
         color = mix(color, vec3(0.10f, 0.08f, 0.06f), 0.75f * crack);
@@ -140,74 +158,21 @@ void make_plaster(MaterialSurface& surface)
     });
 }
 
-void make_roof_tile(MaterialSurface& surface)
+}  // namespace
+
+std::vector<KindRow> masonry_kinds()
 {
-    surface.tile_m = 1.44f;
-    surface.occlusion_strength = 0.6f;
-    constexpr int kColumns = 8;
-    constexpr int kRows = 10;
-    const float width_m = surface.tile_m / kColumns;
-    const float course_m = surface.tile_m / kRows;
-    const auto warp = noise_layer(surface, {0.24f, 0.24f, 4, 0.5f, 1});
-    const auto rough = noise_layer(surface, {0.020f, 0.020f, 4, 0.6f, 2});
-    const auto fine = noise_layer(surface, {0.007f, 0.007f, 2, 0.6f, 3});
-    const auto lichen = noise_layer(surface, {0.09f, 0.09f, 4, 0.6f, 4});
-    const auto stain = noise_layer(surface, {0.36f, 0.72f, 4, 0.55f, 5});
-    static const std::array<vec3, 6> kTiles = {
-        vec3(0.290f, 0.108f, 0.062f), vec3(0.235f, 0.085f, 0.052f), vec3(0.330f, 0.140f, 0.082f),
-        vec3(0.185f, 0.078f, 0.056f), vec3(0.255f, 0.120f, 0.080f), vec3(0.135f, 0.078f, 0.062f)};
-    const std::uint32_t seed = surface.seed;
-
-    shade_texels(surface, [&](float x, float y, std::size_t k) {
-        struct Hit {
-            float below;   ///< metres up from the tail
-            float across;  ///< -1 .. 1
-            std::uint32_t id;
-        };
-        // Tail of the tile of row j at this x: an arc that hangs lowest in the middle.
-        const auto tile_at = [&](int j) {
-            const float shift = (j & 1) != 0 ? 0.5f : 0.0f;
-            const float column = (x + 0.0010f * warp[k]) / width_m + shift;
-            const float i = std::floor(column);
-            const float across = 2.0f * (column - i) - 1.0f;
-            const std::uint32_t id =
-                hash_cell(wrap_index(static_cast<int>(i), kColumns), wrap_index(j, kRows), seed);
-            const float arc =
-                0.042f * (1.0f - std::sqrt(std::max(0.0f, 1.0f - 0.93f * across * across)));
-            const float tail = static_cast<float>(j + 1) * course_m - arc +
-                               0.004f * hash_signed(id, 1) + 0.003f * hash_signed(id, 2) * across +
-                               0.0008f * rough[k];
-            return Hit{tail - y, across, id};
-        };
-        // Rows lie like scales, the upper over the lower: the first tail below y is the one seen.
-        int j = static_cast<int>(std::floor(y / course_m)) - 1;
-        Hit hit = tile_at(j);
-        while (hit.below < 0.0f) hit = tile_at(++j);
-
-        const std::uint32_t id = hit.id;
-        const float gap = smooth_step(0.985f, 0.999f, std::abs(hit.across));
-        const float up = hit.below / course_m;
-        const float lip = saturate(hit.below / 0.006f);
-        MaterialTexel texel;
-        texel.height_m = 0.013f * std::sqrt(lip * (2.0f - lip)) - 0.0115f * std::min(up, 1.35f) +
-                         0.0022f * (1.0f - hit.across * hit.across) + 0.0015f * hash_signed(id, 3) +
-                         0.0012f * hash_signed(id, 4) * hit.across + 0.0006f * rough[k] +
-                         0.00018f * fine[k] - 0.005f * gap;
-        const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 5) * 6.0f) % 6u;
-        vec3 color = kTiles[pick] * (1.0f + 0.16f * hash_signed(id, 6));
-        color *= 1.0f + 0.13f * rough[k] + 0.07f * fine[k];
-        color = mix(color, 0.42f * color + vec3(0.012f), 0.62f * smooth_step(0.0f, 1.0f, stain[k]));
-        color = mix(color, 0.5f * color, smooth_step(0.5f, 1.1f, up) * 0.6f + 0.6f * gap);
-        const float crust = smooth_step(0.55f, 0.95f, lichen[k] + 0.3f * rough[k]);
-        color = mix(color, vec3(0.30f, 0.29f, 0.20f), 0.55f * crust);
-        const float moss =
-            smooth_step(0.35f, 0.9f, stain[k] - 0.5f * lichen[k]) * smooth_step(0.55f, 1.0f, up);
-        color = mix(color, vec3(0.055f, 0.068f, 0.022f), 0.75f * moss);
-        texel.height_m += 0.0008f * crust + 0.002f * moss;
-        texel.albedo = color;
-        texel.roughness = 0.80f + 0.05f * rough[k] + 0.08f * crust;
-        return texel;
-    });
+    return {{MaterialKind::Brick, "brick", "brickwork in running bond, chipped and sooty", 1.8f,
+             {{"brick_length_m", "m", 0.225f, 0.05f, 1.0f, "with its joint"},
+              {"course_m", "m", 0.075f, 0.03f, 0.5f, "height of a course with its joint"},
+              {"joint_m", "m", 0.010f, 0.002f, 0.025f, "of mortar"},
+              {"wear", "share", 0.5f, 0.0f, 1.0f, "corners and edges that are lost"},
+              {"soot", "share", 0.5f, 0.0f, 1.0f, "dark weathering"}},
+             make_brick},
+            {MaterialKind::Plaster, "plaster", "lime plaster with stains and hair cracks", 2.4f,
+             {{"stains", "share", 0.5f, 0.0f, 1.0f, "damp and streaks"},
+              {"cracks", "share", 0.5f, 0.0f, 1.0f, "hair cracks where the wall has moved"}},
+             make_plaster}};
 }
 
 }  // namespace petrichor::texproc::detail

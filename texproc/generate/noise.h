@@ -147,6 +147,47 @@ inline CellPoint cell_noise(float x, float y, int period_x, int period_y, std::u
     return result;
 }
 
+/// How far a position is from the border of its cell (Quilez 2012): everywhere as wide as it says, where the
+/// difference of the two nearest distances is not.
+struct CellBorder {
+    float distance = 8.0f;  ///< in cells
+    std::uint32_t id = 0;   ///< hash of the cell's point
+};
+
+inline CellBorder cell_border(float x, float y, int period_x, int period_y, std::uint32_t seed,
+                              float jitter = 1.0f)
+{
+    const int cell_x = static_cast<int>(std::floor(x));
+    const int cell_y = static_cast<int>(std::floor(y));
+    float to_x[25], to_y[25];
+    std::uint32_t ids[25];
+    int nearest = 0;
+    for (int j = -2, k = 0; j <= 2; ++j) {
+        for (int i = -2; i <= 2; ++i, ++k) {
+            const std::uint32_t h =
+                hash_cell(wrap_index(cell_x + i, period_x), wrap_index(cell_y + j, period_y), seed);
+            ids[k] = h;
+            to_x[k] = static_cast<float>(cell_x + i) + 0.5f +
+                      jitter * (static_cast<float>(h & 0xffffu) * (1.0f / 65536.0f) - 0.5f) - x;
+            to_y[k] = static_cast<float>(cell_y + j) + 0.5f +
+                      jitter * (static_cast<float>(h >> 16) * (1.0f / 65536.0f) - 0.5f) - y;
+            if (to_x[k] * to_x[k] + to_y[k] * to_y[k] <
+                to_x[nearest] * to_x[nearest] + to_y[nearest] * to_y[nearest])
+                nearest = k;
+        }
+    }
+    CellBorder border;
+    border.id = ids[nearest];
+    for (int k = 0; k < 25; ++k) {
+        const float dx = to_x[k] - to_x[nearest], dy = to_y[k] - to_y[nearest];
+        const float apart = dx * dx + dy * dy;
+        if (k == nearest || apart < 1e-8f) continue;
+        const float along = 0.5f * ((to_x[k] + to_x[nearest]) * dx + (to_y[k] + to_y[nearest]) * dy);
+        border.distance = std::min(border.distance, along / std::sqrt(apart));
+    }
+    return border;
+}
+
 }  // namespace petrichor::texproc
 
 #endif

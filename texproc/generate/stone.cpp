@@ -49,17 +49,18 @@ Sides sides_of(const CourseStone& stone, float x, float y, float joint_m)
     return sides;
 }
 
-}  // namespace
-
 void make_cobble(MaterialSurface& surface)
 {
-    surface.tile_m = 2.4f;
+    const float irregular = 2.0f * surface.value("irregularity");
+    const float joint_m = surface.value("joint_m");
+    const float mossy = 2.0f * surface.value("moss");
+    const float worn = 2.0f * surface.value("wear");
     const Courses courses(surface.tile_m,
-                          {.rows = 19,
-                           .row_jitter = 0.34f,
-                           .stone_length_m = 0.158f,
-                           .length_jitter = 0.42f,
-                           .slant = 0.16f},
+                          {.rows = surface.cells(surface.value("stone_width_m")),
+                           .row_jitter = 0.34f * irregular,
+                           .stone_length_m = surface.value("stone_length_m"),
+                           .length_jitter = 0.42f * irregular,
+                           .slant = 0.16f * irregular},
                           surface.seed);
     const auto warp_x = noise_layer(surface, {0.30f, 0.30f, 5, 0.44f, 1});
     const auto warp_y = noise_layer(surface, {0.48f, 0.48f, 5, 0.44f, 2});
@@ -82,7 +83,7 @@ void make_cobble(MaterialSurface& surface)
         const float py = y + 0.014f * warp_y[k] - 0.0022f * bumps[k];
         const CourseStone stone = courses.find(px, py);
         const std::uint32_t id = stone.id;
-        const Sides sides = sides_of(stone, px, py, 0.011f);
+        const Sides sides = sides_of(stone, px, py, joint_m);
         const float radius = mix(0.020f, 0.042f, hash_unit(id, 5));
         const float d = rounded_inside(sides.x, sides.y, radius) + 0.0009f * pits[k];
 
@@ -92,18 +93,18 @@ void make_cobble(MaterialSurface& surface)
         const float dome =
             (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
         const float edge = 1.0f - shoulder;
-        const float chip = smooth_step(0.45f, 0.95f, bumps[k] + 0.35f * warp_x[k]) * edge;
+        const float chip = worn * smooth_step(0.45f, 0.95f, bumps[k] + 0.35f * warp_x[k]) * edge;
         const float level = 0.0028f * hash_signed(id, 7);
         const float tilt =
             0.0022f * (hash_signed(id, 8) * sides.across + hash_signed(id, 9) * sides.along);
-        const float polish = smooth_step(0.25f, 0.85f, dome);
+        const float polish = std::min(worn * smooth_step(0.25f, 0.85f, dome), 1.0f);
         const float top = 0.0165f * flank + 0.0055f * std::max(dome, 0.0f) + level +
                           tilt * shoulder + mix(0.0016f, 0.0010f, polish) * bumps[k] -
                           0.0045f * chip - 0.00055f * smooth_step(0.1f, 0.9f, pits[k]) -
                           0.00022f * grain[k];
 
         // Sand in the joints, higher where moss grows.
-        const float green = smooth_step(0.05f, 0.75f, moss[k] + 0.25f * grit[k]);
+        const float green = std::min(mossy * smooth_step(0.05f, 0.75f, moss[k] + 0.25f * grit[k]), 1.0f);
         const float sand = 0.0032f + 0.0011f * grit[k] + 0.0014f * warp_y[k] +
                            green * (0.0026f + 0.0012f * pits[k]);
         const float above = top - sand;
@@ -140,13 +141,16 @@ void make_cobble(MaterialSurface& surface)
 
 void make_paving(MaterialSurface& surface)
 {
-    surface.tile_m = 2.4f;
+    const float irregular = 2.0f * surface.value("irregularity");
+    const float joint_m = surface.value("joint_m");
+    const float mossy = 2.0f * surface.value("moss");
+    const float worn = 2.0f * surface.value("wear");
     const Courses courses(surface.tile_m,
-                          {.rows = 5,
-                           .row_jitter = 0.36f,
-                           .stone_length_m = 0.60f,
-                           .length_jitter = 0.5f,
-                           .slant = 0.008f},
+                          {.rows = surface.cells(surface.value("stone_width_m")),
+                           .row_jitter = 0.36f * irregular,
+                           .stone_length_m = surface.value("stone_length_m"),
+                           .length_jitter = 0.5f * irregular,
+                           .slant = 0.008f * irregular},
                           surface.seed);
     const auto warp = noise_layer(surface, {0.10f, 0.10f, 4, 0.5f, 1});
     const auto riven = noise_layer(surface, {0.22f, 0.34f, 5, 0.5f, 2});
@@ -165,7 +169,7 @@ void make_paving(MaterialSurface& surface)
         const float py = y + 0.0016f * riven[k];
         const CourseStone stone = courses.find(px, py);
         const std::uint32_t id = stone.id;
-        const Sides sides = sides_of(stone, px, py, 0.010f);
+        const Sides sides = sides_of(stone, px, py, joint_m);
         const float d = rounded_inside(sides.x, sides.y, mix(0.006f, 0.022f, hash_unit(id, 5))) +
                         0.0012f * std::max(warp[k] - 0.3f, 0.0f) * -4.0f;
 
@@ -174,7 +178,7 @@ void make_paving(MaterialSurface& surface)
         const float step_at = std::floor(layers);
         const float terrace = step_at + smooth_step(0.35f, 0.65f, layers - step_at);
         const float wear =
-            (1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along);
+            worn * ((1.0f - sides.across * sides.across) * (1.0f - sides.along * sides.along));
         const float edge = saturate(d / 0.007f);
         const float round = std::sqrt(std::max(0.0f, 1.0f - (1.0f - edge) * (1.0f - edge)));
         const float top =
@@ -182,7 +186,7 @@ void make_paving(MaterialSurface& surface)
             0.0012f * hash_signed(id, 7) +
             0.0011f * (hash_signed(id, 8) * sides.across + hash_signed(id, 9) * sides.along) +
             0.00012f * fine[k];
-        const float green = smooth_step(0.25f, 0.8f, stain[k] + 0.2f * grit[k]);
+        const float green = std::min(mossy * smooth_step(0.25f, 0.8f, stain[k] + 0.2f * grit[k]), 1.0f);
         const float sand = 0.0016f + 0.0006f * grit[k] + 0.0016f * green;
         const float is_stone = smooth_step(-0.0004f, 0.0010f, top - sand);
 
@@ -203,11 +207,12 @@ void make_paving(MaterialSurface& surface)
 
 void make_granite(MaterialSurface& surface)
 {
-    surface.tile_m = 1.0f;
+    const float grain_m = surface.value("grain_m");
+    const float stained = 2.0f * surface.value("stains");
     const auto waves = noise_layer(surface, {0.16f, 0.16f, 4, 0.5f, 1});
     const auto hammer = noise_layer(surface, {0.012f, 0.012f, 2, 0.6f, 2});
-    const auto coarse = noise_layer(surface, {0.007f, 0.007f, 2, 0.6f, 3});
-    const auto fine = noise_layer(surface, {0.0035f, 0.0035f, 1, 0.6f, 4});
+    const auto coarse = noise_layer(surface, {grain_m, grain_m, 2, 0.6f, 3});
+    const auto fine = noise_layer(surface, {0.5f * grain_m, 0.5f * grain_m, 1, 0.6f, 4});
     const auto stain = noise_layer(surface, {0.33f, 0.33f, 5, 0.55f, 5});
     const vec3 kBase(0.205f, 0.200f, 0.195f);
     shade_texels(surface, [&](float, float, std::size_t k) {
@@ -216,11 +221,37 @@ void make_granite(MaterialSurface& surface)
         texel.height_m = 0.0012f * waves[k] - 0.0009f * pock + 0.00015f * fine[k];
         vec3 color = granite_grain(kBase, coarse[k], fine[k]) * (1.0f + 0.08f * waves[k]);
         color = mix(color, 0.6f * color, 0.6f * pock);
-        color = mix(color, color * vec3(0.74f, 0.71f, 0.66f), smooth_step(0.0f, 0.9f, stain[k]));
+        color = mix(color, color * vec3(0.74f, 0.71f, 0.66f),
+                    std::min(stained * smooth_step(0.0f, 0.9f, stain[k]), 1.0f));
         texel.albedo = color;
         texel.roughness = 0.66f + 0.07f * coarse[k] + 0.12f * pock;
         return texel;
     });
+}
+
+}  // namespace
+
+std::vector<KindRow> stone_kinds()
+{
+    const MaterialParameter irregular{"irregularity", "share", 0.5f, 0.0f, 0.9f, "of courses, lengths and sides; 0 sawn and laid by rule"};
+    const MaterialParameter moss{"moss", "share", 0.5f, 0.0f, 1.0f, "of the joints that are green"};
+    const MaterialParameter wear{"wear", "share", 0.5f, 0.0f, 1.0f, "polish of the tops by wheels and feet, chips of the edges"};
+    return {{MaterialKind::Cobble, "cobble", "worn granite setts in irregular courses", 2.4f,
+             {{"stone_width_m", "m", 2.4f / 19.0f, 0.03f, 1.0f, "of a course"},
+              {"stone_length_m", "m", 0.158f, 0.03f, 1.0f, "along the course, mean"},
+              {"joint_m", "m", 0.011f, 0.001f, 0.05f, "between stones"},
+              irregular, moss, wear},
+             make_cobble},
+            {MaterialKind::Paving, "paving", "riven stone slabs in courses", 2.4f,
+             {{"stone_width_m", "m", 0.48f, 0.08f, 2.0f, "of a course"},
+              {"stone_length_m", "m", 0.60f, 0.08f, 2.0f, "along the course, mean"},
+              {"joint_m", "m", 0.010f, 0.001f, 0.05f, "between slabs"},
+              irregular, moss, wear},
+             make_paving},
+            {MaterialKind::Granite, "granite", "bush-hammered granite without joints", 1.0f,
+             {{"grain_m", "m", 0.007f, 0.002f, 0.05f, "of its crystals"},
+              {"stains", "share", 0.5f, 0.0f, 1.0f, "of dirt and rust"}},
+             make_granite}};
 }
 
 }  // namespace petrichor::texproc::detail

@@ -1,11 +1,13 @@
 #ifndef PETRICHOR_TEXPROC_GENERATE_DETAIL_MATERIAL_TEXELS_H
 #define PETRICHOR_TEXPROC_GENERATE_DETAIL_MATERIAL_TEXELS_H
 
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "texproc/generate/generate.h"
 #include "texproc/generate/noise.h"
 
 namespace petrichor::texproc::detail {
@@ -25,7 +27,17 @@ struct MaterialSurface {
     int threads = 1;
     std::uint32_t seed = 0;
     float occlusion_strength = 1.0f;
+    std::map<std::string, float, std::less<>> values;  ///< of every parameter of the kind
     std::vector<MaterialTexel> texels;
+
+    /// What a parameter of the kind is; it exists.
+    float value(std::string_view name) const
+    {
+        const auto found = values.find(name);
+        assert(found != values.end());
+        return found->second;
+    }
+    int count(std::string_view name) const { return static_cast<int>(std::lround(value(name))); }
 
     float texel_m() const { return tile_m / static_cast<float>(size); }
     /// Cells of that size over the tile, at least one.
@@ -121,21 +133,25 @@ inline float saturate(float x)
     return std::clamp(x, 0.0f, 1.0f);
 }
 
-// One function a kind. Each sets tile_m and fills texels (already size * size).
-void make_cobble(MaterialSurface& surface);
-void make_brick(MaterialSurface& surface);
-void make_asphalt(MaterialSurface& surface);
-void make_concrete(MaterialSurface& surface);
-void make_paving(MaterialSurface& surface);
-void make_granite(MaterialSurface& surface);
-void make_plank(MaterialSurface& surface);
-void make_roof_tile(MaterialSurface& surface);
-void make_soil(MaterialSurface& surface);
-void make_grass_ground(MaterialSurface& surface);
-void make_metal_plate(MaterialSurface& surface);
-void make_painted_iron(MaterialSurface& surface);
-void make_standing_seam(MaterialSurface& surface);
-void make_plaster(MaterialSurface& surface);
+/// What a kind is: its texels, and the numbers that shape them. `tile_m` is a parameter of each.
+struct KindRow {
+    MaterialKind kind;
+    const char* name;
+    const char* meaning;
+    float tile_m;                               ///< as usual
+    std::vector<MaterialParameter> parameters;  ///< its own
+    void (*make)(MaterialSurface& surface);     ///< fills texels (already size * size)
+};
+
+// The kinds of a file each.
+std::vector<KindRow> stone_kinds();
+std::vector<KindRow> masonry_kinds();
+std::vector<KindRow> roof_kinds();
+std::vector<KindRow> road_kinds();
+std::vector<KindRow> ground_kinds();
+std::vector<KindRow> wood_and_metal_kinds();
+std::vector<KindRow> gravel_kinds();
+std::vector<KindRow> soft_kinds();
 
 }  // namespace petrichor::texproc::detail
 
