@@ -81,7 +81,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(s.snow, s.melt, 0.0f, 0.0f);
     }
     if (kind == 2) {
-        return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x),
+        return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x) +
+                        snow_line_factor(vec3(90.0f * a.x, 30.0f * a.w, 70.0f * a.y - 20.0f), 5.0f, 10.0f * b.x,
+                                         2.0f * b.z),
                     porosity_from_smoothness(b.y), smooth_edge(a.x, b.z, b.w));
     }
     if (kind == 3)
@@ -299,7 +301,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 color = detail_color(vec3(a.x, a.y, a.z), vec3(b.x, b.y, b.z), c.x);
         const vec3 detail = detail_normal(normalize(vec3(a.x - 0.5f, a.y - 0.5f, 1.0f)),
                                           normalize(vec3(b.x - 0.5f, b.y - 0.5f, 1.0f)), c.y);
-        return vec4(mix_by_height(a.w, vec2(b.w, c.z)).x, color.x + color.y + color.z, detail.x,
+        const vec4 ground = ground_shares(a, b, c.x);
+        return vec4(mix_by_height(a.w, vec2(b.w, c.z)).x + ground.x + 2.0f * ground.y + 3.0f * ground.z,
+                    color.x + color.y + color.z, detail.x,
                     detail.y + probe_light_map(a, b));
     }
     if (kind == 39) {

@@ -64,8 +64,16 @@ std::size_t layer_textures(const Material& material)
 {
     std::vector<MaterialTexture> rows;
     add_layer_textures(rows);
-    return static_cast<std::size_t>(std::count_if(
-        rows.begin(), rows.end(), [&](const MaterialTexture& t) { return t.get(material).present(); }));
+    const GroundLayer& third = material.second.third;
+    const GroundLayer& fourth = material.second.fourth;
+    const TextureUse* of_ground[] = {&third.base_color_texture,  &third.normal_texture,
+                                     &third.metallic_roughness_texture, &fourth.base_color_texture,
+                                     &fourth.normal_texture,     &fourth.metallic_roughness_texture};
+    return static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(),
+                      [&](const MaterialTexture& t) { return t.get(material).present(); }) +
+        std::count_if(std::begin(of_ground), std::end(of_ground),
+                      [](const TextureUse* use) { return use->present(); }));
 }
 
 }  // namespace

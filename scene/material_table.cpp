@@ -343,6 +343,7 @@ const std::vector<MaterialProperty>& material_table()
         add_light_rows(rows);
         add_weather_rows(rows);
         add_second_set_rows(rows);
+        add_ground_layer_rows(rows);
         add_decal_rows(rows);
         add_wind_rows(rows);
         add_displacement_rows(rows);

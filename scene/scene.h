@@ -102,6 +102,17 @@ enum class SecondSetUse {
     None,
     Mix,     ///< another material beside the first
     Detail,  ///< fine structure on the first
+    Layers,  ///< four materials, by the weights of a control map: the ground of a terrain
+};
+
+/// The third or fourth material of a ground of layers. Ranges and meanings: material_table.h.
+struct GroundLayer {
+    TextureUse base_color_texture;
+    TextureUse normal_texture;
+    TextureUse metallic_roughness_texture;  ///< R occlusion, G roughness, B metallic
+    glm::vec2 tiling{1.0f};  ///< of the three
+    glm::vec3 color{1.0f};   ///< linear
+    float roughness = 1.0f;
 };
 
 /// A second set of textures on a material (Lux 2.02). Ranges and meanings: material_table.h.
@@ -127,6 +138,13 @@ struct SecondSet {
     bool own_water = false;  ///< false: that of the first set
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
     glm::vec4 water_color{0.0f};
+    // Of layers alone.
+    GroundLayer third;
+    GroundLayer fourth;
+    float by_height = 0.0f;  ///< 0 blended by weight .. 1 the higher layer wins
+    TextureUse far_texture;  ///< colour of all of it from afar
+    float far_start_m = 150.0f;
+    float far_fade_m = 100.0f;
 };
 
 /// Where a plant's vertices learn how far they are from its root, 0 .. 1.

@@ -9,9 +9,11 @@ void add_second_set_rows(std::vector<Row>& t)
 {
     const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
     t.push_back(choice<&M::second, &S::use>(
-        "second_set", {"none", "mix", "detail"}, place("secondSet"),
+        "second_set", {"none", "mix", "detail", "layers"}, place("secondSet"),
         "second textures: unused, another material mixed with the first, or fine detail on it: its "
-        "colour doubled in sRGB codes (128 leaves the first as it is), within detail_distance_m"));
+        "colour doubled in sRGB codes (128 leaves the first as it is), within detail_distance_m; layers: "
+        "first, second, third and fourth are the grounds of a terrain, red, green, blue and alpha of "
+        "mix_mask_texture their weights"));
     t.push_back(number<&M::second, &S::mix_factor>(
         "mix_factor", 0, 1, place("mixFactor"),
         "1 the first set .. 0 the second, times red of _WEATHER and the mask; with heights the higher "
@@ -63,9 +65,51 @@ void add_second_set_rows(std::vector<Row>& t)
                                                     "as water_color, of the second set"));
 }
 
+// Lux 2.02, "terrain": what the first two layers have is said above.
+void add_ground_layer_rows(std::vector<Row>& t)
+{
+    using G = GroundLayer;
+    const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(number<&M::second, &S::third, &G::tiling>(
+        "third_tiling", 0, 10000, place("thirdTiling"), "of layers: repeats of the third's textures, times their own"));
+    t.push_back(number<&M::second, &S::third, &G::color>(
+        "third_color_factor", 0, 1, place("thirdColorFactor"), "of layers: linear, times the third's texture"));
+    t.push_back(number<&M::second, &S::third, &G::roughness>(
+        "third_roughness_factor", 0, 1, place("thirdRoughnessFactor"), "of layers: times green of the third's packed texture"));
+    t.push_back(number<&M::second, &S::fourth, &G::tiling>(
+        "fourth_tiling", 0, 10000, place("fourthTiling"), "of layers: repeats of the fourth's textures, times their own"));
+    t.push_back(number<&M::second, &S::fourth, &G::color>(
+        "fourth_color_factor", 0, 1, place("fourthColorFactor"), "of layers: linear, times the fourth's texture"));
+    t.push_back(number<&M::second, &S::fourth, &G::roughness>(
+        "fourth_roughness_factor", 0, 1, place("fourthRoughnessFactor"), "of layers: times green of the fourth's packed texture"));
+    t.push_back(number<&M::second, &S::by_height>(
+        "layers_by_height", 0, 1, place("layersByHeight"),
+        "of layers: 0 blended by weight, as in Lux .. 1 what stands higher (blue of its colour texture) wins"));
+    t.push_back(number<&M::second, &S::far_start_m>(
+        "far_start_m", 0, 1.0e6f, place("farStart"), "of layers: from here on they fade to far_texture"));
+    t.push_back(number<&M::second, &S::far_fade_m>(
+        "far_fade_m", 0, 1.0e6f, place("farFade"), "of layers: metres that the fade takes"));
+}
+
 void add_second_set_textures(std::vector<MaterialTexture>& t)
 {
     const auto place = [](std::string_view member) { return GltfPlace{kWeather, "", member}; };
+    t.push_back(texture<&M::second, &S::third, &GroundLayer::base_color_texture>(
+        "third_base_color_texture", place("thirdBaseColorTexture"), "of layers: sRGB colour; blue: height"));
+    t.push_back(texture<&M::second, &S::third, &GroundLayer::normal_texture>(
+        "third_normal_texture", place("thirdNormalTexture"), "of layers: tangent space, green up"));
+    t.push_back(texture<&M::second, &S::third, &GroundLayer::metallic_roughness_texture>(
+        "third_metallic_roughness_texture", place("thirdMetallicRoughnessTexture"),
+        "of layers: red occlusion, green roughness, blue metallic"));
+    t.push_back(texture<&M::second, &S::fourth, &GroundLayer::base_color_texture>(
+        "fourth_base_color_texture", place("fourthBaseColorTexture"), "of layers: sRGB colour; blue: height"));
+    t.push_back(texture<&M::second, &S::fourth, &GroundLayer::normal_texture>(
+        "fourth_normal_texture", place("fourthNormalTexture"), "of layers: tangent space, green up"));
+    t.push_back(texture<&M::second, &S::fourth, &GroundLayer::metallic_roughness_texture>(
+        "fourth_metallic_roughness_texture", place("fourthMetallicRoughnessTexture"),
+        "of layers: red occlusion, green roughness, blue metallic"));
+    t.push_back(texture<&M::second, &S::far_texture>(
+        "far_texture", place("farTexture"), "of layers: sRGB colour of all of it, as it is seen from afar"));
     t.push_back(texture<&M::second, &S::mix_mask>(
         "mix_mask_texture", place("mixMaskTexture"),
         "1 the first set, 0 the second; of detail 1 all of it; mix_mask_channel"));

@@ -489,6 +489,10 @@ FrameParts frame_parts(const Sequence& sequence, const SequenceFrame& what)
                 hasher.add(one.glob);
                 hasher.add(one.lighting_model);
                 if (!one.surface.empty()) hasher.add(one.surface);
+                if (one.tiling != glm::vec2(1.0f)) {
+                    hasher.add(one.tiling.x);
+                    hasher.add(one.tiling.y);
+                }
                 for (const auto& [name, channels] : one.values) {
                     hasher.add(name);
                     // What is loaded: the first key, and whether others follow.

@@ -29,6 +29,10 @@ const std::vector<LookKey>& look_keys()
          offsetof(WeatherLook, snow_scatter_bias)},
         {LOOK(snow_scatter_contraction), 1.0, 10.0, "8.0",
          "how far it is drawn towards the edge of a body", offsetof(WeatherLook, snow_scatter_contraction)},
+        {LOOK(snow_line_ragged), 0.0, 10.0, "1.0",
+         "how far the snow line (snow_start_height_m) runs up and down the slope, times twice "
+         "snow_height_blending_km; 0: level, as Lux 2.02",
+         offsetof(WeatherLook, snow_line_ragged)},
         {LOOK(ripple_tiling), 0.0, 100.0, "0.8", "repeats of the rings of rain per metre",
          offsetof(WeatherLook, ripple_tiling)},
         {LOOK(ripple_speed), 0.0, 10.0, "1.0", "of the rings; 1 as photographed",

@@ -26,6 +26,7 @@ using scene::PropertyKind;
 constexpr const char* kLightingModel = "lighting_model";
 constexpr const char* kSurface = "surface";
 constexpr const char* kPreset = "preset";
+constexpr const char* kTiling = "tiling";
 constexpr std::uint64_t kLargestTexture = 1ull << 30;  // bytes of a file
 constexpr double kAny = std::numeric_limits<float>::max();
 
@@ -156,6 +157,11 @@ void apply(const MaterialOverride& override, const std::filesystem::path& folder
         use.texture = file.empty() ? scene::kNoTexture
                                    : textures.index_of(file, override.place, use);
     }
+    for (scene::TextureUse* use :
+         {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture, &material.weather.height}) {
+        use->scale *= override.tiling;
+    }
 }
 
 // What the words of `preset` stand for.
@@ -246,6 +252,11 @@ std::vector<ScenarioKey> material_keys()
                     .meaning = "alpha_mode, premultiplied_alpha, casts_shadows and double_sided in one "
                                "word: " +
                                join_words(preset_words(), " | ") + "; keys beside it win"});
+    keys.push_back({.table = "materials",
+                    .name = kTiling,
+                    .example = "[1.0, 1.0]",
+                    .meaning = "repeats of colour, normal, roughness, occlusion, emission and height, times their "
+                               "own; 0 to 10000"});
     return keys;
 }
 
@@ -261,6 +272,7 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
     known.emplace_back(kLightingModel);
     known.emplace_back(kSurface);
     known.emplace_back(kPreset);
+    known.emplace_back(kTiling);
     std::vector<std::pair<std::uint32_t, MaterialOverride>> found;
     for (const auto& [glob, node] : materials) {
         const TomlValue value(node, file, "[materials.\"" + std::string(glob.str()) + "\"]");
@@ -273,6 +285,9 @@ std::vector<MaterialOverride> read_material_overrides(const toml::table& materia
                 if (!one.surface.ends_with(".glsl")) entry.refuse("a file that ends in .glsl");
             } else if (name == kPreset) {
                 put_preset(entry, one);
+            } else if (name == kTiling) {
+                const auto both = entry.numbers(2, 0.0, 10000.0);
+                one.tiling = {static_cast<float>(both[0]), static_cast<float>(both[1])};
             } else if (find_slot(name)) {
                 one.textures.emplace_back(name, entry.text());
             } else {

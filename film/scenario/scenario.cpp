@@ -236,7 +236,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
     }
     // Over all that the file says, wherever in it they stand.
     if (const toml::node* node = root.get("variant")) {
-        read_parts(scenario, "variant", *node, {"weather", "sun", "sky", "moon", "fog", "lights", "look"},
+        read_parts(scenario, "variant", *node, scenario_variant_tables(),
                    [&](const std::string& part, const Scenario& changed) {
                        scenario.variants.push_back({part, changed});
                    });
@@ -250,6 +250,12 @@ Scenario parse_scenario(std::string_view text, const std::string& name)
                    });
     }
     return scenario;
+}
+
+const std::vector<std::string>& scenario_variant_tables()
+{
+    static const std::vector<std::string> tables{"weather", "sun", "sky", "moon", "fog", "lights", "look"};
+    return tables;
 }
 
 Scenario read_scenario(const std::filesystem::path& file)

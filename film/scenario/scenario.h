@@ -233,6 +233,7 @@ struct MaterialOverride {
     std::vector<std::pair<std::string, std::string>> textures = {};
     std::string lighting_model = {};  ///< as written; empty: left as it is
     std::string surface = {};         ///< likewise
+    glm::vec2 tiling{1.0f};           ///< times the scale of the first set of textures
 };
 
 /// What the instances of nodes whose name matches have instead of their materials' own.
@@ -355,6 +356,9 @@ struct ScenarioKey {
 
 /// All keys, in the order in which they are documented.
 const std::vector<ScenarioKey>& scenario_keys();
+
+/// The tables that a [[variant]] may bring.
+const std::vector<std::string>& scenario_variant_tables();
 
 /// One line about each table.
 std::string table_meaning(const std::string& table);

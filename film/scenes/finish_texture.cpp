@@ -293,6 +293,9 @@ gpu::Texture finish_plain(const scene::Scene& scene, const TextureRecipe& recipe
         case Kind::Light:
             return rounded(texproc::plain_levels(decode_light(encoded, options), "albedo", mips),
                            gpu::TexelFormat::Rgba16Float, options);
+        case Kind::Weights:
+            return rounded(texproc::plain_levels(decode(encoded, ColorSpace::Data, 4, options), "mask", mips),
+                           gpu::TexelFormat::Rgba8Unorm, options);
         case Kind::Surface:
         case Kind::Scalar:
             break;

@@ -26,6 +26,7 @@ std::uint64_t texel_bytes(Kind kind)
             return 8;
         case Kind::Color:
         case Kind::Surface:
+        case Kind::Weights:
             break;
     }
     return 4;

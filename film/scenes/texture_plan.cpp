@@ -162,7 +162,16 @@ void plan_second(scene::SecondSet& second, const scene::Scene& scene, Planner& p
     planner.use(second.base_color_texture, {.kind = Kind::Color, .fades_to_grey = detail});
     plan_pair(second.metallic_roughness_texture, second.normal_texture, second.normal_scale, nullptr,
               scene, planner);
-    plan_scalar(second.mix_mask, planner);
+    if (second.use == scene::SecondSetUse::Layers) {
+        planner.use(second.mix_mask, {.kind = Kind::Weights});
+        for (scene::GroundLayer* layer : {&second.third, &second.fourth}) {
+            planner.use(layer->base_color_texture, {.kind = Kind::Color});
+            plan_pair(layer->metallic_roughness_texture, layer->normal_texture, 1.0f, nullptr, scene, planner);
+        }
+        planner.use(second.far_texture, {.kind = Kind::Color});
+    } else {
+        plan_scalar(second.mix_mask, planner);
+    }
     plan_scalar(second.height, planner);
 }
 

@@ -16,6 +16,7 @@ struct TextureRecipe {
         Surface,  ///< R occlusion, G roughness, B metallic
         Scalar,   ///< one channel: occlusion, height, masks
         Light,    ///< linear and unbounded: light maps
+        Weights,  ///< four channels: weights of a ground's layers
     };
     int image = 0;  ///< index into Scene::textures as loaded
     Kind kind = Kind::Color;

@@ -1,6 +1,7 @@
 #include "film/data/source_fingerprint.h"
 #include "film/scenes/transport.h"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -24,6 +25,13 @@ constexpr int kColorSide = 128;
 enum class Use { Nothing, Color, Data };
 
 // What patches want to know of each texture.
+// Colours of a ground of layers besides the first's.
+std::array<const scene::TextureUse*, 4> ground_colors(const scene::Material& material)
+{
+    const scene::SecondSet& s = material.second;
+    return {&s.base_color_texture, &s.third.base_color_texture, &s.fourth.base_color_texture, &s.far_texture};
+}
+
 std::vector<Use> uses_of(const scene::Scene& scene)
 {
     std::vector<Use> uses(scene.textures.size(), Use::Nothing);
@@ -34,6 +42,10 @@ std::vector<Use> uses_of(const scene::Scene& scene)
         want(material.metallic_roughness_texture, Use::Data);
         if (material.emissive != glm::vec3(0.0f)) want(material.emissive_texture, Use::Color);
         want(material.base_color_texture, Use::Color);
+        if (material.second.use == scene::SecondSetUse::Layers) {
+            want(material.second.mix_mask, Use::Data);
+            for (const scene::TextureUse* use : ground_colors(material)) want(*use, Use::Color);
+        }
     }
     return uses;
 }
@@ -85,6 +97,18 @@ std::string surfaces_key(const scene::Scene& scene, const std::string& patches_k
         add_use(m.base_color_texture);
         add_use(m.metallic_roughness_texture);
         add_use(m.emissive_texture);
+        const scene::SecondSet& s = m.second;
+        hasher.add(static_cast<int>(s.use));
+        if (s.use != scene::SecondSetUse::Layers) continue;
+        add_use(s.mix_mask);
+        for (const scene::TextureUse* use : ground_colors(m)) add_use(*use);
+        for (const glm::vec2& v : {s.mix_mask_tiling, s.tiling, s.third.tiling, s.fourth.tiling}) {
+            hasher.add(v.x);
+            hasher.add(v.y);
+        }
+        for (const glm::vec3& v : {s.color, s.third.color, s.fourth.color}) {
+            for (int i = 0; i < 3; ++i) hasher.add(v[i]);
+        }
     }
     // Which material a triangle has, its texture coordinates and colours.
     for (const scene::Instance& instance : scene.instances) {

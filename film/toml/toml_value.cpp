@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/words.h"
+#include "film/toml/questions.h"
 
 namespace petrichor::film {
 namespace {
@@ -39,6 +40,7 @@ void TomlValue::refuse(const std::string& expected) const
 
 double TomlValue::number(double low, double high) const
 {
+    note_question(key_, {.kind = Question::Kind::Number, .low = low, .high = high});
     const auto value = node_->value<double>();
     const bool is_number = node_->is_integer() || node_->is_floating_point();
     if (!is_number || !value || !(*value >= low && *value <= high)) {
@@ -49,6 +51,7 @@ double TomlValue::number(double low, double high) const
 
 int TomlValue::integer(int low, int high) const
 {
+    note_question(key_, {.kind = Question::Kind::Integer, .low = static_cast<double>(low), .high = static_cast<double>(high)});
     const auto value = node_->value<std::int64_t>();
     if (!node_->is_integer() || !value || *value < low || *value > high) {
         refuse("a whole number from " + std::to_string(low) + " to " + std::to_string(high));
@@ -58,12 +61,14 @@ int TomlValue::integer(int low, int high) const
 
 bool TomlValue::boolean() const
 {
+    note_question(key_, {.kind = Question::Kind::Boolean});
     if (!node_->is_boolean()) refuse("true or false");
     return *node_->value<bool>();
 }
 
 std::string TomlValue::text() const
 {
+    note_question(key_, {.kind = Question::Kind::Text});
     if (!node_->is_string()) refuse("a text in quotes");
     return *node_->value<std::string>();
 }
@@ -75,6 +80,7 @@ bool TomlValue::is_text() const
 
 int TomlValue::choice(const std::vector<std::string>& words) const
 {
+    note_question(key_, {.kind = Question::Kind::Choice, .words = words});
     if (node_->is_string()) {
         const std::string found = *node_->value<std::string>();
         for (std::size_t i = 0; i < words.size(); ++i) {
@@ -86,6 +92,7 @@ int TomlValue::choice(const std::vector<std::string>& words) const
 
 std::vector<TomlValue> TomlValue::elements() const
 {
+    note_question(key_, {.kind = Question::Kind::Array});
     const toml::array* array = node_->as_array();
     if (!array) refuse("an array");
     std::vector<TomlValue> values;
@@ -97,6 +104,7 @@ std::vector<TomlValue> TomlValue::elements() const
 
 std::vector<double> TomlValue::numbers(std::size_t count, double low, double high) const
 {
+    note_question(key_, {.kind = Question::Kind::Numbers, .low = low, .high = high, .count = count});
     const toml::array* array = node_->as_array();
     if (!array || array->size() != count)
         refuse("an array of " + std::to_string(count) + " numbers");
@@ -120,6 +128,7 @@ std::vector<std::string> TomlValue::texts() const
 
 KeyedNumber TomlValue::keyed(double low, double high) const
 {
+    note_question(key_, {.kind = Question::Kind::Keyed, .low = low, .high = high});
     KeyedNumber number;
     if (!node_->is_array()) {
         number.keys.push_back({0.0, this->number(low, high)});
@@ -142,6 +151,8 @@ KeyedNumber TomlValue::keyed(double low, double high) const
 std::vector<KeyedNumber> TomlValue::keyed_numbers(std::size_t count, double low, double high) const
 {
     if (count == 1) return {keyed(low, high)};
+    note_question(key_,
+                  {.kind = Question::Kind::KeyedNumbers, .low = low, .high = high, .count = count});
     std::vector<KeyedNumber> channels(count);
     const toml::array* array = node_->as_array();
     if (!array || array->empty() || !array->get(0)->is_array()) {
@@ -173,6 +184,7 @@ Interpolation TomlValue::interpolation() const
 std::vector<std::pair<std::string, TomlValue>> TomlValue::entries(
     const std::vector<std::string>& known) const
 {
+    note_question(key_, {.kind = Question::Kind::Table, .words = known});
     const toml::table* table = node_->as_table();
     if (!table) refuse("a table");
     std::vector<std::pair<std::string, TomlValue>> found;

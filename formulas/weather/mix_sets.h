@@ -23,6 +23,19 @@ SHARED_FN vec2 mix_by_height(float first, vec2 heights)
     return vec2(b, c) / (b + c);
 }
 
+// Shares of four layers, which sum to 1: their weights, or with by_height 1 those that stand higher where several
+// have weight. Where none has any it is the first (Lux 2.02 divides by the sum plus 0.001).
+SHARED_FN vec4 ground_shares(vec4 weights, vec4 heights, float by_height)
+{
+    const float sum = weights.x + weights.y + weights.z + weights.w;
+    const vec4 plain = sum > 0.002f ? weights / max(sum, 0.002f) : vec4(1.0f, 0.0f, 0.0f, 0.0f);
+    vec4 b = plain * plain * (clamp(heights, vec4(0.0f), vec4(1.0f)) + vec4(0.001f));
+    b *= b;
+    b *= b;
+    const float high = max(b.x + b.y + b.z + b.w, 1.0e-20f);
+    return mix(plain, b / high, by_height);
+}
+
 // Linear colour under a linear detail colour: sRGB 0.5 leaves it as it is (Lux has 4.5948, of a gamma of 2.2).
 SHARED_FN vec3 detail_color(vec3 color, vec3 detail, float share)
 {

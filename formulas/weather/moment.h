@@ -75,6 +75,8 @@ struct WeatherLook {
     vec3 snow_scatter_color MOMENT_DEFAULT(vec3(0.0f));
     float snow_scatter_bias MOMENT_DEFAULT(0.0f);
     float snow_scatter_contraction MOMENT_DEFAULT(8.0f);
+    // How far the snow line runs up and down the slope, times twice its blend range.
+    float snow_line_ragged MOMENT_DEFAULT(1.0f);
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
     // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a

@@ -7,6 +7,7 @@
 #define PETRICHOR_FORMULAS_WEATHER_SURFACE_WEATHER_H
 
 #include "base/interop.h"
+#include "formulas/noise/noise.h"
 
 SHARED_BEGIN
 
@@ -121,6 +122,24 @@ SHARED_FN float snow_on_grass(float amount, float height_factor, float mask, flo
 SHARED_FN float snow_height_factor(float world_y_m, float start_m, float blend_m)
 {
     return sqrt(saturate((world_y_m - start_m) / max(blend_m, 1.0e-3f)));
+}
+
+// Seven, three and one times the blend range wide, -1..1 around 0: where a snow line runs up a gully or down a spur.
+SHARED_FN float snow_line_noise(vec2 at_m, float blend_m)
+{
+    const vec2 p = at_m / max(blend_m, 1.0e-3f);
+    return tileable_noise(p / 7.3f, 4096, 71u) + 0.65f * tileable_noise(p / 2.9f, 4096, 72u) +
+           0.35f * tileable_noise(p / 1.1f, 4096, 73u) - 1.0f;
+}
+
+// The same on a snow line that runs up and down by `ragged` times twice its blend range; 0: by height alone.
+SHARED_FN float snow_line_factor(vec3 position_m, float start_m, float blend_m, float ragged)
+{
+    const float reach_m = 2.0f * ragged * blend_m;
+    if (ragged <= 0.0f || position_m.y < start_m - reach_m) return snow_height_factor(position_m.y, start_m, blend_m);
+    if (position_m.y > start_m + blend_m + reach_m) return 1.0f;
+    const float shift_m = reach_m * snow_line_noise(vec2(position_m.x, position_m.z), blend_m);
+    return snow_height_factor(position_m.y + shift_m, start_m, blend_m);
 }
 
 // ---- frost -------------------------------------------------------------------------------------

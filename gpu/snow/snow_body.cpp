@@ -110,9 +110,8 @@ std::vector<float> SnowBody::depths(const Frame& frame)
                 depth += frame.place->states[std::size_t{patch} * PLACE_STATE_TEXELS + 2].z;
             depth /= 9.0f;
         }
-        depths.push_back(depth * shared::snow_height_factor(caps_->points[i].base_m.y,
-                                                            w.snow_start_height_m,
-                                                            w.snow_height_blend_m));
+        depths.push_back(depth * shared::snow_line_factor(caps_->points[i].base_m, w.snow_start_height_m,
+                                                          w.snow_height_blend_m, frame.look.snow_line_ragged));
     }
     return depths;
 }
@@ -127,6 +126,7 @@ bool SnowBody::lay(const Frame& frame)
         key.depth_m = w.snow_amount > 0.0f ? w.snow_depth_m : 0.0f;
         key.start_m = w.snow_start_height_m;
         key.blend_m = w.snow_height_blend_m;
+        key.ragged = frame.look.snow_line_ragged;
         key.place = placed ? frame.place : nullptr;
     }
     if (laid_ == key) return false;

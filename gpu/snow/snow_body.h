@@ -33,7 +33,7 @@ public:
 
 private:
     struct Key {
-        float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f;
+        float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f, ragged = 0.0f;
         bool wanted = false;
         std::shared_ptr<const PlaceWeather> place;
         bool operator==(const Key&) const = default;

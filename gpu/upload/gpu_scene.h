@@ -88,7 +88,7 @@ struct GpuMaterial {
     std::uint32_t lighting_model = 0;  ///< its number
     std::uint32_t layers = 0;          ///< LAYERS_... that it has
     std::uint32_t layers_row = 0;      ///< of the table of layers, from 1; 0: none yet
-    std::array<std::uint32_t, 2> layer_roles{};  ///< of its textures of layers
+    std::array<std::uint32_t, LAYER_ROLE_WORDS> layer_roles{};  ///< of its textures of layers
     bool light_textures = false;       ///< some of them are shares that lighting reads
     std::uint32_t besides = 0;         ///< BESIDES_... of its surface
     std::vector<Binding> bindings;     ///< constants, then the texture slots

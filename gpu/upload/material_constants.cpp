@@ -123,6 +123,14 @@ MaterialConstants material_constants(const Material& material, const std::vector
                            TEXTURE_SECOND_METALLIC_ROUGHNESS, TEXTURE_SECOND_HEIGHT}) {
         tile(slot, second.tiling);
     }
+    for (std::size_t i = 0; i < layers.uses.size(); ++i) {
+        const int slot = TEXTURE_SLOTS + static_cast<int>(i);
+        for (const scene::GroundLayer* layer : {&second.third, &second.fourth}) {
+            if (layers.uses[i] == &layer->base_color_texture || layers.uses[i] == &layer->normal_texture ||
+                layers.uses[i] == &layer->metallic_roughness_texture)
+                tile(slot, layer->tiling);
+        }
+    }
     if (!second.own_water) {
         constants.second_water_accumulation = constants.water_accumulation;
         constants.second_water_color = constants.water_color;

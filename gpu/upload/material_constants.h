@@ -26,7 +26,7 @@ std::vector<const TextureUse*> slots_of(const Material& material);
 /// The textures of its layers that have pixels, in their slots behind the others.
 struct LayerSlots {
     std::vector<const TextureUse*> uses;
-    std::array<std::uint32_t, 2> roles{};  ///< LAYER_TEXTURES by four bits each
+    std::array<std::uint32_t, LAYER_ROLE_WORDS> roles{};  ///< LAYER_TEXTURES by four bits each
     bool of_light = false;                 ///< some are shares that lighting reads
 };
 LayerSlots layer_slots_of(const Material& material, const std::vector<bool>& loaded);

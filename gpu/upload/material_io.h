@@ -73,6 +73,13 @@
     X(uint, second_occlusion_in_alpha) \
     X(vec4, second_water_accumulation) \
     X(vec4, second_water_color)    \
+    X(vec3, third_color_factor)    \
+    X(float, third_roughness_factor) \
+    X(vec3, fourth_color_factor)   \
+    X(float, fourth_roughness_factor) \
+    X(float, layers_by_height)     \
+    X(float, far_start_m)          \
+    X(float, far_fade_m)           \
     X(uint, sheltered)             \
     X(float, light_map_scale)      \
     X(float, light_map_sky)        \
@@ -96,7 +103,8 @@
     X(11, second_base_color_texture) \
     X(12, second_normal_texture) \
     X(13, second_metallic_roughness_texture) \
-    X(14, second_height_texture)
+    X(14, second_height_texture) \
+    X(15, far_texture)
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_NORMAL 1
 #define TEXTURE_METALLIC_ROUGHNESS 2
@@ -112,7 +120,8 @@
 #define TEXTURE_SECOND_NORMAL 12
 #define TEXTURE_SECOND_METALLIC_ROUGHNESS 13
 #define TEXTURE_SECOND_HEIGHT 14
-#define TEXTURE_SLOTS 15
+#define TEXTURE_FAR 15
+#define TEXTURE_SLOTS 16
 
 // Textures of layers share a few slots behind those: a device may have no more than 32 samplers a stage.
 // A material's are in the slots in this order; which is where its roles say.
@@ -133,7 +142,13 @@
     X(12, specular_color_texture)        \
     X(13, iridescence_texture)           \
     X(14, iridescence_thickness_texture) \
-    X(15, specular_glossiness_texture)
+    X(15, specular_glossiness_texture)   \
+    X(16, third_base_color_texture)      \
+    X(17, third_normal_texture)          \
+    X(18, third_metallic_roughness_texture) \
+    X(19, fourth_base_color_texture)     \
+    X(20, fourth_normal_texture)         \
+    X(21, fourth_metallic_roughness_texture)
 #define LAYER_TEXTURE_CLEARCOAT 0
 #define LAYER_TEXTURE_CLEARCOAT_ROUGHNESS 1
 #define LAYER_TEXTURE_CLEARCOAT_NORMAL 2
@@ -150,8 +165,11 @@
 #define LAYER_TEXTURE_IRIDESCENCE 13
 #define LAYER_TEXTURE_IRIDESCENCE_THICKNESS 14
 #define LAYER_TEXTURE_SPECULAR_GLOSSINESS 15
-#define LAYER_TEXTURE_ROLES 16
+#define LAYER_TEXTURE_THIRD 16   // three in a row: colour, normal, packed
+#define LAYER_TEXTURE_FOURTH 19
+#define LAYER_TEXTURE_ROLES 22
 #define LAYER_ROLES_A_WORD 8  // four bits a role: 0 none, else the number of the slot from 1
+#define LAYER_ROLE_WORDS 3
 #define LAYER_TEXTURE_SLOTS 6
 #define MATERIAL_TEXTURE_SLOTS (TEXTURE_SLOTS + LAYER_TEXTURE_SLOTS)
 // Roles up to here are shares that lighting reads a pixel.
@@ -184,6 +202,7 @@
 #define SECOND_NONE 0u
 #define SECOND_MIX 1u
 #define SECOND_DETAIL 2u
+#define SECOND_LAYERS 3u
 
 // How snow lies on it (scene::SnowRule, scene::SnowMapping).
 #define SNOW_LIES 1u

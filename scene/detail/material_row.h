@@ -144,6 +144,8 @@ void add_displacement_rows(std::vector<MaterialProperty>& table);
 
 /// Rows of the second set of textures.
 void add_second_set_rows(std::vector<MaterialProperty>& table);
+/// Rows of a ground of layers.
+void add_ground_layer_rows(std::vector<MaterialProperty>& table);
 void add_decal_rows(std::vector<MaterialProperty>& table);
 void add_wind_rows(std::vector<MaterialProperty>& table);
 void add_second_set_textures(std::vector<MaterialTexture>& table);

@@ -42,14 +42,41 @@ float luminance(glm::vec3 v)
     return 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z;
 }
 
+TextureUse tiled(TextureUse use, glm::vec2 tiling)
+{
+    use.scale *= tiling;
+    use.offset *= tiling;
+    return use;
+}
+
+// Colour of a ground of layers: as it is from afar, else by the weights of its control map.
+glm::vec3 ground_color(const Triangles& triangles, const PatchSample& sample, const Material& m,
+                       std::span<const ColorImage> images)
+{
+    const SecondSet& s = m.second;
+    if (s.far_texture.present()) return texel(triangles, sample, s.far_texture, images);
+    glm::vec3 weights(1.0f, 0.0f, 0.0f);
+    if (s.mix_mask.present()) weights = texel(triangles, sample, tiled(s.mix_mask, s.mix_mask_tiling), images);
+    const float fourth = std::max(1.0f - weights.x - weights.y - weights.z, 0.0f);
+    const glm::vec3 sum =
+        texel(triangles, sample, m.base_color_texture, images) * glm::vec3(m.base_color) * weights.x +
+        texel(triangles, sample, tiled(s.base_color_texture, s.tiling), images) * s.color * weights.y +
+        texel(triangles, sample, tiled(s.third.base_color_texture, s.third.tiling), images) * s.third.color * weights.z +
+        texel(triangles, sample, tiled(s.fourth.base_color_texture, s.fourth.tiling), images) * s.fourth.color * fourth;
+    return sum / std::max(weights.x + weights.y + weights.z + fourth, 1e-3f);
+}
+
 }  // namespace
 
 glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
                         std::span<const ColorImage> images)
 {
     const Material& m = triangles.scene().materials[triangles.material(triangle)];
-    const glm::vec3 color = texel(triangles, {triangle, at}, m.base_color_texture, images) *
-                            glm::vec3(m.base_color) * glm::vec3(triangles.color(triangle, at));
+    const PatchSample sample{triangle, at};
+    const glm::vec3 own = m.second.use == SecondSetUse::Layers
+                              ? ground_color(triangles, sample, m, images)
+                              : texel(triangles, sample, m.base_color_texture, images) * glm::vec3(m.base_color);
+    const glm::vec3 color = own * glm::vec3(triangles.color(triangle, at));
     return glm::clamp(color, 0.0f, 1.0f);
 }
 

@@ -14,6 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 using namespace testing_program;
 
 TEST(Program, HelpAndVersionSucceedOnStdout)
@@ -111,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"folder_below_a_file",
                 {"render", "scene.glb", "-o", "file/x"},
                 "cannot write into the folder"},
-        Mistake{"init_no_name", {"init"}, "NAME"},
+        Mistake{"init_no_name", {"init"}, "a name is missing"},
         Mistake{"init_exists", {"init", "zero"}, "exists already"},
         Mistake{"bench_no_scene", {"bench"}, "--scene"},
         Mistake{"bench_zero", {"bench", "--scene", "scene.glb", "--size", "0x1"}, "0x1"}),
@@ -146,6 +147,19 @@ TEST(Program, InitWritesAScenarioThatIsAccepted)
     const Outcome render = run({"render", "mine.toml", "--weather", "w.toml"}, place);
     EXPECT_EQ(render.exit_code, 2);
     EXPECT_THAT(render.err, HasSubstr("gone.glb"));
+}
+
+TEST(Program, InitWritesTheSchemaOfScenarios)
+{
+    const Workplace place("init_schema");
+    const Outcome both = run({"init", "mine", "--schema"}, place);
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_THAT(read_file(place / "mine.toml"), StartsWith("#:schema petrichor.schema.json\n"));
+    const std::string schema = read_file(place / "petrichor.schema.json");
+    EXPECT_THAT(schema, HasSubstr("\"roughness_factor\""));
+    write_file(place / "petrichor.schema.json", "old");
+    EXPECT_EQ(run({"init", "--schema"}, place).exit_code, 0);
+    EXPECT_EQ(read_file(place / "petrichor.schema.json"), schema);
 }
 
 // What the rival started ends too: it would have left a file two seconds later.

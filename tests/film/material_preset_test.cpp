@@ -45,5 +45,17 @@ TEST(MaterialKeys, APresetIsFourKeysInAWord)
     }
 }
 
+TEST(MaterialKeys, TilingIsOfTheFirstSet)
+{
+    const scene::Material m = with("tiling = [4, 0.5]");
+    EXPECT_EQ(m.base_color_texture.scale, glm::vec2(4.0f, 0.5f));
+    EXPECT_EQ(m.normal_texture.scale, glm::vec2(4.0f, 0.5f));
+    EXPECT_EQ(m.weather.height.scale, glm::vec2(4.0f, 0.5f));
+    EXPECT_EQ(m.weather.snow_mask.scale, glm::vec2(1.0f));
+    EXPECT_EQ(m.second.base_color_texture.scale, glm::vec2(1.0f));
+    EXPECT_THROW(with("tiling = 4"), Error);
+    EXPECT_THROW(with("tiling = [-1, 1]"), Error);
+}
+
 }  // namespace
 }  // namespace petrichor::film

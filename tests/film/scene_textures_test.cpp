@@ -126,6 +126,32 @@ TEST(PrepareTextures, DetailFadesToGreyInSmallLevels)
     EXPECT_GT(static_cast<int>(prepare_textures(scene)[0].mips[4][0]), 200) << "of detail alone";
 }
 
+// A control map of a terrain: four weights in every level, not coloured light.
+TEST(PrepareTextures, WeightsOfLayersKeepFourChannels)
+{
+    scene::Scene scene;
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < 64; ++i) {
+        for (const int c : {i % 2 == 0 ? 255 : 0, 64, 0, i % 2 == 0 ? 0 : 191}) pixels.push_back(static_cast<std::uint8_t>(c));
+    }
+    scene.textures.resize(1);
+    scene.textures[0].name = "weights";
+    scene.textures[0].bytes = texproc::encode_png8(8, 8, 4, pixels);
+    scene::Material material;
+    material.second.use = scene::SecondSetUse::Layers;
+    material.second.mix_mask.texture = 0;
+    scene.materials = {material};
+    const auto textures = prepare_textures(scene);
+    ASSERT_EQ(textures.size(), 1u);
+    const auto code = [&](std::size_t mip, std::size_t i) { return static_cast<int>(textures[0].mips[mip][i]); };
+    ASSERT_GT(textures[0].mips.size(), 2u);
+    const int first[] = {255, 64, 0, 0}, mean[] = {128, 64, 0, 96};
+    for (std::size_t c = 0; c < 4; ++c) {
+        EXPECT_EQ(code(0, c), first[c]);
+        EXPECT_NEAR(code(2, c), mean[c], 2) << c;
+    }
+}
+
 TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
 {
     scene::Scene scene = scene_with_maps();

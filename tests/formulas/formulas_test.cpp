@@ -212,6 +212,27 @@ TEST(SnowCover, NothingWithoutSnowEverythingWithMuch)
         << "masked out";
 }
 
+// Over a wide land at one height the line runs up and down: as often snow as none at its middle, never beyond its reach.
+TEST(SnowCover, TheLineIsRaggedWithinItsReach)
+{
+    int above = 0, below = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 at(9.7f * static_cast<float>(i), 500.0f, 61.0f * static_cast<float>(i % 31));
+        const float z = snow_line_factor(at, 500.0f, 20.0f, 1.0f);
+        above += z > 0.0f ? 1 : 0;
+        below += z == 0.0f ? 1 : 0;
+        EXPECT_EQ(snow_line_factor(at, 561.0f, 20.0f, 1.0f), 0.0f);
+        EXPECT_EQ(snow_line_factor(at, 439.0f, 20.0f, 1.0f), 1.0f);
+        EXPECT_EQ(snow_line_factor(at, 490.0f, 20.0f, 0.0f), snow_height_factor(500.0f, 490.0f, 20.0f));
+        EXPECT_LE(std::abs(snow_line_noise(glm::vec2(at.x, at.z), 20.0f)), 1.0f);
+        // It is steady: no step from one centimetre to the next.
+        const glm::vec3 next = at + glm::vec3(0.01f, 0.0f, 0.0f);
+        EXPECT_NEAR(snow_line_noise(glm::vec2(at.x, at.z), 20.0f), snow_line_noise(glm::vec2(next.x, next.z), 20.0f), 0.01f);
+    }
+    EXPECT_GT(above, 700);
+    EXPECT_GT(below, 700);
+}
+
 TEST(SnowCover, GrowsWithAmountAndFlatness)
 {
     float before = 0.0f;

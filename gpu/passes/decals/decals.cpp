@@ -18,6 +18,7 @@ constexpr int kSpecialized[] = {
     SURFACE_SPEC_SECOND,   SURFACE_SPEC_LOOKS,         SURFACE_SPEC_FADE,
     SURFACE_SPEC_OWN,      SURFACE_SPEC_LAYER_ROLES_A, SURFACE_SPEC_LAYER_ROLES_B,
     SURFACE_SPEC_BESIDES,  SURFACE_SPEC_PLACE,         SURFACE_SPEC_LAYER_FIRST,
+    SURFACE_SPEC_LAYER_ROLES_C,
     DECAL_SPEC_WEATHER,    DECAL_SPEC_EMISSION,        RESOLVE_SPEC_WEATHER,
     RESOLVE_SPEC_EMISSION, RESOLVE_SPEC_BAKED};
 constexpr bool all_differ()
@@ -85,6 +86,7 @@ void draw_decals(PassContext& pass, const GpuScene& scene, const Frustum& frustu
             {SURFACE_SPEC_LOOKS, draw.look != 0},
             {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
             {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
+            {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides},
             {SURFACE_SPEC_PLACE, weather.place},
             {DECAL_SPEC_WEATHER, own_weather},

@@ -51,17 +51,14 @@ float mean_snow(float amount, float height_factor, float up, const MaterialWeath
 }
 
 shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMoment& w,
-                              glm::vec3 position, float up, float open)
+                              float snow_line, float up, float open)
 {
     shared::SurfaceState state{};
     const float amount = shared::saturate(w.snow_amount * open * shared::smooth_edge(0.0f, 0.4f, up) *
                                               m.snow_accumulation.y +
                                           m.snow_accumulation.x);
     if (amount > 0.0f) {
-        state.snow = mean_snow(amount,
-                               shared::snow_height_factor(position.y, w.snow_start_height_m,
-                                                          w.snow_height_blend_m),
-                               up, m, w.melt * m.snow_accumulation.y);
+        state.snow = mean_snow(amount, snow_line, up, m, w.melt * m.snow_accumulation.y);
     }
     const glm::vec2 flood{w.flood_cracks * open * m.water_accumulation.y + m.water_accumulation.x,
                           w.flood_puddles * open * m.water_accumulation.w + m.water_accumulation.z};
@@ -78,7 +75,7 @@ shared::SurfaceState state_of(const MaterialWeather& m, const shared::WeatherMom
 
 // As a pixel takes it from its patch (gpu/passes/surface/cover.glsl): slope and shelter are in it.
 shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::WeatherMoment& w,
-                                    float height_m, const glm::vec4* texels, float pond)
+                                    float snow_line, const glm::vec4* texels, float pond)
 {
     glm::vec4 shown = texels[0];
     const float frost = texels[1].x;
@@ -91,9 +88,7 @@ shared::SurfaceState state_of_place(const MaterialWeather& m, const shared::Weat
     const float amount =
         shared::saturate(shown.w * m.snow_accumulation.y + m.snow_accumulation.x);
     if (amount > 0.0f) {
-        state.snow = mean_snow(
-            amount, shared::snow_height_factor(height_m, w.snow_start_height_m, w.snow_height_blend_m),
-            1.0f, m, w.melt * m.snow_accumulation.y);
+        state.snow = mean_snow(amount, snow_line, 1.0f, m, w.melt * m.snow_accumulation.y);
     }
     const glm::vec2 flood{shown.y * m.water_accumulation.y + m.water_accumulation.x,
                           shown.z * m.water_accumulation.w + m.water_accumulation.z};
@@ -205,14 +200,17 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         dry.water_color = m.water_color;
         dry.snow_opacity = m.snow_opacity;
         shared::WeatheredMaterial now = shared::dry_material(dry);
+        const float snow_line =
+            shared::snow_line_factor(p.position_m[i], weather.snow_start_height_m,
+                                     weather.snow_height_blend_m, look.snow_line_ragged);
         if (!m.sheltered && place) {
             const glm::vec4* texels = &place->states[std::size_t{i} * PLACE_STATE_TEXELS];
             now = shared::apply_weather(
-                dry, state_of_place(m, weather, p.position_m[i].y, texels, pond_over(place, p, i)),
+                dry, state_of_place(m, weather, snow_line, texels, pond_over(place, p, i)),
                 closed, look);
         } else if (!m.sheltered && any_weather(weather, m)) {
             const float open = shelter ? scene::visible_share(p, i, rain) : 1.0f;
-            shared::SurfaceState state = state_of(m, weather, p.position_m[i], p.normal[i].y, open);
+            shared::SurfaceState state = state_of(m, weather, snow_line, p.normal[i].y, open);
             if (m.wetness != Wetness::None) state.water = std::max(state.water, pond_over(hollows, p, i));
             now = shared::apply_weather(dry, state, weather, look);
         }

@@ -64,10 +64,12 @@ SurfaceData evaluate_surface(SurfaceInput at)
     const Factors factors = factors_of(at);
     vec3 base = factors.base_color * at.color.rgb;
     float second_occlusion = 1.0;
-    if (has(TEXTURE_BASE_COLOR)) {
+    if (LAYERED) {
+        base = at.ground_color * at.color.rgb;
+    } else if (has(TEXTURE_BASE_COLOR)) {
         base *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, shift)).rgb;
     }
-    if (SECOND != SECOND_NONE) {
+    if (SECOND != SECOND_NONE && !LAYERED) {
         vec3 other = material.second_color_factor;
         if (has(TEXTURE_SECOND_BASE_COLOR)) {
             const vec4 second = texel(second_base_color_texture,
@@ -111,6 +113,12 @@ SurfaceData evaluate_surface(SurfaceInput at)
         occlusion = both.x;
         roughness = both.y;
         metallic = both.z;
+    }
+    if (LAYERED) {
+        const vec3 all = matter_of_ground(vec3(occlusion, roughness, metallic), at, shift);
+        occlusion = all.x;
+        roughness = all.y;
+        metallic = all.z;
     }
     occlusion *= mix(1.0, at.color.g, material.vertex_occlusion);
     data.texel.metallic = metallic;

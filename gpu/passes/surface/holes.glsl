@@ -9,7 +9,13 @@
 float surface_alpha(SurfaceInput at)
 {
     float alpha = material.base_color_factor.a * at.color.a;
-    if (has(TEXTURE_BASE_COLOR)) {
+    if (SECOND == SECOND_LAYERS) {
+        // More layers over those of another material are there as far as their weights say.
+        if (has(TEXTURE_MIX_MASK)) {
+            const vec4 w = texel(mix_mask_texture, coordinates(TEXTURE_MIX_MASK, at, vec2(0.0)));
+            alpha *= min(w.x + w.y + w.z + w.w, 1.0);
+        }
+    } else if (has(TEXTURE_BASE_COLOR)) {
         alpha *= texel(base_color_texture, coordinates(TEXTURE_BASE_COLOR, at, vec2(0.0))).a;
     }
     return alpha;

@@ -3,6 +3,7 @@
 #define PETRICHOR_SURFACE_SETS_GLSL
 
 #include "formulas/weather/mix_sets.h"
+#include "gpu/passes/surface/ground_layers.glsl"
 #include "gpu/passes/surface/textures.glsl"
 
 const bool MIXED = SECOND == SECOND_MIX;
@@ -29,6 +30,7 @@ void read_sets(inout SurfaceInput at)
 {
     at.shares = vec2(1.0, 0.0);
     at.relief = 0.0;
+    if (LAYERED) read_layers(at);
     if (!MIXED) return;
     float mask = 1.0;
     if (has(TEXTURE_MIX_MASK)) mask = number_at(mix_mask_texture, TEXTURE_MIX_MASK, at);
@@ -44,7 +46,7 @@ void read_sets(inout SurfaceInput at)
 // Height of the relief where the material has one.
 float relief_height(SurfaceInput at)
 {
-    if (MIXED) return at.relief;
+    if (MIXED || LAYERED) return at.relief;
     return number_at(height_texture, TEXTURE_HEIGHT, at);
 }
 
@@ -89,11 +91,13 @@ vec3 second_normal(SurfaceInput at, TangentFrame f, vec2 shift)
 // Whatever normal maps the material has.
 bool has_mapped_normal()
 {
+    if (LAYERED && (has_layer(LAYER_TEXTURE_THIRD + 1) || has_layer(LAYER_TEXTURE_FOURTH + 1))) return true;
     return has(TEXTURE_NORMAL) || (SECOND != SECOND_NONE && has(TEXTURE_SECOND_NORMAL));
 }
 
 vec3 mapped_normal(SurfaceInput at, TangentFrame f, vec2 shift)
 {
+    if (LAYERED) return normal_of_ground(at, shift);
     vec3 n = vec3(0.0, 0.0, 1.0);
     if (has(TEXTURE_NORMAL)) {
         n = unpack_normal(texel(normal_texture, coordinates(TEXTURE_NORMAL, at, shift)).xy,

@@ -45,8 +45,8 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
 {
     const float mask = snow_map_at(at, kSnowMask).b;
     const float melt = frame.weather.melt * material.snow_accumulation.y;
-    const float height = snow_height_factor(at.position.y, frame.weather.snow_start_height_m,
-                                            frame.weather.snow_height_blend_m);
+    const float height = snow_line_factor(at.position, frame.weather.snow_start_height_m,
+                                          frame.weather.snow_height_blend_m, frame.look.snow_line_ragged);
     if ((SNOW & SNOW_GRASS) != 0u) {
         SnowCover blade;
         blade.snow = snow_on_grass(amount, height, mask, at.color.r) * unique_mask(at);

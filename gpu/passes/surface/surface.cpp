@@ -120,6 +120,7 @@ void add_surface(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene
                         {SURFACE_SPEC_LOOKS, draw->look != 0},
                         {SURFACE_SPEC_LAYER_ROLES_A, scene.materials()[draw->material].layer_roles[0]},
                         {SURFACE_SPEC_LAYER_ROLES_B, scene.materials()[draw->material].layer_roles[1]},
+                        {SURFACE_SPEC_LAYER_ROLES_C, scene.materials()[draw->material].layer_roles[2]},
                         {SURFACE_SPEC_BESIDES, scene.materials()[draw->material].besides},
                         {SURFACE_SPEC_FADE, draw->fade != 0},
                         {SURFACE_SPEC_PLACE, weather.place}};

@@ -18,6 +18,7 @@ layout(constant_id = SURFACE_SPEC_FADE) const uint FADE = 0u;
 layout(constant_id = SURFACE_SPEC_OWN) const uint OWN = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_A) const uint LAYER_ROLES_A = 0u;
 layout(constant_id = SURFACE_SPEC_LAYER_ROLES_B) const uint LAYER_ROLES_B = 0u;
+layout(constant_id = SURFACE_SPEC_LAYER_ROLES_C) const uint LAYER_ROLES_C = 0u;
 layout(constant_id = SURFACE_SPEC_BESIDES) const uint BESIDES = 0u;
 layout(constant_id = SURFACE_SPEC_PLACE) const uint PLACE = 0u;
 

@@ -25,7 +25,10 @@ struct SurfaceInput {
     uint material_id;
     uint look;  // of the instance: a number of the table of looks; 0: none
     vec2 shares;   // of two sets of textures; filled by read_sets
-    float relief;  // height of both, 0 low .. 1 high; of mixed sets alone
+    float relief;  // height of both, 0 low .. 1 high; of mixed sets and of layers alone
+    vec4 ground;        // shares of four layers; filled by read_layers
+    vec3 ground_color;  // of all four
+    float far;          // 0 layers .. 1 the colour of all of it from afar
 };
 
 struct SurfaceData {

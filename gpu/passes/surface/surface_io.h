@@ -16,6 +16,7 @@
 #define SURFACE_SPEC_OWN 15     // number of a user's own surface; 0: none
 #define SURFACE_SPEC_LAYER_ROLES_A 30  // where its textures of layers are, LAYER_TEXTURES
 #define SURFACE_SPEC_LAYER_ROLES_B 31
+#define SURFACE_SPEC_LAYER_ROLES_C 33
 #define SURFACE_SPEC_BESIDES 32  // BESIDES_... of the material
 #define SURFACE_SPEC_PLACE 8  // 1: pixels find their weather in the patch where they lie
 

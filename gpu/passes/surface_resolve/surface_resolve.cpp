@@ -169,6 +169,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             {SURFACE_SPEC_OWN, material.own_surface},
             {SURFACE_SPEC_LAYER_ROLES_A, material.layer_roles[0]},
             {SURFACE_SPEC_LAYER_ROLES_B, material.layer_roles[1]},
+            {SURFACE_SPEC_LAYER_ROLES_C, material.layer_roles[2]},
             {SURFACE_SPEC_BESIDES, material.besides | shares},
             {SURFACE_SPEC_PLACE, weather.place},
             {RESOLVE_SPEC_WEATHER, parts.weather},
