@@ -10,8 +10,11 @@
 
 #include "base/error.h"
 #include "cli/exit.h"
+#include "cli/progress.h"
+#include "cli/signals.h"
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
+#include "cli/texture/sparkle_film.h"
 #include "cli/texture/sparkle_sheet.h"
 #include "texproc/codecs/files/texture.h"
 #include "texproc/filter/normal.h"
@@ -28,7 +31,7 @@ using texproc::RawImage;
 
 struct Arguments {
     std::vector<std::string> files;
-    std::string sheet, normal, roughness, smoothness, albedo;
+    std::string sheet, film, normal, roughness, smoothness, albedo;
     SparkleSheet drawing;
     std::string quality = "quick";
     bool green_down = false, green_known = false, json = false;
@@ -175,11 +178,11 @@ void find_roles(Arguments& a)
     }
 }
 
-void draw_sheet(Arguments& a)
+void draw_pictures(Arguments& a)
 {
     find_roles(a);
     if (a.normal.empty() || (a.roughness.empty() && a.smoothness.empty())) {
-        throw Error("texture inspect: --sheet needs a normal map and a roughness or smoothness map",
+        throw Error("texture inspect: --sheet and --film need a normal map and a roughness or smoothness map",
                     "Name them with --normal and --roughness, or give files whose names say what "
                     "they are.");
     }
@@ -215,12 +218,16 @@ void draw_sheet(Arguments& a)
     }
     if (a.drawing.title.empty()) a.drawing.title = fs::path(a.normal).stem().string();
     a.drawing.quick = a.quality == "quick";
-    write_sparkle_sheet(a.drawing, a.sheet);
+    if (!a.sheet.empty()) write_sparkle_sheet(a.drawing, a.sheet);
+    if (a.film.empty()) return;
+    Progress progress("texture inspect", 100);
+    write_sparkle_film(
+        a.drawing, a.film, [&](double share) { progress.update(static_cast<int>(100.0 * share)); }, interrupted);
 }
 
 void run(Arguments& a)
 {
-    if (a.files.empty() && a.sheet.empty()) {
+    if (a.files.empty() && a.sheet.empty() && a.film.empty()) {
         throw Error("texture inspect: no file", "Name at least one image.");
     }
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -244,7 +251,7 @@ void run(Arguments& a)
     if (a.json)
         std::printf("%s\n",
                     all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    if (!a.sheet.empty()) draw_sheet(a);
+    if (!a.sheet.empty() || !a.film.empty()) draw_pictures(a);
     if (bad > 0) throw ExitCode{kExitUser};
 }
 
@@ -254,26 +261,28 @@ void add_texture_inspect(CLI::App& texture)
 {
     auto a = std::make_shared<Arguments>();
     CLI::App* app = texture.add_subcommand(
-        "inspect", "what images hold; a sheet of a material's mips under a light");
+        "inspect", "what images hold; a sheet and a film of a material's mips under a light");
     app->add_option("files", a->files, "images");
     app->add_flag("--json", a->json, "for machines");
     app->add_option("--sheet", a->sheet,
                     "PNG: plain and prefiltered mips on balls and a floor, beside the truth");
-    app->add_option("--normal", a->normal, "--sheet: default: the file whose name says so");
-    auto* rough = app->add_option("--roughness", a->roughness, "--sheet: FILE or FILE:g");
-    app->add_option("--smoothness", a->smoothness, "--sheet: FILE or FILE:a")->excludes(rough);
+    app->add_option("--film", a->film,
+                    "MP4: the same floor under a moving camera in four lights; a .png: its first frame, a strip");
+    app->add_option("--normal", a->normal, "default: the file whose name says so");
+    auto* rough = app->add_option("--roughness", a->roughness, "FILE or FILE:g");
+    app->add_option("--smoothness", a->smoothness, "FILE or FILE:a")->excludes(rough);
     app->add_option("--albedo", a->albedo,
                     "--sheet: colour; default: dark grey, where gloss shows best");
     app->add_flag("--green-down", a->green_down,
-                  "--sheet: +Y is down (DirectX); default: what the name or else the map says");
-    app->add_option("--rule", a->drawing.rule, "--sheet: prefilter rule")->capture_default_str();
-    app->add_option("--quality", a->quality, "--sheet: full or quick")
+                  "of the normal map: +Y is down (DirectX); default: what the name or else the map says");
+    app->add_option("--rule", a->drawing.rule, "prefilter rule of sheet and film")->capture_default_str();
+    app->add_option("--quality", a->quality, "of sheet and film: full or quick")
         ->check(CLI::IsMember({"full", "quick"}))
         ->capture_default_str();
     app->add_option("--light", a->drawing.light,
                     "--sheet: alpha of the light: 0 the sun, 0.1 a window")
         ->capture_default_str();
-    app->add_option("--title", a->drawing.title, "--sheet: its heading");
+    app->add_option("--title", a->drawing.title, "heading of sheet and film");
     app->add_option("--threads", a->drawing.threads, "0: all cores; the bytes do not depend on it");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")
         ->capture_default_str();
@@ -282,7 +291,7 @@ void add_texture_inspect(CLI::App& texture)
         "given:\n"
         "each is decoded apart, with limits on memory, time and pixels.\n\n"
         "Example:\n  petrichor texture inspect wall_diff.png wall_nor_gl.png wall_rough.png "
-        "--sheet wall.png");
+        "--sheet wall.png --film wall.mp4");
     app->callback([a] { run(*a); });
 }
 

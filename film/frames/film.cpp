@@ -131,6 +131,18 @@ std::string find_ffmpeg()
 void make_film(const fs::path& folder, Job first, int count, double fps, const fs::path& film,
                const StopRequest& stop)
 {
+    const int start = first.frame;
+    make_film(
+        [&](int i) {
+            first.frame = start + i;
+            return read_file(folder / file_name(first, "png"), "film", kMostBytes, stop);
+        },
+        count, fps, film, stop);
+}
+
+void make_film(const std::function<std::string(int)>& picture, int count, double fps, const fs::path& film,
+               const StopRequest& stop)
+{
     OutputFile output(film);
     // Pictures go in through a pipe and the film's name behind "file:", so that no folder is taken
     // for an option, a pattern or a protocol. One thread, no dates: the same frames give the same
@@ -148,9 +160,8 @@ void make_film(const fs::path& folder, Job first, int count, double fps, const f
          "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags",
          "+faststart", "file:" + fs::absolute(output.temporary()).string()},
         stop);
-    for (int i = 0; i < count; ++i, ++first.frame) {
-        if (!encoder.send(read_file(folder / file_name(first, "png"), "film", kMostBytes, stop)))
-            break;
+    for (int i = 0; i < count; ++i) {
+        if (!encoder.send(picture(i))) break;
     }
     const ChildEnd end = encoder.finish();
     if (!end.exited || end.code != 0) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/sanitized.h"
+#include "film/frames/film.h"
 #include "tests/support/assets.h"
 #include "tests/support/program.h"
 #include "texproc/generate/generate.h"
@@ -145,7 +146,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"compare", "color.png", "zero.png", "--fail-psnr", "60"},
                 "differ by more"},
         Mistake{"inspect_text", {"inspect", "text.png", "rough.png"}, "text.png"},
-        Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet needs"},
+        Mistake{"sheet_maps", {"inspect", "rough.png", "--sheet", "out.png"}, "--sheet and --film need"},
+        Mistake{"film_kind", {"inspect", "normal.png", "rough.png", "--film", "out.gif"}, ".mp4"},
         Mistake{"generate_kind", {"generate", "cobbel", "-o", "made"}, "Did you mean \"cobble\"?"},
         Mistake{"generate_parameter", {"generate", "brick", "--set", "joints_m=0.01", "-o", "made"}, "Did you mean \"joint_m\"?"},
         Mistake{"generate_range", {"generate", "brick", "--set", "joint_m=1", "-o", "made"}, "0.002 to 0.025"},
@@ -241,6 +243,36 @@ TEST(TextureTools, CompareAndInspectSpeakToMachines)
                   .exit_code,
               0);
     EXPECT_GT(texproc::read_raw(place / "sheet.png").width, 400);
+}
+
+// Five lights, three pictures each: the strip has the first frame of the film.
+TEST(TextureTools, AFilmShowsHowAMaterialHoldsStill)
+{
+    const Workplace place("texture_film");
+    write_maps(place);
+    const auto film = [&](const char* name) {
+        return run({"texture", "inspect", "normal.png", "rough.png", "--film", name}, place);
+    };
+    ASSERT_EQ(film("strip.png").exit_code, 0);
+    const texproc::RawImage strip = texproc::read_raw(place / "strip.png");
+    EXPECT_GT(strip.width, 3 * 600);
+    EXPECT_GT(strip.height, 5 * 220);
+    // Paper, and three pictures of the first light that are not the same.
+    const auto at = [&](int x, int y) { return static_cast<int>(strip.bytes[static_cast<std::size_t>((y * strip.width + x) * strip.channels)]); };
+    EXPECT_EQ(at(4, 100), 255);
+    int differ = 0;
+    for (int y = 70; y < 280; y += 4) {
+        for (int x = 20; x < 600; x += 4) differ += std::abs(at(x, y) - at(x + 1220, y)) > 6 ? 1 : 0;
+    }
+    EXPECT_GT(differ, 50) << "plain mips are not the truth";
+    if (petrichor::film::find_ffmpeg().empty()) {
+        EXPECT_EQ(film("wall.mp4").exit_code, 2);
+        return;
+    }
+    EXPECT_EQ(film("wall.mp4").exit_code, 0);
+    const std::string bytes = read_file(place / "wall.mp4");
+    EXPECT_GT(bytes.size(), 10000u);
+    EXPECT_EQ(bytes.substr(4, 4), "ftyp");
 }
 
 TEST(TextureTools, PsnrAloneIsThatOfTheWholeComparison)
