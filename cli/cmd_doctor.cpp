@@ -21,6 +21,7 @@
 #include "gpu/device/specialize.h"
 #include "gpu/renderer.h"
 #include "scene/gltf/gltf.h"
+#include "texproc/codecs/blocks/blocks.h"
 #include "texproc/codecs/files/io.h"
 #include "weather/readers/formats.h"
 
@@ -190,12 +191,19 @@ Finding check_draco()
             "Install libdraco-dev and build again."};
 }
 
+Finding check_astc()
+{
+    const bool works = texproc::has_astc();
+    return {"ASTC textures", works, false, works ? "written and read" : "neither written nor read",
+            "Install libastcenc-dev and build again."};
+}
+
 void doctor(bool json)
 {
     const auto devices = gpu::list_devices();
     const std::vector<Finding> findings{check_devices(devices), check_data(), check_ffmpeg(),
                                         check_decoder(), check_cache(),
-                                        check_shaders(), check_draco()};
+                                        check_shaders(), check_draco(), check_astc()};
     bool can_render = true;
     for (const Finding& one : findings) can_render = can_render && (one.works || !one.needed);
     if (json) {

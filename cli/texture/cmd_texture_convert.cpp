@@ -247,7 +247,7 @@ void add_texture_convert(CLI::App& texture)
         "--format", a->format,
         "dds, ktx2: r8 rg8 rgb8 rgba8, 16, 16f, 32f; bc1 bc1a bc3 bc4 bc5 bc7, bc6h "
         "(light beyond 0..1; bc6h-signed keeps what is below 0); ktx2 alone: "
-        "uastc uastca; default: the numbers of the image");
+        "uastc uastca, astc-4x4 astc-5x5 astc-6x6 astc-8x8; default: the numbers of the image");
     app->add_flag("--srgb", a->srgb, "it is colour: label it so, filter in linear light");
     app->add_flag("--linear", a->linear, "it is data (default)");
     app->add_flag("--mips", a->mips, "all levels down to 1 x 1 (dds, ktx2, exr)");

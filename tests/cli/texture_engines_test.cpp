@@ -101,6 +101,27 @@ TEST(TextureEngines, MapsWithEmptyRowsAreTold)
     EXPECT_THAT(made.out, Not(HasSubstr("as albedo")));
 }
 
+TEST(TextureEngines, PhonesGetAstc)
+{
+    if (!texproc::has_astc()) GTEST_SKIP() << "built without Arm's library for ASTC (libastcenc-dev)";
+    const Workplace place("engine_mobile");
+    write_wall(place / "in");
+    const Outcome made = run({"texture", "build", "in", "--engine", "mobile", "-o", "out"}, place);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const texproc::MipTexture color = texproc::read_texture(place / "out/Wall_baseColor.ktx2");
+    EXPECT_EQ(texproc::name_of(color.format), "astc-6x6");
+    EXPECT_TRUE(color.srgb);
+    EXPECT_EQ(color.levels.size(), 5u);
+    const texproc::MipTexture normal = texproc::read_texture(place / "out/Wall_normal.ktx2");
+    EXPECT_EQ(texproc::name_of(normal.format), "astc-5x5");
+    EXPECT_FALSE(normal.srgb);
+    const texproc::RawImage flat = texproc::decode_level(normal, 0);
+    EXPECT_NEAR(std::to_integer<int>(flat.bytes[2]), 255, 1) << "z of a flat wall";
+    // There is no DDS of it: that is written without blocks.
+    EXPECT_EQ(run({"texture", "build", "in", "--engine", "mobile", "--format", "dds", "--no-score", "-o", "dds"}, place).exit_code, 0);
+    EXPECT_FALSE(texproc::read_texture(place / "dds/Wall_orm.dds").format.block.has_value());
+}
+
 // Nearly flat: blocks cost more than the filter gains there.
 TEST(TextureEngines, BlocksAreNeverWorseThanPlainMipsInThem)
 {

@@ -161,6 +161,17 @@ void make_visible(std::string_view row, Material& m)
         m.second.water_color = {0.1f, 0.1f, 0.5f, 0.5f};
         m.second.water_accumulation = {0.5f, 1.0f, 0.5f, 1.0f};
     }
+    if (row.starts_with("third_") || row.starts_with("fourth_") || row.starts_with("layers_") || row.starts_with("far_")) {
+        m.second.use = scene::SecondSetUse::Layers;
+        m.second.mix_mask = use_of("mix_mask_texture");
+        m.second.base_color_texture = use_of("second_base_color_texture");
+        m.second.third.base_color_texture = use_of("third_base_color_texture");
+        m.second.third.color = glm::vec3(0.2f, 0.6f, 0.4f);
+        m.second.fourth.base_color_texture = use_of("fourth_base_color_texture");
+        m.second.fourth.color = glm::vec3(0.7f, 0.3f, 0.2f);
+        if (row.starts_with("far_")) m.second.far_texture = use_of("far_texture");
+        if (row != "far_start_m") m.second.far_start_m = 0.0f;
+    }
     if (row.starts_with("second_scatter_")) m.second.scatter_color = glm::vec3(0.3f);
     if (row == "second_specular_factor") m.specular = 0.0f;  // which the second has too
     if (row == "snow_local_tiling") m.weather.snow_mapping = scene::SnowMapping::Local;

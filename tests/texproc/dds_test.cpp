@@ -28,8 +28,7 @@ TEST_F(Dds, KeepsEveryFormatBitForBit)
         for (int label = 0; label <= (srgb ? 1 : 0); ++label) {
             const MipTexture texture = make_texture(small_chain(21, 10, 4, PixelType::U8),
                                                     {.format = name, .srgb = label == 1});
-            if (name == "rgb16" || name == "rgb16f" || name == "uastc" ||
-                name == "uastca") {  // which the container does not have
+            if (name == "rgb16" || name == "rgb16f" || name.starts_with("uastc") || name.starts_with("astc")) {  // which the container does not have
                 EXPECT_THROW(detail::dds_header(texture, 1), Error) << name;
                 continue;
             }

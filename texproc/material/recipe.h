@@ -21,7 +21,7 @@ struct OutputRule {
     std::string file = "{name}";  ///< without extension; {name} becomes the name of the material
     PackPreset channels;          ///< what goes where; srgb_channels: RGB is written as sRGB colour
     std::string format = "png";   ///< png, tga, tif, exr, dds, ktx2
-    std::string compression = "none";  ///< dds, ktx2: none, bc1, bc3, bc4, bc5, bc7
+    std::string compression = "none";  ///< dds, ktx2: none, bc1, bc3, bc4, bc5, bc7; ktx2: uastc, astc-4x4 ..
     int bits = 8;                      ///< 8 or 16; exr: 16 or 32
     bool mips = true;                  ///< dds, ktx2, exr: all levels
     bool level_files = false;          ///< the others: one file a level, {file}_0, {file}_1, ...
@@ -30,6 +30,8 @@ struct OutputRule {
     std::string import;  ///< whose settings files go beside it: unity, godot; empty: none
     bool prefilter = true;  ///< roughness, smoothness and normals from the prefiltered chain
 
+    /// There is no DDS of it.
+    bool in_ktx2_alone() const { return compression == "uastc" || compression.starts_with("astc"); }
     bool srgb() const { return !channels.srgb_channels.empty(); }
     bool has_levels() const
     {

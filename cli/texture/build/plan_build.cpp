@@ -52,7 +52,7 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
         if (choice.format.empty()) continue;
         output.format = choice.format;
         const bool holds = choice.format == "ktx2" ||
-                           (choice.format == "dds" && output.compression != "uastc");
+                           (choice.format == "dds" && !output.in_ktx2_alone());
         if (!holds) output.compression = "none";
         if (choice.format != "dds") output.blue_first = false;
         keep_z(output);

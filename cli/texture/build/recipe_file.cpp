@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kFormats{"png", "tga", "tif", "exr", "dds", "ktx2"};
-const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7", "uastc"};
+const std::vector<std::string> kCompressions{"none", "bc1", "bc3", "bc4", "bc5", "bc7", "uastc", "astc-4x4", "astc-5x5", "astc-6x6", "astc-8x8"};
 const std::vector<std::string> kOrders{"rgba", "bgra"};
 const std::vector<std::string> kImports{"none", "unity", "godot"};
 const std::vector<std::string> kFilters{"box", "kaiser", "lanczos3", "mitchell"};
@@ -83,8 +83,8 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
         wrong("asks for " + out.compression + " in a " + out.format + " file",
               "Use format = \"dds\" or \"ktx2\", or leave compression out.");
     }
-    if (out.compression == "uastc" && out.format != "ktx2") {
-        wrong("asks for uastc in a " + out.format + " file", "Use format = \"ktx2\".");
+    if (out.in_ktx2_alone() && out.format != "ktx2") {
+        wrong("asks for " + out.compression + " in a " + out.format + " file", "Use format = \"ktx2\".");
     }
     if (out.compression != "none" && out.bits != 8) {
         wrong("asks for " + out.compression + " with " + std::to_string(out.bits) + " bits",

@@ -122,6 +122,22 @@ void encode_u(const BlockTexels& texels, const BlockOptions& options, std::byte*
     encode_kernel().uastc(texels, options, to);
 }
 
+BlockRow astc_row(Block block, const char* title, int side, BlockLabel label)
+{
+    return {.block = block,
+            .title = title,
+            .bytes = 16,
+            .channels = 4,
+            .halves = false,
+            .wide = false,
+            .decode = nullptr,
+            .encode = nullptr,
+            .color_model = 162,
+            .labels = {std::move(label)},
+            .side = side,
+            .astc = true};
+}
+
 }  // namespace
 
 const std::vector<BlockRow>& block_table()
@@ -149,6 +165,10 @@ const std::vector<BlockRow>& block_table()
          {{"bc7", 4, false, 98, 99, 145, 146, "", {0}}}},
         {Block::Uastc, "UASTC", 16, 4, false, false, decode_u, encode_u, 166,
          {{"uastc", 3, false, 0, 0, 0, 0, "", {0}}, {"uastca", 4, false, 0, 0, 0, 0, "", {3}}}},
+        astc_row(Block::Astc4, "ASTC 4x4", 4, {"astc-4x4", 4, false, 0, 0, 157, 158, "", {0}}),
+        astc_row(Block::Astc5, "ASTC 5x5", 5, {"astc-5x5", 4, false, 0, 0, 161, 162, "", {0}}),
+        astc_row(Block::Astc6, "ASTC 6x6", 6, {"astc-6x6", 4, false, 0, 0, 165, 166, "", {0}}),
+        astc_row(Block::Astc8, "ASTC 8x8", 8, {"astc-8x8", 4, false, 0, 0, 171, 172, "", {0}}),
     };
     return table;
 }

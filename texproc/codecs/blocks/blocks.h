@@ -11,7 +11,7 @@
 
 namespace petrichor::texproc {
 
-/// The block formats of graphics hardware: 4 x 4 texels in 8 bytes (BC1, BC4) or 16 (the others).
+/// The block formats of graphics hardware: 4 x 4 texels (ASTC up to 8 x 8) in 8 bytes (BC1, BC4) or 16 (the others).
 /// In the order of the rows of block_table.cpp, which tell the rest.
 enum class Block {
     Bc1,   ///< RGB 5:6:5, 4 colours a block; alpha 0 or 1
@@ -22,7 +22,16 @@ enum class Block {
     Bc6h,  ///< RGB half floats, 14 modes
     Bc7,   ///< RGB or RGBA, eight modes
     Uastc,  ///< RGB or RGBA, 19 modes: Basis Universal's, from which every other format is made
+    Astc4,  ///< RGBA, 4 x 4 texels: phones and tablets; by Arm's library (has_astc())
+    Astc5,  ///< the same of 5 x 5 texels, 5.12 bits a texel
+    Astc6,  ///< of 6 x 6, 3.56 bits
+    Astc8,  ///< of 8 x 8, 2 bits
 };
+
+/// Texels along each side of a block.
+int block_side(Block block);
+/// Whether the program was built with a library for ASTC: without it that is neither written nor read.
+bool has_astc();
 
 /// Bytes of one block.
 std::size_t block_bytes(Block block);
@@ -44,6 +53,7 @@ struct BlockOptions {
     /// Weight of the squared error of each channel. Data maps: equal. Alpha counts like the others.
     std::array<float, 4> weights{1.0f, 1.0f, 1.0f, 1.0f};
     bool punch_through = false;  ///< BC1: alpha below one half becomes transparent black
+    bool srgb = false;           ///< ASTC: the codes are sRGB
     bool is_signed = false;      ///< BC6H: negative numbers are kept
     int threads = 0;             ///< 0: all cores; the bytes do not depend on it
 };
@@ -81,8 +91,9 @@ enum class BlockSign {
 /// F16, signed BC4 and BC5 F32 in -1..1.
 ///
 ///   bytes   at least blocks_size(); throws Error when there are fewer
+///   srgb    ASTC: the texture is marked so, by which hardware rounds its codes
 RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width, int height,
-                       BlockSign sign = BlockSign::Unsigned, int threads = 0);
+                       BlockSign sign = BlockSign::Unsigned, int threads = 0, bool srgb = false);
 
 // ---- one block, for callers that choose codes themselves ---------------------------------------
 

@@ -6,14 +6,21 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "texproc/codecs/blocks/detail/astc.h"
 #include "texproc/codecs/blocks/detail/block_table.h"
 
 namespace petrichor::texproc {
 
 std::size_t blocks_size(Block block, int width, int height)
 {
-    return static_cast<std::size_t>((width + 3) / 4) * static_cast<std::size_t>((height + 3) / 4) *
-           block_bytes(block);
+    const int side = block_side(block);
+    return static_cast<std::size_t>((width + side - 1) / side) *
+           static_cast<std::size_t>((height + side - 1) / side) * block_bytes(block);
+}
+
+int block_side(Block block)
+{
+    return detail::row_of(block).side;
 }
 
 std::size_t block_bytes(Block block)
@@ -34,7 +41,7 @@ PixelType decoded_type(Block block, bool is_signed)
 }
 
 RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width, int height,
-                       BlockSign sign, int threads)
+                       BlockSign sign, int threads, bool srgb)
 {
     if (width < 1 || height < 1 || bytes.size() < blocks_size(block, width, height)) {
         throw Error("block texture: " + std::to_string(width) + " x " + std::to_string(height) +
@@ -43,6 +50,8 @@ RawImage decode_blocks(std::span<const std::byte> bytes, Block block, int width,
                     "Export the file again; it is damaged.");
     }
     const detail::BlockRow& row_of_block = detail::row_of(block);
+    if (row_of_block.astc)
+        return detail::decode_astc(bytes, row_of_block.side, width, height, srgb, threads);
     const PixelType type = decoded_type(block, sign != BlockSign::Unsigned);
     RawImage image{width, height, channels_of(block), type, {}, {}};
     image.bytes.resize(image.values() * size_of(type));

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "texproc/codecs/blocks/detail/astc.h"
 #include "texproc/codecs/blocks/detail/block_table.h"
 #include "texproc/codecs/blocks/detail/decode_block.h"
 
@@ -72,7 +73,7 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                                      const BlockOptions& options)
 {
     const detail::BlockRow& format = detail::row_of(block);
-    if (!format.encode && !format.encode_halves) {
+    if (!format.encode && !format.encode_halves && !format.astc) {
         throw Error(std::string("block texture: ") + format.title + " can be read, not written",
                     "Use bc3 or bc7, or bc6h for what is beyond 0..1.");
     }
@@ -83,6 +84,7 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
         throw Error("block texture: it is made from " + numbers + ", at least one pixel of them",
                     "Convert the image to " + numbers + " first.");
     }
+    if (format.astc) return detail::encode_astc(image, format.side, options);
     std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));
     const int across = (image.width + 3) / 4;
     parallel_for(static_cast<std::size_t>((image.height + 3) / 4), options.threads,

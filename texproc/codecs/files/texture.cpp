@@ -26,7 +26,7 @@ const std::vector<Named>& block_names()
             for (const detail::BlockRow& row : detail::block_table()) {
                 for (const detail::BlockLabel& label : row.labels) {
                     const bool written = label.is_signed ? row.encode_halves != nullptr
-                                                         : row.encode || row.encode_halves;
+                                                         : row.encode || row.encode_halves || (row.astc && has_astc());
                     if (written == writable)
                         all.push_back({label.name, detail::format_of(row, label), writable});
                 }
@@ -116,6 +116,8 @@ TextureFormat own_format(const RawImage& first)
 
 void check_writable(const TextureFormat& format)
 {
+    // ASTC says itself what is missing.
+    if (format.block && detail::row_of(*format.block).astc) return;
     for (const Named& named : block_names()) {
         if (format == named.format && !named.writable) {
             throw Error(std::string("texture: ") + named.name + " can be read, not written",
@@ -227,6 +229,7 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
             .quality = options.quality,
             .weights = options.weights,
             .punch_through = *format.block == Block::Bc1 && format.channels == 4,
+            .srgb = texture.srgb,
             .is_signed = format.is_signed,
             .threads = options.threads};
         const int channels = std::min(level.channels, 4);
@@ -254,7 +257,7 @@ RawImage decode_level(const MipTexture& texture, int level, int threads, bool ex
     const BlockSign sign = format.is_signed ? BlockSign::Signed
                            : exact          ? BlockSign::Exact
                                             : BlockSign::Unsigned;
-    RawImage image = decode_blocks(bytes, *format.block, w, h, sign, threads);
+    RawImage image = decode_blocks(bytes, *format.block, w, h, sign, threads, texture.srgb);
     if (format.channels == image.channels) return image;
     return with_channels8(image, format.channels);  // opaque BC1
 }

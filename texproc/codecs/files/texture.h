@@ -25,7 +25,7 @@ struct TextureFormat {
 };
 
 /// By name: r8 rg8 rgb8 rgba8, r16 .., r16f .., r32f .., bc1, bc1a (alpha 0 or 1), bc3, bc4, bc5,
-/// bc6h, bc6h-signed, bc7, uastc, uastca (both ktx2), bgra8 (dds: rgba8, stored blue first); bc2,
+/// bc6h, bc6h-signed, bc7, uastc, uastca, astc-4x4, -5x5, -6x6, -8x8 (ktx2), bgra8 (dds: rgba8, stored blue first); bc2,
 /// bc4 and bc5 signed: read only. Throws Error that lists the names.
 TextureFormat texture_format(const std::string& name);
 std::string name_of(const TextureFormat& format);

@@ -34,6 +34,7 @@ struct BlockRow {
     int channels;       ///< that decoding gives
     bool halves;        ///< decoded to F16, else to U8
     bool wide;          ///< signed and exact numbers are decoded to F32
+    /// Null: a level at a time.
     void (*decode)(const std::byte* from, BlockSign sign, BlockBytes& to);
     /// Null: it can only be read, or is made from half floats.
     void (*encode)(const BlockTexels& texels, const BlockOptions& options, std::byte* to);
@@ -41,6 +42,8 @@ struct BlockRow {
     std::vector<BlockLabel> labels;
     void (*encode_halves)(const HalfTexels& texels, const BlockOptions& options, bool is_signed,
                           std::byte* to) = nullptr;
+    int side = 4;        ///< texels along a block
+    bool astc = false;   ///< coded a level at a time (detail/astc.h), not by the functions above
 };
 
 const std::vector<BlockRow>& block_table();

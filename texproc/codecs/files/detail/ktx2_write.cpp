@@ -99,7 +99,8 @@ std::vector<std::byte> descriptor(const MipTexture& texture)
     put_little(dfd, is_basis(format) && !texture.srgb ? 0 : 1, 1);
     put_little(dfd, texture.srgb ? 2 : 1, 1);
     put_little(dfd, 0, 1);                          // straight alpha
-    put_little(dfd, format.block ? 0x0303 : 0, 4);  // texel block 4 x 4 or 1 x 1
+    const int beyond = format.block ? block_side(*format.block) - 1 : 0;
+    put_little(dfd, static_cast<std::uint64_t>(beyond << 8 | beyond), 4);  // texel block, less 1 x 1
     put_little(dfd, texel_bytes(format), 8);
     for (const Sample& s : samples) {
         put_little(dfd, static_cast<std::uint64_t>(s.bit), 2);
