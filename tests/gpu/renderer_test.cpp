@@ -215,6 +215,8 @@ TEST_F(RendererTest, EveryNumberOfTheLookChangesThePicture)
     Frame snow = rain;
     snow.weather = deep_snow();
     snow.weather.snow_amount = 0.6f;
+    snow.weather.snow_start_height_m = -0.5f;  // the line runs over the ground
+    snow.weather.snow_height_blend_m = 1.0f;
     snow.look.snow_scatter_color = glm::vec3(0.2f);
     const std::size_t numbers = sizeof(shared::WeatherLook) / sizeof(float);
     const auto rain_before = renderer->render(rain).beauty;
