@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/image/raw_image.h"
+#include "texproc/image/zero_rows.h"
 #include "texproc/material/base_share.h"
 
 namespace petrichor::film {
@@ -330,6 +331,30 @@ FinishedTextures finish_prepared(const scene::EncodedImage& encoded, const Textu
     return finished;
 }
 
+// PNG and zlib, JPEG and WebP tell damage themselves.
+bool has_no_checksum(std::span<const std::byte> bytes)
+{
+    const auto starts = [&](std::initializer_list<int> head) {
+        return bytes.size() >= head.size() &&
+               std::equal(head.begin(), head.end(), bytes.begin(),
+                          [](int a, std::byte b) { return a == std::to_integer<int>(b); });
+    };
+    return !starts({0x89, 'P', 'N', 'G'}) && !starts({0xff, 0xd8}) && !starts({'R', 'I', 'F', 'F'});
+}
+
+// What a file that was cut and filled up looks like, of a colour or a normal map.
+void tell_zero_rows(const scene::EncodedImage& encoded, const gpu::Texture& made, std::vector<std::string>& notes)
+{
+    constexpr int kFewRows = 16;
+    if (made.mips.empty() || made.height < kFewRows || !has_no_checksum(encoded.bytes)) return;
+    const std::size_t texels = static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height);
+    const texproc::RawImage level{made.width, made.height, static_cast<int>(made.mips[0].size() / texels),
+                                  texproc::PixelType::U8, {}, made.mips[0]};
+    const std::string zero = texproc::zero_rows(level);
+    if (!zero.empty())
+        notes.push_back("texture " + encoded.name + ": " + zero + "; look whether the file is damaged");
+}
+
 }  // namespace
 
 std::vector<TextureJob> texture_jobs(const std::vector<TextureRecipe>& recipes,
@@ -366,9 +391,18 @@ FinishedTextures finish_textures(const scene::Scene& scene,
     const TextureRecipe& recipe = recipes[static_cast<std::size_t>(job.texture)];
     const scene::EncodedImage& encoded = image_at(scene, recipe.image);
     if (recipe.prepared) return finish_prepared(encoded, recipe, options);
-    if (recipe.kind == Kind::Surface) return {finish_surface(scene, recipes, job, options), {}};
     FinishedTextures finished;
+    if (recipe.kind == Kind::Surface) {
+        finished.textures = finish_surface(scene, recipes, job, options);
+        if (job.normal_texture >= 0 && finished.textures.size() > 1) {
+            const TextureRecipe& normal = recipes[static_cast<std::size_t>(job.normal_texture)];
+            tell_zero_rows(image_at(scene, normal.image), finished.textures[1], finished.notes);
+        }
+        return finished;
+    }
     finished.textures.push_back(finish_plain(scene, recipe, options));
+    if (recipe.kind == Kind::Color || recipe.kind == Kind::Normal)
+        tell_zero_rows(encoded, finished.textures[0], finished.notes);
     return finished;
 }
 

@@ -214,7 +214,11 @@ std::vector<gpu::Texture> prepare_textures(scene::Scene& scene, const TextureOpt
     if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
     Workshop workshop(scene, recipes, jobs, options);
     workshop.run(std::min({threads, 4, std::max(1, static_cast<int>(jobs.size()))}));
-    for (const std::string& note : workshop.notes()) scene.warnings.push_back(note);
+    // An image that is used in two ways says it once.
+    for (const std::string& note : workshop.notes()) {
+        if (std::find(scene.warnings.begin(), scene.warnings.end(), note) == scene.warnings.end())
+            scene.warnings.push_back(note);
+    }
     const auto time = std::chrono::steady_clock::now() - start;
     if (options.cache.on() && workshop.made() > 0 && time > std::chrono::seconds(2)) {
         scene.warnings.push_back(

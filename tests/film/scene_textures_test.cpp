@@ -152,6 +152,35 @@ TEST(PrepareTextures, WeightsOfLayersKeepFourChannels)
     }
 }
 
+// TGA has no checksum: what was cut and filled up is told, at every start. A black PNG is as its author made it.
+TEST(PrepareTextures, RowsThatAreEmptyAreTold)
+{
+    const std::vector<std::uint8_t> black(static_cast<std::size_t>(3 * 32 * 32), 0);
+    std::vector<std::byte> tga{std::byte{0}, std::byte{0}, std::byte{2}};
+    tga.resize(18);
+    tga[12] = tga[14] = std::byte{32};
+    tga[16] = std::byte{24};
+    tga[17] = std::byte{0x20};  // the first row is the top one
+    for (int i = 0; i < 3 * 32 * 32; ++i) tga.push_back(static_cast<std::byte>(i < 3 * 32 * 20 ? 90 : 0));
+    for (const bool png : {false, true}) {
+        scene::Scene scene;
+        scene.textures.resize(2);
+        for (scene::EncodedImage& image : scene.textures) {
+            image.name = png ? "wall.png" : "wall.tga";
+            image.bytes = png ? texproc::encode_png8(32, 32, 3, black) : tga;
+        }
+        scene::Material material;
+        material.base_color_texture.texture = 0;
+        material.normal_texture.texture = 1;
+        scene.materials = {material};
+        prepare_textures(scene);
+        // The colour and the normals are one file: said once.
+        ASSERT_EQ(scene.warnings.size(), png ? 0u : 1u);
+        if (png) continue;
+        EXPECT_EQ(scene.warnings[0], "texture wall.tga: rows 20 to 31 of 32 are zero; look whether the file is damaged");
+    }
+}
+
 TEST(PlanTextures, AnImageUsedInTwoWaysBecomesTwo)
 {
     scene::Scene scene = scene_with_maps();
