@@ -75,6 +75,49 @@ float wall_m(const Tracer& tracer, glm::vec3 at, int axis, float sign)
     return found[found.size() / 2];
 }
 
+constexpr int kMostMirrors = 4;
+
+bool is_mirror(const PatchSurface& surface)
+{
+    return surface.metallic > 0.9f && surface.roughness < 0.25f;
+}
+
+// What one ray meets, behind mirrors too: they tint what they show. A mirror that shows no patch, or another mirror
+// after as many as are followed, is as matt as its patch.
+ProbeTexel seen_along(const Patches& patches, const Tracer& tracer, std::span<const PatchSurface> surfaces,
+                      std::span<const ColorImage> images, glm::vec3 from, glm::vec3 way)
+{
+    const Triangles& triangles = tracer.triangles();
+    ProbeTexel matt;
+    glm::vec3 mirrors(1.0f);
+    for (int passed = 0; passed <= kMostMirrors; ++passed) {
+        const RayHit hit = tracer.nearest({from, way});
+        if (!hit.hit()) return matt;
+        glm::vec3 normal = triangles.normal(hit.triangle);
+        if (glm::dot(normal, way) > 0.0f) normal = -normal;
+        const glm::vec3 at = triangles.point(hit.triangle, hit.at);
+        const auto patch = patch_at(patches, at, normal);
+        ProbeTexel texel;
+        texel.patch = patch.value_or(ProbeTexel::kBlack);
+        const bool known = patch && *patch < surfaces.size();
+        if (known) {
+            const glm::vec3 color = surface_color(triangles, hit.triangle, hit.at, images);
+            const PatchSurface& surface = surfaces[*patch];
+            for (int c = 0; c < 3; ++c) texel.tint[c] = tint_of(mirrors[c] * color[c], surface.base_color[c]);
+            if (is_mirror(surface)) {
+                if (passed == 0) matt = texel;
+                mirrors *= color;
+                way = glm::reflect(way, normal);
+                from = at + 1e-4f * std::max(1.0f, hit.distance_m) * normal;
+                continue;
+            }
+        }
+        // A surface without a patch is black: the mirror before it knows better.
+        return passed > 0 && !known ? matt : texel;
+    }
+    return matt;
+}
+
 }  // namespace
 
 TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
@@ -85,19 +128,8 @@ TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
     TracedProbe probe{place, std::vector<ProbeTexel>(static_cast<std::size_t>(kSide) * kSide), {}};
     parallel_for(static_cast<std::size_t>(kSide), threads, [&](std::size_t row) {
         for (int x = 0; x < kSide; ++x) {
-            ProbeTexel& texel = probe.texels[row * kSide + static_cast<std::size_t>(x)];
-            const glm::vec3 way = direction_of(x, static_cast<int>(row));
-            const RayHit hit = tracer.nearest({place.position_m, way});
-            if (!hit.hit()) continue;
-            const Triangles& triangles = tracer.triangles();
-            glm::vec3 normal = triangles.normal(hit.triangle);
-            if (glm::dot(normal, way) > 0.0f) normal = -normal;
-            const auto patch = patch_at(patches, triangles.point(hit.triangle, hit.at), normal);
-            texel.patch = patch.value_or(ProbeTexel::kBlack);
-            if (!patch || *patch >= surfaces.size()) continue;
-            const glm::vec3 color = surface_color(triangles, hit.triangle, hit.at, images);
-            for (int c = 0; c < 3; ++c)
-                texel.tint[c] = tint_of(color[c], surfaces[*patch].base_color[c]);
+            probe.texels[row * kSide + static_cast<std::size_t>(x)] = seen_along(
+                patches, tracer, surfaces, images, place.position_m, direction_of(x, static_cast<int>(row)));
         }
     });
     return probe;

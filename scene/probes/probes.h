@@ -28,7 +28,7 @@ struct ProbeTexel {
     static constexpr std::uint32_t kBlack = 0xfffffffeu;  ///< a surface without a patch
     static constexpr float kTintScale = 64.0f;
     std::uint32_t patch = kSky;
-    /// Base colour of the point over that of its patch, times kTintScale.
+    /// Base colour of the point over that of its patch, times the colours of the mirrors before it and kTintScale.
     std::uint8_t tint[4] = {64, 64, 64, 0};
 };
 
@@ -44,7 +44,7 @@ struct TracedProbe {
 /// the mean of its solid angle.
 std::vector<glm::vec3> probe_picture(int width, int height, std::span<const float> rgb);
 
-/// One ray a texel. Deterministic for any number of threads.
+/// One ray a texel, on from smooth metal as from a mirror, up to four times. Deterministic for any number of threads.
 TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
                         std::span<const PatchSurface> surfaces, std::span<const ColorImage> images,
                         const ProbePlace& place, int threads = 0);

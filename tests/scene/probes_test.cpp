@@ -109,6 +109,40 @@ TEST(Probes, EveryDirectionFindsItsWall)
     EXPECT_GT(asked, 2000);
 }
 
+// A wall of polished copper shows the wall across the room in its own colour; between two of them a ray ends.
+TEST(Probes, MirrorsShowWhatTheyMirror)
+{
+    for (const bool two : {false, true}) {
+        Scene scene = empty_scene();
+        scene.materials.resize(2);
+        scene.materials[1].base_color = glm::vec4(1.0f, 0.5f, 0.25f, 1.0f);
+        scene.materials[1].metallic = 1.0f;
+        scene.materials[1].roughness = 0.1f;
+        scene.meshes[0].primitives.resize(2);
+        scene.meshes[0].primitives[1].material = 1;
+        add_box(scene, glm::vec3(0.0f), glm::vec3(4.0f), true);
+        add_face(scene, {3.8f, 0, 0}, {0, 0, 4}, {0, 4, 0}, 1);
+        if (two) add_face(scene, {0.2f, 0, 0}, {0, 4, 0}, {0, 0, 4}, 1);
+        const Traced room_of(scene);
+        std::vector<glm::vec3> radiosity;
+        for (std::uint32_t i = 0; i < room_of.patches.count; ++i) {
+            const bool copper = room_of.patches.material[i] == 1;
+            radiosity.push_back((copper ? glm::vec3(9.0f) : glm::vec3(room_of.patches.normal[i].x > 0.5f ? 2.0f : 1.0f)) * kPi);
+        }
+        const auto light = lit_probe(room_of.probe(at(glm::vec3(2.0f))), radiosity);
+        const glm::vec3 ahead(seen(light, 0, glm::normalize(glm::vec3(1.0f, 0.04f, 0.05f))));
+        if (two) {
+            EXPECT_NEAR(ahead.g, 9.0f, 0.1f) << "as matt as its patch";
+            continue;
+        }
+        EXPECT_NEAR(ahead.r, 2.0f, 0.05f);
+        EXPECT_NEAR(ahead.g, 1.0f, 0.05f);
+        EXPECT_NEAR(ahead.b, 0.5f, 0.05f);
+        const glm::vec3 behind(seen(light, 0, glm::normalize(glm::vec3(-1.0f, 0.1f, 0.13f))));
+        EXPECT_NEAR(behind.g, 2.0f, 0.05f) << "no mirror there";
+    }
+}
+
 TEST(Probes, OverOpenGroundTheSkyIsLeftToTheSky)
 {
     Scene scene = empty_scene();
