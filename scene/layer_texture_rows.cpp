@@ -87,6 +87,10 @@ void add_layer_limits(const Scene& scene, std::vector<std::string>& lines)
                             " textures of layers; " + std::to_string(kMostLayerTextures) +
                             " are shown, in the order of the table");
         }
+        if (material.second.use == SecondSetUse::Layers && !material.second.mix_mask.present()) {
+            lines.push_back("material " + material.name +
+                            " is ground of layers without weights (mix_mask_texture): the first is seen alone");
+        }
         const LayerTextures& m = material.maps;
         const bool lets_through = material.alpha_mode == AlphaMode::Blend || material.transmission > 0;
         const TextureUse* of_solids[] = {&m.clearcoat,       &m.clearcoat_roughness, &m.clearcoat_normal,

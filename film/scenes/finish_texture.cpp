@@ -56,6 +56,16 @@ Image decode(const scene::EncodedImage& encoded, ColorSpace space, int channels,
         channels);
 }
 
+// Weights of four layers; a picture without alpha says nothing of the fourth.
+Image decode_weights(const scene::EncodedImage& encoded, const TextureOptions& options)
+{
+    const Image image = texproc::decode_image(
+        encoded.bytes, encoded.name, {.space = ColorSpace::Data, .max_side = options.max_size, .stop = options.stop});
+    Image weights = with_channels(image, 4);
+    for (std::size_t i = 3; image.channels < 4 && i < weights.pixels.size(); i += 4) weights.pixels[i] = 0.0f;
+    return weights;
+}
+
 Image first_channels(const Image& image, int channels)
 {
     if (image.channels == channels) return image;
@@ -295,7 +305,7 @@ gpu::Texture finish_plain(const scene::Scene& scene, const TextureRecipe& recipe
             return rounded(texproc::plain_levels(decode_light(encoded, options), "albedo", mips),
                            gpu::TexelFormat::Rgba16Float, options);
         case Kind::Weights:
-            return rounded(texproc::plain_levels(decode(encoded, ColorSpace::Data, 4, options), "mask", mips),
+            return rounded(texproc::plain_levels(decode_weights(encoded, options), "mask", mips),
                            gpu::TexelFormat::Rgba8Unorm, options);
         case Kind::Surface:
         case Kind::Scalar:

@@ -145,6 +145,13 @@ TEST(PrepareTextures, WeightsOfLayersKeepFourChannels)
     ASSERT_EQ(textures.size(), 1u);
     const auto code = [&](std::size_t mip, std::size_t i) { return static_cast<int>(textures[0].mips[mip][i]); };
     ASSERT_GT(textures[0].mips.size(), 2u);
+    // Without alpha there is no fourth layer.
+    scene::Scene bare;
+    bare.textures = {image_of(8, {200, 40, 10}, {200, 40, 10})};
+    bare.materials = {material};
+    const auto three = prepare_textures(bare);
+    EXPECT_EQ(static_cast<int>(three[0].mips[0][0]), 200);
+    EXPECT_EQ(static_cast<int>(three[0].mips[0][3]), 0);
     const int first[] = {255, 64, 0, 0}, mean[] = {128, 64, 0, 96};
     for (std::size_t c = 0; c < 4; ++c) {
         EXPECT_EQ(code(0, c), first[c]);

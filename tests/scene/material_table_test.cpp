@@ -198,6 +198,16 @@ TEST(LayerTextures, MoreThanFitAreSaid)
     EXPECT_THAT(unshaded_properties(scene)[0], HasSubstr("lets light through"));
 }
 
+TEST(LayerTextures, AGroundWithoutWeightsIsSaid)
+{
+    Scene scene = scene_with({});
+    scene.materials[0].second.use = SecondSetUse::Layers;
+    ASSERT_EQ(unshaded_properties(scene).size(), 1u);
+    EXPECT_THAT(unshaded_properties(scene)[0], HasSubstr("mix_mask_texture"));
+    scene.materials[0].second.mix_mask.texture = 0;
+    EXPECT_THAT(unshaded_properties(scene), IsEmpty());
+}
+
 TEST(LightingModel, IsKeptByGltf)
 {
     Material material;
