@@ -363,7 +363,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
     // Which material a pixel has is kept with the weather.
     // Shares of two sets lie beside the weather, and light asks for them too.
-    const bool weathered = weather.any || r.scene->decals_refused() || r.scene->two_sets();
+    const bool weathered =
+        weather.any || r.scene->decals_refused() || r.scene->two_sets() || r.scene->point_lamps();
     weather.any = weathered || r.materials;
     const auto time_s = static_cast<float>(settings.time_s);
 
@@ -397,7 +398,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.lamp_shadows = !r.lights->shadowed.empty();
     variant.soft_lamps = soft_lamps;
     variant.rectangles = r.lights->rectangles;
-    variant.ways = r.lights->ways | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
+    variant.ways = r.lights->ways | (r.scene->point_lamps() ? LIGHTS_BY_MATERIAL : 0u) | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
     variant.all_lights = settings.all_lights;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();

@@ -46,6 +46,8 @@ void add_gltf_rows(std::vector<Row>& t)
     t.push_back(flag<&M::premultiplied_alpha>(
         "premultiplied_alpha", {"", "extras", "premultipliedAlpha"},
         "BLEND: only the matt part fades with alpha, as of glass; false: reflections fade too"));
+    t.push_back(flag<&M::area_lights>("area_lights", {"", "extras", "areaLights"},
+                                      "lamps light it by their size; false: as points, which is cheaper"));
     t.push_back(flag<&M::casts_shadows>("casts_shadows", {"", "extras", "castShadows"},
                                         "of sun, sky and lamps; what lets light through casts in part"));
     t.push_back(

@@ -268,6 +268,7 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool premultiplied_alpha = false;  ///< Blend: what is mirrored does not fade with alpha
     bool casts_shadows = true;
+    bool area_lights = true;  ///< false: lamps light it as points, whatever their size
     bool double_sided = false;
     bool cull_front = false;
     bool unlit = false;  ///< KHR_materials_unlit: the model "unlit", if none is named

@@ -481,7 +481,7 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                                                   c.second_water_color,
                                                   {c.roughness_factor,
                                                    source.decal.received ? 1.0f : 0.0f, c.dispersion,
-                                                   0.0f}};
+                                                   source.area_lights ? 0.0f : 1.0f}};
     std::memcpy(looks_->mapped + index * sizeof(look), look, sizeof(look));
     materials_[index].masked = source.alpha_mode == AlphaMode::Mask;
     materials_[index].blended = is_blended(source) && !source.decal.on;
@@ -538,6 +538,7 @@ void GpuScene::sum_up_materials()
     baked_ = any([](const Material& m) { return m.light_map.present(); });
     decals_refused_ = !decals_.empty() && any([](const Material& m) { return !m.decal.received; });
     glows_ = glowing(glow_sources_, current_);
+    point_lamps_ = any([](const Material& m) { return !m.area_lights; });
     two_sets_ = any([](const Material& m) {
         return m.second.use == scene::SecondSetUse::Mix &&
                (m.second.own_water || m.diffuse_transmission > 0.0f || m.translucency > 0.0f || scatters(m));

@@ -145,6 +145,7 @@ public:
     /// Some body that light passes has a texture of its thickness.
     bool body_shares() const { return body_shares_; }
     /// Some material mixes two sets that water or light that passes treats differently.
+    bool point_lamps() const { return point_lamps_; }  ///< some materials see lamps as points
     bool two_sets() const { return two_sets_; }
     const OwnSurfaces& own_surfaces() const { return own_surfaces_; }
     const LightingModels& lighting_models() const { return lighting_models_; }
@@ -205,6 +206,7 @@ private:
     bool baked_ = false;
     bool decals_refused_ = false;
     bool constant_weather_ = false;
+    bool point_lamps_ = false;
     bool two_sets_ = false;
     bool layer_shares_ = false;
     bool body_shares_ = false;

@@ -216,7 +216,7 @@
 //   0  water_color
 //   1  snow_opacity, transmission_factor, ior, thickness_factor
 //   2  second_water_color; that of the first set again where it has none of its own
-//   3  roughness_factor, receives_decals, dispersion, -
+//   3  roughness_factor, receives_decals, dispersion, 1: lamps are points
 #define MATERIAL_LOOK_TEXELS 4
 
 // What an instance has instead of its materials' own, by Draw's number, from 1; negative: their own.

@@ -297,6 +297,43 @@ TEST_F(AreaLightTest, ShapesWidenHighlightsAndKeepTheLightOfAPoint)
     }
 }
 
+// One floor sees the sizes of lamps, another in the same picture does not: there it is as with all sizes off.
+TEST_F(AreaLightTest, AMaterialMaySeeLampsAsPoints)
+{
+    const Material by_size = plain_material(glm::vec3(0.2f), 0.25f);
+    Material by_point = by_size;
+    by_point.area_lights = false;
+    Light tube = ball(0.3f);
+    tube.length_m = 1.0f;
+    tube.up = {1, 0, 0};
+    tube.range_m = 100.0f;
+    for (const AreaLights way : {AreaLights::Ltc, AreaLights::Nearest}) {
+        for (const bool shadowed : {false, true}) {
+            Frame frame = from_above();
+            frame.settings.area_lights = way;
+            frame.settings.lamp_shadows = shadowed ? 1 : 0;
+            frame.extra_lights = {tube};
+            renderer->load(floor_of(by_size), {});
+            const RenderResult sized = renderer->render(frame);
+            frame.settings.area_lights = AreaLights::Off;
+            const RenderResult off = renderer->render(frame);
+            frame.settings.area_lights = way;
+            renderer->load(floor_of(by_point), {});
+            const RenderResult points = renderer->render(frame);
+            for (const float x : {0.0f, 0.4f, 1.5f})
+                EXPECT_NEAR(at(points, x, 0), at(off, x, 0), 0.01f * at(off, x, 0)) << x;
+            EXPECT_LT(at(sized, 0, 0), 0.8f * at(points, 0, 0));
+            // Both in one picture: the left half by size.
+            Scene both = scene_of({quad({-4, 0, 4}, {4, 0, 0}, {0, 0, -8}, 0), quad({0, 0, 4}, {4, 0, 0}, {0, 0, -8}, 1)},
+                                  {by_size, by_point});
+            renderer->load(both, {});
+            const RenderResult halves = renderer->render(frame);
+            EXPECT_NEAR(at(halves, -0.4f, 0), at(sized, -0.4f, 0), 0.01f * at(sized, -0.4f, 0));
+            EXPECT_NEAR(at(halves, 0.4f, 0), at(points, 0.4f, 0), 0.01f * at(points, 0.4f, 0));
+        }
+    }
+}
+
 TEST_F(AreaLightTest, ADiscShinesFromItsFrontWithinItsCone)
 {
     renderer->load(floor_of(matt()), {});

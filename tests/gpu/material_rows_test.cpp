@@ -208,6 +208,13 @@ Scene stage(const Material& material, std::string_view row = "")
          quad({0.5f, 0, -1}, {1, 0, 0}, {0, 1.2f, 0}),
          quad({2.0f, 0, 0}, {-0.8f, 0, -0.3f}, {0, 1, 0})},
         {material});
+    if (row == "area_lights") {
+        Light lamp;
+        lamp.position_m = {0.3f, 1.0f, 0.8f};
+        lamp.intensity = 40.0f;
+        lamp.radius_m = 0.3f;
+        scene.lights.push_back(lamp);
+    }
     if (material.name == "coloured") {
         for (Primitive& p : scene.meshes[0].primitives) p.colors.assign(4, {1.0f, 0.5f, 1.0f, 1.0f});
     }

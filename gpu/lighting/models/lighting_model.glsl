@@ -39,6 +39,7 @@ struct LitPoint {
     float hair_shift;  // radians
     WaterFilm film;    // of rain; the pass adds it
     float sunlit;      // 0 in the shadow of the sun .. 1
+    bool point_lamps;  // sizes of lamps are not seen
 };
 
 // What a white surface sends back of a light at that cosine (formulas/light/skin.h), from a table.

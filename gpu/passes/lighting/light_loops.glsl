@@ -12,6 +12,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     bool lit = d2 < sphere.w * sphere.w;
     if (SKIPS && !lit) return vec3(0.0);
     float visible = 1.0;
+    bool one_of_shape = shaped && !shadowed;  // all of that loop are, and end before
     if (LAMP_SHADOWS != 0u && shadowed) {
         const float number = light.across.w;
         const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
@@ -23,8 +24,15 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     }
     if (WAYS != 0u) {
         const vec4 size = light.size;
-        if (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0)
-            return lit ? area_light(p, light, to_light, sphere.w, size, visible) : vec3(0.0);
+        if (shaped && (WAYS & (LIGHTS_LTC | LIGHTS_NEAREST)) != 0u && size.x > 0.0) {
+            if ((WAYS & LIGHTS_BY_MATERIAL) == 0u || !p.point_lamps)
+                return lit ? area_light(p, light, to_light, sphere.w, size, visible) : vec3(0.0);
+            if (light.color.w < LIGHT_POINT - 0.5)
+                return lit ? rectangle_light(p, light, to_light, light.color) * visible : vec3(0.0);
+            // Radiance times what is seen of the lamp: its intensity.
+            if ((WAYS & LIGHTS_LTC) != 0u) light.color.rgb *= (3.14159265 * size.x + 4.0 * size.y) * size.x;
+            one_of_shape = false;
+        }
         if ((WAYS & LIGHTS_FILL) != 0u) {
             p.lobe.lit *= size.z;
             p.film.lit *= size.z;
@@ -36,7 +44,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
             return lit ? rectangle_light(p, light, to_light, glow) * visible : vec3(0.0);
         }
     }
-    if (shaped && !shadowed) return vec3(0.0);  // all of that loop are
+    if (one_of_shape) return vec3(0.0);
     const float inverse = inversesqrt(max(d2, 1.0e-8));
     const vec3 l = to_light * inverse;
     lit = lit && (dot(p.normal, l) > 0.0 || p.layers.transmitted > 0.0 || BLEEDS);

@@ -322,6 +322,8 @@ void main()
         p.curvature = 0.0;
         p.hair_shift = 0.0;
         p.sunlit = 1.0;
+        p.point_lamps = (WAYS & LIGHTS_BY_MATERIAL) != 0u &&
+                        texelFetch(material_looks, int(g.material) * MATERIAL_LOOK_TEXELS + 3).w > 0.5;
         p.film = film;
         vec3 mirror_normal = n;
         if (USES_layered != 0u && p.model == uint(LIGHTING_MODEL_STANDARD)) {

@@ -27,6 +27,7 @@
 #define LIGHTS_PLAIN 64u    // no shape and no shadow
 #define LIGHTS_SHAPED 128u  // a shape and no shadow
 #define LIGHTS_TOGETHER 512u  // of the device: invocations of a group read lights for each other
+#define LIGHTS_BY_MATERIAL 1024u  // of the scene: some materials see lamps as points
 #define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
 
 // So many at once, where a subgroup has as many invocations.
