@@ -76,10 +76,11 @@ TEST(Skill, RadiationInATownIsNearerThanSolweigs)
         return kNoScore;
     };
     EXPECT_LT(score("kronenhuset", "K down"), 45.0);
-    EXPECT_LT(score("kronenhuset", "L up"), 10.0);
+    EXPECT_LT(score("kronenhuset", "L up"), 13.0);
+    EXPECT_LT(score("kronenhuset", "L down"), 32.0);
     EXPECT_LT(score("gustav_adolfs", "K down"), 150.0);
-    EXPECT_LT(score("gustav_adolfs", "L down"), 61.0);
-    EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.73) << "kappa of 0.27, as of bare grass";
+    EXPECT_LT(score("gustav_adolfs", "L down"), 40.0);
+    EXPECT_LT(score("champaign_1998_half_hourly", "wetness"), 0.5) << "kappa";
 }
 
 TEST(Skill, AFolderWithoutDataIsNamed)

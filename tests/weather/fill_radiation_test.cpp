@@ -111,6 +111,35 @@ TEST(FillRadiation, DiffuseLightTellsHazeFromClouds)
     EXPECT_EQ(t[Field::Cloud][20], 1.0);
 }
 
+// Three days: clear, clear but for a last hour in haze, overcast. Nights lie between the days beside
+// them, and a low sun does not make one cloudy by itself.
+TEST(FillRadiation, NightsLieBetweenTheDaysBesideThem)
+{
+    ForcingTable t;
+    t.site = {.latitude_deg = 39, .longitude_deg = 0, .elevation_m = 500};
+    const std::int64_t begin = 1683000000LL / 86400 * 86400 * 1000000;
+    for (int h = 0; h <= 72; ++h) {
+        t.time_us.push_back(begin + h * kHour_us);
+        t[Field::AirTemp].push_back(280);
+        t[Field::RelHumidity].push_back(60);
+        t[Field::Precip].push_back(0);
+        const double sine = sun_direction(t.time_us.back(), 39, 0).up;
+        const double of_clear = h >= 48 ? 0.25 : h == 41 ? 0.6 : 1.0;
+        t[Field::Shortwave].push_back(of_clear * clear_sky_w_m2(sine));
+    }
+    ReadReport report;
+    fill_forcing(t, report);
+    const auto& cloud = t[Field::Cloud];
+    for (int h = 20; h <= 27; ++h) EXPECT_NEAR(cloud[static_cast<std::size_t>(h)], 0.0, 1e-6) << h;
+    // The haze alone says 0.83.
+    EXPECT_GT(cloud[41], 0.8);
+    EXPECT_LT(cloud[42], 0.65);
+    for (std::size_t h = 43; h <= 52; ++h) EXPECT_GT(cloud[h], cloud[h - 1]) << h;
+    EXPECT_NEAR(cloud[60], 1.0, 1e-6);
+    EXPECT_NEAR(cloud[71], 1.0, 1e-6);
+    EXPECT_TRUE(says(report, "between that of the evening")) << to_text(report);
+}
+
 TEST(FillRadiation, WhatIsAssumedIsCalledAssumed)
 {
     ForcingTable t = without_sun(1);
@@ -133,7 +162,7 @@ TEST(FillRadiation, LongRowsAreDividedForTheSun)
         EXPECT_NEAR(sum(t, Field::Precip), water, 1e-12) << hours;
         EXPECT_NEAR(t[Field::AirTemp][31], 273.15 + 3.1, 1e-9) << hours;
         const auto day = t[Field::Shortwave].begin();
-        EXPECT_GT(*std::max_element(day, day + 24), 500) << hours;
+        EXPECT_GT(*std::max_element(day, day + 24), 480) << hours;
         EXPECT_EQ(*std::min_element(day, day + 24), 0) << hours;
     }
     ForcingTable measured = without_sun(6);

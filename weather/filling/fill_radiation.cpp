@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "weather/filling/cloud_of_rows.h"
 #include "weather/physics/humidity.h"
 #include "weather/physics/longwave.h"
 #include "weather/physics/solar.h"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3600LL * 1000000;
 constexpr std::int64_t kLongestDivided_us = 48 * kHour_us;
-constexpr double kFalls_kg_m2_s = 0.1 / 3600.0;
-constexpr double kFog_m = 1000.0;
 
 // Parts into which the interval after a row is divided.
 std::int64_t parts_of(std::int64_t length_us)
@@ -48,64 +47,6 @@ void follow_the_sun(std::vector<double>& net, const std::vector<double>& sun,
         begin = end;
     }
 }
-
-// How many rows were filled in each way.
-struct Fills {
-    std::size_t cloud_from_sun = 0, cloud_from_sky = 0, cloud_falling = 0, cloud_assumed = 0;
-    std::size_t shortwave = 0, longwave = 0;
-};
-
-// Cloud of the rows in their order: a night keeps what the day said.
-class CloudOfRows {
-public:
-    CloudOfRows(const ForcingTable& table, bool sun_is_known, double assumed)
-        : table_(table), sun_is_known_(sun_is_known), last_(assumed)
-    {
-    }
-
-    double at(std::size_t row, double sine, Fills& fills)
-    {
-        const double cloud = table_[Field::Cloud][row];
-        const double sw = table_[Field::Shortwave][row];
-        const double lw = table_[Field::Longwave][row];
-        if (!std::isnan(cloud)) {
-            from_ = nullptr;
-            return last_ = cloud;
-        }
-        // What falls comes from a cloud, and fog is one.
-        if (falls_or_fog(row)) {
-            ++fills.cloud_falling;
-            return 1.0;
-        }
-        // A low sun tells little about clouds.
-        if (!std::isnan(sw) && sine > 0.17 && sun_is_known_) {
-            from_ = &fills.cloud_from_sun;
-            const double diffuse = table_.has(Field::Diffuse) ? table_[Field::Diffuse][row] : kMissing;
-            last_ = std::isnan(diffuse) || !(sw > 0.0) ? cloud_fraction_of(sw, sine)
-                                                       : cloud_fraction_of_diffuse(diffuse / sw);
-        } else if (std::isnan(sw) && !std::isnan(lw)) {
-            const double t = table_[Field::AirTemp][row];
-            from_ = &fills.cloud_from_sky;
-            last_ =
-                cloud_of_longwave(t, vapour_pressure_pa(t, table_[Field::RelHumidity][row]), lw);
-        }
-        ++*(from_ ? from_ : &fills.cloud_assumed);
-        return last_;
-    }
-
-private:
-    bool falls_or_fog(std::size_t row) const
-    {
-        for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
-            if (table_.has(f) && table_[f][row] >= kFalls_kg_m2_s) return true;
-        return table_.has(Field::Visibility) && table_[Field::Visibility][row] < kFog_m;
-    }
-
-    const ForcingTable& table_;
-    bool sun_is_known_;
-    double last_;
-    std::size_t* from_ = nullptr;
-};
 
 }  // namespace
 
@@ -168,38 +109,41 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     const bool place =
         !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
     const Observer observer(place ? table.site.latitude_deg : 45.0, place ? table.site.longitude_deg : 0.0);
-    Fills fills;
-    CloudOfRows clouds(table, place, options.default_cloud);
+    std::vector<double> sine(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-        double sine = 0.0;
         if (std::isnan(cloud[i]) || std::isnan(sw[i]))
-            sine = SunNear(table.time_us[i], observer).at(table.time_us[i]).up;
-        cloud[i] = clouds.at(i, sine, fills);
+            sine[i] = SunNear(table.time_us[i], observer).at(table.time_us[i]).up;
+    }
+    CloudFills clouds;
+    cloud = cloud_of_rows(table, sine, place, options.default_cloud, clouds);
+    std::size_t shortwave = 0, longwave = 0;
+    for (std::size_t i = 0; i < n; ++i) {
         if (std::isnan(sw[i])) {
-            sw[i] = cloudy_sky_w_m2(sine, cloud[i]);
-            ++fills.shortwave;
+            sw[i] = cloudy_sky_w_m2(sine[i], cloud[i]);
+            ++shortwave;
         }
         sw[i] = std::max(sw[i], 0.0);
         if (std::isnan(lw[i])) {
             const double t = table[Field::AirTemp][i];
             lw[i] = longwave_from_sky_w_m2(t, vapour_pressure_pa(t, table[Field::RelHumidity][i]),
                                            cloud[i]);
-            ++fills.longwave;
+            ++longwave;
         }
     }
     if (!net.empty()) follow_the_sun(net, sw, table.time_us);
 
     const std::string where = place ? "" : " at 45 N 0 E: the file gives no place";
     const char* cloud_name = field_info(Field::Cloud).name;
-    note_filled(report, cloud_name, fills.cloud_from_sun, "from shortwave, kept through the night");
-    note_filled(report, cloud_name, fills.cloud_from_sky, "from longwave (Prata 1996)");
-    note_filled(report, cloud_name, fills.cloud_falling, "full: something falls, or fog");
-    note_filled(report, cloud_name, fills.cloud_assumed, "assumed");
-    note_filled(report, field_info(Field::Shortwave).name, fills.shortwave,
+    note_filled(report, cloud_name, clouds.from_sun,
+                "from shortwave; at night between that of the evening and of the morning");
+    note_filled(report, cloud_name, clouds.from_sky, "from longwave (Dilley & O'Brien 1998)");
+    note_filled(report, cloud_name, clouds.falling, "full: something falls, or fog");
+    note_filled(report, cloud_name, clouds.assumed, "assumed");
+    note_filled(report, field_info(Field::Shortwave).name, shortwave,
                 "clear sky (Haurwitz 1945) and cloud (Kasten & Czeplak 1980)" + where +
                     (net.empty() ? "" : "; what the ground takes up is the file's sw_net"));
-    note_filled(report, field_info(Field::Longwave).name, fills.longwave,
-                "air and cloud (Prata 1996; cloud after Konzelmann et al. 1994)");
+    note_filled(report, field_info(Field::Longwave).name, longwave,
+                "air and cloud (Dilley & O'Brien 1998; cloud after Konzelmann et al. 1994)");
 }
 
 }  // namespace petrichor::weather

@@ -102,7 +102,7 @@ struct FillOptions {
 ///
 /// Order: short gaps by a line between neighbours (rates: 0); humidity from the dew point, else 70
 /// %; pressure from the elevation; cloud from shortwave, else from longwave; shortwave from sun and
-/// cloud; longwave from humidity and cloud (Prata 1996). Every fill is added to the report.
+/// cloud; longwave from humidity and cloud (Dilley & O'Brien 1998). Every fill is added to the report.
 /// Where the sun has to be made, rows further apart than an hour are divided into hours, so that
 /// noon is not missed; net shortwave keeps its mean and follows the made sun.
 ///

@@ -16,13 +16,18 @@ constexpr double kOvercast = 0.955;
 
 double clear_sky_emissivity(double temp_k, double vapour_pa)
 {
-    const double x = 46.5 * (0.01 * vapour_pa) / temp_k;
-    return 1.0 - (1.0 + x) * detail::exponential(-std::sqrt(1.2 + 3.0 * x));
+    const double water_kg_m2 = 4.65 * vapour_pa / temp_k;
+    const double warm = temp_k / 273.16;
+    const double square = temp_k * temp_k, warm3 = warm * warm * warm;
+    const double sent = 59.38 + 113.7 * (warm3 * warm3) +
+                        96.96 * std::sqrt(detail::larger(water_kg_m2, 0.0) / 25.0);
+    return detail::clamped(sent / (kStefanBoltzmann * (square * square)), 0.0, 1.0);
 }
 
 double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction)
 {
-    const double share = detail::clamped(cloud_fraction * cloud_fraction, 0.0, 1.0);
+    const double cloud = detail::clamped(cloud_fraction, 0.0, 1.0);
+    const double share = cloud * cloud * std::sqrt(cloud);
     const double clear = clear_sky_emissivity(temp_k, vapour_pa);
     // Very damp warm air alone may radiate more than cloud: it never makes a sky colder.
     const double emissivity = clear + detail::larger(kOvercast - clear, 0.0) * share;
@@ -35,7 +40,7 @@ double cloud_of_longwave(double temp_k, double vapour_pa, double longwave_w_m2)
     const double black = kStefanBoltzmann * (temp_k * temp_k) * (temp_k * temp_k);
     if (clear >= kOvercast) return 0.0;
     const double share = (longwave_w_m2 / black - clear) / (kOvercast - clear);
-    return std::sqrt(detail::clamped(share, 0.0, 1.0));
+    return share > 0.0 ? detail::power(detail::smaller(share, 1.0), 1.0 / 2.5) : 0.0;
 }
 
 }  // namespace petrichor::weather

@@ -3,12 +3,13 @@
 
 namespace petrichor::weather {
 
-/// Emissivity of a clear sky, Prata 1996: x = 46.5 e[hPa]/T; 1 - (1+x) exp(-sqrt(1.2 + 3x)).
+/// Emissivity of a clear sky, 0..1, from Dilley & O'Brien 1998: (59.38 + 113.7 (T/273.16)^6 + 96.96
+/// sqrt(w/25)) / (sb T^4), with w = 4.65 e[Pa]/T kg/m2 of vapour above (Prata 1996).
 double clear_sky_emissivity(double temp_k, double vapour_pa);
 
-/// Longwave radiation from the sky, W/m2: Prata 1996 for a clear sky ea; under cloud ea +
-/// (0.955 - ea) N^2: the form of Konzelmann et al. 1994, whose N^4 leaves half a cover too cold at
-/// Col de Porte, as Unsworth & Monteith's N leaves it too warm at Bondville (docs/weather.md).
+/// Longwave radiation from the sky, W/m2: of a clear sky ea; under cloud ea + (0.955 - ea) N^2.5: the
+/// form of Konzelmann et al. 1994, whose N^4 leaves half a cover too cold at Col de Porte, as
+/// Unsworth & Monteith's N leaves it too warm at Bondville (docs/weather.md).
 ///   cloud_fraction  0..1
 double longwave_from_sky_w_m2(double temp_k, double vapour_pa, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured longwave; 0 at or below the clear sky.

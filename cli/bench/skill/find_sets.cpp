@@ -141,7 +141,8 @@ RoadCase road_of(const fs::path& folder, std::vector<std::string>& notes)
     return road;
 }
 
-// Bondville near Champaign, a row of 33 numbers every half hour, local standard time.
+// Bondville near Champaign, a row of 33 numbers every half hour, local standard time at its end. Rows are
+// put in the middle of what they are means of, and what falls between two middles is half of either.
 LongwaveStation champaign(const std::string& text, const std::string& name)
 {
     LongwaveStation station{name, {}, {}, {}};
@@ -162,7 +163,7 @@ LongwaveStation champaign(const std::string& text, const std::string& name)
         const auto hhmm = static_cast<std::int64_t>(value(1));
         const std::int64_t us = weather::days_from_civil(1998, 1, 1) * 86400000000LL +
                                 ((static_cast<std::int64_t>(value(0)) - 1) * 1440 +
-                                 hhmm / 100 * 60 + hhmm % 100 + 6 * 60) *
+                                 hhmm / 100 * 60 + hhmm % 100 - 15 + 6 * 60) *
                                     60000000LL;
         if (!t.time_us.empty() && us <= t.time_us.back()) continue;
         t.time_us.push_back(us);
@@ -176,6 +177,8 @@ LongwaveStation champaign(const std::string& text, const std::string& name)
         station.wetness_v.push_back(value(13));
         station.skin_c.push_back(value(14) < -172.0 ? weather::kMissing : value(14));
     }
+    auto& rain = t[Field::Precip];
+    for (std::size_t i = 0; i + 1 < rain.size(); ++i) rain[i] = 0.5 * (rain[i] + rain[i + 1]);
     return station;
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kStep_s = 1800.0;
 // Halfway between what the sensor says when it is dry (0.04 V) and wet (0.17 V).
 constexpr double kWet_v = 0.105;
-// Ice and water of 0.01 mm or more are wet, as they are ice on a road.
+// Of liquid water alone: the sensor is a resistance, and ice and dry snow hardly conduct.
 constexpr double kWet_kg_m2 = 0.01;
 
 }  // namespace
@@ -38,8 +38,7 @@ std::vector<SkillRow> meadow_rows(const LongwaveStation& station,
         const weather::CellState& cell = states[static_cast<std::size_t>(step)];
         skin.add(cell.surface_temp_c - station.skin_c[i]);
         if (std::isnan(station.wetness_v[i])) continue;
-        const bool wet = cell.film + cell.film_ice >= kWet_kg_m2 ||
-                         weather::diagnostics(cell).swe_kg_m2 >= kWet_kg_m2;
+        const bool wet = cell.film >= kWet_kg_m2;
         const bool measured = station.wetness_v[i] > kWet_v;
         count += 1.0;
         ours += wet ? 1.0 : 0.0;
