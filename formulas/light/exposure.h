@@ -33,6 +33,14 @@ SHARED_FN float metered_setting(float ev100)
     return ev100 - 0.263f + 0.25f * clamp(10.0f - ev100, 0.0f, 12.0f);
 }
 
+// Stops, 0..1, by which a flat picture is exposed more: the even grey of an overcast day is no middle
+// grey, and its brightest, `above` stops over its mean, belong near white. From two stops on there
+// is nothing to add. Chosen by eye.
+SHARED_FN float flat_stops(float above)
+{
+    return clamp(0.6f * (2.0f - above), 0.0f, 1.0f);
+}
+
 SHARED_END
 
 #endif

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
 
+#include "formulas/light/exposure.h"
+
 namespace petrichor::gpu {
 
 namespace {
@@ -94,9 +96,14 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
     const double steps = static_cast<double>(sum) / static_cast<double>(2 * (high - low));
     const auto stops = static_cast<float>(kLowStop + steps / kStepsAStop);
     const float ev100 = stops + 3.0f;  // ev100_of_luminance(2^stops)
+    // The step that 19 twentieths do not pass.
+    std::uint64_t seen = 0;
+    std::size_t bright = 0;
+    while (bright + 1 < counts.size() && (seen += 20 * counts[bright]) < high) ++bright;
+    const double above = (static_cast<double>(bright) + 0.5 - steps) / kStepsAStop;
     const auto share = static_cast<float>(static_cast<double>(white) / (255.0 * static_cast<double>(total)));
     const float day = std::clamp((ev100 - kNightEv100) / (kDayEv100 - kNightEv100), 0.0f, 1.0f);
-    return ev100 - kSnowStops * share * day;
+    return ev100 - (kSnowStops * share + shared::flat_stops(static_cast<float>(above))) * day;
 }
 
 }  // namespace petrichor::gpu

@@ -22,9 +22,12 @@ Frame metering_frame(const Frame& frame);
 /// integers: the order of pixels does not matter. Black and non-finite pixels do not count;
 /// nothing: none does.
 ///
+/// What is flat, where the brightest 5 % are less than two stops above that mean, is metered lower by
+/// flat_stops() of formulas/light/exposure.h, by day; below EV100 10 less, from 4 on not at all: a night
+/// stays a night.
+///
 ///   snow  0..1 of each pixel, none: no snow. A meter takes white for grey; as a photographer adds a stop or two for a
-///         snow field, what is metered falls by 1.3 stops times the share of the surfaces that is snow, by day;
-///         below EV100 10 less, from 4 on not at all: a night stays a night.
+///         snow field, what is metered falls by 1.3 stops times the share of the surfaces that is snow, by day, too.
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
                                    std::span<const float> snow = {});
 
