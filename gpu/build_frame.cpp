@@ -336,7 +336,8 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) {
             add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
-                            {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture});
+                            {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture,
+                             variant.emission && r.lights->glows});
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
@@ -487,7 +488,8 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),
-                             r.parts->label && i == 0, variant.mirrors_picture},
+                             r.parts->label && i == 0, variant.mirrors_picture,
+                             variant.emission && r.lights->glows},
                             pixels);
         }
         if (r.adaptive && i == 0) {

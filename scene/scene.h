@@ -399,6 +399,7 @@ struct Light {
     float radius_m = 0.0f;   ///< > 0: a point is a sphere or tube, a spot a disc
     float length_m = 0.0f;   ///< of a tube, along `up`
     bool shaped = false;     ///< a rectangle that is a lamp, not a surface that glows
+    bool glows = false;      ///< a surface that glows, which is seen by itself, too
     float specular = 1.0f;   ///< 0..1: of highlights; 0 fills without any
     std::int32_t node = kNoNode;  ///< of the rig, that carries it
     std::int32_t profile = -1;  ///< index into Scene::light_profiles; none when negative

@@ -31,6 +31,20 @@ SHARED_FN int reflection_probe_offset(int level)
     return at;
 }
 
+// The level of a roughness: the first for the smoothest surfaces there are.
+SHARED_FN float reflection_probe_level(float roughness)
+{
+    const float first = (roughness - 0.045f) / (kProbeRoughness - 0.045f);
+    return clamp(min(first, max(roughness / kProbeRoughness, 1.0f)), 0.0f, float(kProbeLevels - 1));
+}
+
+// Of what glows and lights its surroundings: how much a surface of a roughness has as a highlight of that
+// light. The rest it mirrors as it mirrors all: the first level of probes has what glows, the others do not.
+SHARED_FN float glow_share(float roughness)
+{
+    return min(reflection_probe_level(roughness), 1.0f);
+}
+
 // 1 in the box low .. high, 0 from blend_m outside it on.
 SHARED_FN float reflection_probe_share(vec3 position, vec3 low, vec3 high, float blend_m)
 {
@@ -53,21 +67,21 @@ SHARED_FN vec2 reflection_probe_blend(vec3 heaviest)
     return w / max(w.x + w.y, 1.0e-20f);
 }
 
-// Distance along `ray` to the wall between low and high, from a place inside.
+// Distance along `ray` to the wall between low and high. Beyond a wall it counts as far ahead as it lies
+// behind: rays that leave the box and rays along the wall go on without a jump.
 SHARED_FN float distance_to_wall(float from, float ray, float low, float high)
 {
     if (abs(ray) < 1.0e-6f) return 1.0e9f;
-    return max((ray > 0.0f ? high - from : low - from) / ray, 0.0f);
+    return abs((ray > 0.0f ? high : low) - from) / abs(ray);
 }
 
 // The direction from `centre` to where a ray from `position` meets the box; not unit.
 SHARED_FN vec3 box_projected(vec3 position, vec3 ray, vec3 low, vec3 high, vec3 centre)
 {
-    const vec3 from = clamp(position, low, high);
-    const float t = min(distance_to_wall(from.x, ray.x, low.x, high.x),
-                        min(distance_to_wall(from.y, ray.y, low.y, high.y),
-                            distance_to_wall(from.z, ray.z, low.z, high.z)));
-    return from + ray * t - centre;
+    const float t = min(distance_to_wall(position.x, ray.x, low.x, high.x),
+                        min(distance_to_wall(position.y, ray.y, low.y, high.y),
+                            distance_to_wall(position.z, ray.z, low.z, high.z)));
+    return position + ray * t - centre;
 }
 
 SHARED_END

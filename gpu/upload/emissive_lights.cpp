@@ -17,7 +17,7 @@ namespace petrichor::gpu {
 namespace {
 
 constexpr float kDark = 0.02f;  // of the brightest radiance of a material
-constexpr float kFlat = 0.95f;  // |sum of area vectors| over the area
+constexpr float kFlat = 0.6f;  // |sum of area vectors| over the area: of a pane with thin edges more, of a dome half
 constexpr std::size_t kMost = 256;
 constexpr float kFaint = 1e-3f;  // of the flux of all
 constexpr float kPi = 3.14159265f;
@@ -258,7 +258,7 @@ Light rectangle_of(const Patch& patch, bool both_sides)
                                                        glm::dot(corner - patch.centre, b))));
         }
     }
-    const float scale = std::sqrt(patch.area / std::max(4.0f * reach.x * reach.y, 1e-12f));
+    const float scale = std::sqrt(glm::length(patch.vector) / std::max(4.0f * reach.x * reach.y, 1e-12f));
     light.half_u_m = a * (reach.x * scale);
     light.half_v_m = b * (reach.y * scale);
     return light;
@@ -273,7 +273,9 @@ Light light_of(const Patch& patch, bool both_sides)
     } else {
         // Seen from all around, a convex body shows a quarter of its surface.
         light.intensity = patch.area / 4.0f;
+        light.radius_m = std::sqrt(patch.area / (4.0f * kPi));
     }
+    light.glows = true;
     light.name = "glow";
     light.position_m = patch.centre;
     return light;

@@ -201,12 +201,15 @@ std::vector<glm::vec3> probe_picture(int width, int height, std::span<const floa
     return picture;
 }
 
-std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity)
+namespace {
+
+// What each texel sees.
+Map lit_map(const TracedProbe& probe, std::span<const glm::vec3> radiosity)
 {
-    std::vector<Map> sharp{{kProbeSide, {}}};
-    sharp[0].texels.reserve(probe.texels.size());
+    Map map{kProbeSide, {}};
+    map.texels.reserve(probe.texels.size());
     for (const glm::vec3& radiance : probe.picture)
-        sharp[0].texels.emplace_back(radiance * probe.place.intensity, 0.0f);
+        map.texels.emplace_back(radiance * probe.place.intensity, 0.0f);
     for (const ProbeTexel& texel : probe.texels) {
         if (!probe.picture.empty()) break;
         glm::vec4 light(0.0f);
@@ -218,22 +221,29 @@ std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::
                                   (probe.place.intensity / (ProbeTexel::kTintScale * shared::kPi)),
                               0.0f);
         }
-        sharp[0].texels.push_back(light);
+        map.texels.push_back(light);
     }
-    while (sharp.back().side > 2 * shared::reflection_probe_side(kProbeLevels - 1))
-        sharp.push_back(halved(sharp.back()));
+    return map;
+}
+
+}  // namespace
+
+std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity,
+                                 std::span<const glm::vec3> rough)
+{
+    Map sharp = lit_map(probe, radiosity);
     std::vector<glm::vec4> all;
     all.reserve(static_cast<std::size_t>(shared::reflection_probe_offset(kProbeLevels)));
-    put(sharp[0], all);
+    put(sharp, all);
+    if (!rough.empty()) sharp = lit_map(probe, rough);
     for (int level = 1; level < kProbeLevels; ++level) {
         const Lobes& lobes = all_lobes()[static_cast<std::size_t>(level)];
-        const auto source = std::find_if(sharp.begin(), sharp.end(),
-                                         [&](const Map& m) { return m.side == lobes.source; });
+        while (sharp.side > lobes.source) sharp = halved(sharp);
         Map map{shared::reflection_probe_side(level), {}};
         for (std::size_t i = 0; i + 1 < lobes.first.size(); ++i) {
             glm::vec4 sum(0.0f);
             for (std::uint32_t k = lobes.first[i]; k < lobes.first[i + 1]; ++k)
-                sum += source->texels[lobes.shares[k].texel] * lobes.shares[k].weight;
+                sum += sharp.texels[lobes.shares[k].texel] * lobes.shares[k].weight;
             map.texels.push_back(sum);
         }
         put(map, all);

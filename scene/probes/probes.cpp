@@ -55,7 +55,8 @@ bool has_room(const Tracer& tracer, glm::vec3 at, float least_m)
     return true;
 }
 
-// How far the wall is that faces one side: the median over a fan of rays; kFar_m where most see the sky.
+// How far the wall is that faces one side: what four of five rays of a fan meet sooner; kFar_m where more than
+// one sees the sky. A wall that is too near bends what is mirrored beside it, one too far only shifts it.
 float wall_m(const Tracer& tracer, glm::vec3 at, int axis, float sign)
 {
     std::vector<float> found;
@@ -70,9 +71,33 @@ float wall_m(const Tracer& tracer, glm::vec3 at, int axis, float sign)
             found.push_back(hit.hit() ? hit.distance_m * std::abs(way[axis]) : kFar_m);
         }
     }
-    std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2),
-                     found.end());
-    return found[found.size() / 2];
+    const std::size_t chosen = found.size() * 4 / 5;
+    std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(chosen), found.end());
+    return found[chosen];
+}
+
+// Where most patches are: what is much smaller than the whole stands on a ground that reaches out to the
+// horizon, and nothing out there is looked at.
+struct Box {
+    glm::vec3 low, high;
+};
+Box looked_at(const Patches& patches, const Triangles& triangles)
+{
+    const Box whole{triangles.low(), triangles.high()};
+    Box most = whole;
+    std::vector<float> along(patches.count);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < along.size(); ++i) along[i] = patches.position_m[i][axis];
+        const auto at = [&](double share) {
+            const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(along.size() - 1));
+            std::nth_element(along.begin(), along.begin() + k, along.end());
+            return along[static_cast<std::size_t>(k)];
+        };
+        most.low[axis] = at(0.02);
+        most.high[axis] = at(0.98);
+    }
+    const glm::vec3 all = whole.high - whole.low, part = most.high - most.low;
+    return std::max(part.x, part.z) < 0.25f * std::max(all.x, all.z) ? most : whole;
 }
 
 constexpr int kMostMirrors = 4;
@@ -138,25 +163,24 @@ TracedProbe trace_probe(const Patches& patches, const Tracer& tracer,
 std::vector<ProbePlace> place_probes(const Patches& patches, const Tracer& tracer, std::size_t most)
 {
     std::vector<ProbePlace> places;
-    const Triangles& triangles = tracer.triangles();
     if (patches.empty() || most == 0) return places;
-    const glm::vec3 size = triangles.high() - triangles.low();
-    const float wide = std::max(size.x, size.z);
+    const Box box = looked_at(patches, tracer.triangles());
+    const float wide = std::max(box.high.x - box.low.x, box.high.z - box.low.z);
     if (!(wide >= kLeastScene_m)) return places;
     const float spacing = std::max(3.0f, wide / 6.0f);
     std::vector<glm::vec3> ground;
     for (std::uint32_t i = 0; i < patches.count; ++i) {
         const glm::vec3 at = patches.position_m[i];
-        const bool near = at.x >= triangles.low().x && at.x <= triangles.high().x &&
-                          at.z >= triangles.low().z && at.z <= triangles.high().z;
+        const bool near = at.x >= box.low.x && at.x <= box.high.x && at.z >= box.low.z &&
+                          at.z <= box.high.z;
         if (near && patches.normal[i].y > 0.9f) ground.push_back(at);
     }
     if (ground.empty()) return places;
     // The first is the lowest ground near the middle; each other the farthest from all before.
-    const glm::vec3 middle = 0.5f * (triangles.low() + triangles.high());
+    const glm::vec3 middle = 0.5f * (box.low + box.high);
     std::vector<float> apart(ground.size());
     for (std::size_t i = 0; i < ground.size(); ++i) {
-        const glm::vec3 way = ground[i] - glm::vec3(middle.x, triangles.low().y, middle.z);
+        const glm::vec3 way = ground[i] - glm::vec3(middle.x, box.low.y, middle.z);
         apart[i] = -glm::dot(way, way);
     }
     const float least = std::min(0.25f, 0.1f * spacing);

@@ -57,7 +57,9 @@ std::vector<ProbePlace> place_probes(const Patches& patches, const Tracer& trace
 /// Light of a probe: rgb radiance of surfaces, a: share of sky, which is left to who looks.
 /// `radiosity` of the patches; levels as formulas/light/reflection_probe.h has them, borders included.
 /// Each level is the light as a GGX lobe of its roughness about the direction gathers it.
-std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity);
+///   rough  radiosity for the levels behind the first, where what glows is a light of its own; empty: the same
+std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity,
+                                 std::span<const glm::vec3> rough = {});
 
 }  // namespace petrichor::scene
 

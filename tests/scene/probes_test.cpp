@@ -192,6 +192,19 @@ TEST(Probes, AutomaticOnesStandInTheOpenAndApart)
             if (&other != &place) { EXPECT_GT(glm::distance(other.position_m, p), 3.0f); }
         }
     }
+    // .. and so they do where the ground reaches out to the horizon.
+    Scene wide = empty_scene();
+    add_face(wide, {-1000, -0.01f, 1000}, {2000, 0, 0}, {0, 0, -2000});
+    for (int x = -2; x <= 2; ++x) {
+        for (int z = -2; z <= 2; ++z)
+            add_box(wide, {8 * x - 2, 0, 8 * z - 2}, {8 * x + 2, 5, 8 * z + 2}, false);
+    }
+    const Traced town(wide);
+    for (const ProbePlace& place : place_probes(town.patches, town.tracer, 4)) {
+        EXPECT_LT(std::abs(place.position_m.x), 40.0f);
+        EXPECT_LT(std::abs(place.position_m.z), 40.0f);
+        EXPECT_LT(place.blend_m, 60.0f);
+    }
     Scene crumb = empty_scene();
     add_box(crumb, glm::vec3(0.0f), glm::vec3(0.2f), false);
     const Traced small(crumb);
@@ -212,6 +225,25 @@ TEST(ReflectionProbe, RaysMeetTheWallsWhereTheyAre)
         EXPECT_LT(std::min({to_wall.x, to_wall.y, to_wall.z}), 1e-3f);
         EXPECT_LT(glm::length(glm::cross(glm::normalize(met - from), ray)), 1e-3f);
     }
+}
+
+// Beyond the walls, where a probe fades out, nothing jumps from a ray to the next, nor on the way out.
+TEST(ReflectionProbe, NothingJumpsBeyondTheWalls)
+{
+    const glm::vec3 low{-3, 0, -2}, high{5, 4, 2}, centre{1, 1.6f, 0.5f};
+    const auto way = [&](glm::vec3 from, glm::vec3 ray) {
+        return glm::normalize(shared::box_projected(from, glm::normalize(ray), low, high, centre));
+    };
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 from(5.2f + 6.0f * unit(random), 4.0f * unit(random), 4.0f * unit(random) - 2.0f);
+        const glm::vec3 ray(0.0f, unit(random) - 0.5f, unit(random) - 0.5f);
+        if (glm::length(ray) < 0.05f) continue;
+        const glm::vec3 step(1e-4f, 0.0f, 0.0f);
+        EXPECT_GT(glm::dot(way(from, ray + step), way(from, ray - step)), 0.999f);
+    }
+    EXPECT_GT(glm::dot(way({4.9999f, 1, 0}, {0.3f, 0.2f, 1}), way({5.0001f, 1, 0}, {0.3f, 0.2f, 1})), 0.999f);
 }
 
 TEST(ReflectionProbe, WeightsAddUpToOneAndDoNotJump)

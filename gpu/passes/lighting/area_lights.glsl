@@ -122,10 +122,30 @@ bool mirrors_as_ggx(uint model)
            model == uint(LIGHTING_MODEL_BURLEY) || model == uint(LIGHTING_MODEL_SKIN);
 }
 
+// How much of a glowing surface is a highlight here. The pass of reflections shows the rest, as far as it shows
+// the picture: sharp mirrors see the pane itself.
+float glow_highlight(float roughness)
+{
+    return IMAGE_BASED_LIGHT != 0u && PICTURE != 0u ? glow_share(roughness) : 1.0;
+}
+
+// What the surface below answers to an outline, and the film's highlight.   l: towards the middle of what is seen
+vec3 film_over(LitPoint p, Outline o, vec3 l, vec3 below, float highlight)
+{
+    const float film_nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
+    const Frame3 above = surface_frame(p.film.normal, p.view);
+    const vec3 g = outline_irradiance(o, lobe_frame(above, ltc_matrix(p.film.roughness, film_nv)));
+    const vec2 sum = split_sum(p.film.normal, p.view, p.film.roughness);
+    return below * ((1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) *
+                    (1.0 - p.film.share * water_fresnel(film_nv))) +
+           vec3((kWaterF0 * sum.x + sum.y) * (cosine_share(g) * highlight * p.film.share * p.film.lit));
+}
+
 // By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are
 // those of a light in the direction of the irradiance, blurred by its size.
-vec3 shape_light(LitPoint p, Outline o, float specular, float visible)
+vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
 {
+    const float specular = highlight < 0.0 ? glow_highlight(p.roughness) : highlight;
     const Frame3 surface = surface_frame(p.normal, p.view);
     const vec3 f = outline_irradiance(o, surface);
     const float size = length(f);
@@ -163,15 +183,8 @@ vec3 shape_light(LitPoint p, Outline o, float specular, float visible)
         radiance += (p.specular * sum.x + vec3(sum.y)) *
                     (cosine_share(g) * specular * kept * kept);
     }
-    if (FILM != 0u) {
-        const float film_nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
-        const Frame3 above = surface_frame(p.film.normal, p.view);
-        const vec3 g = outline_irradiance(o, lobe_frame(above, ltc_matrix(p.film.roughness, film_nv)));
-        const vec2 sum = split_sum(p.film.normal, p.view, p.film.roughness);
-        radiance *= (1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) *
-                    (1.0 - p.film.share * water_fresnel(film_nv));
-        radiance += (kWaterF0 * sum.x + sum.y) * (cosine_share(g) * specular * p.film.share * p.film.lit);
-    }
+    if (FILM != 0u)
+        radiance = film_over(p, o, l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
@@ -240,9 +253,8 @@ vec3 area_light(LitPoint p, LightRow light, vec3 centre, float reach_m, vec4 siz
     return shape_light(p, o, size.z, visible) * shines * window;
 }
 
-// A glowing rectangle: exact for a matt surface that sees all of it; what is mirrored, as of a light in
-// the direction of the irradiance, blurred by its size. Surfaces that mirror the picture itself have it
-// from there.
+// A glowing rectangle: exact for a matt surface that sees all of it, and for a film of water; what else is
+// mirrored, as of a light in the direction of the irradiance, blurred by its size.
 vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
 {
     const vec3 half_u = light.axis.xyz;
@@ -264,19 +276,15 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     if (cosine > nl) l = normalize(l + p.normal * (cosine - nl));
     const float alpha = p.roughness * p.roughness;
     const float blurred = min(alpha + 0.5 * wide, 1.0);
-    // The pass of reflections shows the pane itself, as far as it trusts its rays.
-    const bool picture = IMAGE_BASED_LIGHT != 0u && PICTURE != 0u;
-    const float mirrored = picture ? smoothstep(kSharpRoughness, kWideRoughness, p.roughness) : 1.0;
     LitPoint q = p;
     q.roughness = sqrt(blurred);
-    q.specular = p.specular * mirrored;
+    q.specular = p.specular * glow_highlight(p.roughness);
     q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
                        blurred);
-    if (FILM != 0u) {
-        q.film.roughness = sqrt(min(p.film.roughness * p.film.roughness + 0.5 * wide, 1.0));
-        if (picture) q.film.lit *= smoothstep(kSharpRoughness, kWideRoughness, p.film.roughness);
-    }
-    return filmed_light(q, l) * color.rgb * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+    const vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
+    if (FILM == 0u) return radiance * color.rgb;
+    return film_over(p, rectangle_outline(centre, half_u, half_v), l, radiance, glow_highlight(p.film.roughness)) *
+           color.rgb;
 }
 
 // Place of the surface that a neighbour sees; the own one where it sees none.

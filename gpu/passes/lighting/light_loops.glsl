@@ -34,8 +34,8 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
             one_of_shape = false;
         }
         if ((WAYS & LIGHTS_FILL) != 0u) {
-            p.lobe.lit *= size.z;
-            p.film.lit *= size.z;
+            p.lobe.lit *= max(size.z, 0.0);
+            p.film.lit *= max(size.z, 0.0);
         }
     }
     if (RECTANGLES != 0u && shaped) {

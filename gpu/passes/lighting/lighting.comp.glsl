@@ -21,7 +21,7 @@
 #define PIXEL_LIST_BINDING LIGHTING_PIXELS
 #include "gpu/frame/pixel_list.glsl"
 #include "gpu/passes/lights/lights_io.h"
-#include "gpu/passes/reflections/reflections_io.h"
+#include "formulas/light/reflection_probe.h"
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/upload/material_io.h"
 #include "formulas/noise/noise.h"

@@ -171,6 +171,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         const Shape shape = shape_of(*light, area);
         const bool sized = shape == Shape::Ltc || shape == Shape::Nearest;
         table.rectangles = table.rectangles || shape == Shape::Rectangle;
+        table.glows = table.glows || light->glows;
         if (shape == Shape::Ltc) table.ways |= LIGHTS_LTC;
         if (shape == Shape::Nearest) table.ways |= LIGHTS_NEAREST;
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
@@ -190,7 +191,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                                                      : up_of(*light),
                             static_cast<float>(shadow[number_of(light)]));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
-                            0.5f * light->length_m, light->specular,
+                            0.5f * light->length_m, light->glows ? LIGHT_GLOWS : light->specular,
                             static_cast<float>(light->profile));
     }
     if (texels.empty()) texels.emplace_back(0.0f);

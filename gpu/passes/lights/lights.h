@@ -21,7 +21,8 @@ struct LightTable {
     std::uint32_t directional = 0;
     std::uint32_t plain = 0;   ///< number of the first point or spot without a shadow
     std::uint32_t shaped = 0;  ///< number of the first of what is left
-    bool rectangles = false;         ///< some are surfaces that glow
+    bool rectangles = false;         ///< some are surfaces that glow, without the lobes of those with a size
+    bool glows = false;              ///< some are surfaces that glow
     std::uint32_t ways = 0;          ///< LIGHTS_... that some need
     std::vector<Light> shadowed;     ///< that own a shadow, in the order of its maps
     std::vector<Light> brightest;    ///< at most kBrightestLamps, as the eye sees them

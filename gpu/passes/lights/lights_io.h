@@ -18,6 +18,8 @@
 #define LIGHT_BOTH_SIDES -4.0f
 
 // What some light of a table has.
+// In place of the share of its highlight: a surface that glows, which smooth surfaces mirror as they mirror all.
+#define LIGHT_GLOWS (-1.0)
 #define LIGHTS_LTC 1u       // a size, lit by linearly transformed cosines
 #define LIGHTS_NEAREST 2u   // a size, lit from the point nearest to what is mirrored
 #define LIGHTS_FILL 4u      // less than all of its highlights

@@ -114,6 +114,8 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     hasher.add(frame.settings.shelter);
     hasher.add(frame.scene_light_scale);
     hasher.add(frame.emissive_scale);
+    hasher.add(frame.emissive_lights);
+    hasher.add(frame.settings.reflections);
     hasher.add(frame.sky.analytic_sun);
     for (const Light& l : frame.extra_lights) {
         hasher.add(l.kind);
@@ -165,6 +167,11 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     std::memcpy(gradient_->mapped, lit.gradient.data(),
                 lit.gradient.size() * sizeof(lit.gradient[0]));
     radiosity_ = lit.radiosity;
+    rough_radiosity_ = lit.radiosity;
+    if (frame.emissive_lights) {
+        for (std::size_t i = 0; i < rough_radiosity_.size(); ++i) rough_radiosity_[i] -= emission[i];
+        if (!frame.settings.reflections) radiosity_ = rough_radiosity_;
+    }
     lit_by_ = lit_by;
     relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                       .count();

@@ -29,8 +29,10 @@ public:
     /// when all that decides it is as it was. lights: of the loaded scene.
     void relight(const Frame& frame, const Sun& sun, const Light* scene_sun,
                  const std::vector<Light>& lights);
-    /// Of the last relight, a patch each: what it sends out. Empty before the first.
+    /// Of the last relight, a patch each: what it sends out to sharp mirrors, and to rough ones, which see what
+    /// glows as a light. Empty before the first.
     const std::vector<glm::vec3>& radiosity() const { return radiosity_; }
+    const std::vector<glm::vec3>& rough_radiosity() const { return rough_radiosity_; }
     const PatchScene* scene() const { return scene_.get(); }
     std::uint64_t loads() const { return loads_; }  ///< grows with each load()
     /// Changes with the light; empty before the first relight.
@@ -55,7 +57,7 @@ private:
     std::shared_ptr<const PatchScene> scene_;
     shared::PatchGrid grid_{};
     std::uint64_t loads_ = 0;
-    std::vector<glm::vec3> radiosity_;
+    std::vector<glm::vec3> radiosity_, rough_radiosity_;
     std::string lit_by_;  // fingerprint of what the light was solved from
     double relight_ms_ = 0.0;
 };

@@ -69,7 +69,7 @@ void ProbeTable::relight(const PatchLights& patches)
     lit_by_ = patches.lit_by();
     parallel_for(wanted, 0, [&](std::size_t i) {
         const scene::TracedProbe& probe = scene->probes[i];
-        const std::vector<glm::vec4> light = scene::lit_probe(probe, patches.radiosity());
+        const std::vector<glm::vec4> light = scene::lit_probe(probe, patches.radiosity(), patches.rough_radiosity());
         std::memcpy(light_->mapped + i * light.size() * sizeof(light[0]), light.data(),
                     light.size() * sizeof(light[0]));
         const scene::ProbePlace& p = probe.place;

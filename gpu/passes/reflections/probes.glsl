@@ -25,7 +25,7 @@ vec4 probe_toward(int probe, vec3 position, vec3 ray, float roughness)
     const vec3 high = texelFetch(probe_rows, probe * PROBE_ROWS + 2).xyz;
     const vec3 direction =
         box_projected(position, ray, low, high, texelFetch(probe_rows, probe * PROBE_ROWS).xyz);
-    const float level = clamp(roughness / kProbeRoughness, 0.0, float(kProbeLevels - 1));
+    const float level = reflection_probe_level(roughness);
     const int finer = min(int(level), kProbeLevels - 2);
     return mix(probe_level(probe, finer, direction), probe_level(probe, finer + 1, direction),
                level - float(finer));

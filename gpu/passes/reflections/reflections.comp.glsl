@@ -22,6 +22,7 @@ layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = REFLECTIONS_PROBES) uniform samplerBuffer probe_rows;
 layout(binding = REFLECTIONS_PROBE_LIGHT) uniform samplerBuffer probe_light;
+layout(binding = REFLECTIONS_EMISSION) uniform sampler2D emission_map;
 layout(binding = REFLECTIONS_IDENTITY) uniform sampler2D identity_map;
 layout(binding = REFLECTIONS_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray label_image;
@@ -29,6 +30,7 @@ layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
 layout(constant_id = REFLECTIONS_SPEC_SPLIT) const uint SPLIT = 0;
 layout(constant_id = REFLECTIONS_SPEC_LABEL) const uint LABEL = 0;
 layout(constant_id = REFLECTIONS_SPEC_PICTURE) const uint PICTURE = 1;
+layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
 
 #include "gpu/passes/reflections/probes.glsl"
 
@@ -169,13 +171,17 @@ void main()
         vec3 reflected = reflect(view, n);
         const float view_m = linear_depth(frame, depth);
 
-        // One direction of the lobe a sample.
-        const float turn = 6.2831853 * dither(texel, frame.sample_index + 11u);
-        const float wide = roughness * roughness * sqrt(dither(texel.yx, frame.sample_index + 3u));
-        const vec3 side = normalize(abs(reflected.y) < 0.9 ? cross(reflected, vec3(0, 1, 0))
-                                                           : cross(reflected, vec3(1, 0, 0)));
-        const vec3 other = cross(reflected, side);
-        const vec3 ray = normalize(reflected + (side * cos(turn) + other * sin(turn)) * wide);
+        // A facet of the lobe a sample: at a grazing angle they make a streak. By the plastic number, since two
+        // numbers that advance alike would lie on a line; the tail of GGX is left out, few samples find it.
+        const float n_th = float(frame.sample_index);
+        const float turn = 6.2831853 * fract(dither(texel, 11u) + 0.7548777 * n_th);
+        const float u = 0.8 * fract(dither(texel.yx, 3u) + 0.5698403 * n_th);
+        const float slope = roughness * roughness * sqrt(u / (1.0 - u));
+        const vec3 side = normalize(cross(n, abs(n.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+        const vec3 facet = normalize(n + (side * cos(turn) + cross(n, side) * sin(turn)) * slope);
+        vec3 ray = reflect(view, facet);
+        // What a facet sends down comes up from the next.
+        ray += n * max(0.0, -2.0 * dot(ray, n));
 
         Hit hit;
         hit.confidence = 0.0;
@@ -200,7 +206,11 @@ void main()
         }
         hit.confidence *= 1.0 - smoothstep(kSharpRoughness, kWideRoughness, roughness);
         if (hit.confidence > 0.0) {
-            const vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
+            vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
+            if (GLOWS != 0u) {
+                const vec3 glow = texelFetch(emission_map, ivec2(hit.pixel), 0).rgb;
+                seen -= min(seen, glow) * glow_share(roughness);
+            }
             mirrored = mix(mirrored, seen, hit.confidence);
         }
         mirrored_light = weight * mirrored;

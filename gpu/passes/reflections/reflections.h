@@ -15,6 +15,7 @@ struct MirrorOutputs {
     GpuImage* labels = nullptr;  ///< the same, of all samples
     bool label = false;         ///< what that is of
     bool picture = true;        ///< the picture itself is mirrored
+    bool glows = false;         ///< surfaces that glow are lights, too
 };
 
 // Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky; then

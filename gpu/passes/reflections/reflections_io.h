@@ -28,12 +28,14 @@ SHARED_END
 #define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 
+#define REFLECTIONS_EMISSION 14     // of the G-buffer
 #define REFLECTIONS_DEPTH_ROWS 13   // the depth map again, row by row: buffers are read faster
 
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
 #define REFLECTIONS_SPEC_LABEL 2    // 1: .. and what it is of
 #define REFLECTIONS_SPEC_PICTURE 3  // 0: the picture itself is not mirrored
+#define REFLECTIONS_SPEC_GLOWS 4    // 1: what glows is a light, too, and has highlights on rough surfaces
 
 // Of a probe: position, boost; low corner, blend; high corner, share of sky above.
 #define PROBE_ROWS 3
