@@ -18,8 +18,8 @@ const scene::LightProperty* find_row(const std::string& name)
 
 std::string range_of(const scene::LightProperty& row)
 {
-    return "; " + number_text(static_cast<double>(row.low)) + " to " +
-           number_text(static_cast<double>(row.high));
+    return "; " + number_text(row.low) + " to " +
+           number_text(row.high);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 
 std::string shown(const toml::node& node)
 {
+    if (const auto* number = node.as_floating_point()) return number_text(number->get());
     std::ostringstream out;
     node.visit([&](const auto& value) { out << value; });
     std::string text = out.str();
@@ -23,6 +24,13 @@ std::string shown(const toml::node& node)
     }
     if (text.size() > 60) text = text.substr(0, 57) + "...";
     return text;
+}
+
+// A limit may be a float that became a double.
+std::string limit_text(double limit)
+{
+    const auto rounded = static_cast<float>(limit);
+    return static_cast<double>(rounded) == limit ? number_text(rounded) : number_text(limit);
 }
 
 }  // namespace
@@ -44,7 +52,7 @@ double TomlValue::number(double low, double high) const
     const auto value = node_->value<double>();
     const bool is_number = node_->is_integer() || node_->is_floating_point();
     if (!is_number || !value || !(*value >= low && *value <= high)) {
-        refuse("a number from " + number_text(low) + " to " + number_text(high));
+        refuse("a number from " + limit_text(low) + " to " + limit_text(high));
     }
     return *value;
 }
