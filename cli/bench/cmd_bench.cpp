@@ -169,15 +169,35 @@ void add_bench(CLI::App& app)
     command->add_flag("--ibl", o->image_based_light, "with light from the sky")->needs(scene);
     command->add_flag("--sky", o->sky, "with the sky drawn")->needs(scene);
     command->add_flag("--rain", o->rain, "in heavy rain: ripples, puddles, shelter")->needs(scene);
+    CLI::Option* compare =
+        command
+            ->add_flag("--compare", o->compare,
+                       "time three.js, Filament, Blender EEVEE and Cycles on the same file")
+            ->needs(scene);
+    command->add_option("--peers", o->peers, "folder with their node_modules (.)")->needs(compare);
+    command->add_option("--peer-pictures", o->peer_pictures, "keep their pictures in this folder")
+        ->needs(compare);
+    command->add_option("--peer-limit", o->peer_limit_s, "seconds until a peer is given up (300)")
+        ->check(CLI::Range(1, 86400))
+        ->needs(compare);
     command->footer(
         "Example: petrichor bench my.toml --frame 22\n"
+        "         petrichor bench --scene lights64.glb --compare --peers tools\n"
         "         petrichor bench --scene lights64.glb --size 1280x720 --repeat 5 --json\n"
         "         petrichor bench weather\n"
         "         petrichor bench texture\n"
         "With --scene and no flags: no shadows, occlusion, sky light or anti-aliasing; tone "
         "mapped. The time "
         "runs from\n"
-        "the call until the pixels can be read.");
+        "the call until the pixels can be read.\n"
+        "--compare: each peer that is installed draws the lights and the camera of the GLB, "
+        "without shadows; the\n"
+        "first of its frames is not counted. `likeness` is the correlation of its picture with "
+        "ours (block means);\n"
+        "below 0.85 it has drawn something else and its time is not compared. What is missing is "
+        "named with how\n"
+        "to install it: npm install --prefix tools three filament puppeteer-core; apt install "
+        "chromium blender.");
     add_weather(*command);
     add_texture_bench(*command);
     add_skill(*command);

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "cli/bench/measure.h"
+#include "cli/bench/peers.h"
 #include "cli/render/scenario_input.h"
 #include "cli/rooms.h"
 #include "film/jobs/camera.h"
@@ -99,7 +100,8 @@ FrameCost timed_render(gpu::Renderer& renderer, const gpu::Frame& frame, gpu::Re
 }
 
 void print_json(const RenderBenchOptions& options, int samples, const std::string& device,
-                const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
+                const std::vector<FrameCost>& costs, const gpu::RenderResult& result,
+                const std::vector<PeerRow>& peers)
 {
     nlohmann::ordered_json report;
     if (options.scene.empty()) {
@@ -120,11 +122,22 @@ void print_json(const RenderBenchOptions& options, int samples, const std::strin
     for (const gpu::PassTime& pass : median_passes(costs)) {
         report["passes"].push_back({{"name", pass.name}, {"wall_ms", pass.milliseconds}});
     }
+    for (const PeerRow& peer : peers) {
+        nlohmann::ordered_json row{{"name", peer.name}, {"version", peer.version}};
+        if (peer.cost) {
+            row["cpu_ms_per_frame"] = peer.cost->cpu_ms;
+            row["wall_ms_per_frame"] = peer.cost->wall_ms;
+        }
+        if (peer.likeness) row["likeness"] = *peer.likeness;
+        if (!peer.note.empty()) row["note"] = peer.note;
+        report["peers"].push_back(row);
+    }
     std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 void print_text(const RenderBenchOptions& options, int samples, const std::string& device,
-                const std::vector<FrameCost>& costs, const gpu::RenderResult& result)
+                const std::vector<FrameCost>& costs, const gpu::RenderResult& result,
+                const std::vector<PeerRow>& peers)
 {
     const std::string name = options.scene.empty()
                                  ? (options.scenario.empty() ? "demo" : options.scenario) +
@@ -138,6 +151,27 @@ void print_text(const RenderBenchOptions& options, int samples, const std::strin
     for (const gpu::PassTime& pass : median_passes(costs)) {
         std::printf("    %-24s %8.2f ms\n", pass.name.c_str(), pass.milliseconds);
     }
+    if (!peers.empty()) {
+        const Cost ours{median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), 0.0};
+        std::cout << peers_text(ours, peers);
+    }
+}
+
+// Other renderers on the same file, their pictures held against ours.
+std::vector<PeerRow> peers_of(const RenderBenchOptions& options, const gpu::RenderResult& result)
+{
+    Image ours(result.width, result.height, 4, ColorSpace::Data);
+    std::copy(result.display.begin(), result.display.end(), ours.pixels.begin());
+    for (float& code : ours.pixels) code /= 255.0f;
+    std::cerr << "bench: the peers run, for up to " << options.peer_limit_s << " s each\n";
+    return compare_peers({.scene = options.scene,
+                          .width = result.width,
+                          .height = result.height,
+                          .repeat = options.repeat,
+                          .modules = options.peers,
+                          .pictures = options.peer_pictures,
+                          .limit_s = options.peer_limit_s},
+                         ours);
 }
 
 }  // namespace
@@ -203,6 +237,10 @@ Workload scenario_workload(const RenderBenchOptions& options)
 
 void run_render_bench(const RenderBenchOptions& options)
 {
+    if (options.compare && std::filesystem::path(options.scene).extension() != ".glb") {
+        throw Error("bench: --compare takes a .glb, got " + options.scene,
+                    "Peers read no other file whole: save the scene as GLB.");
+    }
     if (options.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     Workload work = options.scene.empty() ? scenario_workload(options) : plain_workload(options);
     gpu::RenderResult result;
@@ -215,10 +253,12 @@ void run_render_bench(const RenderBenchOptions& options)
     }
     const std::string device = work.renderer.device().name;
     const int samples = work.frame.settings.samples;
+    const std::vector<PeerRow> peers =
+        options.compare ? peers_of(options, result) : std::vector<PeerRow>{};
     if (options.json) {
-        print_json(options, samples, device, costs, result);
+        print_json(options, samples, device, costs, result, peers);
     } else {
-        print_text(options, samples, device, costs, result);
+        print_text(options, samples, device, costs, result, peers);
     }
 }
 

@@ -26,6 +26,10 @@ struct RenderBenchOptions {
     bool image_based_light = false;
     bool sky = false;
     bool rain = false;
+    bool compare = false;       ///< with other renderers, where they are installed
+    std::string peers = ".";    ///< the folder whose node_modules they are in
+    std::string peer_pictures;  ///< where their pictures are kept; "": nowhere
+    int peer_limit_s = 300;
 };
 /// Renders and prints the report. Throws Error for what the user can mend.
 void run_render_bench(const RenderBenchOptions& options);

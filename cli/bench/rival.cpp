@@ -156,22 +156,6 @@ void check_ending(const Rival& rival, int status, std::FILE* error_output)
                 "Run its command by itself to see why: " + rival.command);
 }
 
-Cost time_once(const Rival& rival)
-{
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> error_output(std::tmpfile(), std::fclose);
-    if (!error_output) throw cannot_start(rival);
-    Ending ending;
-    Cost cost = timed([&] {
-        const HeldSignals signals;
-        ending = wait_for(start(rival, ::fileno(error_output.get()), signals.before()), signals);
-    });
-    if (ending.stopped) throw Interrupted("interrupted while rival '" + rival.name + "' ran");
-    check_ending(rival, ending.status, error_output.get());
-    cost.cpu_ms = milliseconds(ending.usage.ru_utime) + milliseconds(ending.usage.ru_stime);
-    cost.peak_mib = static_cast<double>(ending.usage.ru_maxrss) / 1024.0;
-    return cost;
-}
-
 }  // namespace
 
 Rival parse_rival(const std::string& text)
@@ -190,12 +174,28 @@ Rival parse_rival(const std::string& text)
     return {name, text.substr(equals + 1)};
 }
 
+Cost run_once(const Rival& rival)
+{
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> error_output(std::tmpfile(), std::fclose);
+    if (!error_output) throw cannot_start(rival);
+    Ending ending;
+    Cost cost = timed([&] {
+        const HeldSignals signals;
+        ending = wait_for(start(rival, ::fileno(error_output.get()), signals.before()), signals);
+    });
+    if (ending.stopped) throw Interrupted("interrupted while rival '" + rival.name + "' ran");
+    check_ending(rival, ending.status, error_output.get());
+    cost.cpu_ms = milliseconds(ending.usage.ru_utime) + milliseconds(ending.usage.ru_stime);
+    cost.peak_mib = static_cast<double>(ending.usage.ru_maxrss) / 1024.0;
+    return cost;
+}
+
 Cost time_rival(const Rival& rival, int repeat)
 {
-    const Cost first = time_once(rival);
+    const Cost first = run_once(rival);
     if (first.cpu_ms > kLongMs) return first;
     std::vector<Cost> costs;
-    for (int i = 0; i < repeat; ++i) costs.push_back(time_once(rival));
+    for (int i = 0; i < repeat; ++i) costs.push_back(run_once(rival));
     return median_of_costs(costs);
 }
 

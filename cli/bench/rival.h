@@ -25,6 +25,9 @@ Rival parse_rival(const std::string& text);
 ///   throws  Error when it cannot be started or fails, with the last line it wrote to stderr
 Cost time_rival(const Rival& rival, int repeat);
 
+/// The same for one run, which is counted.
+Cost run_once(const Rival& rival);
+
 }  // namespace petrichor::cli
 
 #endif

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "cli/bench/rival.h"
+#include "cli/bench/shell.h"
 
 namespace petrichor::cli {
 namespace {
@@ -78,43 +79,6 @@ constexpr Contest kContests[] = {
      false, "$C", "$D/v.dds", "rgb"},
     {"bc7", "nvcompress bc1 fast", "nvcompress", "libnvtt-bin",
      "nvcompress -nomips -fast -bc1 $C $D/v.dds", false, "$C", "$D/v.dds", "rgb"},
-};
-
-bool is_installed(const std::string& program)
-{
-    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-// In single quotes for the shell.
-std::string for_shell(const std::string& text)
-{
-    std::string to = "'";
-    for (const char c : text) to += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return to + "'";
-}
-
-class BenchFolder {
-public:
-    BenchFolder()
-    {
-        std::string name = (fs::temp_directory_path() / "petrichor-bench-XXXXXX").string();
-        if (!::mkdtemp(name.data())) {
-            throw Error("bench: cannot make a folder in " + fs::temp_directory_path().string(),
-                        "Set TMPDIR to a folder that you may write to.");
-        }
-        path_ = name;
-    }
-    BenchFolder(const BenchFolder&) = delete;
-    BenchFolder& operator=(const BenchFolder&) = delete;
-    ~BenchFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
 };
 
 // What a command of the shell prints.
