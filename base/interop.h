@@ -41,6 +41,7 @@ using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::exp2;
+using glm::floatBitsToUint;
 using glm::floor;
 using glm::fract;
 using glm::inversesqrt;
@@ -58,6 +59,7 @@ using glm::sin;
 using glm::smoothstep;
 using glm::sqrt;
 using glm::step;
+using glm::uintBitsToFloat;
 }  // namespace petrichor::shared_names
 
 #else

@@ -3,6 +3,7 @@
 #ifndef PETRICHOR_FORMULAS_FORMULA_PROBE_H
 #define PETRICHOR_FORMULAS_FORMULA_PROBE_H
 
+#include "formulas/codec/half.h"
 #include "formulas/codec/octahedral.h"
 #include "formulas/color/tone_map.h"
 #include "formulas/color/white_balance.h"
@@ -23,8 +24,10 @@
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
 #include "formulas/light/water_film.h"
+#include "formulas/light/wet_lens.h"
 #include "formulas/light/spherical_harmonics.h"
 #include "formulas/weather/apply_weather.h"
+#include "formulas/weather/beads.h"
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
@@ -36,7 +39,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 44;
+SHARED_CONST int kProbeKinds = 46;
 
 SHARED_FN float probe_light_map(vec4 a, vec4 b)
 {
@@ -253,7 +256,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     if (kind == 14) {
         const vec3 d = probe_direction(a.x, a.y);
         const int i = int(8.999f * a.z);
-        return vec4(harmonic(i, d), cosine_band(i), srgb_from_linear(b.x), linear_from_srgb(b.y));
+        const float beyond = (b.z - 0.5f) * exp2(40.0f * b.w - 24.0f);  // halves of every kind
+        return vec4(harmonic(i, d), cosine_band(i), srgb_from_linear(b.x) + float(half_code(beyond)),
+                    linear_from_srgb(b.y));
     }
     if (kind == 26) {
         const uint seed = uint(100.0f * b.x);
@@ -359,6 +364,20 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 r = under_film(vec3(c.z), film, probe_direction(a.x, a.y), probe_direction(b.x, c.w));
         m.metallic = 0.0f;
         return vec4(r.x, film.share, film.level + film.roughness, below_film(m, c.w).specular.x);
+    }
+    if (kind == 45) {
+        const LensDrop drop = lens_drops(vec2(a.x, a.y) - vec2(0.5f), a.z, 30.0f * a.w);
+        const float inside = step(0.999f, drop.cover);
+        return vec4(drop.shift.x * inside, drop.shift.y * inside, drop.bright * inside, inside);
+    }
+    if (kind == 44) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 at = 0.05f * vec3(b.x, b.y, b.z);
+        const Beads beads = beads_on(at, n, a.z, a.w, 0.003f * b.w, 10.0f * c.x);
+        const vec3 up = bead_normal(beads, n);
+        // Inside a bead; its rim is a step of the whole cover where the last bit decides.
+        const float inside = step(0.999f, beads.cover);
+        return vec4(up.x * inside, up.y * inside, beads.wiped, bead_seen(0.005f, 0.003f * b.w) + beading_share(c.y, c.z));
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

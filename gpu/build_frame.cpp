@@ -362,6 +362,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     FrameGraph graph;
     const FrameSettings& settings = frame.settings;
     VisibleWeather weather = visible_weather(frame, r.scene->constant_weather());
+    weather.water = weather.water || (r.scene->beads() && frame.weather.film_smoothness > 0.0f);
     // Which material a pixel has is kept with the weather.
     // Shares of two sets lie beside the weather, and light asks for them too.
     const bool weathered =

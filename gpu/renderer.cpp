@@ -56,6 +56,10 @@ void check_frame(const Frame& frame, const VkPhysicalDeviceLimits& limits)
         throw Error("render: bloom must be 0 to 1, got " + std::to_string(s.bloom),
                     "It is the share of the light that is scattered.");
     }
+    if (!(s.wet_lens >= 0.0f && s.wet_lens <= 1.0f)) {
+        throw Error("render: wet_lens must be 0 to 1, got " + std::to_string(s.wet_lens),
+                    "It is how many drops the lens has while it rains.");
+    }
     if (!frame.shutter.empty() && frame.shutter.size() != static_cast<std::size_t>(s.samples)) {
         throw Error("render: " + std::to_string(frame.shutter.size()) + " moments of the shutter for " +
                         std::to_string(s.samples) + " samples",

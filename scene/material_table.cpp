@@ -204,6 +204,13 @@ void add_weather_rows(std::vector<Row>& t)
             "how far a film of water shows: 1 on stone .. 0 never; -1: by the name, 0.35 on grass, lawn, "
             "meadow, leaves, needles, foliage and hedge, which look every way, 1 on all else"),
         -1.0f));
+    t.push_back(or_also(
+        number<&M::weather, &W::beads>(
+            "beads", 0, 1, place("beads"),
+            "how far water stands in beads and runs down in drops, in place of a film: 1 on glass, paint and "
+            "polish .. 0 on stone; what is porous has none; -1: 1 on clear glass, on what has a clear coat, and on a "
+            "model that is small enough to be seen from near, 0 on all else"),
+        -1.0f));
     t.push_back(choice<&M::weather, &W::wetness>(
         "wetness", {"none", "simple", "ripples", "flow", "full"}, place("wetness"),
         "standing water: none, flat, with rings of drops, with flowing waves, with both"));

@@ -75,6 +75,7 @@ struct MaterialWeather {
     TextureUse snow_mask;    ///< 1 snow may lie, 0 never
     float porosity = -1.0f;  ///< negative: from the roughness
     float film = -1.0f;      ///< how far a film of water shows; negative: wholly
+    float beads = -1.0f;     ///< how far water stands in beads in place of a film; negative: as none
     float water_slope_damp = 0.5f;
     glm::vec4 water_accumulation{0.0f, 1.0f, 0.0f, 1.0f};
     glm::vec4 water_color{0.0f};

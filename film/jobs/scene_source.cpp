@@ -131,6 +131,8 @@ void load_sequence_scene(Sequence& sequence, int threads)
     sequence.scene.warnings.insert(sequence.scene.warnings.end(), applied.unmatched.begin(),
                                    applied.unmatched.end());
     set_films_by_name(sequence.scene);
+    const glm::vec3 size = sequence.bounds.high - sequence.bounds.low;
+    set_beads(sequence.scene, std::max({size.x, size.y, size.z}));
     check_decals(sequence.scene);
     const AppliedLamps lamps =
         apply_lamp_overrides(scenario.lamps, scenario.folder, sequence.scene);

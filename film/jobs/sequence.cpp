@@ -150,6 +150,7 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.tone_map);
     hasher.add(settings.white_balance_k);
     hasher.add(settings.bloom);
+    hasher.add(settings.wet_lens);
     hasher.add(settings.lamp_shadows);
     hasher.add(settings.transparent_layers);
     for (const std::string& aov : settings.aovs) hasher.add(aov);
@@ -424,6 +425,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     settings.tone_map = scenario.render.tone_map;
     settings.white_balance_k = narrow(value_at(camera.white_balance_k, time_s, 0.0));
     settings.bloom = narrow(value_at(camera.bloom, time_s, kBloom));
+    settings.wet_lens = narrow(value_at(camera.wet_lens, time_s, 0.0));
     settings.surface_path = scenario.render.surface_path;
     settings.patch_light = wants_patches(sequence);
     settings.aovs = scenario.output.aovs;

@@ -188,6 +188,9 @@ const std::vector<Rule>& rules()
           "of the PNG: share of the light that the lens scatters around, so that lamps glow, 0 to 1",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.bloom = v.keyed(0.0, 1.0); }},
+        {{"camera", "wet_lens", "0.8",
+          "of the PNG: drops on the glass of the lens while it rains, 0 none to 1", true},
+         [](Scenario& s, const TomlValue& v) { s.camera.wet_lens = v.keyed(0.0, 1.0); }},
 
         {{"sun", "source", "\"sky\"",
           "sky: a sun that matches the sky; scene: the directional lights of the scene instead"},

@@ -117,7 +117,8 @@ void read_camera(Scenario& scenario, const TomlValue& value, const toml::table& 
                     "Give ev100 alone or with exposure = \"fixed\", for example ev100 = 12.");
     }
     for (KeyedNumber* number :
-         {&camera.exposure, &camera.ev100, &camera.exposure_bias, &camera.white_balance_k, &camera.bloom}) {
+         {&camera.exposure, &camera.ev100, &camera.exposure_bias, &camera.white_balance_k, &camera.bloom,
+          &camera.wet_lens}) {
         number->interpolation = scenario.camera.interpolation;
     }
 }

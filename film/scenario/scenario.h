@@ -66,6 +66,7 @@ struct ScenarioCamera {
     double ev100_high = 18.0;
     KeyedNumber white_balance_k;   ///< not given: as it is
     KeyedNumber bloom;
+    KeyedNumber wet_lens;
     KeyedNumber shutter_s;
     KeyedNumber f_stop;   ///< not given: all is sharp
     KeyedNumber focus_m;

@@ -155,6 +155,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
     material.name = "default ground";
     material.metallic = 0.0f;
     material.roughness = 0.9f;
+    material.weather.beads = 0.0f;
     add_grain(scene, material);
 
     scene::Primitive disc;

@@ -10,6 +10,11 @@ namespace petrichor::film {
 /// tenth where stones do by a third (the surface "lawn": albedo 0.22 dry, 0.20 wet).
 void set_films_by_name(scene::Scene& scene);
 
+/// Gives materials that say nothing of beads of water (MaterialWeather::beads) some: clear glass, what has a
+/// clear coat, and all of a model of at most 3 m, which is seen from near. The ground that was laid below it has none.
+///   size_m  longest side of what the scene brings
+void set_beads(scene::Scene& scene, float size_m);
+
 }  // namespace petrichor::film
 
 #endif

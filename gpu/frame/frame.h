@@ -131,6 +131,7 @@ struct FrameSettings : FrameSwitches {
     ToneMap tone_map = ToneMap::Filmic;
     float white_balance_k = 0.0f;  ///< light of this temperature is white; 0: as it is
     float bloom = 0.0f;  ///< 0..1: share of light that the lens scatters around; display only
+    float wet_lens = 0.0f;  ///< 0..1: drops on its glass while it rains; display only
     SurfacePath surface_path = SurfacePath::Auto;
     bool coarse_shadows = false;  ///< one map of the sun holds all of the view: for small pictures
     bool all_lights = false;  ///< every pixel asks every light: slow, for checking light lists

@@ -117,6 +117,8 @@ shared::FrameConstants frame_constants(const Frame& frame, const Sun& sun, const
     c.white_gains = s.white_balance_k > 0.0f ? shared::white_balance_gains(s.white_balance_k)
                                              : glm::vec3(1.0f);
     c.bloom = s.bloom;
+    // A lens that was just rained on dries as the ground does.
+    c.wet_lens = s.wet_lens * std::clamp(2.0f * w.rain * (1.0f - w.water_to_snow) + 0.5f * w.film_albedo, 0.0f, 1.0f);
     c.emissive_scale = frame.emissive_scale;
     c.occlusion_direct = s.occlusion_direct;
     c.horizon_fade = s.horizon_fade;

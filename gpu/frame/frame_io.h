@@ -81,6 +81,7 @@ struct FrameConstants {
     float drawn_reach_m;  // .. and how far they are, in the mean
     vec3 white_gains;     // of the cones
     float bloom;
+    float wet_lens;       // of this moment: 0 dry
     float emissive_scale;
     float exposure;       // > 0: given; 0: metered
     float exposure_bias;  // linear factor

@@ -473,6 +473,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
                        (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
                        (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
                        (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u);
+    material.water &= ~WATER_BEADS;
+    if (material.water != 0 && source.weather.beads > 0.0f) material.water |= WATER_BEADS;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);
     std::memcpy(constants_->mapped + index * constants_stride_, &c, sizeof(c));
     const glm::vec4 look[MATERIAL_LOOK_TEXELS] = {c.water_color,
@@ -543,6 +545,7 @@ void GpuScene::sum_up_materials()
         return m.second.use == scene::SecondSetUse::Mix &&
                (m.second.own_water || m.diffuse_transmission > 0.0f || m.translucency > 0.0f || scatters(m));
     });
+    beads_ = any([](const Material& m) { return m.weather.beads > 0.0f; });
     constant_weather_ = any([](const Material& m) {
         const MaterialWeather& w = m.weather;
         const bool own = m.second.use == scene::SecondSetUse::Mix && m.second.own_water;

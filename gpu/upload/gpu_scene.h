@@ -139,6 +139,7 @@ public:
     const Bounds& bounds() const { return bounds_; }
     bool emissive() const { return emissive_; }  ///< any material emits light
     bool baked() const { return baked_; }        ///< any has a light map
+    bool beads() const { return beads_; }  ///< on some of it a film stands in beads
     bool constant_weather() const { return constant_weather_; }  ///< any is wet or white by itself
     /// Lighting reads shares of layers a pixel: some material has textures of them.
     bool layer_shares() const { return layer_shares_; }
@@ -206,6 +207,7 @@ private:
     bool baked_ = false;
     bool decals_refused_ = false;
     bool constant_weather_ = false;
+    bool beads_ = false;
     bool point_lamps_ = false;
     bool two_sets_ = false;
     bool layer_shares_ = false;

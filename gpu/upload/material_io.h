@@ -44,6 +44,7 @@
     X(float, diffuse_transmission_factor) \
     X(float, porosity)             \
     X(float, film)                 \
+    X(float, beads)                \
     X(float, default_height)       \
     X(float, height_scale_m)       \
     X(float, parallax_steps)       \
@@ -191,6 +192,7 @@
 #define WATER_STANDS 1u
 #define WATER_RIPPLES 2u
 #define WATER_FLOWS 4u
+#define WATER_BEADS 8u  // and: it stands in beads
 
 // How its height map moves what is seen (scene::Parallax).
 #define PARALLAX_NONE 0u

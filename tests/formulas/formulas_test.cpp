@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/packing.hpp>
 
+#include "formulas/codec/half.h"
 #include "formulas/codec/octahedral.h"
 #include "formulas/color/tone_map.h"
 #include "formulas/light/atmosphere.h"
@@ -498,6 +500,27 @@ TEST(Harmonics, AreOrthonormalAndKeepAConstantSky)
     EXPECT_NEAR(constant * static_cast<double>(returned), 1.0, 1e-3);
 }
 
+// Every half there is, what lies between two, and what is beyond them, as GLM packs them.
+TEST(HalfCode, IsTheNearestHalf)
+{
+    for (std::uint32_t i = 0; i < 0x10000u; ++i) {
+        const float exact = glm::unpackHalf2x16(i).x;
+        if (std::isnan(exact)) continue;
+        EXPECT_EQ(half_code(exact), i);
+        if ((i & 0x7fffu) >= 0x7bffu) continue;
+        const float next = glm::unpackHalf2x16(i + 1u).x;
+        const float between = 0.5f * (exact + next);  // a tie: the even one of both
+        EXPECT_EQ(half_code(between), (i & 1u) == 0u ? i : i + 1u) << i;
+        EXPECT_EQ(half_code(std::nextafter(between, exact)), i);
+        EXPECT_EQ(half_code(std::nextafter(between, next)), i + 1u);
+    }
+    EXPECT_EQ(half_code(65519.99f), 0x7bffu);
+    EXPECT_EQ(half_code(65520.0f), 0x7c00u);
+    EXPECT_EQ(half_code(-1e30f), 0xfc00u);
+    EXPECT_EQ(half_code(std::nanf("")) & 0x7fffu, 0x7e00u);
+    EXPECT_EQ(half_codes(1.0f, -2.0f), 0xc0003c00u);
+}
+
 TEST(Srgb, ThereAndBackIsTheSameLight)
 {
     for (int i = 0; i <= 1000; ++i) {
@@ -505,7 +528,12 @@ TEST(Srgb, ThereAndBackIsTheSameLight)
         EXPECT_NEAR(linear_from_srgb(srgb_from_linear(x)), x, 2e-6f);
     }
     EXPECT_NEAR(srgb_from_linear(0.2140f), 0.5f, 1e-4f);
-    EXPECT_EQ(srgb_encode(7.0f), srgb_from_linear(1.0f));
+    for (int i = 0; i <= 100000; ++i) {
+        const float x = static_cast<float>(i) / 100000.0f;
+        EXPECT_NEAR(srgb_encode(x), srgb_from_linear(x), 2e-6f);
+    }
+    EXPECT_EQ(srgb_encode(7.0f), srgb_encode(1.0f));
+    EXPECT_EQ(srgb_encode(-1.0f), 0.0f);
 }
 
 }  // namespace

@@ -251,6 +251,11 @@ Frame weathered(std::string_view row = "")
     frame.weather.melt_exp = 0.8f;
     frame.sky.sun_elevation_rad = 0.8f;
     frame.sky.sun_azimuth_rad = 2.5f;
+    if (row == "beads") {  // of millimetres, on what is wet and no puddle
+        frame.camera = look({0.6f, 0.12f, 1.0f}, {0.6f, 0.0f, 0.9f});
+        frame.weather.flood_cracks = frame.weather.flood_puddles = frame.weather.snow_amount = 0.0f;
+        frame.weather.melt = 0.0f;
+    }
     if (row == "translucency_distortion") {  // bends what comes from behind
         frame.sky.sun_azimuth_rad = -0.3f;
         frame.sky.sun_elevation_rad = 0.3f;

@@ -91,6 +91,37 @@ TEST_F(PictureTest, GlareLeavesAnEvenPictureAlone)
     }
 }
 
+// Left half bright: drops show the other half in place of their own, and nothing else changes.
+TEST_F(PictureTest, DropsOnTheLensTurnThePictureRound)
+{
+    Scene scene = plate(0.8f);
+    scene.meshes[0].primitives[0] = quad({-50, -50, 0}, {50, 0, 0}, {0, 100, 0});
+    renderer->load(scene, {});
+    Frame frame = dark_plate();
+    frame.settings.dither = false;
+    const RenderResult dry = renderer->render(frame);
+    frame.settings.wet_lens = 1.0f;
+    EXPECT_EQ(renderer->render(frame).display, dry.display) << "it does not rain";
+    frame.weather.rain = 0.8f;
+    frame.weather.film_albedo = 1.0f;
+    frame.settings.time_s = 2.0;
+    const RenderResult wet = renderer->render(frame);
+    EXPECT_EQ(wet.display, renderer->render(frame).display);
+    int changed = 0, turned = 0;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 128; ++x) {
+            const int before = byte_at(dry, x, y), now = byte_at(wet, x, y);
+            changed += before != now;
+            turned += before == 0 && now > 100;
+        }
+    }
+    EXPECT_GT(changed, 128 * 96 / 100);
+    EXPECT_LT(changed, 128 * 96 / 2);
+    EXPECT_GT(turned, 10);
+    frame.settings.time_s = 4.5;
+    EXPECT_NE(wet.display, renderer->render(frame).display) << "others have come";
+}
+
 TEST_F(PictureTest, CurvesAndWhiteBalanceChangeTheDisplayAlone)
 {
     renderer->load(plate(0.3f), {});

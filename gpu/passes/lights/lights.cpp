@@ -191,7 +191,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                                                      : up_of(*light),
                             static_cast<float>(shadow[number_of(light)]));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
-                            0.5f * light->length_m, light->glows ? LIGHT_GLOWS : light->specular,
+                            0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile));
     }
     if (texels.empty()) texels.emplace_back(0.0f);

@@ -13,5 +13,6 @@
 
 #define RESOLVE_SPEC_TONE_MAP 0  // a number of formulas/color/tone_map.h
 #define RESOLVE_SPEC_BLOOM 1
+#define RESOLVE_SPEC_WET_LENS 2
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "formulas/geometry/footprint.h"
 #include "formulas/light/layers.h"
+#include "gpu/passes/surface/beads.glsl"
 #include "gpu/passes/surface/cover.glsl"
 #include "gpu/passes/surface/holes.glsl"
 #include "gpu/passes/surface/instance_look.glsl"
@@ -151,6 +152,9 @@ SurfaceData evaluate_surface(SurfaceInput at)
     // Pores are of the material: what the geometry does to the lobe tells nothing of them.
     const float porosity = material.porosity >= 0.0 ? material.porosity
                                                     : porosity_from_smoothness(1.0 - roughness);
+    if (SURFACE_WEATHER != 0 && (WATER & WATER_BEADS) != 0u && material.sheltered == 0u) {
+        stand_in_beads(cover, at, porosity);
+    }
     data.emission *= frame.emissive_scale;
     data.texel.base_color = base;
     data.texel.occlusion = occlusion;

@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/fog.h"
 #include "formulas/weather/falling.h"
+#include "formulas/weather/surface_weather.h"
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/transparent/transparent_io.h"
@@ -22,6 +23,7 @@ layout(binding = TRANSPARENT_OVER_MATERIAL) uniform sampler2D material_map;
 layout(binding = TRANSPARENT_OVER_NORMALS) uniform sampler2D normals_map;
 layout(constant_id = TRANSPARENT_OVER_SPEC_BODY) const uint BODY = 0u;
 layout(binding = TRANSPARENT_OVER_EMISSION) uniform sampler2D emission_map;
+layout(binding = TRANSPARENT_OVER_WEATHER) uniform sampler2D weather_map;
 layout(binding = TRANSPARENT_OVER_IDENTITY) uniform sampler2D identity_map;
 layout(binding = TRANSPARENT_OVER_LOOKS) uniform samplerBuffer material_looks;
 layout(binding = TRANSPARENT_OVER_SOLID) uniform sampler2D solid_map;
@@ -91,6 +93,30 @@ vec3 seen_through(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 normal
     return solid_around(at, radius, texel, layer_m);
 }
 
+// The solid picture through a drop on a pane, which is a lens as strong as it is round: a ray is bent at the
+// water and again where it leaves the flat side.
+vec3 seen_through_drop(vec2 pixel, ivec2 texel, vec3 position, vec3 view, vec3 water, vec3 flat_side, float layer_m)
+{
+    const float kWater = 1.33;
+    const vec3 inside = refract(view, water, 1.0 / kWater);
+    const vec3 left_by = refract(inside, flat_side, kWater);
+    const vec3 way = dot(left_by, left_by) > 0.5 ? left_by : inside;
+    const vec2 size = vec2(frame.size);
+    ivec2 there = texel;
+    float far_m = 1000.0;
+    // First as if all were far, then as far as what was met.
+    for (int turn = 0; turn < 2; ++turn) {
+        const vec4 clip = frame.world_to_clip * vec4(position + way * far_m, 1.0);
+        vec2 at = clip.w > 0.0 ? (clip.xy / clip.w * 0.5 + 0.5) * size : pixel;
+        // Beyond the picture it goes on as its mirror image does.
+        at = size - abs(mod(at, 2.0 * size) - size);
+        there = clamp(ivec2(floor(at)), ivec2(0), frame.size - 1);
+        far_m = clamp(solid_m(there) - layer_m, 0.2, 1000.0);
+    }
+    return solid_m(there) < layer_m * 0.999 ? texelFetch(solid_map, texel, 0).rgb
+                                            : min(texelFetch(solid_map, there, 0).rgb, vec3(60000.0));
+}
+
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -126,8 +152,12 @@ void main()
         const float roughness = min(
             texelFetch(material_map, texel, 0).x,
             more.x);
-        if (look.y > 0.0 && (look.w > 0.0 || roughness > kClear)) {
-            const vec3 normal = octahedral_decode(texelFetch(normals_map, texel, 0).xy);
+        const bool bends = look.y > 0.0 && (look.w > 0.0 || roughness > kClear);
+        const vec4 weather = texelFetch(weather_map, texel, 0);
+        const float drop = smooth_edge(0.08, 0.55, weather.y) * (1.0 - weather.z);
+        if (bends || drop > 0.02) {
+            const vec4 normals = texelFetch(normals_map, texel, 0);
+            const vec3 normal = octahedral_decode(normals.xy);
             const float layer_m = linear_depth(frame, depth);
             // Colours are bent apart (KHR_materials_dispersion): three views of one channel each.
             const bool prism = look.w > 0.0 && more.z > 0.0;
@@ -135,10 +165,16 @@ void main()
             vec3 behind = vec3(0.0);
             for (int view_of = 0; view_of < (prism ? 3 : 1); ++view_of) {
                 const float ior = prism ? max(look.z + spread * float(view_of - 1), 1.0) : look.z;
-                const vec3 seen = seen_through(pixel, texel, position, view, normal, ior, look.w,
-                                               roughness, layer_m);
+                const vec3 seen = bends ? seen_through(pixel, texel, position, view, normal, ior, look.w,
+                                                       roughness, layer_m)
+                                        : texelFetch(solid_map, texel, 0).rgb;
                 if (!prism) behind = seen;
                 else behind[view_of] = seen[view_of];
+            }
+            if (drop > 0.02) {
+                const vec3 bent = seen_through_drop(pixel, texel, position, view, octahedral_decode(normals.zw),
+                                                    normal, layer_m);
+                behind = mix(behind, bent, drop);
             }
             through = rest * code.rgb * behind;
             sum.rgb += through;
