@@ -2,6 +2,7 @@
 // what it is told.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -42,7 +43,7 @@ void write_picture(const fs::path& file, const Image& image)
 
 class Peers : public testing::Test {
 protected:
-    Peers() : folder_(fs::path(testing::TempDir()) / "petrichor_peers_test")
+    Peers() : folder_(fs::path(testing::TempDir()) / ("petrichor_peers_test_" + std::to_string(::getpid())))
     {
         fs::remove_all(folder_);
         fs::create_directories(folder_ / "bin");

@@ -47,7 +47,8 @@ TEST(Beads, GrowWithTheFilmAndLeaveRoomBetween)
 TEST(Beads, AreAsManyOnEveryPlane)
 {
     const float one = covered(glm::vec3(0, 0, 1), 1.0f, 0.0f, 0.0f);
-    for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 0, 1)), glm::normalize(glm::vec3(3, 0, -1))})
+    for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 0, 1)),
+                              glm::normalize(glm::vec3(3, 0, -1))})
         EXPECT_NEAR(covered(n, 1.0f, 0.0f, 0.0f), one, 0.3f * one);
 }
 
@@ -57,8 +58,9 @@ TEST(Beads, LeanAlongTheSurfaceAndAwayFromTheirMiddle)
     int inside = 0;
     glm::vec3 sum(0.0f);
     for (int i = 0; i < 20000; ++i) {
-        const glm::vec3 at = 0.3f * glm::vec3(std::fmod(0.618034f * static_cast<float>(i), 1.0f), 0.0f,
-                                              std::fmod(0.754878f * static_cast<float>(i), 1.0f));
+        const glm::vec3 at =
+            0.3f * glm::vec3(std::fmod(0.618034f * static_cast<float>(i), 1.0f), 0.0f,
+                             std::fmod(0.754878f * static_cast<float>(i), 1.0f));
         const glm::vec3 on = at - n * glm::dot(at, n);
         const Beads b = beads_on(on, n, 1.0f, 0.0f, kFine_m, 0.0f);
         if (b.cover < 0.5f) continue;
@@ -78,7 +80,8 @@ TEST(Beads, StayWhereTheyAreAndDropsRunDown)
     const glm::vec3 wall(0, 0, 1);
     EXPECT_EQ(covered(wall, 1.0f, 0.0f, 0.0f), covered(wall, 1.0f, 0.0f, 7.0f));
     EXPECT_GT(covered(wall, 1.0f, 1.0f, 0.0f), covered(wall, 1.0f, 0.0f, 0.0f) * 0.8f);
-    EXPECT_EQ(covered(glm::vec3(0, 1, 0), 1.0f, 1.0f, 0.0f), covered(glm::vec3(0, 1, 0), 1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(covered(glm::vec3(0, 1, 0), 1.0f, 1.0f, 0.0f),
+              covered(glm::vec3(0, 1, 0), 1.0f, 0.0f, 0.0f));
     // The head of a drop is where it was, a little lower.
     for (std::uint32_t seed = 1; seed < 20; ++seed) {
         const auto head_m = [&](float time_s) {
@@ -86,7 +89,8 @@ TEST(Beads, StayWhereTheyAreAndDropsRunDown)
             for (int k = 0; k < 1800; ++k) {
                 const float y = 0.0005f * static_cast<float>(k);
                 for (int x = 0; x < 45; ++x) {
-                    if (running_drop({0.001f * static_cast<float>(x), y}, time_s, 2.0f, seed).cover > 0.5f)
+                    if (running_drop({0.001f * static_cast<float>(x), y}, time_s, 2.0f, seed)
+                            .cover > 0.5f)
                         lowest = std::min(lowest, y);
                 }
             }
@@ -113,7 +117,8 @@ TEST(LensDrops, AreThereWhileItIsWetAndTurnThePictureRound)
     const auto share = [](float amount, float time_s) {
         int inside = 0;
         for (int i = 0; i < 10000; ++i) {
-            const glm::vec2 p(static_cast<float>(i % 100) / 100.0f - 0.5f, static_cast<float>(i / 100) / 100.0f - 0.5f);
+            const glm::vec2 p(static_cast<float>(i % 100) / 100.0f - 0.5f,
+                              static_cast<float>(i / 100) / 100.0f - 0.5f);
             const LensDrop d = lens_drops(p, amount, time_s);
             EXPECT_LE(glm::length(d.shift), kLensDropShift * 1.001f);
             EXPECT_GE(d.bright, 0.5f);

@@ -68,7 +68,8 @@ TEST_F(BeadsTest, StandOnGlossAndBendWhatIsSeenThroughAPane)
         EXPECT_EQ(covered(1.0f, 1.0f).first, 0.0f) << "pores drink it";
     }
     // Half of what lies below a pane glows: drops over the dark half show it.
-    Material dark = plain_material(glm::vec3(0.0f), 1.0f), glow = dark, pane = plain_material(glm::vec3(1.0f), 0.0f);
+    Material dark = plain_material(glm::vec3(0.0f), 1.0f), glow = dark,
+             pane = plain_material(glm::vec3(1.0f), 0.0f);
     glow.emissive = glm::vec3(1.0f);
     pane.transmission = 1.0f;
     const auto bright = [&](float beads) {
@@ -80,7 +81,8 @@ TEST_F(BeadsTest, StandOnGlossAndBendWhatIsSeenThroughAPane)
         const RenderResult r = renderer->render(frame);
         int count = 0;
         for (int y = 0; y < kSide; ++y) {
-            for (int x = 0; x < kSide / 2 - 2; ++x) count += r.display[static_cast<std::size_t>(4 * (y * kSide + x))] > 150;
+            for (int x = 0; x < kSide / 2 - 2; ++x)
+                count += r.display[static_cast<std::size_t>(4 * (y * kSide + x))] > 150;
         }
         return count;
     };
