@@ -2,11 +2,15 @@
 #ifndef PETRICHOR_TESTS_WEATHER_MADE_UP_H
 #define PETRICHOR_TESTS_WEATHER_MADE_UP_H
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "weather/forcing/forcing.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/formulas.h"
 #include "weather/physics/detail/portable_math.h"
+#include "weather/physics/humidity.h"
 
 namespace petrichor::weather::testing_weather {
 
@@ -39,6 +43,16 @@ inline ForcingTable rough_year(std::size_t hours = 8760)
         t[Field::Wind].push_back(6 * random());
         t[Field::Precip].push_back(wet);
         t[Field::Cloud].push_back(wet > 0 ? 1 : random());
+        // Made up too, by Prata 1996 and the square of the cloud: what is filled in where a file
+        // has none may get better, and the weather of these tests stays what it is.
+        const double temp_k = t[Field::AirTemp].back(), cloud = t[Field::Cloud].back();
+        const double x =
+            46.5 * (0.01 * vapour_pressure_pa(temp_k, t[Field::RelHumidity].back())) / temp_k;
+        const double clear = 1.0 - (1.0 + x) * detail::exponential(-std::sqrt(1.2 + 3.0 * x));
+        const double sent =
+            clear + std::max(0.955 - clear, 0.0) * detail::clamped(cloud * cloud, 0.0, 1.0);
+        t[Field::Longwave].push_back(sent * kStefanBoltzmann * (temp_k * temp_k) *
+                                     (temp_k * temp_k));
     }
     ReadReport report;
     fill_forcing(t, report);
