@@ -172,7 +172,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 22) {
         const float path = fog_path(500.0f * a.x, 50.0f * a.y, 300.0f * a.z, 20.0f + 200.0f * a.w);
-        return vec4(path, fog_path_to_sky(b.x, 50.0f * b.y, 20.0f + 200.0f * b.z) * 1.0e-3f,
+        return vec4(path + fog_path_to_land(-c.y, 50.0f * c.z, 20.0f + 200.0f * c.w) * 1.0e-3f,
+                    fog_path_to_sky(b.x, 50.0f * b.y, 20.0f + 200.0f * b.z) * 1.0e-3f,
                     fog_phase(2.0f * b.w - 1.0f), fog_beyond_haze(0.01f * c.x));
     }
     if (kind == 23) {

@@ -189,6 +189,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
         c.tracks_y_m = {tracks.low_m, tracks.high_m};
     }
     if (r.scene->two_sets()) c.flags |= FRAME_TWO_SETS;
+    if (!r.environment) c.flags |= FRAME_LAND;
     c.light_tiles = {r.targets->tiles_x(), r.targets->tiles_y()};
     c.coarse_tiles = {r.targets->coarse_x(), r.targets->coarse_y()};
     c.light_count = r.lights->count;

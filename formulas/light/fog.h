@@ -38,6 +38,17 @@ SHARED_FN float fog_path_to_sky(float up, float above_m, float height_m)
     return exp(-max(above_m, 0.0f) / height_m) * height_m / sqrt(up * up + curvature);
 }
 
+// Path over level land at the base, seen below the horizon (up < 0) from so far above it: as long as the air is
+// deep level with the ground, at most.
+SHARED_FN float fog_path_to_land(float up, float above_m, float height_m)
+{
+    const float distance_m = max(above_m, 0.0f) / max(-up, 1.0e-6f);
+    return min(fog_path(distance_m, above_m, 0.0f, height_m), fog_path_to_sky(0.0f, 0.0f, height_m));
+}
+
+// The height from which a computed sky shows its land, metres.
+SHARED_FN float fog_eye_of_sky_m() { return 2.0f; }
+
 // Share of light that passes a path. per_m: extinction (metres, exp) or density (exp2); start_m and
 // end_m: where linear fog begins and hides all.
 SHARED_FN float fog_kept(int mode, float path_m, float per_m, float start_m, float end_m)

@@ -111,6 +111,7 @@ SHARED_END
 #define FRAME_SUN_DISC 128u
 #define FRAME_GAMMA 256u
 #define FRAME_WHITE_BALANCE 512u
+#define FRAME_LAND 2048u      // the sky is computed, with land below its horizon
 #define FRAME_TWO_SETS 1024u  // the G-buffer keeps shares of two sets of textures
 
 #endif

@@ -45,6 +45,21 @@ TEST(Fog, TheSkyLiesBehindTheLayer)
     EXPECT_GT(fog_beyond_haze(3.912f / 5000.0f), 0.0f);
 }
 
+TEST(Fog, TheLandLiesBehindTheMoreTheHigherTheEye)
+{
+    EXPECT_NEAR(fog_path_to_land(-0.5f, 10.0f, 0.0f), 20.0f, 1e-4f) << "even air: the distance";
+    EXPECT_NEAR(fog_path_to_land(-1.0f, 1e5f, 120.0f), 120.0f, 0.01f) << "straight down: as straight up";
+    float before = 0.0f;
+    for (const float above : {0.0f, 1.0f, 2.0f, 10.0f, 50.0f, 200.0f, 1000.0f}) {
+        const float path = fog_path_to_land(-0.1f, above, 120.0f);
+        EXPECT_GE(path, before);
+        before = path;
+    }
+    // Towards the horizon it meets the sky's.
+    EXPECT_EQ(fog_path_to_land(-1e-9f, 2.0f, 120.0f), fog_path_to_sky(0.0f, 0.0f, 120.0f));
+    EXPECT_EQ(fog_path_to_land(-0.3f, -5.0f, 120.0f), 0.0f) << "below the land";
+}
+
 TEST(Fog, ScattersAllThatItTakes)
 {
     double sum = 0.0;

@@ -184,6 +184,26 @@ TEST_F(PictureTest, FogReachesTheSky)
     EXPECT_GT(std::abs(clear_seam - 1.0f), 0.1f);
 }
 
+TEST_F(PictureTest, FogHidesTheLandBeyondAGroundThatIsSeenFromAbove)
+{
+    // The ground ends before the horizon; what lies behind its edge is as far away as it looks.
+    renderer->load(scene_of({quad({-60, 0, -20}, {120, 0, 0}, {0, 0, -120})},
+                            {plain_material(glm::vec3(0.2f), 1.0f)}),
+                   {});
+    Frame frame = open_land();
+    frame.camera = look({0, 60.0f, 0}, {0, 40.0f, -60}, 1.2f);
+    const auto seam = [&](float visibility_m) {
+        frame.weather.visibility_m = visibility_m;
+        const RenderResult r = renderer->render(frame);
+        float step = 0.0f;
+        for (int y = 20; y < 40; ++y)
+            step = std::max(step, std::abs(luminance(pixel(r, 90, y + 1)) / luminance(pixel(r, 90, y)) - 1.0f));
+        return step;
+    };
+    EXPECT_LT(seam(100.0f), 0.02f) << "no line between the sky and the land behind fog";
+    EXPECT_GT(seam(50000.0f), 0.1f);
+}
+
 TEST_F(PictureTest, FogThatIsAskedForStaysWithoutImageBasedLight)
 {
     renderer->load(land(), {});

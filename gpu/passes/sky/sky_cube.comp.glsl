@@ -27,9 +27,8 @@ vec3 clear_air(vec3 direction)
 // Share of light from a direction that passes the fog: out of its layer, or over the land.
 float kept_by_fog(float up)
 {
-    const float eye_m = 2.0;
     const float path = up >= 0.0 ? fog_path_to_sky(up, 0.0, sky.fog_height_m)
-                                 : min(eye_m / -up, fog_path_to_sky(0.0, 0.0, sky.fog_height_m));
+                                 : fog_path_to_land(up, fog_eye_of_sky_m(), sky.fog_height_m);
     return fog_kept(sky.fog_mode, path, sky.fog_per_m, sky.fog_start_m, sky.fog_end_m);
 }
 
