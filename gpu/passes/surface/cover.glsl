@@ -17,7 +17,18 @@ struct Cover {
     float snow_smoothness;
     vec3 normal;      // of the water or snow
     vec2 refraction;  // shift of the texture coordinates below the water
+    float slides;     // 1: the slope of the bumps is still to take its share of the film (shed_film)
 };
+
+// What lies by the slope of the bumps asks the normal map before the water above it is known. Rain alone does
+// not: its film takes that slope afterwards, from the one normal that is read.
+bool bumps_come_first() { return SNOW != 0u || FROST != 0u; }
+
+// Share of a film that stays where the normal rises so much.
+float stays_on(float up) { return saturate(up + 1.0 - material.water_slope_damp); }
+
+// normal: with the bumps, world.
+void shed_film(inout Cover c, vec3 normal) { c.film *= mix(1.0, stays_on(normal.y), c.slides); }
 
 Cover no_cover(SurfaceInput at)
 {
@@ -29,6 +40,7 @@ Cover no_cover(SurfaceInput at)
     c.snow_smoothness = 0.0;
     c.normal = at.normal;
     c.refraction = vec2(0.0);
+    c.slides = 0.0;
     return c;
 }
 
@@ -88,9 +100,14 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
         here.film *= 1.0 - body;
     }
     // A patch knows which way it faces; the frame's film asks the slope.
-    c.film = here.film * (material.film >= 0.0 ? material.film : 1.0) *
-             (here.placed ? 1.0 : saturate(smoothed.y + 1.0 - material.water_slope_damp));
-    water.runs *= c.film;
+    c.film = here.film * (material.film >= 0.0 ? material.film : 1.0);
+    const float stays = here.placed ? 1.0 : stays_on(smoothed.y);
+    water.runs *= c.film * stays;
+    if (bumps_come_first()) {
+        c.film *= stays;
+    } else {
+        c.slides = here.placed ? 0.0 : 1.0;
+    }
     if (FROST != 0u) {
         const float facing = here.placed ? 1.0 : saturate(at.normal.y * 0.6 + 0.5);
         c.frost = frost_on(at, mapped, here.frost * facing) * (1.0 - water.anywhere);

@@ -55,7 +55,7 @@ SurfaceData evaluate_surface(SurfaceInput at)
     Cover cover = no_cover(at);
     vec3 mapped = vec3(0.0, 0.0, 1.0);
     if (SURFACE_WEATHER != 0) {
-        if (has_mapped_normal()) mapped = mapped_normal(at, f, vec2(0.0));
+        if (bumps_come_first() && has_mapped_normal()) mapped = mapped_normal(at, f, vec2(0.0));
         if (material.sheltered == 0u) cover = cover_on(at, f, mapped);
     }
 
@@ -128,9 +128,10 @@ SurfaceData evaluate_surface(SurfaceInput at)
     vec3 normal = at.normal;
     if (has_mapped_normal()) {
         // Seen through water: at another place.
-        const bool again = SURFACE_WEATHER == 0 || WATER != 0u;
+        const bool again = SURFACE_WEATHER == 0 || WATER != 0u || !bumps_come_first();
         normal = normalize(to_world(f, again ? mapped_normal(at, f, shift) : mapped));
     }
+    shed_film(cover, normal);
     data.emission = vec3(0.0);
     if (SURFACE_EMISSION != 0) {
         data.emission = material.emissive_factor * material.emissive_strength;

@@ -65,12 +65,16 @@ struct Wave {
     float up;
 };
 
-// Both phases of the flow map in one plane of the world; v: repeats that a phase runs.
+// Both phases of the flow map in one plane of the world; v: repeats that a phase runs. Of its levels the nearest
+// one is read: waves move on before their next level shows, and half as many texels are read.
 vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 {
     const float t = material.flow_tiling;
-    const vec2 first = textureGrad(flow_map, p * t + phases.first * v, p_dx * t, p_dy * t).xy;
-    const vec2 second = textureGrad(flow_map, p * t + phases.second * v, p_dx * t, p_dy * t).xy;
+    const float texels = t * float(textureSize(flow_map, 0).x);
+    const float level =
+        floor(max(0.5 * log2(max(dot(p_dx, p_dx), dot(p_dy, p_dy)) * texels * texels + 1.0e-12), 0.0) + 0.5);
+    const vec2 first = textureLod(flow_map, p * t + phases.first * v, level).xy;
+    const vec2 second = textureLod(flow_map, p * t + phases.second * v, level).xy;
     return unpack_normal(mix(first, second, phases.blend), material.flow_normal_strength);
 }
 
@@ -91,21 +95,36 @@ Wave flow_wave(SurfaceInput at, StandingWater water, float still)
     Wave wave;
     wave.lean = vec3(0.0);
     wave.up = 0.0;
-    if (share.y > 0.0) {
-        const vec3 m = flow_texel(p.xz, dx.xz, dy.xz, v.xz, phases);
-        wave.lean += share.y * vec3(m.x, 0.0, m.y);
-        wave.up += share.y * m.z;
-    }
-    if (share.x > 0.0) {
-        const vec3 m = flow_texel(p.zy, dx.zy, dy.zy, v.zy, phases);
-        wave.lean += share.x * vec3(0.0, m.y, m.x);
-        wave.up += share.x * m.z;
-    }
-    if (share.z > 0.0) {
-        const vec3 m = flow_texel(p.xy, dx.xy, dy.xy, v.xy, phases);
-        wave.lean += share.z * vec3(m.x, m.y, 0.0);
-        wave.up += share.z * m.z;
-    }
+    // The planes that count, the largest share first. A loop, since a CPU walks all branches of a group of pixels
+    // but ends a loop with the last of them: most have one plane.
+    vec3 left = share;
+    do {
+        const bool from_above = left.y >= left.x && left.y >= left.z;
+        const bool from_x = !from_above && left.x >= left.z;
+        vec2 q = from_x ? p.zy : p.xy;
+        vec2 q_dx = from_x ? dx.zy : dx.xy;
+        vec2 q_dy = from_x ? dy.zy : dy.xy;
+        vec2 q_v = from_x ? v.zy : v.xy;
+        if (from_above) {
+            q = p.xz;
+            q_dx = dx.xz;
+            q_dy = dy.xz;
+            q_v = v.xz;
+        }
+        const vec3 m = flow_texel(q, q_dx, q_dy, q_v, phases);
+        const float part = max(left.x, max(left.y, left.z));
+        vec3 lean = from_x ? vec3(0.0, m.y, m.x) : vec3(m.x, m.y, 0.0);
+        if (from_above) lean = vec3(m.x, 0.0, m.y);
+        wave.lean += part * lean;
+        wave.up += part * m.z;
+        if (from_above) {
+            left.y = 0.0;
+        } else if (from_x) {
+            left.x = 0.0;
+        } else {
+            left.z = 0.0;
+        }
+    } while (left.x + left.y + left.z > 0.0);
     const float slope = 1.0 - saturate(n.y) * saturate(n.y);
     // On flat ground only the wind moves the water, a little.
     const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
