@@ -65,6 +65,9 @@ struct Wave {
     float up;
 };
 
+// What 2^(-10 x) leaves of the speed where all is frozen: nothing of it runs on.
+const float kStill = 1.0 / 1024.0;
+
 // Both phases of the flow map in one plane of the world; v: repeats that a phase runs. Of its levels the nearest
 // one is read: waves move on before their next level shows, and half as many texels are read.
 vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
@@ -83,9 +86,9 @@ vec3 flow_texel(vec2 p, vec2 p_dx, vec2 p_dy, vec2 v, FlowPhases phases)
 Wave flow_wave(SurfaceInput at, StandingWater water, float still)
 {
     const vec3 n = at.normal;
+    const float moves = saturate((1.0 - still - kStill) / (1.0 - kStill) + water_accumulation(at).z);
     // Along the surface, the longer the steeper; the map is moved up, so that waves run down.
-    const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed *
-                   saturate(1.0 - still + water_accumulation(at).z);
+    const vec3 v = (vec3(0.0, 1.0, 0.0) - n * n.y) * material.flow_speed * moves;
     const FlowPhases phases = flow_phases(frame.time_s, material.flow_interval_s);
     const vec3 sides = max(n * n * n * n - 0.01, vec3(0.0));
     const vec3 share = sides / (sides.x + sides.y + sides.z);
@@ -128,7 +131,8 @@ Wave flow_wave(SurfaceInput at, StandingWater water, float still)
     const float slope = 1.0 - saturate(n.y) * saturate(n.y);
     // On flat ground only the wind moves the water, a little.
     const float breeze = 0.05 + 0.03 * min(length(frame.weather.wind_m_s), 6.0);
-    const float strength = max(slope, breeze * saturate(n.y)) * max(water.anywhere, water.runs);
+    // Ice has no waves: those of the map go on.
+    const float strength = max(slope, breeze * saturate(n.y)) * max(water.anywhere, water.runs) * moves;
     wave.lean = (wave.lean - n * dot(n, wave.lean)) * strength;
     wave.up = mix(1.0, wave.up, strength);
     return wave;
