@@ -245,7 +245,26 @@ bool speaks_of_weather(std::string_view name)
           "albedo", "vapo",  "sleet", "hail",   "ice",   "frost",     "visib",    "flux"}) {
         if (low.find(word) != std::string::npos) return true;
     }
-    return false;
+    // Short words, and units that little else has: sw, T2, rh_2m; sw_w_m2, p_hPa.
+    std::string token, letters;
+    const auto speaks = [](const std::string& t) {
+        for (const char* word :
+             {"sw", "lw",   "swd", "lwd", "swin", "lwin", "swdown", "lwdown", "rg",   "rh",
+              "ta", "tair", "t2m", "ghi", "dni",  "dhi",  "par",    "hpa",    "mbar", "degc"})
+            if (t == word) return true;
+        return false;
+    };
+    for (const char c : low + " ") {
+        const bool word = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (word) {
+            token += c;
+            letters += c;
+            continue;
+        }
+        if (speaks(token)) return true;
+        token.clear();
+    }
+    return letters.size() > 3 && (letters.ends_with("wm2") || letters.ends_with("mmh"));
 }
 
 }  // namespace
@@ -296,6 +315,49 @@ void RowCollector::check_columns()
     if (!other_columns_.empty())
         note(ReadNote::Kind::Info, line_, "columns",
              "not known, not used: " + list(other_columns_));
+}
+
+// Values of which most cannot be are of another quantity or unit than their name says.
+void RowCollector::refuse_misnamed() const
+{
+    constexpr std::size_t kFew = 10;
+    for (std::size_t f = 0; f < kFieldCount; ++f) {
+        const FieldInfo& info = field_info(static_cast<Field>(f));
+        if (info.observed || report_of_[f] == 0) continue;
+        const FieldReport& r = report_.fields[report_of_[f] - 1];
+        const std::size_t words = unreadable_[f].count;
+        if (words >= kFew && words > r.present) {
+            throw Error("weather: " + report_.format + ": " + info.name + ": '" +
+                            unreadable_text_[f] + "' in line " +
+                            std::to_string(unreadable_[f].first_line) + " and " +
+                            std::to_string(words - 1) + " more of " +
+                            std::to_string(words + r.present) + " cells are not numbers",
+                        "Write numbers as 1013.25, without marks between thousands.");
+        }
+        const std::size_t odd = refused_[f].count;
+        if (odd < kFew || odd <= r.present) continue;
+        throw Error("weather: " + report_.format + ": " + info.name + ": " + std::to_string(odd) +
+                        " of " + std::to_string(odd + r.present) + " values are outside " +
+                        number_text(info.low) + ".." + number_text(info.high) + " " + info.unit +
+                        ", from line " + std::to_string(refused_[f].first_line) + " on (" +
+                        number_text(refused_[f].low) + " to " + number_text(refused_[f].high) + ")",
+                    "Correct the name or the unit of the column, or leave it out with --ignore "
+                    "where the format is a free table.");
+    }
+    const auto& humidity = values_[static_cast<std::size_t>(Field::RelHumidity)];
+    std::size_t known = 0;
+    double most = 0.0;
+    for (const double percent : humidity) {
+        if (std::isnan(percent)) continue;
+        ++known;
+        most = std::max(most, percent);
+    }
+    if (known >= kFew && most > 0.0 && most <= 1.0) {
+        throw Error("weather: " + report_.format + ": rel_humidity: no value of " +
+                        std::to_string(known) + " is above " + number_text(most) +
+                        " %: they are shares of 1",
+                    "Name the column rel_humidity_fraction, or give percent.");
+    }
 }
 
 // A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
@@ -412,6 +474,7 @@ ForcingTable RowCollector::finish()
              "no amounts in the file: rates from present weather, drizzle 0.1/0.3/0.8, rain "
              "1/4.5/12, snow 0.5/1.5/3 mm/h for light/moderate/heavy");
     }
+    refuse_misnamed();
     note_odd();
     drop_empty_columns();
 

@@ -84,6 +84,7 @@ private:
     };
     std::size_t report_index(Field field);
     void note_odd();
+    void refuse_misnamed() const;
     void drop_empty_columns();
     void spread_amounts(ForcingTable& table);
 

@@ -177,6 +177,14 @@ void drop_bare_twin(Header& h, std::size_t i, std::string& bare_names)
     }
 }
 
+// Named by --ignore; the word "all" there is of columns that are not understood.
+bool is_left_out(std::string_view name, const std::vector<std::string>& ignored)
+{
+    const std::string low = lower(trimmed(name));
+    return std::any_of(ignored.begin(), ignored.end(),
+                       [&](const std::string& word) { return lower(word) == low; });
+}
+
 // Leaves `lines` below the header.
 //   throws  Error without times or a known column
 Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
@@ -196,15 +204,21 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
     h.times = find_csv_times(h.names, split(below.next().value_or(""), h.separator, 256));
     h.meaning.resize(h.names.size());
     bool any = false;
-    std::string bare_names;
+    std::string bare_names, left_out;
     for (std::size_t i = 0; i < h.names.size(); ++i) {
         if (h.times.uses(i)) continue;
+        if (is_left_out(h.names[i], options.ignore)) {
+            add_to_list(left_out, shown(trimmed(h.names[i])));
+            continue;
+        }
         h.meaning[i] = column_meaning(h.names[i]);
         any = any || h.meaning[i];
         if (!h.meaning[i] && !is_known_unused(h.names[i]))
             rows.unknown_column(h.names[i], options.ignore);
         drop_bare_twin(h, i, bare_names);
     }
+    if (!left_out.empty())
+        rows.note(ReadNote::Kind::Info, h.line, "columns", "left out as asked: " + left_out);
     if (!bare_names.empty())
         rows.note(ReadNote::Kind::Warning, h.line, "columns",
                   "not used, as another column says the same quantity with a unit: " + bare_names);
@@ -260,10 +274,29 @@ void set_from_parts(RowCollector& rows, const Parts& p)
     }
 }
 
+// A gauge's count since some beginning never falls and mostly rises; amounts of hours fall again.
+class Count {
+public:
+    void add(double value)
+    {
+        if (seen_ > 0) {
+            falls_ += value < last_;
+            rises_ += value > last_;
+        }
+        last_ = value;
+        ++seen_;
+    }
+    bool counts_up() const { return seen_ >= 48 && falls_ == 0 && rises_ >= 10; }
+
+private:
+    std::size_t seen_ = 0, falls_ = 0, rises_ = 0;
+    double last_ = 0.0;
+};
+
 using MissingCodes = std::map<std::string, std::size_t>;
 
 void read_cell(std::string_view text, const ColumnMeaning& m, char separator, double amount_s,
-               RowCollector& rows, Parts& parts, MissingCodes& missing_codes)
+               RowCollector& rows, Parts& parts, MissingCodes& missing_codes, Count& count)
 {
     const bool field = is_field(m);
     if (is_missing_word(text)) {
@@ -281,7 +314,10 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
         parts.vapour_pa = *value;
     } else {
         double si = *value * m.scale + m.offset;
-        if (m.amount) si /= amount_s;
+        if (m.amount) {
+            count.add(si);
+            si /= amount_s;
+        }
         if (m.field == Field::AirTemp) parts.air_k = si;
         if (m.field == Field::Precip) parts.precip = si;
         rows.set(m.field, si);
@@ -298,6 +334,7 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
     const double amount_s = seconds_of_amounts(h, lines, rows);
 
     MissingCodes missing_codes;
+    std::vector<Count> counts(h.names.size());
     std::size_t plain_numbers = 0;  // where a time should be
     std::vector<std::string_view> cells;
     while (const auto line = lines.next()) {
@@ -323,9 +360,18 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])
                 read_cell(cells[i], *h.meaning[i], h.separator, amount_s, rows, parts,
-                          missing_codes);
+                          missing_codes, counts[i]);
         }
         set_from_parts(rows, parts);
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (!counts[i].counts_up()) continue;
+        throw Error(
+            "weather: column '" + shown(h.names[i]) +
+                "' never falls while it rises again and again: a total since some beginning, not "
+                "what fell in each row",
+            "Give the differences of its rows, or leave it out with --ignore " + shown(h.names[i]) +
+                ".");
     }
     if (rows.rows() == 0 && plain_numbers > 0 && h.times.stamp != CsvTimes::kNone) {
         throw Error(

@@ -39,6 +39,10 @@ void refuse_binary(std::string_view text)
                    c != '\f' && c != 3 && c != 1;
         }));
     };
+    if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
+        throw Error("weather: this is UTF-16 text (as \"Unicode Text\" of a spreadsheet)",
+                    "Save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE.");
+    }
     constexpr std::size_t kSample = 1 << 16;
     for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t at = text.size() / 16 * i;
