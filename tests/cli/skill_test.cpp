@@ -65,6 +65,42 @@ TEST(Skill, MeansOverTheSharedData)
     EXPECT_LT(mean("road measured", ""), mean("air beside the measured road", ""));
 }
 
+// Forecasts that could have been made while a road was measured: nearer than the air on all roads
+// but case034, whose forecast begins when its two days of measurements end and knows no cloud of
+// theirs.
+TEST(Skill, CoupledRoadsAreNearerThanTheAir)
+{
+    NEED_ASSETS(assets);
+    const Board& board = board_of(assets);
+    const auto score = [&](const std::string& set, const std::string& quantity) {
+        for (const BoardRow& row : board.rows)
+            if (row.ours.set == set && row.ours.quantity == quantity) return row.ours.score;
+        return kNoScore;
+    };
+    for (const std::string ahead : {", half ahead", ", 6 h ahead"}) {
+        int roads = 0, farther = 0;
+        ErrorSum coupled, started, air, kept;
+        for (const BoardRow& row : board.rows) {
+            const std::string& set = row.ours.set;
+            if (row.ours.quantity != "road coupled" + ahead || set.rfind("mean", 0) == 0) continue;
+            ++roads;
+            if (!(row.ours.score < score(set, "air" + ahead))) {
+                ++farther;
+                EXPECT_EQ(set, "case034") << ahead;
+            }
+            coupled.add(row.ours.score);
+            started.add(score(set, "road started" + ahead));
+            air.add(score(set, "air" + ahead));
+            kept.add(score(set, "road kept" + ahead));
+        }
+        EXPECT_EQ(roads, 15) << ahead;
+        EXPECT_LE(farther, 1) << ahead;
+        EXPECT_LT(coupled.bias(), 0.9 * started.bias()) << ahead;
+        EXPECT_LT(coupled.bias(), 0.75 * kept.bias()) << ahead;
+        EXPECT_LT(coupled.bias(), 0.6 * air.bias()) << ahead;
+    }
+}
+
 // What SOLWEIG reaches at these stations (Lindberg et al. 2008): 51, 13 W/m2 in the courtyard, 177 in
 // the square, and 61 for the longwave there.
 TEST(Skill, RadiationInATownIsNearerThanSolweigs)

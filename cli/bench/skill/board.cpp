@@ -14,6 +14,7 @@
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
 #include "cli/bench/skill/meadow.h"
+#include "cli/bench/skill/road_hindcast.h"
 #include "cli/bench/skill/urban.h"
 #include "cli/simulate/physical_table.h"
 #include "cli/simulate/physics_keys.h"
@@ -207,6 +208,7 @@ Board skill_board(const SkillOptions& options)
                 params_of(options, road.station.bridge ? "bridge" : "road");
             add_rows(road_rows(road, params), board);
             add_rows(measured_road_rows(road, params), board);
+            add_rows(road_hindcast_rows(road, params), board);
         } catch (const Error& e) {
             board.notes.push_back(road.name + ": " + e.what());
         }
