@@ -214,6 +214,13 @@ Board skill_board(const SkillOptions& options)
         }
     }
     for (const UrbanSite& town : sets.towns) add_rows(urban_rows(town), board);
+    for (const SnowMapSet& landscape : sets.landscapes) {
+        try {
+            add_rows(snow_map_rows(landscape, options.settings), board);
+        } catch (const Error& e) {
+            board.notes.push_back(landscape.name + ": " + e.what());
+        }
+    }
     add_means(board);
     return board;
 }
