@@ -47,6 +47,12 @@ public:
         weather::ReadReport unheard;
         weather::fill_forcing(weather_, unheard);
     }
+    Errors all_ahead() const
+    {
+        Errors errors;
+        forecast(measured_.front(), time(measured_.back()), errors);
+        return errors;
+    }
     Errors half_ahead() const
     {
         const std::int64_t half_us = begin() + (time(measured_.back()) - begin()) / 2;
@@ -120,12 +126,13 @@ std::vector<SkillRow> road_hindcast_rows(const RoadCase& road,
             rows.push_back({road.name, what + (", " + ahead), "K", sum.count(), sum.rmse(),
                             sum.bias(), "RMSE"});
     };
-    const auto add_all = [&](const Errors& errors, const char* ahead) {
-        add("road coupled", ahead, errors.coupled);
+    const auto add_all = [&](const Errors& errors, const char* ahead, bool coupled = true) {
+        if (coupled) add("road coupled", ahead, errors.coupled);
         add("road started", ahead, errors.started);
         add("air", ahead, errors.air);
         add("road kept", ahead, errors.kept);
     };
+    add_all(hindcast.all_ahead(), "all ahead", false);
     add_all(hindcast.half_ahead(), "half ahead");
     add_all(hindcast.hours_ahead(), "6 h ahead");
     return rows;

@@ -13,7 +13,8 @@ namespace petrichor::cli {
 /// wind and whether something falls as measured (a forecast without error), clouds as
 /// weather::observed_weather has them. Beside it the air, and the last measured value kept.
 ///
-/// Two sets of them, each row a root mean square error:
+/// Three sets of them, each row a root mean square error:
+///   all ahead   one forecast, from the first measured value on: nothing to couple with
 ///   half ahead  one forecast, from the last value of the first half of the measured hours on
 ///   6 h ahead   one from each hour on that has three hours before it, each over the next six
 /// Of each: "road coupled" (weather::couple_radiation), "road started" (the same start, no
