@@ -60,6 +60,10 @@ public:
     void check_columns();
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
 
+    /// Times of the file say in which zone they are: nobody else can.
+    void times_name_their_zone() { zone_named_ = true; }
+    bool zone_named() const { return zone_named_; }
+
     std::size_t rows() const { return times_.size(); }
     /// Name of the current row's line for messages.
     std::size_t line() const { return line_; }
@@ -103,6 +107,7 @@ private:
     std::vector<double> seen_;
     bool use_seen_ = false;
     std::size_t line_ = 0, joined_ = 0;
+    bool zone_named_ = false;
     bool in_row_ = false, join_same_times_ = false, joining_ = false;
 };
 

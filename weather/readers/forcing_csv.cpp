@@ -356,6 +356,14 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
+        // NetCDF and GRIB come through here, with times that say UTC whatever they meant.
+        if (rows.rows() == 1 && rows.report().format == "forcing CSV") {
+            if (h.times.name_zone(h.names, cells))
+                rows.times_name_their_zone();
+            else if (std::isnan(options.utc_offset_h) && std::isnan(rows.site().utc_offset_h))
+                rows.note(ReadNote::Kind::Info, lines.number(), "time",
+                          "the times name no zone: taken as UTC; --file-zone HOURS says another");
+        }
         Parts parts;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])

@@ -356,6 +356,7 @@ static void read_metro(std::string_view text, RowCollector& rows, const ReadOpti
     const ForcingTable table =
         forecast ? read_metro_forecast(text) : read_metro_observation(text).table;
     rows.site().temp_height_m = 1.5;
+    rows.times_name_their_zone();  // METRo's are UTC
     for (std::size_t i = 0; i < table.rows(); ++i) {
         if (!rows.begin_row(table.time_us[i], 0)) continue;
         for (std::size_t f = 0; f < kFieldCount; ++f) {

@@ -57,7 +57,7 @@ void refuse_binary(std::string_view text)
 }
 
 // Whether the sun of the file rises when it should at its place: times without a zone may be local.
-void check_sun(const ForcingTable& table, ReadReport& report)
+void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
 {
     const Site& site = table.site;
     if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
@@ -89,9 +89,9 @@ void check_sun(const ForcingTable& table, ReadReport& report)
     if (std::abs(turn) < 2 || best < 0.7 || best < here + 0.1) return;
     report.add({ReadNote::Kind::Warning, 0, "time",
                 "the sun of the file stands " + std::to_string(std::abs(turn)) + " h " +
-                    (turn > 0 ? "ahead of" : "behind") +
-                    " that of its place: if its times are local, give --file-zone " +
-                    std::to_string(-turn)});
+                    (turn > 0 ? "ahead of" : "behind") + " that of its place: " +
+                    (zoned ? "the zone that its times say, or its place, is wrong"
+                           : "if its times are local, give --file-zone " + std::to_string(-turn))});
 }
 
 }  // namespace
@@ -146,12 +146,16 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     result.table = rows.finish();
     result.report = std::move(rows.report());
     Site& placed = result.table.site;
-    if (!std::isnan(options.utc_offset_h) && std::isnan(placed.utc_offset_h)) {
+    const bool zoned = rows.zone_named() || !std::isnan(placed.utc_offset_h);
+    if (!std::isnan(options.utc_offset_h) && zoned) {
+        result.report.add({ReadNote::Kind::Warning, 0, "time",
+                           "--file-zone is not used: the file says in which zone its times are"});
+    } else if (!std::isnan(options.utc_offset_h)) {
         placed.utc_offset_h = options.utc_offset_h;
         for (std::int64_t& us : result.table.time_us)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
-    check_sun(result.table, result.report);
+    check_sun(result.table, rows.zone_named(), result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);
     return result;
 }
