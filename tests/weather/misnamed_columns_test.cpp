@@ -117,6 +117,49 @@ TEST(MisnamedColumns, ACountOfAGaugeIsNoAmountOfAnHour)
         << "steady drizzle";
 }
 
+double fallen_mm(const std::string& text)
+{
+    const ForcingTable t = read_weather(text).table;
+    const Field field = t.has(Field::Rain)   ? Field::Rain
+                        : t.has(Field::Snow) ? Field::Snow
+                                             : Field::Precip;
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
+        sum += t[field][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
+    return sum;
+}
+
+// What fell is what the rows say, however long they are: all but the last, which no row ends.
+TEST(Amounts, AddUpOverUnevenRows)
+{
+    const std::string head = "time,air_temp_c,precip_mm\n2024-01-01T";
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T01:00Z,1,3\n2024-01-01T02:00Z,1,1\n"
+                                 "2024-01-01T03:00Z,1,0\n"),
+                5.0, 1e-9);
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T03:00Z,1,3\n2024-01-01T04:00Z,1,1\n"
+                                 "2024-01-01T05:00Z,1,0\n"),
+                5.0, 1e-9)
+        << "a gap first";
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T01:00Z,1,3\n2024-01-01T02:20Z,1,1\n"
+                                 "2024-01-01T03:00Z,1,0\n2024-01-01T06:00Z,1,2\n"
+                                 "2024-01-01T07:00Z,1,0\n"),
+                7.0, 1e-9)
+        << "80 and 40 minutes, then a gap";
+}
+
+// Inches and centimetres of snow are fresh snow; millimetres are water.
+TEST(Amounts, OfSnowAreFreshSnowInCentimetresAndInches)
+{
+    const auto of = [](const char* name, const char* amount) {
+        return fallen_mm(std::string("time,air_temp_c,") + name + "\n2024-01-01T00:00Z,-5," +
+                         amount + "\n2024-01-01T01:00Z,-5,0\n");
+    };
+    EXPECT_NEAR(of("snowfall_mm", "2"), 2.0, 1e-9);
+    EXPECT_NEAR(of("snowfall_cm", "2.54"), 25.4 / 7.0, 1e-9);
+    EXPECT_NEAR(of("snowfall_inch", "1"), 25.4 / 7.0, 1e-9);
+    EXPECT_NEAR(of("rain_inch", "1"), 25.4, 1e-9);
+}
+
 TEST(MisnamedColumns, ShortNamesAndUnitsOfWeatherAreNotDropped)
 {
     for (const char* name :

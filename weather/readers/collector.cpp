@@ -39,6 +39,31 @@ void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>&
 
 }  // namespace
 
+std::int64_t usual_step_us(const std::vector<std::int64_t>& time_us)
+{
+    constexpr std::int64_t kHour_us = 3600000000LL;
+    std::vector<std::int64_t> steps;
+    for (std::size_t i = 1; i < time_us.size(); ++i) steps.push_back(time_us[i] - time_us[i - 1]);
+    if (steps.empty()) return kHour_us;
+    // Reports come when something changes, too: a gap is longer than nearly all steps.
+    const std::size_t nearly_all = steps.size() * 19 / 20;
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(nearly_all),
+                     steps.end());
+    const std::int64_t long_step = steps[nearly_all];
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    const std::int64_t usual = steps[steps.size() / 2];
+    return long_step <= 2 * kHour_us ? std::max(usual, long_step) : usual;
+}
+
+std::int64_t step_of_row_us(const std::vector<std::int64_t>& time_us, std::size_t row,
+                            std::int64_t usual_us)
+{
+    if (row + 1 >= time_us.size()) return usual_us;
+    const std::int64_t step = time_us[row + 1] - time_us[row];
+    return step > usual_us + usual_us / 2 ? usual_us : step;
+}
+
 RowCollector::RowCollector(std::string format)
 {
     report_.format = std::move(format);
@@ -478,22 +503,7 @@ ForcingTable RowCollector::finish()
     note_odd();
     drop_empty_columns();
 
-    // The usual step, for what has to be put before the first row and after a gap.
-    std::vector<std::int64_t> steps;
-    for (std::size_t i = 1; i < good; ++i) steps.push_back(times_[i] - times_[i - 1]);
-    std::int64_t usual = 3600000000LL;
-    if (!steps.empty()) {
-        // Reports come when something changes, too: a gap is longer than nearly all steps.
-        const std::size_t nearly_all = steps.size() * 19 / 20;
-        std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(nearly_all),
-                         steps.end());
-        const std::int64_t long_step = steps[nearly_all];
-        std::nth_element(steps.begin(),
-                         steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                         steps.end());
-        usual = steps[steps.size() / 2];
-        if (long_step <= 2 * 3600000000LL) usual = std::max(usual, long_step);
-    }
+    const std::int64_t usual = usual_step_us(times_);
 
     // A row before the first one holds what fell before it; a row after the last one before a gap
     // ends its rates.
@@ -513,7 +523,7 @@ ForcingTable RowCollector::finish()
     }
     std::size_t gaps = 0, longest = 0;
     for (std::size_t i = 0; i < good; ++i) {
-        if (i > 0 && times_[i] - times_[i - 1] > usual + usual / 2) {
+        if (i > 0 && times_[i] - times_[i - 1] != step_of_row_us(times_, i - 1, usual)) {
             table.time_us.push_back(times_[i - 1] + usual);
             from.push_back(kNone);
             if (++gaps == 1 || times_[i] - times_[i - 1] > times_[longest] - times_[longest - 1])

@@ -11,6 +11,14 @@
 
 namespace petrichor::weather {
 
+/// The step of a series: its median, or what nearly all steps are below where that is two hours at
+/// most. An hour for less than two times.
+std::int64_t usual_step_us(const std::vector<std::int64_t>& time_us);
+/// How long the values of a row hold: to the next row, or the usual step where that is a gap (more
+/// than one and a half of it) and for the last row.
+std::int64_t step_of_row_us(const std::vector<std::int64_t>& time_us, std::size_t row,
+                            std::int64_t usual_us);
+
 /// Gathers the rows of a file while it is read: checks every value and time, remembers what was
 /// wrong, and makes a table out of what was right. Used by every reader.
 class RowCollector {

@@ -233,28 +233,36 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
     return h;
 }
 
-// Seconds that an amount of precipitation stands for: those between the first two rows with a time.
-double seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
+// Seconds that the amounts of precipitation of each row stand for: those to the next one. Empty
+// where the table has rates alone.
+std::vector<double> seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
 {
-    std::int64_t usual_us = 3600000000LL;
     const bool amounts = std::any_of(h.meaning.begin(), h.meaning.end(),
                                      [](const auto& m) { return m && m->amount; });
-    if (!amounts) return static_cast<double>(usual_us) * 1e-6;
-    std::vector<std::int64_t> first_times;
-    while (first_times.size() < 2) {
-        const auto line = lines.next();
-        if (!line) break;
-        const auto cells = split(*line, h.separator, 256);
+    if (!amounts) return {};
+    std::vector<std::int64_t> times;
+    std::vector<std::string_view> cells;
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        split(*line, h.separator, cells, 256);
         if (cells.size() != h.names.size()) continue;
-        if (const auto us = h.times.time_of(cells)) first_times.push_back(*us);
+        const auto us = h.times.time_of(cells);
+        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
     }
-    if (first_times.size() == 2 && first_times[1] > first_times[0])
-        usual_us = first_times[1] - first_times[0];
+    const std::int64_t usual_us = usual_step_us(times);
+    std::vector<double> seconds;
+    bool even = true;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const std::int64_t step_us = step_of_row_us(times, i, usual_us);
+        even = even && step_us == usual_us;
+        seconds.push_back(static_cast<double>(step_us) * 1e-6);
+    }
     rows.note(ReadNote::Kind::Info, 0, "precip",
               std::string("amounts are for the interval that begins at their row, ")
                   .append(std::to_string(usual_us / 1000000))
-                  .append(" s"));
-    return static_cast<double>(usual_us) * 1e-6;
+                  .append(even ? " s" : " s or as long as it is to the next one"));
+    return seconds;
 }
 
 // Values of a row that only together make a field.
@@ -331,7 +339,7 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
     read_place(text, rows);
     Lines lines(text);
     const Header h = read_header(lines, rows, options);
-    const double amount_s = seconds_of_amounts(h, lines, rows);
+    const std::vector<double> amount_s = seconds_of_amounts(h, lines, rows);
 
     MissingCodes missing_codes;
     std::vector<Count> counts(h.names.size());
@@ -364,11 +372,12 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
                 rows.note(ReadNote::Kind::Info, lines.number(), "time",
                           "the times name no zone: taken as UTC; --file-zone HOURS says another");
         }
+        const double row_s = amount_s.empty() ? 0.0 : amount_s[rows.rows() - 1];
         Parts parts;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])
-                read_cell(cells[i], *h.meaning[i], h.separator, amount_s, rows, parts,
-                          missing_codes, counts[i]);
+                read_cell(cells[i], *h.meaning[i], h.separator, row_s, rows, parts, missing_codes,
+                          counts[i]);
         }
         set_from_parts(rows, parts);
     }

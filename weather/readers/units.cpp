@@ -204,14 +204,16 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
             }
             m.amount = true;
             if (is({"", "mm", "kgm2"})) return true;
-            if (is({"inch", "in"}))
+            // Snow in centimetres or inches is fresh snow: 7 cm of it hold 10 mm of water (the
+            // convention of weather services).
+            if (is({"cm"}) && m.field == Field::Snow)
+                m.scale = 10.0 / 7.0;
+            else if (is({"inch", "in"}) && m.field == Field::Snow)
+                m.scale = 25.4 / 7.0;
+            else if (is({"inch", "in"}))
                 m.scale = 25.4;
             else if (is({"m"}))
                 m.scale = 1000.0;
-            // Fresh snow depth: 7 cm of it hold 10 mm of water (the convention of weather
-            // services).
-            else if (is({"cm"}) && m.field == Field::Snow)
-                m.scale = 10.0 / 7.0;
             else if (is({"cm"}))
                 m.scale = 10.0;
             else
