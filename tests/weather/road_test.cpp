@@ -7,6 +7,7 @@
 #include "weather/models/physical/observed_start.h"
 #include "weather/physics/friction.h"
 #include "weather/readers/metro_xml.h"
+#include "weather/readers/read_weather.h"
 
 namespace petrichor::weather {
 namespace {
@@ -248,6 +249,20 @@ TEST(Metro, AttributesAndEmptyElementsAreXml)
     EXPECT_NEAR(t[Field::Wind][0], 10.0, 1e-9);
     EXPECT_EQ(t[Field::Cloud][1], 0.5);
     EXPECT_THROW(read_metro_forecast("<forecast><prediction id=\"1\""), Error);
+}
+
+// What a station measured, as weather: its road is an observation to compare with.
+TEST(Metro, TheMeasuredRoadOfAnObservationIsSeen)
+{
+    const auto r = read_weather(
+        "<observation><measure-list>"
+        "<measure><observation-time>2004-01-30T00:00Z</observation-time><at>-5</at><td>-6</td>"
+        "<ws>18</ws><st>-3</st><sst>-1</sst></measure>"
+        "<measure><observation-time>2004-01-30T01:00Z</observation-time><at>-5</at><td>-6</td>"
+        "<ws>18</ws><st>9999</st><sst>-1</sst></measure></measure-list></observation>");
+    ASSERT_TRUE(r.table.has(Field::SurfaceTemp));
+    EXPECT_NEAR(r.table[Field::SurfaceTemp][0], 270.15, 1e-9);
+    EXPECT_TRUE(std::isnan(r.table[Field::SurfaceTemp][1]));
 }
 
 // Clouds before a forecast are those of its beginning, fading; under what falls they are full.

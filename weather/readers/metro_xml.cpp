@@ -353,8 +353,15 @@ static bool recognise(const FileHead& head)
 static void read_metro(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     const bool forecast = text.substr(0, 4096).find("<forecast>") != std::string_view::npos;
-    const ForcingTable table =
-        forecast ? read_metro_forecast(text) : read_metro_observation(text).table;
+    ForcingTable table;
+    if (forecast) {
+        table = read_metro_forecast(text);
+    } else {
+        MetroObservation observed = read_metro_observation(text);
+        table = std::move(observed.table);
+        for (const double c : observed.surface_c)
+            table[Field::SurfaceTemp].push_back(c + kZeroCelsiusK);
+    }
     rows.site().temp_height_m = 1.5;
     rows.times_name_their_zone();  // METRo's are UTC
     for (std::size_t i = 0; i < table.rows(); ++i) {
