@@ -62,7 +62,8 @@ void read_bytes(std::string_view bytes)
         expect_an_answer([&] { read_metro_station(bytes); });
         expect_an_answer([&] {
             const MetroObservation o = read_metro_observation(bytes);
-            for (const double cover : observed_weather(o, o.table)[Field::Cloud])
+            const ForcingTable seen = observed_weather(o, o.table);
+            for (const double cover : seen[Field::Cloud])
                 require(cover >= 0.0 && cover <= 1.0, "a sky is covered from 0 to 1");
         });
         expect_an_answer([&] { read_metro_roadcast(bytes); });
