@@ -62,6 +62,10 @@ TEST(SimulateRoad, TheMeasuredRoadCorrectsTheRadiation)
     EXPECT_NE(warm, off);
     EXPECT_EQ(run({"--coupling", "0", "--coupling-fade", "9"}).second, off);
     EXPECT_NE(run({"--coupling-fade", "9"}).second, warm);
+    const Outcome alone =
+        run_petrichor({{"simulate", "forecast.xml", "--coupling", "2"}}, work.path());
+    EXPECT_EQ(alone.exit_code, 2);
+    EXPECT_NE(alone.err.find("--road-observed"), std::string::npos) << alone.err;
     const Outcome bad = run_petrichor({{"simulate", "forecast.xml", "--road", "station.xml",
                                         "--road-observed", "seen.xml", "--coupling", "-1"}},
                                       work.path());
