@@ -199,6 +199,11 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
             "simulate: " + inputs.front().file + " holds keys of the artist model, not weather",
             "Give the physical model an EPW, TMY3, METAR, CSV or other weather file.");
     }
+    const weather::CouplingParams usual;
+    if (options.road_observed.empty() && (options.coupling.window_h != usual.window_h ||
+                                          options.coupling.relaxation_h != usual.relaxation_h))
+        throw Error("simulate: --coupling and --coupling-fade are of a measured road",
+                    "Give --road-observed, too, or leave them out.");
     PhysicalInput input;
     PhysicalRun& run = input.run;
     run = options.physical;
@@ -206,11 +211,6 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
     if (!options.road.empty()) read_road(options.road, run);
     input.read = read_forcing(inputs, run.site);
     if (!options.road_observed.empty()) begin_at_measurement(options.road_observed, input);
-    const weather::CouplingParams usual;
-    if (options.road_observed.empty() && (options.coupling.window_h != usual.window_h ||
-                                          options.coupling.relaxation_h != usual.relaxation_h))
-        throw Error("simulate: --coupling and --coupling-fade are of a measured road",
-                    "Give --road-observed, too, or leave them out.");
     const std::int64_t start_us = input.read.table.time_us.front();
     const double zone_h = input.read.table.site.utc_offset_h;
     const double offset_s = run.utc || std::isnan(zone_h) ? 0.0 : zone_h * 3600.0;

@@ -572,5 +572,49 @@ TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
     EXPECT_GT(changed, 20);
 }
 
+// What an editor or a mail program does to a text changes nothing that is read from it.
+TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
+{
+    const auto answer = [](const std::string& text) {
+        ReadOptions options;
+        options.ignore = {"all"};
+        options.fill = false;
+        std::string out;
+        try {
+            const ReadResult r = read_weather(text, options);
+            for (std::size_t i = 0; i < r.table.rows(); ++i) {
+                out += iso_from_us(r.table.time_us[i]);
+                for (const auto& column : r.table.columns)
+                    out += column.empty() ? "," : "," + std::to_string(column[i]);
+                out += "\n";
+            }
+            const Site& at = r.table.site;
+            for (const double v : {at.latitude_deg, at.longitude_deg, at.elevation_m,
+                                   at.temp_height_m, at.wind_height_m, at.utc_offset_h})
+                out += " " + std::to_string(v);
+        } catch (const Error&) {
+            return std::string();
+        }
+        return out;
+    };
+    int read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_SAMPLES)) {
+        const std::string text = text_of(entry.path());
+        const std::string as_it_is = answer(text);
+        if (as_it_is.empty()) continue;  // seeds of the fuzzer that are no weather
+        ++read;
+        std::string crlf;
+        for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+        const std::string mark = "\xEF\xBB\xBF";
+        const bool marked = text.rfind(mark, 0) == 0;
+        for (const std::string& other :
+             {marked ? text : mark + text, text.find('\r') == std::string::npos ? crlf : text,
+              "\n\n" + (marked ? text.substr(3) : text), "\r\n" + (marked ? text.substr(3) : text),
+              text + "\n\n"})
+            EXPECT_EQ(answer(other), as_it_is) << entry.path().filename();
+    }
+    EXPECT_GE(read, 40);
+}
+
 }  // namespace
 }  // namespace petrichor::weather

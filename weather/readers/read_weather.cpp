@@ -26,6 +26,20 @@ std::string_view without_mark(std::string_view text)
     return text.substr(0, 3) == "\xEF\xBB\xBF" ? text.substr(3) : text;
 }
 
+// Readers take the first line for what theirs says: empty ones before it are taken away, so many.
+std::string_view without_empty_lines(std::string_view text, std::size_t& lines)
+{
+    lines = 0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < text.size() && is_blank(text[i]); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (pair || (text[i] != '\n' && text[i] != '\r')) continue;
+        ++lines;
+        at = i + 1;
+    }
+    return text.substr(at);
+}
+
 // Looks at a few samples only, so that a gigabyte of zeros is refused at once.
 void refuse_binary(std::string_view text)
 {
@@ -122,7 +136,13 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     }
     const Reader& reader = recognise_weather(text);
     RowCollector rows(reader.name);
-    reader.read(without_mark(text), rows, options);
+    std::size_t empty_lines = 0;
+    const std::string_view filled = without_empty_lines(without_mark(text), empty_lines);
+    if (empty_lines > 0)
+        rows.note(ReadNote::Kind::Info, 0, "lines",
+                  "counted without the " + std::to_string(empty_lines) +
+                      " empty ones at the beginning of the file");
+    reader.read(filled, rows, options);
     Site& site = rows.site();
     if (!std::isnan(options.site.latitude_deg)) site.latitude_deg = options.site.latitude_deg;
     if (!std::isnan(options.site.longitude_deg)) site.longitude_deg = options.site.longitude_deg;
