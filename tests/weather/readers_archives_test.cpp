@@ -119,8 +119,8 @@ TEST(GlobalHourly, RemarksFillWhatTheCodesLack)
 TEST(GlobalHourly, ARealYear)
 {
     NEED_ASSETS(assets);
-    const std::string text = text_of(assets /
-                                     "weather/real_files/noaa_global_hourly_00702699999.csv");
+    const std::string text =
+        text_of(assets / "weather/real_files/noaa_global_hourly_00702699999.csv");
     ReadOptions options;
     options.site = {.latitude_deg = 34.0, .longitude_deg = 69.0, .elevation_m = 1500.0};
     const auto begin = std::chrono::steady_clock::now();
@@ -340,15 +340,16 @@ TEST(ReadWeather, AFileOfAByteOrderMarkAloneIsEmpty)
             read_weather(text);
             FAIL() << "read";
         } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos)
+                << error.what();
         }
     }
 }
 
 TEST(ReadWeather, ALongitudeBeyondTheGlobeIsRefused)
 {
-    for (const auto& [name, place] : {std::pair{"environment_canada.csv", "-75.67"},
-                                      std::pair{"lcd.csv", "-73.88"}}) {
+    for (const auto& [name, place] :
+         {std::pair{"environment_canada.csv", "-75.67"}, std::pair{"lcd.csv", "-73.88"}}) {
         std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
         ASSERT_NE(text.find(place), std::string::npos) << name;
         for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += 8)
@@ -472,8 +473,7 @@ TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
 TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
 {
     NEED_ASSETS(assets);
-    std::istringstream in(
-        text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
+    std::istringstream in(text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
     std::string text, line;
     for (int n = 0; std::getline(in, line); ++n) {
         const auto columns = split(line, ',');
@@ -570,6 +570,28 @@ TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
         }
     }
     EXPECT_GT(changed, 20);
+}
+
+// Flags belong to their column by its name, wherever they stand.
+TEST(GhcnTables, FlagsAreFoundByName)
+{
+    const std::string usual =
+        "\"STATION\",\"DATE\",\"LATITUDE\",\"LONGITUDE\",\"ELEVATION\",\"TMAX\","
+        "\"TMAX_ATTRIBUTES\",\"TMIN\"\n"
+        "\"ZZ1\",\"2021-01-14\",\"46.8\",\"9.8\",\"1560\",\"  400\",\",X,E\",\" -105\"\n"
+        "\"ZZ1\",\"2021-01-15\",\"46.8\",\"9.8\",\"1560\",\" -31\",\"T,,E\",\" -142\"\n";
+    const std::string moved =
+        "\"TMAX\",\"STATION\",\"TMIN\",\"DATE\",\"LATITUDE\",\"LONGITUDE\",\"ELEVATION\","
+        "\"TMAX_ATTRIBUTES\"\n"
+        "\"  400\",\"ZZ1\",\" -105\",\"2021-01-14\",\"46.8\",\"9.8\",\"1560\",\",X,E\"\n"
+        "\" -31\",\"ZZ1\",\" -142\",\"2021-01-15\",\"46.8\",\"9.8\",\"1560\",\"T,,E\"\n";
+    const ForcingTable a = raw(usual).table, b = raw(moved).table;
+    ASSERT_EQ(a.time_us, b.time_us);
+    for (std::size_t i = 0; i < a.rows(); ++i) {
+        const double was = a[Field::AirTemp][i], is = b[Field::AirTemp][i];
+        EXPECT_TRUE(was == is || (std::isnan(was) && std::isnan(is))) << i;
+        EXPECT_FALSE(is > 300.0) << "40 C failed its check";
+    }
 }
 
 // What an editor or a mail program does to a text changes nothing that is read from it.
