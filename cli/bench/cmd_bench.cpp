@@ -81,7 +81,10 @@ void add_skill(CLI::App& bench)
         "Example: petrichor bench skill --data data/weather --html skill.html\n"
         "Winters: met_X.txt beside obs_X.csv (place: site.toml with a [site] table). Roads: "
         "station.xml,\n"
-        "observation.xml and roadcast_reference.xml of METRo in a folder. Skies: SURFRAD files.\n"
+        "observation.xml and roadcast_reference.xml of METRo in a folder. Skies: SURFRAD files. "
+        "Maps of\n"
+        "snow: dem.asc, weather.* and snow_YYYY-MM-DD.asc (0 bare, 100 snow, 205 cloud) in a "
+        "folder.\n"
         "A rival runs once a winter with the files in $MET and $OBS and prints CSV: "
         "date,snow_depth_m,swe_kg_m2.\n"
         "Exit code 1: a score is worse than it is stated to be (cli/bench/skill/stated.cpp).");

@@ -245,11 +245,18 @@ weather::PhysicalParams physical_params(const PhysicalRun& run)
 
 void add_read_report(SimulationTable& table, const weather::ReadResult& read)
 {
-    const auto lines = lines_of(weather::to_text(read.report));
+    // A warning is told once: as a warning.
+    const auto is_warning = [](const weather::ReadNote& note) {
+        return note.kind == weather::ReadNote::Kind::Warning;
+    };
+    weather::ReadReport rest = read.report;
+    std::erase_if(rest.notes, is_warning);
+    const auto lines = lines_of(weather::to_text(rest));
     table.notes.insert(table.notes.end(), lines.begin(), lines.end());
     for (const weather::ReadNote& note : read.report.notes) {
-        if (note.kind == weather::ReadNote::Kind::Warning)
-            table.warnings.push_back(note.field + ": " + note.text);
+        if (!is_warning(note)) continue;
+        const std::string line = note.line ? " (line " + std::to_string(note.line) + ")" : "";
+        table.warnings.push_back(note.field + ": " + note.text + line);
     }
     table.json_parts.emplace_back("read", weather::to_json(read.report));
 }
@@ -268,6 +275,10 @@ SimulationTable run_physical(const weather::ReadResult& read, const std::string&
     const std::int64_t origin = read.table.time_us.front(), end_us = timeline.end_us();
     const Window window = window_of(run, origin, timeline.begin_us(), end_us, run.every_s);
     fill_rows(table, read, params, timeline, window);
+    if (run.every_s > 3600.0)
+        table.notes.push_back(
+            "rows are states at their times, with the rates and fluxes of the hour: what falls or "
+            "shines between two of them is in the model and in no row; leave --every out to see it");
     table.panels = physical_panels();
     if (params.surface.traffic_heat_w_m2 > 0.0 || !params.events.empty())
         for (PlotPanel& panel : road_panels()) table.panels.push_back(std::move(panel));

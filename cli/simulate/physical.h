@@ -23,6 +23,7 @@ struct PhysicalRun {
     std::vector<std::string> settings;          ///< NAME=NUMBER, after the file
     std::optional<weather::Surface> road;       ///< of a METRo station, instead of the preset
     weather::MetroObservation road_observed{};  ///< the run begins at its last temperature
+    weather::ForcingTable road_weather{};       ///< of the hours that it was observed in
     double road_depth_m = 0.4;                  ///< of its sub-surface thermometer
     weather::Horizon horizon{};                 ///< empty: open
     std::vector<weather::RoadEvent> events{};   ///< salt and ploughs

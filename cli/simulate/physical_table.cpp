@@ -76,10 +76,15 @@ constexpr const char* kColumns[] = {
     "freezing_point_c",
 };
 
-// Files say -14.9; kelvin and back must not make it -14.899999999999977.
+// Files say -14.9 C and 3 tenths; kelvin or shares and back must not make it -14.899999999999977 and
+// 0.30000000000000004.
+double to_nine_digits(double value)
+{
+    return std::round(value * 1e9) / 1e9;
+}
 double to_celsius(double kelvin)
 {
-    return std::round((kelvin - weather::kZeroCelsiusK) * 1e9) / 1e9;
+    return to_nine_digits(kelvin - weather::kZeroCelsiusK);
 }
 
 PlotSeries line(const char* column, const char* label, const char* color, double scale = 1.0)
@@ -119,7 +124,7 @@ std::vector<double> physical_row(const weather::ForcingTable& table,
         at(Field::Pressure),
         at(Field::Shortwave),
         at(Field::Longwave),
-        at(Field::Cloud),
+        to_nine_digits(at(Field::Cloud)),
         c.step_rain * per_s,
         c.step_snow * per_s,
         d.snow_depth_m,

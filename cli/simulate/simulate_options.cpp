@@ -118,7 +118,12 @@ void add_physics(CLI::App& command, SimulateOptions& o)
     add(command, group, "--road", "STATION.xml", o.road,
         "a METRo station: its layers, road or bridge, place; INPUT may be METRo's forecast");
     add(command, group, "--road-observed", "OBS.xml", o.road_observed,
-        "what it measured: the run begins at its last temperature");
+        "what it measured: the run begins at its last temperature, under radiation that the\nhours "
+        "before it correct (docs/weather.md)");
+    add(command, group, "--coupling", "HOURS", o.coupling.window_h,
+        "of --road-observed that correct the radiation (default 3, 0: none)");
+    add(command, group, "--coupling-fade", "HOURS", o.coupling.relaxation_h,
+        "in which that correction falls to 1/e (default 4)");
     add(command, group, "--horizon", "FILE", o.horizon,
         "what hides the sun: lines of azimuth and elevation, degrees (--road brings its own)");
     add(command, group, "--events", "FILE.csv", o.events,

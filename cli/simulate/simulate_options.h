@@ -7,6 +7,7 @@
 
 #include "cli/simulate/physical.h"
 #include "cli/simulate/terrain.h"
+#include "weather/models/physical/coupling.h"
 
 namespace CLI {
 class App;
@@ -35,6 +36,7 @@ struct SimulateOptions {
     std::string height_map;
     double height_range_m = 0.02;
     std::string road, road_observed;  ///< station and observation of METRo
+    weather::CouplingParams coupling;  ///< of road_observed; a window of 0 h: none
     std::string horizon, events;      ///< files, or empty
     std::string initial;              ///< "surface=-0.9,ground=-0.7@0.4", C and m
     std::string physics;              ///< a TOML file of constants

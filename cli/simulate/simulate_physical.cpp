@@ -9,6 +9,7 @@
 #include "cli/simulate/relief.h"
 #include "cli/simulate/simulations.h"
 #include "film/weather/times.h"
+#include "weather/forcing/cut_forcing.h"
 #include "weather/readers/horizon_text.h"
 #include "weather/readers/road_events_text.h"
 #include "weather/readers/text.h"
@@ -147,6 +148,7 @@ void begin_at_measurement(const std::string& file, PhysicalInput& input)
 {
     weather::MetroObservation& o = input.run.road_observed;
     o = weather::read_metro_observation(read_input_file(file));
+    input.run.road_weather = weather::observed_weather(o, input.read.table);
     std::size_t count = o.surface_c.size();
     while (count > 0 && std::isnan(o.surface_c[count - 1])) --count;
     o.surface_c.resize(count);
@@ -161,27 +163,24 @@ void begin_at_measurement(const std::string& file, PhysicalInput& input)
                         "before it",
                     "Give the observation that belongs to the forecast.");
     }
-    weather::ForcingTable cut;
-    cut.site = t.site;
-    const auto first = static_cast<std::size_t>(
-        std::upper_bound(t.time_us.begin(), t.time_us.end(), at_us) - t.time_us.begin());
-    cut.time_us.push_back(at_us);
-    cut.time_us.insert(cut.time_us.end(), t.time_us.begin() + static_cast<std::ptrdiff_t>(first),
-                       t.time_us.end());
-    for (std::size_t f = 0; f < weather::kFieldCount; ++f) {
-        const auto field = static_cast<weather::Field>(f);
-        if (!t.has(field)) continue;
-        const auto& from = t[field];
-        // Before the forecast its first row holds.
-        cut[field].push_back(weather::field_info(field).is_rate
-                                 ? (first > 0 ? from[first - 1] : 0.0)
-                                 : weather::value_at(t, field, at_us));
-        cut[field].insert(cut[field].end(), from.begin() + static_cast<std::ptrdiff_t>(first),
-                          from.end());
-    }
-    t = std::move(cut);
+    // Before the forecast its first row holds.
+    t = weather::cut_forcing(t, at_us, t.time_us.back());
     input.notes.push_back("the run begins at " + weather::iso_from_us(at_us) +
                           " with the measured road");
+}
+
+// What the measured road says about the radiation before the run, kept on into it.
+void couple_to_measurement(const SimulateOptions& options, PhysicalInput& input)
+{
+    PhysicalRun& run = input.run;
+    weather::ReadReport unheard;  // the same fills are told of the forecast
+    weather::fill_forcing(run.road_weather, unheard);
+    const weather::MetroObservation& o = run.road_observed;
+    const auto correction = weather::couple_radiation(
+        run.road_weather, physical_params(run),
+        {o.table.time_us, o.surface_c, o.subsurface_c, run.road_depth_m}, options.coupling);
+    weather::correct_radiation(input.read.table, correction);
+    input.notes.push_back(weather::to_text(correction));
 }
 
 }  // namespace
@@ -200,6 +199,11 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
             "simulate: " + inputs.front().file + " holds keys of the artist model, not weather",
             "Give the physical model an EPW, TMY3, METAR, CSV or other weather file.");
     }
+    const weather::CouplingParams usual;
+    if (options.road_observed.empty() && (options.coupling.window_h != usual.window_h ||
+                                          options.coupling.relaxation_h != usual.relaxation_h))
+        throw Error("simulate: --coupling and --coupling-fade are of a measured road",
+                    "Give --road-observed, too, or leave them out.");
     PhysicalInput input;
     PhysicalRun& run = input.run;
     run = options.physical;
@@ -237,6 +241,8 @@ PhysicalInput physical_input(const std::vector<Input>& inputs, const SimulateOpt
         input.notes.emplace_back(line);
     }
     if (!options.events.empty()) read_events(options.events, input);
+    if (!run.road_weather.time_us.empty() && options.coupling.window_h != 0.0)
+        couple_to_measurement(options, input);
     if (!options.initial.empty()) read_initial(options.initial, run);
     if (!options.height_map.empty()) {
         const Relief relief = read_relief(options.height_map, options.height_range_m);

@@ -4,13 +4,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "base/error.h"
 #include "cli/bench/skill/board.h"
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
+#include "cli/bench/skill/snow_maps.h"
 #include "cli/bench/skill/urban.h"
 #include "tests/support/assets.h"
+#include "tests/support/program.h"
 #include "weather/physics/solar.h"
 #include "weather/readers/text.h"
 
@@ -65,6 +68,42 @@ TEST(Skill, MeansOverTheSharedData)
     EXPECT_LT(mean("road measured", ""), mean("air beside the measured road", ""));
 }
 
+// Forecasts that could have been made while a road was measured: nearer than the air on all roads
+// but case034, whose forecast begins when its two days of measurements end and knows no cloud of
+// theirs.
+TEST(Skill, CoupledRoadsAreNearerThanTheAir)
+{
+    NEED_ASSETS(assets);
+    const Board& board = board_of(assets);
+    const auto score = [&](const std::string& set, const std::string& quantity) {
+        for (const BoardRow& row : board.rows)
+            if (row.ours.set == set && row.ours.quantity == quantity) return row.ours.score;
+        return kNoScore;
+    };
+    for (const std::string ahead : {", half ahead", ", 6 h ahead"}) {
+        int roads = 0, farther = 0;
+        ErrorSum coupled, started, air, kept;
+        for (const BoardRow& row : board.rows) {
+            const std::string& set = row.ours.set;
+            if (row.ours.quantity != "road coupled" + ahead || set.rfind("mean", 0) == 0) continue;
+            ++roads;
+            if (!(row.ours.score < score(set, "air" + ahead))) {
+                ++farther;
+                EXPECT_EQ(set, "case034") << ahead;
+            }
+            coupled.add(row.ours.score);
+            started.add(score(set, "road started" + ahead));
+            air.add(score(set, "air" + ahead));
+            kept.add(score(set, "road kept" + ahead));
+        }
+        EXPECT_EQ(roads, 15) << ahead;
+        EXPECT_LE(farther, 1) << ahead;
+        EXPECT_LT(coupled.bias(), 0.9 * started.bias()) << ahead;
+        EXPECT_LT(coupled.bias(), 0.75 * kept.bias()) << ahead;
+        EXPECT_LT(coupled.bias(), 0.6 * air.bias()) << ahead;
+    }
+}
+
 // What SOLWEIG reaches at these stations (Lindberg et al. 2008): 51, 13 W/m2 in the courtyard, 177 in
 // the square, and 61 for the longwave there.
 TEST(Skill, RadiationInATownIsNearerThanSolweigs)
@@ -114,6 +153,97 @@ TEST(Skill, ErrorsAreThoseOfTheModel)
     EXPECT_NEAR(rows[0].bias, 0.14, 1e-12);
     EXPECT_EQ(rows[1].quantity, "snow off");
     EXPECT_NEAR(rows[1].bias, 1.0, 1e-12);
+}
+
+// A slope from 1000 to 2000 m, the warmer below; four weeks of snow, then of thaw.
+constexpr int kSlope = 12;
+std::string slope_grid(const std::function<std::string(int row)>& cell)
+{
+    std::string text =
+        "ncols 12\nnrows 12\nxllcorner 0\nyllcorner 0\ncellsize 100\nNODATA_value -9999\n";
+    for (int y = 0; y < kSlope; ++y)
+        for (int x = 0; x < kSlope; ++x) text += cell(y) + (x + 1 < kSlope ? " " : "\n");
+    return text;
+}
+void write_landscape(const testing_program::Workplace& work, double line_m)
+{
+    using testing_program::write_file;
+    const auto height = [](int row) { return 1000 + 90 * row; };
+    write_file(work / "dem.asc", slope_grid([&](int y) { return std::to_string(height(y)); }));
+    write_file(work / "site.toml",
+               "[site]\nlatitude = 46.0\nlongitude = 7.5\nelevation_m = 1500.0\n");
+    std::string text = "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,cloud_fraction\n";
+    for (int h = 0; h < 720; ++h) {
+        char row[120];
+        std::snprintf(row, sizeof row, "2024-0%d-%02dT%02d:00Z,%.1f,90,2,%.1f,1\n", 3, 1 + h / 24,
+                      h % 24, 0.0, h < 240 ? 1.0 : 0.0);
+        text += row;
+    }
+    write_file(work / "weather.csv", text);
+    // Snow above a line; the highest rows are under cloud, one is not known.
+    write_file(work / "snow_2024-03-12.asc", slope_grid([&](int y) {
+                   return std::string(y == 11              ? "205"
+                                      : y == 10            ? "-9999"
+                                      : height(y) > line_m ? "100"
+                                                           : "0");
+               }));
+}
+
+// Snow lies where it is cold: maps of about that line agree, maps of another do not.
+TEST(SnowMaps, AgreeWithALandscapeThatHasTheirLine)
+{
+    testing_program::Workplace work("snow-maps");
+    const auto rows_of = [&](double line_m) {
+        write_landscape(work, line_m);
+        const SkillSets sets = find_skill_sets(work.path().string());
+        EXPECT_EQ(sets.landscapes.size(), 1u);
+        EXPECT_TRUE(sets.notes.empty()) << sets.notes.front();
+        EXPECT_EQ(sets.landscapes[0].maps[0].time_us,
+                  weather::us_from_iso("2024-03-12T10:00Z").value())
+            << "10:30 by the sun of 7.5 degrees east";
+        return snow_map_rows(sets.landscapes[0]);
+    };
+    double best = 2.0, best_line_m = 0.0;
+    for (const double line_m : {1050.0, 1230.0, 1410.0, 1590.0, 1770.0}) {
+        const auto rows = rows_of(line_m);
+        ASSERT_EQ(rows.size(), 2u) << line_m;
+        EXPECT_EQ(rows[0].quantity, "snow maps");
+        EXPECT_EQ(rows[0].count, 120u) << "ten rows of cells were seen";
+        EXPECT_EQ(rows[1].quantity, "snow line of maps");
+        if (rows[0].score >= best) continue;
+        best = rows[0].score;
+        best_line_m = line_m;
+    }
+    EXPECT_LT(best, 0.3) << best_line_m;
+    const double off = rows_of(best_line_m)[1].score;
+    EXPECT_LE(off, 180.0);
+    EXPECT_NEAR(rows_of(best_line_m < 1400.0 ? best_line_m + 360.0 : best_line_m - 360.0)[1].score,
+                360.0, off + 1.0);
+}
+
+TEST(SnowMaps, WhatDoesNotFitIsToldAndNotScored)
+{
+    testing_program::Workplace work("snow-maps-bad");
+    const auto note = [&](const char* file, const std::string& text) {
+        write_landscape(work, 1400.0);
+        testing_program::write_file(work / file, text);
+        try {
+            read_snow_map_set(work.path(), {});
+        } catch (const Error& e) {
+            std::filesystem::remove(work / file);
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    const auto plain = [](const char* code) { return slope_grid([=](int) { return code; }); };
+    EXPECT_NE(note("snow_2024-03-13.asc", plain("7")).find("no code 7"), std::string::npos);
+    EXPECT_NE(note("snow_2024-02-30.asc", plain("0")).find("has no day"), std::string::npos);
+    EXPECT_NE(note("snow_2025-03-13.asc", plain("0")).find("outside the weather"),
+              std::string::npos);
+    EXPECT_NE(note("snow_2024-03-13.asc", "ncols 2\nnrows 1\ncellsize 100\n0 0\n")
+                  .find("other cells than dem.asc"),
+              std::string::npos);
+    EXPECT_NE(note("weather.epw", "x").find("two files weather"), std::string::npos);
 }
 
 // A plain of 80 x 80 m with a station in its middle, and a clear day; a house may stand south of it.

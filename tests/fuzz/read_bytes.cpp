@@ -60,7 +60,12 @@ void read_bytes(std::string_view bytes)
     expect_an_answer([&] { check_events(read_road_events(bytes, "events", 3600.0)); });
     if (looks_like_metro(bytes)) {
         expect_an_answer([&] { read_metro_station(bytes); });
-        expect_an_answer([&] { read_metro_observation(bytes); });
+        expect_an_answer([&] {
+            const MetroObservation o = read_metro_observation(bytes);
+            const ForcingTable seen = observed_weather(o, o.table);
+            for (const double cover : seen[Field::Cloud])
+                require(cover >= 0.0 && cover <= 1.0, "a sky is covered from 0 to 1");
+        });
         expect_an_answer([&] { read_metro_roadcast(bytes); });
     }
     try {

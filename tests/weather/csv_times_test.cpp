@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
 
 namespace petrichor::weather {
@@ -70,6 +71,41 @@ TEST(CsvTimes, WhatIsNone)
     const auto parts = find_csv_times(split("year,month,day,hour,temp", ','), {});
     EXPECT_TRUE(parts.uses(3));
     EXPECT_FALSE(parts.uses(4));
+}
+
+// --file-zone is of times that name no zone; others are not moved by it, and it is said.
+TEST(CsvTimes, TheZoneOfAFileIsItsOwn)
+{
+    for (const char* zoned : {"2024-02-27T06:00Z", "2024-02-27 06:00 UTC", "2024-02-27T07:00+01:00",
+                              "1709013600", "1709013600000"})
+        EXPECT_TRUE(names_zone(zoned)) << zoned;
+    for (const char* bare : {"2024-02-27T06:00", "27.02.2024 06:00", "2024022706", "2024-02-27"})
+        EXPECT_FALSE(names_zone(bare)) << bare;
+    const auto read = [](const std::string& header, const std::string& time, double zone_h) {
+        ReadOptions options;
+        options.utc_offset_h = zone_h;
+        const auto r = read_weather(header + ",air_temp_c\n" + time + ",1\n", options);
+        return std::pair(r.table.time_us.front(), to_text(r.report));
+    };
+    const std::int64_t six = us_from_iso("2024-02-27T06:00Z").value();
+    const std::int64_t two_h = 7200000000LL;
+    const auto has = [](const std::string& text, const char* part) {
+        return text.find(part) != std::string::npos;
+    };
+    const auto [bare_us, bare] = read("time", "2024-02-27T06:00", kMissing);
+    EXPECT_EQ(bare_us, six);
+    EXPECT_TRUE(has(bare, "name no zone: taken as UTC")) << bare;
+    const auto [moved_us, moved] = read("time", "2024-02-27T06:00", 2.0);
+    EXPECT_EQ(moved_us, six - two_h);
+    EXPECT_FALSE(has(moved, "zone")) << moved;
+    for (const auto& [header, time] :
+         {std::pair("time", "2024-02-27T06:00Z"), std::pair("time", "2024-02-27T07:00+01:00"),
+          std::pair("time", "1709013600"), std::pair("time_utc", "2024-02-27T06:00")}) {
+        const auto [us, text] = read(header, time, 2.0);
+        EXPECT_EQ(us, six) << time;
+        EXPECT_TRUE(has(text, "--file-zone is not used")) << text;
+        EXPECT_FALSE(has(read(header, time, kMissing).second, "zone")) << time;
+    }
 }
 
 }  // namespace

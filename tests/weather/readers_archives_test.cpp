@@ -119,8 +119,8 @@ TEST(GlobalHourly, RemarksFillWhatTheCodesLack)
 TEST(GlobalHourly, ARealYear)
 {
     NEED_ASSETS(assets);
-    const std::string text = text_of(assets /
-                                     "weather/real_files/noaa_global_hourly_00702699999.csv");
+    const std::string text =
+        text_of(assets / "weather/real_files/noaa_global_hourly_00702699999.csv");
     ReadOptions options;
     options.site = {.latitude_deg = 34.0, .longitude_deg = 69.0, .elevation_m = 1500.0};
     const auto begin = std::chrono::steady_clock::now();
@@ -340,15 +340,16 @@ TEST(ReadWeather, AFileOfAByteOrderMarkAloneIsEmpty)
             read_weather(text);
             FAIL() << "read";
         } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos)
+                << error.what();
         }
     }
 }
 
 TEST(ReadWeather, ALongitudeBeyondTheGlobeIsRefused)
 {
-    for (const auto& [name, place] : {std::pair{"environment_canada.csv", "-75.67"},
-                                      std::pair{"lcd.csv", "-73.88"}}) {
+    for (const auto& [name, place] :
+         {std::pair{"environment_canada.csv", "-75.67"}, std::pair{"lcd.csv", "-73.88"}}) {
         std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
         ASSERT_NE(text.find(place), std::string::npos) << name;
         for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += 8)
@@ -472,8 +473,7 @@ TEST(NeverMisread, FreshSnowOfADayTellsThePhase)
 TEST(NeverMisread, AnEpwWithoutPrecipitationSaysSoAndItCanBeEstimated)
 {
     NEED_ASSETS(assets);
-    std::istringstream in(
-        text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
+    std::istringstream in(text_of(assets / "weather/USA_CO_Denver.Intl.AP.725650_TMY3.epw"));
     std::string text, line;
     for (int n = 0; std::getline(in, line); ++n) {
         const auto columns = split(line, ',');
@@ -570,6 +570,72 @@ TEST(Archives, NoMisspeltColumnIsDroppedInSilence)
         }
     }
     EXPECT_GT(changed, 20);
+}
+
+// Flags belong to their column by its name, wherever they stand.
+TEST(GhcnTables, FlagsAreFoundByName)
+{
+    const std::string usual =
+        "\"STATION\",\"DATE\",\"LATITUDE\",\"LONGITUDE\",\"ELEVATION\",\"TMAX\","
+        "\"TMAX_ATTRIBUTES\",\"TMIN\"\n"
+        "\"ZZ1\",\"2021-01-14\",\"46.8\",\"9.8\",\"1560\",\"  400\",\",X,E\",\" -105\"\n"
+        "\"ZZ1\",\"2021-01-15\",\"46.8\",\"9.8\",\"1560\",\" -31\",\"T,,E\",\" -142\"\n";
+    const std::string moved =
+        "\"TMAX\",\"STATION\",\"TMIN\",\"DATE\",\"LATITUDE\",\"LONGITUDE\",\"ELEVATION\","
+        "\"TMAX_ATTRIBUTES\"\n"
+        "\"  400\",\"ZZ1\",\" -105\",\"2021-01-14\",\"46.8\",\"9.8\",\"1560\",\",X,E\"\n"
+        "\" -31\",\"ZZ1\",\" -142\",\"2021-01-15\",\"46.8\",\"9.8\",\"1560\",\"T,,E\"\n";
+    const ForcingTable a = raw(usual).table, b = raw(moved).table;
+    ASSERT_EQ(a.time_us, b.time_us);
+    for (std::size_t i = 0; i < a.rows(); ++i) {
+        const double was = a[Field::AirTemp][i], is = b[Field::AirTemp][i];
+        EXPECT_TRUE(was == is || (std::isnan(was) && std::isnan(is))) << i;
+        EXPECT_FALSE(is > 300.0) << "40 C failed its check";
+    }
+}
+
+// What an editor or a mail program does to a text changes nothing that is read from it.
+TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
+{
+    const auto answer = [](const std::string& text) {
+        ReadOptions options;
+        options.ignore = {"all"};
+        options.fill = false;
+        std::string out;
+        try {
+            const ReadResult r = read_weather(text, options);
+            for (std::size_t i = 0; i < r.table.rows(); ++i) {
+                out += iso_from_us(r.table.time_us[i]);
+                for (const auto& column : r.table.columns)
+                    out += column.empty() ? "," : "," + std::to_string(column[i]);
+                out += "\n";
+            }
+            const Site& at = r.table.site;
+            for (const double v : {at.latitude_deg, at.longitude_deg, at.elevation_m,
+                                   at.temp_height_m, at.wind_height_m, at.utc_offset_h})
+                out += " " + std::to_string(v);
+        } catch (const Error&) {
+            return std::string();
+        }
+        return out;
+    };
+    int read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_SAMPLES)) {
+        const std::string text = text_of(entry.path());
+        const std::string as_it_is = answer(text);
+        if (as_it_is.empty()) continue;  // seeds of the fuzzer that are no weather
+        ++read;
+        std::string crlf;
+        for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+        const std::string mark = "\xEF\xBB\xBF";
+        const bool marked = text.rfind(mark, 0) == 0;
+        for (const std::string& other :
+             {marked ? text : mark + text, text.find('\r') == std::string::npos ? crlf : text,
+              "\n\n" + (marked ? text.substr(3) : text), "\r\n" + (marked ? text.substr(3) : text),
+              text + "\n\n"})
+            EXPECT_EQ(answer(other), as_it_is) << entry.path().filename();
+    }
+    EXPECT_GE(read, 40);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "weather/models/physical/observed_start.h"
 #include "weather/physics/friction.h"
 #include "weather/readers/metro_xml.h"
+#include "weather/readers/read_weather.h"
 
 namespace petrichor::weather {
 namespace {
@@ -228,6 +229,78 @@ TEST(Metro, StationForecastAndWhatIsWrong)
     EXPECT_THROW(read_metro_forecast(forecast.substr(0, 120)), Error);
     EXPECT_THROW(read_metro_station("<forecast>"), Error);
     EXPECT_THROW(read_metro_observation(kStation), Error);
+}
+
+// As some programs write them: attributes, empty elements, a byte order mark.
+TEST(Metro, AttributesAndEmptyElementsAreXml)
+{
+    const ForcingTable t = read_metro_forecast(
+        "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<forecast>\n<prediction-list>\n"
+        "<prediction id=\"1\"><forecast-time viewed=\"no\">2007-11-08T06:00Z</forecast-time>"
+        "<at "
+        ">4</at><atx>9</atx><td/><ws>36</ws><ap>910</ap><cc>6</cc><ra>0</ra><sn>0</sn></prediction>"
+        "<prediction><forecast-time viewed=\"no\">2007-11-08T07:00Z</forecast-time>"
+        "<at>3</at><td />\n<ws>18</ws><ap>910</ap><cc>4</cc><ra>1</ra><sn>0</sn></prediction>"
+        "</prediction-list></forecast>");
+    ASSERT_EQ(t.rows(), 2u);
+    EXPECT_NEAR(t[Field::AirTemp][0], 277.15, 1e-9);
+    EXPECT_NEAR(t[Field::AirTemp][1], 276.15, 1e-9);
+    EXPECT_TRUE(std::isnan(t[Field::DewPoint][0]));
+    EXPECT_NEAR(t[Field::Wind][0], 10.0, 1e-9);
+    EXPECT_EQ(t[Field::Cloud][1], 0.5);
+    EXPECT_THROW(read_metro_forecast("<forecast><prediction id=\"1\""), Error);
+}
+
+// What a station measured, as weather: its road is an observation to compare with.
+TEST(Metro, TheMeasuredRoadOfAnObservationIsSeen)
+{
+    const auto r = read_weather(
+        "<observation><measure-list>"
+        "<measure><observation-time>2004-01-30T00:00Z</observation-time><at>-5</at><td>-6</td>"
+        "<ws>18</ws><st>-3</st><sst>-1</sst></measure>"
+        "<measure><observation-time>2004-01-30T01:00Z</observation-time><at>-5</at><td>-6</td>"
+        "<ws>18</ws><st>9999</st><sst>-1</sst></measure></measure-list></observation>");
+    ASSERT_TRUE(r.table.has(Field::SurfaceTemp));
+    EXPECT_NEAR(r.table[Field::SurfaceTemp][0], 270.15, 1e-9);
+    EXPECT_TRUE(std::isnan(r.table[Field::SurfaceTemp][1]));
+}
+
+// Clouds before a forecast are those of its beginning, fading; under what falls they are full.
+TEST(Metro, WeatherOfTheMeasuredHours)
+{
+    const auto measure = [](int hour, const char* pi) {
+        return "<measure><observation-time>2004-01-30T0" + std::to_string(hour) +
+               ":00Z</observation-time><at>-5</at><td>-6</td><ws>18</ws><st>-3</st><sst>-1</"
+               "sst><pi>" +
+               pi + "</pi></measure>";
+    };
+    const MetroObservation o = read_metro_observation(
+        "<observation><measure-list>" + measure(0, "0") + measure(1, "1") + measure(2, "0") +
+        measure(3, "9999") + "</measure-list></observation>");
+    ASSERT_EQ(o.falling.size(), 4u);
+    EXPECT_EQ(o.falling[0], 0.0);
+    EXPECT_EQ(o.falling[1], 1.0);
+    EXPECT_TRUE(std::isnan(o.falling[3]));
+    ForcingTable forecast;
+    for (const int hour : {2, 3, 4, 5}) {
+        forecast.time_us.push_back(o.table.time_us[0] + hour * kHourUs);
+        forecast[Field::AirTemp].push_back(270.15);
+        forecast[Field::Cloud].push_back(0.1);
+    }
+    const ForcingTable t = observed_weather(o, forecast);
+    ASSERT_EQ(t.rows(), 6u);  // and two of the forecast
+    const double before = 0.5 - 0.4 * std::exp(-2.0 / kCloudMemory_h);
+    EXPECT_NEAR(t[Field::Cloud][0], before, 1e-12);
+    EXPECT_EQ(t[Field::Cloud][1], 1.0);
+    EXPECT_NEAR(t[Field::Cloud][2], 0.1 + 0.9 * std::exp(-1.0 / kCloudMemory_h), 1e-12);
+    EXPECT_EQ(t[Field::Cloud][5], 0.1);
+    EXPECT_EQ(t[Field::AirTemp][0], 268.15);
+    EXPECT_EQ(t[Field::AirTemp][5], 270.15);
+    EXPECT_TRUE(std::isnan(t[Field::DewPoint][4]));
+    // Nothing forecast: half a cover.
+    ForcingTable silent = forecast;
+    silent[Field::Cloud].clear();
+    EXPECT_EQ(observed_weather(o, silent)[Field::Cloud][0], 0.5);
 }
 
 }  // namespace

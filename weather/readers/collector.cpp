@@ -39,6 +39,31 @@ void move_in_time(const std::vector<std::int64_t>& time_us, std::vector<double>&
 
 }  // namespace
 
+std::int64_t usual_step_us(const std::vector<std::int64_t>& time_us)
+{
+    constexpr std::int64_t kHour_us = 3600000000LL;
+    std::vector<std::int64_t> steps;
+    for (std::size_t i = 1; i < time_us.size(); ++i) steps.push_back(time_us[i] - time_us[i - 1]);
+    if (steps.empty()) return kHour_us;
+    // Reports come when something changes, too: a gap is longer than nearly all steps.
+    const std::size_t nearly_all = steps.size() * 19 / 20;
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(nearly_all),
+                     steps.end());
+    const std::int64_t long_step = steps[nearly_all];
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    const std::int64_t usual = steps[steps.size() / 2];
+    return long_step <= 2 * kHour_us ? std::max(usual, long_step) : usual;
+}
+
+std::int64_t step_of_row_us(const std::vector<std::int64_t>& time_us, std::size_t row,
+                            std::int64_t usual_us)
+{
+    if (row + 1 >= time_us.size()) return usual_us;
+    const std::int64_t step = time_us[row + 1] - time_us[row];
+    return step > usual_us + usual_us / 2 ? usual_us : step;
+}
+
 RowCollector::RowCollector(std::string format)
 {
     report_.format = std::move(format);
@@ -245,7 +270,26 @@ bool speaks_of_weather(std::string_view name)
           "albedo", "vapo",  "sleet", "hail",   "ice",   "frost",     "visib",    "flux"}) {
         if (low.find(word) != std::string::npos) return true;
     }
-    return false;
+    // Short words, and units that little else has: sw, T2, rh_2m; sw_w_m2, p_hPa.
+    std::string token, letters;
+    const auto speaks = [](const std::string& t) {
+        for (const char* word :
+             {"sw", "lw",   "swd", "lwd", "swin", "lwin", "swdown", "lwdown", "rg",   "rh",
+              "ta", "tair", "t2m", "ghi", "dni",  "dhi",  "par",    "hpa",    "mbar", "degc"})
+            if (t == word) return true;
+        return false;
+    };
+    for (const char c : low + " ") {
+        const bool word = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (word) {
+            token += c;
+            letters += c;
+            continue;
+        }
+        if (speaks(token)) return true;
+        token.clear();
+    }
+    return letters.size() > 3 && (letters.ends_with("wm2") || letters.ends_with("mmh"));
 }
 
 }  // namespace
@@ -296,6 +340,49 @@ void RowCollector::check_columns()
     if (!other_columns_.empty())
         note(ReadNote::Kind::Info, line_, "columns",
              "not known, not used: " + list(other_columns_));
+}
+
+// Values of which most cannot be are of another quantity or unit than their name says.
+void RowCollector::refuse_misnamed() const
+{
+    constexpr std::size_t kFew = 10;
+    for (std::size_t f = 0; f < kFieldCount; ++f) {
+        const FieldInfo& info = field_info(static_cast<Field>(f));
+        if (info.observed || report_of_[f] == 0) continue;
+        const FieldReport& r = report_.fields[report_of_[f] - 1];
+        const std::size_t words = unreadable_[f].count;
+        if (words >= kFew && words > r.present) {
+            throw Error("weather: " + report_.format + ": " + info.name + ": '" +
+                            unreadable_text_[f] + "' in line " +
+                            std::to_string(unreadable_[f].first_line) + " and " +
+                            std::to_string(words - 1) + " more of " +
+                            std::to_string(words + r.present) + " cells are not numbers",
+                        "Write numbers as 1013.25, without marks between thousands.");
+        }
+        const std::size_t odd = refused_[f].count;
+        if (odd < kFew || odd <= r.present) continue;
+        throw Error("weather: " + report_.format + ": " + info.name + ": " + std::to_string(odd) +
+                        " of " + std::to_string(odd + r.present) + " values are outside " +
+                        number_text(info.low) + ".." + number_text(info.high) + " " + info.unit +
+                        ", from line " + std::to_string(refused_[f].first_line) + " on (" +
+                        number_text(refused_[f].low) + " to " + number_text(refused_[f].high) + ")",
+                    "Correct the name or the unit of the column, or leave it out with --ignore "
+                    "where the format is a free table.");
+    }
+    const auto& humidity = values_[static_cast<std::size_t>(Field::RelHumidity)];
+    std::size_t known = 0;
+    double most = 0.0;
+    for (const double percent : humidity) {
+        if (std::isnan(percent)) continue;
+        ++known;
+        most = std::max(most, percent);
+    }
+    if (known >= kFew && most > 0.0 && most <= 1.0) {
+        throw Error("weather: " + report_.format + ": rel_humidity: no value of " +
+                        std::to_string(known) + " is above " + number_text(most) +
+                        " %: they are shares of 1",
+                    "Name the column rel_humidity_fraction, or give percent.");
+    }
 }
 
 // A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
@@ -412,25 +499,11 @@ ForcingTable RowCollector::finish()
              "no amounts in the file: rates from present weather, drizzle 0.1/0.3/0.8, rain "
              "1/4.5/12, snow 0.5/1.5/3 mm/h for light/moderate/heavy");
     }
+    refuse_misnamed();
     note_odd();
     drop_empty_columns();
 
-    // The usual step, for what has to be put before the first row and after a gap.
-    std::vector<std::int64_t> steps;
-    for (std::size_t i = 1; i < good; ++i) steps.push_back(times_[i] - times_[i - 1]);
-    std::int64_t usual = 3600000000LL;
-    if (!steps.empty()) {
-        // Reports come when something changes, too: a gap is longer than nearly all steps.
-        const std::size_t nearly_all = steps.size() * 19 / 20;
-        std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(nearly_all),
-                         steps.end());
-        const std::int64_t long_step = steps[nearly_all];
-        std::nth_element(steps.begin(),
-                         steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                         steps.end());
-        usual = steps[steps.size() / 2];
-        if (long_step <= 2 * 3600000000LL) usual = std::max(usual, long_step);
-    }
+    const std::int64_t usual = usual_step_us(times_);
 
     // A row before the first one holds what fell before it; a row after the last one before a gap
     // ends its rates.
@@ -450,7 +523,7 @@ ForcingTable RowCollector::finish()
     }
     std::size_t gaps = 0, longest = 0;
     for (std::size_t i = 0; i < good; ++i) {
-        if (i > 0 && times_[i] - times_[i - 1] > usual + usual / 2) {
+        if (i > 0 && times_[i] - times_[i - 1] != step_of_row_us(times_, i - 1, usual)) {
             table.time_us.push_back(times_[i - 1] + usual);
             from.push_back(kNone);
             if (++gaps == 1 || times_[i] - times_[i - 1] > times_[longest] - times_[longest - 1])

@@ -11,6 +11,14 @@
 
 namespace petrichor::weather {
 
+/// The step of a series: its median, or what nearly all steps are below where that is two hours at
+/// most. An hour for less than two times.
+std::int64_t usual_step_us(const std::vector<std::int64_t>& time_us);
+/// How long the values of a row hold: to the next row, or the usual step where that is a gap (more
+/// than one and a half of it) and for the last row.
+std::int64_t step_of_row_us(const std::vector<std::int64_t>& time_us, std::size_t row,
+                            std::int64_t usual_us);
+
 /// Gathers the rows of a file while it is read: checks every value and time, remembers what was
 /// wrong, and makes a table out of what was right. Used by every reader.
 class RowCollector {
@@ -60,6 +68,10 @@ public:
     void check_columns();
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
 
+    /// Times of the file say in which zone they are: nobody else can.
+    void times_name_their_zone() { zone_named_ = true; }
+    bool zone_named() const { return zone_named_; }
+
     std::size_t rows() const { return times_.size(); }
     /// Name of the current row's line for messages.
     std::size_t line() const { return line_; }
@@ -84,6 +96,7 @@ private:
     };
     std::size_t report_index(Field field);
     void note_odd();
+    void refuse_misnamed() const;
     void drop_empty_columns();
     void spread_amounts(ForcingTable& table);
 
@@ -102,6 +115,7 @@ private:
     std::vector<double> seen_;
     bool use_seen_ = false;
     std::size_t line_ = 0, joined_ = 0;
+    bool zone_named_ = false;
     bool in_row_ = false, join_same_times_ = false, joining_ = false;
 };
 

@@ -105,6 +105,24 @@ std::optional<std::int64_t> time_of_cell(std::string_view text)
     return *count * kSecond_us;
 }
 
+bool names_zone(std::string_view text)
+{
+    const auto here = us_from_iso(text), east = us_from_iso(text, 3600.0);
+    if (here) return here == east;
+    const auto length = trimmed(text).size();
+    const bool count = to_integer(text) && time_of_cell(text);
+    // Ten digits that begin with a year are a date.
+    return count && (length != 10 || time_of_cell(text) == *to_integer(text) * kSecond_us);
+}
+
+bool CsvTimes::name_zone(const std::vector<std::string_view>& names,
+                         const std::vector<std::string_view>& cells) const
+{
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (uses(i) && lower(names[i]).find("utc") != std::string::npos) return true;
+    return stamp != kNone && names_zone(cells[stamp]);
+}
+
 bool CsvTimes::uses(std::size_t column) const
 {
     return column == stamp || column == clock ||

@@ -27,6 +27,9 @@ struct CsvTimes {
     bool uses(std::size_t column) const;
     /// The time of a row with as many cells as the header has names; nothing when it is none.
     std::optional<std::int64_t> time_of(const std::vector<std::string_view>& cells) const;
+    /// Whether the times of such a row say their zone, by their header or by themselves.
+    bool name_zone(const std::vector<std::string_view>& names,
+                   const std::vector<std::string_view>& cells) const;
     /// The cells that time_of reads, for a message.
     std::string shown_cells(const std::vector<std::string_view>& cells) const;
 };
@@ -35,6 +38,9 @@ struct CsvTimes {
 /// line below the header.
 CsvTimes find_csv_times(const std::vector<std::string_view>& names,
                         const std::vector<std::string_view>& first_row);
+
+/// Whether a cell with a date and time says its zone: Z, UTC, +01:00, or seconds since 1970.
+bool names_zone(std::string_view text);
 
 /// A date and time in one cell: ISO 8601, 31.12.2024 13:00, or seconds or milliseconds since 1970.
 std::optional<std::int64_t> time_of_cell(std::string_view text);

@@ -177,6 +177,14 @@ void drop_bare_twin(Header& h, std::size_t i, std::string& bare_names)
     }
 }
 
+// Named by --ignore; the word "all" there is of columns that are not understood.
+bool is_left_out(std::string_view name, const std::vector<std::string>& ignored)
+{
+    const std::string low = lower(trimmed(name));
+    return std::any_of(ignored.begin(), ignored.end(),
+                       [&](const std::string& word) { return lower(word) == low; });
+}
+
 // Leaves `lines` below the header.
 //   throws  Error without times or a known column
 Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
@@ -196,15 +204,21 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
     h.times = find_csv_times(h.names, split(below.next().value_or(""), h.separator, 256));
     h.meaning.resize(h.names.size());
     bool any = false;
-    std::string bare_names;
+    std::string bare_names, left_out;
     for (std::size_t i = 0; i < h.names.size(); ++i) {
         if (h.times.uses(i)) continue;
+        if (is_left_out(h.names[i], options.ignore)) {
+            add_to_list(left_out, shown(trimmed(h.names[i])));
+            continue;
+        }
         h.meaning[i] = column_meaning(h.names[i]);
         any = any || h.meaning[i];
         if (!h.meaning[i] && !is_known_unused(h.names[i]))
             rows.unknown_column(h.names[i], options.ignore);
         drop_bare_twin(h, i, bare_names);
     }
+    if (!left_out.empty())
+        rows.note(ReadNote::Kind::Info, h.line, "columns", "left out as asked: " + left_out);
     if (!bare_names.empty())
         rows.note(ReadNote::Kind::Warning, h.line, "columns",
                   "not used, as another column says the same quantity with a unit: " + bare_names);
@@ -219,28 +233,36 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
     return h;
 }
 
-// Seconds that an amount of precipitation stands for: those between the first two rows with a time.
-double seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
+// Seconds that the amounts of precipitation of each row stand for: those to the next one. Empty
+// where the table has rates alone.
+std::vector<double> seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
 {
-    std::int64_t usual_us = 3600000000LL;
     const bool amounts = std::any_of(h.meaning.begin(), h.meaning.end(),
                                      [](const auto& m) { return m && m->amount; });
-    if (!amounts) return static_cast<double>(usual_us) * 1e-6;
-    std::vector<std::int64_t> first_times;
-    while (first_times.size() < 2) {
-        const auto line = lines.next();
-        if (!line) break;
-        const auto cells = split(*line, h.separator, 256);
+    if (!amounts) return {};
+    std::vector<std::int64_t> times;
+    std::vector<std::string_view> cells;
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        split(*line, h.separator, cells, 256);
         if (cells.size() != h.names.size()) continue;
-        if (const auto us = h.times.time_of(cells)) first_times.push_back(*us);
+        const auto us = h.times.time_of(cells);
+        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
     }
-    if (first_times.size() == 2 && first_times[1] > first_times[0])
-        usual_us = first_times[1] - first_times[0];
+    const std::int64_t usual_us = usual_step_us(times);
+    std::vector<double> seconds;
+    bool even = true;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const std::int64_t step_us = step_of_row_us(times, i, usual_us);
+        even = even && step_us == usual_us;
+        seconds.push_back(static_cast<double>(step_us) * 1e-6);
+    }
     rows.note(ReadNote::Kind::Info, 0, "precip",
               std::string("amounts are for the interval that begins at their row, ")
                   .append(std::to_string(usual_us / 1000000))
-                  .append(" s"));
-    return static_cast<double>(usual_us) * 1e-6;
+                  .append(even ? " s" : " s or as long as it is to the next one"));
+    return seconds;
 }
 
 // Values of a row that only together make a field.
@@ -260,10 +282,29 @@ void set_from_parts(RowCollector& rows, const Parts& p)
     }
 }
 
+// A gauge's count since some beginning never falls and mostly rises; amounts of hours fall again.
+class Count {
+public:
+    void add(double value)
+    {
+        if (seen_ > 0) {
+            falls_ += value < last_;
+            rises_ += value > last_;
+        }
+        last_ = value;
+        ++seen_;
+    }
+    bool counts_up() const { return seen_ >= 48 && falls_ == 0 && rises_ >= 10; }
+
+private:
+    std::size_t seen_ = 0, falls_ = 0, rises_ = 0;
+    double last_ = 0.0;
+};
+
 using MissingCodes = std::map<std::string, std::size_t>;
 
 void read_cell(std::string_view text, const ColumnMeaning& m, char separator, double amount_s,
-               RowCollector& rows, Parts& parts, MissingCodes& missing_codes)
+               RowCollector& rows, Parts& parts, MissingCodes& missing_codes, Count& count)
 {
     const bool field = is_field(m);
     if (is_missing_word(text)) {
@@ -281,7 +322,10 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
         parts.vapour_pa = *value;
     } else {
         double si = *value * m.scale + m.offset;
-        if (m.amount) si /= amount_s;
+        if (m.amount) {
+            count.add(si);
+            si /= amount_s;
+        }
         if (m.field == Field::AirTemp) parts.air_k = si;
         if (m.field == Field::Precip) parts.precip = si;
         rows.set(m.field, si);
@@ -295,9 +339,10 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
     read_place(text, rows);
     Lines lines(text);
     const Header h = read_header(lines, rows, options);
-    const double amount_s = seconds_of_amounts(h, lines, rows);
+    const std::vector<double> amount_s = seconds_of_amounts(h, lines, rows);
 
     MissingCodes missing_codes;
+    std::vector<Count> counts(h.names.size());
     std::size_t plain_numbers = 0;  // where a time should be
     std::vector<std::string_view> cells;
     while (const auto line = lines.next()) {
@@ -319,13 +364,31 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;
+        // NetCDF and GRIB come through here, with times that say UTC whatever they meant.
+        if (rows.rows() == 1 && rows.report().format == "forcing CSV") {
+            if (h.times.name_zone(h.names, cells))
+                rows.times_name_their_zone();
+            else if (std::isnan(options.utc_offset_h) && std::isnan(rows.site().utc_offset_h))
+                rows.note(ReadNote::Kind::Info, lines.number(), "time",
+                          "the times name no zone: taken as UTC; --file-zone HOURS says another");
+        }
+        const double row_s = amount_s.empty() ? 0.0 : amount_s[rows.rows() - 1];
         Parts parts;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])
-                read_cell(cells[i], *h.meaning[i], h.separator, amount_s, rows, parts,
-                          missing_codes);
+                read_cell(cells[i], *h.meaning[i], h.separator, row_s, rows, parts, missing_codes,
+                          counts[i]);
         }
         set_from_parts(rows, parts);
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (!counts[i].counts_up()) continue;
+        throw Error(
+            "weather: column '" + shown(h.names[i]) +
+                "' never falls while it rises again and again: a total since some beginning, not "
+                "what fell in each row",
+            "Give the differences of its rows, or leave it out with --ignore " + shown(h.names[i]) +
+                ".");
     }
     if (rows.rows() == 0 && plain_numbers > 0 && h.times.stamp != CsvTimes::kNone) {
         throw Error(

@@ -184,6 +184,8 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
     bool whole_units = false;
     Lines lines(text);
     std::vector<std::string> names;
+    std::vector<std::size_t>
+        flags_of;  // column of a column's attributes; as many as there are: none
     std::string station;
     bool others = false;
     std::vector<std::string_view> f;
@@ -192,6 +194,9 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
         split(*line, ',', f, 256);
         if (lines.number() == 1 && lower(*line).find("station") != std::string::npos) {
             for (const auto n : f) names.emplace_back(n);
+            for (const std::string& n : names)
+                flags_of.push_back(static_cast<std::size_t>(
+                    std::find(names.begin(), names.end(), n + "_ATTRIBUTES") - names.begin()));
             std::vector<std::string> unread;
             for (const std::string& n : names)
                 if (!is_read(n)) unread.push_back(n);
@@ -219,9 +224,7 @@ void read_table(std::string_view text, RowCollector& rows, Days& days)
             }
             if (days.size() > kMostDays) continue;
             for (std::size_t i = 0; i < f.size() && i < names.size(); ++i) {
-                const bool flags = i + 1 < f.size() && i + 1 < names.size() &&
-                                   names[i + 1] == names[i] + "_ATTRIBUTES";
-                if (flags && failed_check_of(f[i + 1])) continue;
+                if (flags_of[i] < f.size() && failed_check_of(f[flags_of[i]])) continue;
                 put(rows, days[*us], lines.number(), names[i], f[i], whole_units);
             }
             continue;

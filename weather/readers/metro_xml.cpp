@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "weather/physics/constants.h"
+#include "weather/physics/detail/portable_math.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
 
@@ -15,38 +16,52 @@ namespace {
 
 constexpr std::size_t kMostRows = 1000000;
 constexpr double kMetresPerSecond = 1.0 / 3.6;  // of a km/h
+constexpr double kHalfCover = 0.5;              // of a sky of which nothing is known
 
 std::size_t line_of(std::string_view text, std::size_t at)
 {
     return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + at, '\n'));
 }
 
-// The elements of one name, in order. METRo's files have no attributes that matter and no element
-// inside one of its own name.
+// The elements of one name, in order. No element of METRo's files is inside one of its own name;
+// attributes (<forecast-time viewed="no">) say nothing that matters here.
 class Elements {
 public:
     Elements(std::string_view text, std::string_view name)
-        : text_(text), open_("<" + std::string(name) + ">"), close_("</" + std::string(name) + ">")
+        : text_(text), open_("<" + std::string(name)), close_("</" + std::string(name) + ">")
     {
     }
     std::optional<std::string_view> next()
     {
-        const std::size_t begin = text_.find(open_, at_);
+        std::size_t begin = text_.find(open_, at_);
+        while (begin != std::string_view::npos && !ends_name(begin + open_.size()))
+            begin = text_.find(open_, begin + open_.size());
         if (begin == std::string_view::npos) return std::nullopt;
-        const std::size_t inside = begin + open_.size();
-        const std::size_t end = text_.find(close_, inside);
+        const std::size_t tag_end = text_.find('>', begin);
+        begin_ = begin;
+        if (tag_end != std::string_view::npos && text_[tag_end - 1] == '/') {
+            at_ = tag_end + 1;
+            return std::string_view();
+        }
+        const std::size_t inside = tag_end + 1;
+        const std::size_t end =
+            tag_end == std::string_view::npos ? tag_end : text_.find(close_, inside);
         if (end == std::string_view::npos) {
             throw Error("METRo: line " + std::to_string(line_of(text_, begin)) + ": " + open_ +
-                            " has no end",
+                            "> has no end",
                         "Give the whole file.");
         }
         at_ = end + close_.size();
-        begin_ = begin;
         return text_.substr(inside, end - inside);
     }
     std::size_t line() const { return line_of(text_, begin_); }
 
 private:
+    bool ends_name(std::size_t at) const
+    {
+        return at < text_.size() && (text_[at] == '>' || text_[at] == '/' || is_blank(text_[at]));
+    }
+
     std::string_view text_;
     std::string open_, close_;
     std::size_t at_ = 0, begin_ = 0;
@@ -224,8 +239,44 @@ MetroObservation read_metro_observation(std::string_view text)
         };
         out.surface_c.push_back(road("st"));
         out.subsurface_c.push_back(road("sst"));
+        const double falls = number_of(*row, "pi");
+        out.falling.push_back(falls == 0.0 || falls == 1.0 ? falls : kMissing);
     }
     return out;
+}
+
+ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast)
+{
+    ForcingTable t = observed.table;
+    t.site = forecast.site;
+    const auto& cloud = forecast[Field::Cloud];
+    const auto kept = [](std::int64_t later_us) {
+        return detail::exponential(static_cast<double>(-later_us) / (kCloudMemory_h * 3600e6));
+    };
+    std::optional<std::int64_t> fell_us;
+    for (std::size_t i = 0; i < t.rows(); ++i) {
+        const std::int64_t now_us = t.time_us[i];
+        double cover = kHalfCover;
+        const auto next =
+            std::upper_bound(forecast.time_us.begin(), forecast.time_us.end(), now_us);
+        const auto row = std::max<std::ptrdiff_t>(next - forecast.time_us.begin() - 1, 0);
+        const double forecast_cover =
+            cloud.empty() ? kMissing : cloud[static_cast<std::size_t>(row)];
+        if (!std::isnan(forecast_cover)) {
+            const std::int64_t before_us = std::max<std::int64_t>(forecast.time_us[0] - now_us, 0);
+            cover += (forecast_cover - cover) * kept(before_us);
+        }
+        if (observed.falling[i] == 1.0) fell_us = now_us;
+        if (fell_us) cover += (1.0 - cover) * kept(now_us - *fell_us);
+        t[Field::Cloud].push_back(cover);
+    }
+    for (std::size_t i = 0; i < forecast.rows(); ++i) {
+        if (!t.time_us.empty() && forecast.time_us[i] <= t.time_us.back()) continue;
+        t.time_us.push_back(forecast.time_us[i]);
+        for (const Field f : {Field::AirTemp, Field::DewPoint, Field::Wind, Field::Cloud})
+            t[f].push_back(forecast.has(f) ? forecast[f][i] : kMissing);
+    }
+    return t;
 }
 
 ForcingTable read_metro_forecast(std::string_view text)
@@ -302,9 +353,17 @@ static bool recognise(const FileHead& head)
 static void read_metro(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     const bool forecast = text.substr(0, 4096).find("<forecast>") != std::string_view::npos;
-    const ForcingTable table =
-        forecast ? read_metro_forecast(text) : read_metro_observation(text).table;
+    ForcingTable table;
+    if (forecast) {
+        table = read_metro_forecast(text);
+    } else {
+        MetroObservation observed = read_metro_observation(text);
+        table = std::move(observed.table);
+        for (const double c : observed.surface_c)
+            table[Field::SurfaceTemp].push_back(c + kZeroCelsiusK);
+    }
     rows.site().temp_height_m = 1.5;
+    rows.times_name_their_zone();  // METRo's are UTC
     for (std::size_t i = 0; i < table.rows(); ++i) {
         if (!rows.begin_row(table.time_us[i], 0)) continue;
         for (std::size_t f = 0; f < kFieldCount; ++f) {

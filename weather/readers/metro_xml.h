@@ -26,12 +26,22 @@ struct MetroStation {
 };
 MetroStation read_metro_station(std::string_view text);
 
-/// What a station measured: air (K), dew point (K), wind (m/s) as a forcing table, and the road.
+/// What a station measured: air (K), dew point (K), wind (m/s) as a forcing table, the road, and
+/// whether something falls (pi: 1 or 0, NaN where it does not say).
 struct MetroObservation {
     ForcingTable table;
-    std::vector<double> surface_c, subsurface_c;
+    std::vector<double> surface_c, subsurface_c, falling;
 };
 MetroObservation read_metro_observation(std::string_view text);
+
+/// The weather over the hours that were measured, not filled: air, dew point and wind as measured.
+///
+/// Clouds are those of `forecast`. Before it those of its beginning, the less certain the longer
+/// before: they fade to half a cover by exp(-t / kCloudMemory_h). Where something falls the sky is
+/// overcast, and that fades as well, never knowing what comes later. Rows of `forecast` that come
+/// after the last measured one follow, without its radiation and rain.
+inline constexpr double kCloudMemory_h = 24.0;
+ForcingTable observed_weather(const MetroObservation& observed, const ForcingTable& forecast);
 
 /// Forecast of the air. Amounts since the beginning (mm of rain, cm of snow) become rates of the
 /// rows; sf and ir, where the file has them, are shortwave and longwave.

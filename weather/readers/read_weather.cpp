@@ -26,6 +26,20 @@ std::string_view without_mark(std::string_view text)
     return text.substr(0, 3) == "\xEF\xBB\xBF" ? text.substr(3) : text;
 }
 
+// Readers take the first line for what theirs says: empty ones before it are taken away, so many.
+std::string_view without_empty_lines(std::string_view text, std::size_t& lines)
+{
+    lines = 0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < text.size() && is_blank(text[i]); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (pair || (text[i] != '\n' && text[i] != '\r')) continue;
+        ++lines;
+        at = i + 1;
+    }
+    return text.substr(at);
+}
+
 // Looks at a few samples only, so that a gigabyte of zeros is refused at once.
 void refuse_binary(std::string_view text)
 {
@@ -39,6 +53,10 @@ void refuse_binary(std::string_view text)
                    c != '\f' && c != 3 && c != 1;
         }));
     };
+    if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
+        throw Error("weather: this is UTF-16 text (as \"Unicode Text\" of a spreadsheet)",
+                    "Save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE.");
+    }
     constexpr std::size_t kSample = 1 << 16;
     for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t at = text.size() / 16 * i;
@@ -53,7 +71,7 @@ void refuse_binary(std::string_view text)
 }
 
 // Whether the sun of the file rises when it should at its place: times without a zone may be local.
-void check_sun(const ForcingTable& table, ReadReport& report)
+void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
 {
     const Site& site = table.site;
     if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
@@ -85,9 +103,9 @@ void check_sun(const ForcingTable& table, ReadReport& report)
     if (std::abs(turn) < 2 || best < 0.7 || best < here + 0.1) return;
     report.add({ReadNote::Kind::Warning, 0, "time",
                 "the sun of the file stands " + std::to_string(std::abs(turn)) + " h " +
-                    (turn > 0 ? "ahead of" : "behind") +
-                    " that of its place: if its times are local, give --file-zone " +
-                    std::to_string(-turn)});
+                    (turn > 0 ? "ahead of" : "behind") + " that of its place: " +
+                    (zoned ? "the zone that its times say, or its place, is wrong"
+                           : "if its times are local, give --file-zone " + std::to_string(-turn))});
 }
 
 }  // namespace
@@ -118,7 +136,13 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     }
     const Reader& reader = recognise_weather(text);
     RowCollector rows(reader.name);
-    reader.read(without_mark(text), rows, options);
+    std::size_t empty_lines = 0;
+    const std::string_view filled = without_empty_lines(without_mark(text), empty_lines);
+    if (empty_lines > 0)
+        rows.note(ReadNote::Kind::Info, 0, "lines",
+                  "counted without the " + std::to_string(empty_lines) +
+                      " empty ones at the beginning of the file");
+    reader.read(filled, rows, options);
     Site& site = rows.site();
     if (!std::isnan(options.site.latitude_deg)) site.latitude_deg = options.site.latitude_deg;
     if (!std::isnan(options.site.longitude_deg)) site.longitude_deg = options.site.longitude_deg;
@@ -142,12 +166,16 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
     result.table = rows.finish();
     result.report = std::move(rows.report());
     Site& placed = result.table.site;
-    if (!std::isnan(options.utc_offset_h) && std::isnan(placed.utc_offset_h)) {
+    const bool zoned = rows.zone_named() || !std::isnan(placed.utc_offset_h);
+    if (!std::isnan(options.utc_offset_h) && zoned) {
+        result.report.add({ReadNote::Kind::Warning, 0, "time",
+                           "--file-zone is not used: the file says in which zone its times are"});
+    } else if (!std::isnan(options.utc_offset_h)) {
         placed.utc_offset_h = options.utc_offset_h;
         for (std::int64_t& us : result.table.time_us)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
-    check_sun(result.table, result.report);
+    check_sun(result.table, rows.zone_named(), result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);
     return result;
 }

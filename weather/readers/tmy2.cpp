@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
@@ -81,7 +82,12 @@ bool read_place(std::string_view line, Site& site)
 void read(std::string_view text, RowCollector& rows, const ReadOptions&)
 {
     Lines lines(text);
-    read_place(lines.next().value_or(""), rows.site());
+    std::optional<std::string_view> place = lines.next();
+    while (place && trimmed(*place).empty()) place = lines.next();
+    if (!place || !read_place(*place, rows.site()))
+        throw Error("weather: TMY2: line " + std::to_string(lines.number()) + ": '" +
+                        shown(place.value_or("")) + "' does not say where the station is",
+                    "Give the whole file, with its line of the station.");
     const double zone_h = rows.site().utc_offset_h;
     TypicalYear typical;
     Lines again = lines;

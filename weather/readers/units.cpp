@@ -58,6 +58,8 @@ constexpr Name kNames[] = {
     {"surface_pressure", Field::Pressure, Quantity::Pressure},
     {"pressure", Field::Pressure, Quantity::Pressure},
     {"sw_down", Field::Shortwave, Quantity::Flux},
+    {"sw_in", Field::Shortwave, Quantity::Flux},
+    {"swdown", Field::Shortwave, Quantity::Flux},
     {"shortwave_radiation", Field::Shortwave, Quantity::Flux},
     {"shortwave", Field::Shortwave, Quantity::Flux},
     {"ghi", Field::Shortwave, Quantity::Flux},
@@ -65,6 +67,8 @@ constexpr Name kNames[] = {
     {"net_solar", Field::NetShortwave, Quantity::Flux},
     {"net_shortwave", Field::NetShortwave, Quantity::Flux},
     {"lw_down", Field::Longwave, Quantity::Flux},
+    {"lw_in", Field::Longwave, Quantity::Flux},
+    {"lwdown", Field::Longwave, Quantity::Flux},
     {"longwave", Field::Longwave, Quantity::Flux},
     {"thermal", Field::Longwave, Quantity::Flux},
     {"direct_normal_irradiance", Field::Direct, Quantity::Flux},
@@ -200,14 +204,16 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
             }
             m.amount = true;
             if (is({"", "mm", "kgm2"})) return true;
-            if (is({"inch", "in"}))
+            // Snow in centimetres or inches is fresh snow: 7 cm of it hold 10 mm of water (the
+            // convention of weather services).
+            if (is({"cm"}) && m.field == Field::Snow)
+                m.scale = 10.0 / 7.0;
+            else if (is({"inch", "in"}) && m.field == Field::Snow)
+                m.scale = 25.4 / 7.0;
+            else if (is({"inch", "in"}))
                 m.scale = 25.4;
             else if (is({"m"}))
                 m.scale = 1000.0;
-            // Fresh snow depth: 7 cm of it hold 10 mm of water (the convention of weather
-            // services).
-            else if (is({"cm"}) && m.field == Field::Snow)
-                m.scale = 10.0 / 7.0;
             else if (is({"cm"}))
                 m.scale = 10.0;
             else

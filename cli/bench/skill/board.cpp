@@ -14,6 +14,7 @@
 #include "cli/bench/skill/find_sets.h"
 #include "cli/bench/skill/longwave.h"
 #include "cli/bench/skill/meadow.h"
+#include "cli/bench/skill/road_hindcast.h"
 #include "cli/bench/skill/urban.h"
 #include "cli/simulate/physical_table.h"
 #include "cli/simulate/physics_keys.h"
@@ -207,11 +208,19 @@ Board skill_board(const SkillOptions& options)
                 params_of(options, road.station.bridge ? "bridge" : "road");
             add_rows(road_rows(road, params), board);
             add_rows(measured_road_rows(road, params), board);
+            add_rows(road_hindcast_rows(road, params), board);
         } catch (const Error& e) {
             board.notes.push_back(road.name + ": " + e.what());
         }
     }
     for (const UrbanSite& town : sets.towns) add_rows(urban_rows(town), board);
+    for (const SnowMapSet& landscape : sets.landscapes) {
+        try {
+            add_rows(snow_map_rows(landscape, options.settings), board);
+        } catch (const Error& e) {
+            board.notes.push_back(landscape.name + ": " + e.what());
+        }
+    }
     add_means(board);
     return board;
 }
@@ -280,7 +289,8 @@ std::string board_html(const Board& board)
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>petrichor: skill</title>"
         "<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
         "td,th{padding:2px 10px;border-bottom:1px solid #ddd;text-align:right}"
-        "td:first-child,td:nth-child(2){text-align:left}.worse{background:#fbd5d5}"
+        "td:first-child,td:nth-child(2),th:first-child,th:nth-child(2){text-align:left}.worse{"
+        "background:#fbd5d5}"
         ".best{font-weight:bold}</style><h1>Skill of the weather models</h1>"
         "<p>Errors against what was measured, the smaller the better; the best of a line is bold. "
         "Degree days know snow depth at 300 kg/m&sup3; only.</p><table><tr><th>data<th>quantity"
@@ -288,13 +298,17 @@ std::string board_html(const Board& board)
     for (const std::string& rival : board.rivals) out += "<th>" + escaped(rival);
     out += "<th>unit</tr>\n";
     for (const BoardRow& row : board.rows) {
+        // What tells of the data or of a rival alone has nothing beside it to be better than.
         std::vector<double> scores{row.ours.score, row.degree_day, previous_of(row)};
         scores.insert(scores.end(), row.rivals.begin(), row.rivals.end());
         double best = std::numeric_limits<double>::infinity();
+        const auto known =
+            std::count_if(scores.begin(), scores.end(), [](double s) { return !std::isnan(s); });
         for (const double s : scores)
-            if (!std::isnan(s)) best = std::min(best, s);
+            if (!std::isnan(s) && known > 1) best = std::min(best, s);
         const auto cell = [&](double score) {
-            return std::string(score <= best ? "<td class=\"best\">" : "<td>") + number(score);
+            return std::string(known > 1 && score <= best ? "<td class=\"best\">" : "<td>") +
+                   number(score);
         };
         out += row.worse() ? "<tr class=\"worse\">" : "<tr>";
         out += "<td>" + escaped(row.ours.set) + "<td>" + escaped(row.ours.quantity) + "<td>" +

@@ -224,6 +224,8 @@ SkillSets find_skill_sets(const std::string& folder)
                 sets.roads.push_back(road_of(file.parent_path(), sets.notes));
             if (file.filename().string().rfind("DSM_", 0) == 0 && is_urban_site(file.parent_path()))
                 sets.towns.push_back(read_urban_site(file.parent_path()));
+            if (file.filename() == "dem.asc" && is_snow_map_set(file.parent_path()))
+                sets.landscapes.push_back(read_snow_map_set(file.parent_path(), site_of(file)));
             if (file.extension() == ".dat") add_station(file, sets);
             if (file.extension() == ".dly" || file.filename().string().rfind("ghcn", 0) == 0)
                 add_daily(file, sets);
@@ -231,10 +233,12 @@ SkillSets find_skill_sets(const std::string& folder)
             sets.notes.push_back(file.string() + ": " + e.what());
         }
     }
-    if (sets.winters.empty() && sets.roads.empty() && sets.stations.empty() &&
-        sets.towns.empty()) {
-        throw Error("bench: there is no data set below '" + folder + "'",
-                    "Put met_X.txt beside obs_X.csv, or the files of a METRo case, into it.");
+    if (sets.winters.empty() && sets.roads.empty() && sets.stations.empty() && sets.towns.empty() &&
+        sets.landscapes.empty()) {
+        throw Error("bench: there is no data set below '" + folder + "'" +
+                        (sets.notes.empty() ? "" : "; " + sets.notes.front()),
+                    "Put met_X.txt beside obs_X.csv, or the files of a METRo case, or dem.asc, "
+                    "weather.* and snow_YYYY-MM-DD.asc, into it.");
     }
     return sets;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/bench/skill/road.h"
+#include "cli/bench/skill/snow_maps.h"
 #include "cli/bench/skill/urban_site.h"
 #include "cli/bench/skill/winter.h"
 
@@ -28,6 +29,7 @@ struct SkillSets {
     std::vector<RoadCase> roads;
     std::vector<LongwaveStation> stations;
     std::vector<UrbanSite> towns;
+    std::vector<SnowMapSet> landscapes;
     std::vector<std::string> notes;  ///< what was found and could not be used, and why
 };
 
@@ -37,10 +39,11 @@ struct SkillSets {
 ///   station.xml, observation.xml and roadcast_reference.xml in one folder: a road of METRo
 ///   *.dly and ghcn* of GHCN-daily with snow depths: winters whose weather is a day's extremes
 ///   DSM_X.tif and what belongs to it in a folder kronenhuset or gustav_adolfs: places in a town
+///   dem.asc, weather.* and snow_YYYY-MM-DD.asc in one folder: a landscape seen by Sentinel-2
 ///   *.dat of SURFRAD, and Bondville's champaign_*.dat: stations with longwave
 ///
-/// A file site.toml in the folder of a winter gives its place (table [site]); winters of Col de
-/// Porte are known by name.
+/// A file site.toml in the folder of a winter or landscape gives its place (table [site]); winters
+/// of Col de Porte are known by name.
 ///   throws  Error when the folder does not exist or holds none of these
 SkillSets find_skill_sets(const std::string& folder);
 

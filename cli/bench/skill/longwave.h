@@ -14,6 +14,11 @@ weather::ForcingTable without_longwave(const weather::ForcingTable& raw);
 
 /// Made longwave beside measured longwave: root mean square error over all hours, and under cloud
 /// (a filled cloud of 0.9 or more) the size of the bias. Empty without measured longwave.
+///
+/// Two rows beside them tell what the instrument does to these, where it measured 50 damp hours (95
+/// % and more) of rain or snow (0.5 mm/h and more): its longwave then over that of a black sky as
+/// warm as the air, which such a sky nearly is; and the bias under cloud if the measured longwave
+/// is divided by that.
 std::vector<SkillRow> longwave_rows(const std::string& set, const weather::ForcingTable& raw);
 
 }  // namespace petrichor::cli

@@ -1,0 +1,187 @@
+// Columns whose values cannot be what their name says are refused, never half read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "base/error.h"
+#include "weather/readers/read_weather.h"
+
+namespace petrichor::weather {
+namespace {
+
+using testing::HasSubstr;
+
+// `rows` hours of a table with these columns; cell(hour, column) from 0.
+std::string table(const std::string& columns, int rows,
+                  const std::function<std::string(int, int)>& cell)
+{
+    std::string text = "time," + columns + "\n";
+    const auto count = static_cast<int>(std::count(columns.begin(), columns.end(), ',')) + 1;
+    for (int h = 0; h < rows; ++h) {
+        char time[40];
+        std::snprintf(time, sizeof time, "2024-02-%02dT%02d:00Z", 27 + h / 24, h % 24);
+        text += time;
+        for (int c = 0; c < count; ++c) text += "," + cell(h, c);
+        text += "\n";
+    }
+    return text;
+}
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", value);
+    return text;
+}
+std::string refusal(const std::string& text, const ReadOptions& options = {})
+{
+    try {
+        read_weather(text, options);
+    } catch (const Error& e) {
+        return std::string(e.what()) + " " + e.fix();
+    }
+    return "";
+}
+
+// -3, 80 %, 1013.25 hPa.
+std::string usual(int hour, int column)
+{
+    return number(column == 0 ? -3.0 + 0.1 * hour : column == 1 ? 80.0 - hour % 24 : 1013.25);
+}
+
+TEST(MisnamedColumns, SwappedOnesAreRefused)
+{
+    EXPECT_EQ(refusal(table("air_temp_c,rel_humidity_pct", 48, usual)), "");
+    EXPECT_THAT(refusal(table("rel_humidity_pct,air_temp_c", 48, usual)),
+                testing::AllOf(HasSubstr("outside"), HasSubstr("name or the unit")));
+}
+
+TEST(MisnamedColumns, AnotherUnitIsRefusedAndCanBeLeftOut)
+{
+    EXPECT_EQ(refusal(table("air_temp_c,rel_humidity_pct,pressure_hpa", 48, usual)), "");
+    const std::string pa = table("air_temp_c,rel_humidity_pct,pressure_pa", 48, usual);
+    EXPECT_THAT(refusal(pa), HasSubstr("pressure: 48 of 48 values"));
+    ReadOptions options;
+    options.ignore = {"pressure_pa"};
+    EXPECT_EQ(refusal(pa, options), "");
+    const auto r = read_weather(pa, options);
+    EXPECT_THAT(to_text(r.report), HasSubstr("left out as asked: pressure_pa"));
+    EXPECT_NEAR(r.table[Field::Pressure][0], 101325.0, 1.0) << "of the height, not of the column";
+    // A few odd values are those of a sensor.
+    EXPECT_EQ(refusal(table("air_temp_c,rel_humidity_pct", 48,
+                            [](int h, int c) {
+                                return h < 12 && c == 0 ? std::string("120") : usual(h, c);
+                            })),
+              "");
+}
+
+TEST(MisnamedColumns, CellsThatAreMostlyNoNumbersAreRefused)
+{
+    const auto thousands = [](int h, int c) {
+        return c == 2 ? std::string("\"101,325.0\"") : usual(h, c);
+    };
+    EXPECT_THAT(refusal(table("air_temp_c,rel_humidity_pct,pressure_pa", 48, thousands)),
+                HasSubstr("'101,325.0' in line 2 and 47 more of 48 cells are not numbers"));
+}
+
+TEST(MisnamedColumns, HumidityAsAShareIsRefusedUnlessItsNameSaysSo)
+{
+    const auto share = [](int h, int c) {
+        return c == 1 ? number(0.8 - 0.01 * (h % 24)) : usual(h, c);
+    };
+    EXPECT_THAT(refusal(table("air_temp_c,rel_humidity_pct", 48, share)), HasSubstr("shares of 1"));
+    const auto r = read_weather(table("air_temp_c,rel_humidity_fraction", 48, share));
+    EXPECT_NEAR(r.table[Field::RelHumidity][0], 80.0, 1e-9);
+}
+
+TEST(MisnamedColumns, ACountOfAGaugeIsNoAmountOfAnHour)
+{
+    const auto counted = [](int h, int c) {
+        return c == 1 ? number(12.4 + 0.2 * (h / 3)) : usual(h, c);
+    };
+    EXPECT_THAT(refusal(table("air_temp_c,precip_mm", 60, counted)), HasSubstr("never falls"));
+    ReadOptions options;
+    options.ignore = {"precip_mm"};
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 60, counted), options), "");
+    // Rain that grows for a while is rain.
+    const auto growing = [](int h, int c) {
+        return c == 1 ? number(h > 20 && h < 40 ? 0.1 * (h - 20) : 0.0) : usual(h, c);
+    };
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 60, growing)), "");
+    EXPECT_EQ(refusal(table("air_temp_c,precip_mm", 60,
+                            [](int h, int c) { return c == 1 ? "0.2" : usual(h, c); })),
+              "")
+        << "steady drizzle";
+}
+
+double fallen_mm(const std::string& text)
+{
+    const ForcingTable t = read_weather(text).table;
+    const Field field = t.has(Field::Rain)   ? Field::Rain
+                        : t.has(Field::Snow) ? Field::Snow
+                                             : Field::Precip;
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < t.rows(); ++i)
+        sum += t[field][i] * static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
+    return sum;
+}
+
+// What fell is what the rows say, however long they are: all but the last, which no row ends.
+TEST(Amounts, AddUpOverUnevenRows)
+{
+    const std::string head = "time,air_temp_c,precip_mm\n2024-01-01T";
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T01:00Z,1,3\n2024-01-01T02:00Z,1,1\n"
+                                 "2024-01-01T03:00Z,1,0\n"),
+                5.0, 1e-9);
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T03:00Z,1,3\n2024-01-01T04:00Z,1,1\n"
+                                 "2024-01-01T05:00Z,1,0\n"),
+                5.0, 1e-9)
+        << "a gap first";
+    EXPECT_NEAR(fallen_mm(head + "00:00Z,1,1\n2024-01-01T01:00Z,1,3\n2024-01-01T02:20Z,1,1\n"
+                                 "2024-01-01T03:00Z,1,0\n2024-01-01T06:00Z,1,2\n"
+                                 "2024-01-01T07:00Z,1,0\n"),
+                7.0, 1e-9)
+        << "80 and 40 minutes, then a gap";
+}
+
+// Inches and centimetres of snow are fresh snow; millimetres are water.
+TEST(Amounts, OfSnowAreFreshSnowInCentimetresAndInches)
+{
+    const auto of = [](const char* name, const char* amount) {
+        return fallen_mm(std::string("time,air_temp_c,") + name + "\n2024-01-01T00:00Z,-5," +
+                         amount + "\n2024-01-01T01:00Z,-5,0\n");
+    };
+    EXPECT_NEAR(of("snowfall_mm", "2"), 2.0, 1e-9);
+    EXPECT_NEAR(of("snowfall_cm", "2.54"), 25.4 / 7.0, 1e-9);
+    EXPECT_NEAR(of("snowfall_inch", "1"), 25.4 / 7.0, 1e-9);
+    EXPECT_NEAR(of("rain_inch", "1"), 25.4, 1e-9);
+}
+
+TEST(MisnamedColumns, ShortNamesAndUnitsOfWeatherAreNotDropped)
+{
+    for (const char* name :
+         {"sw", "sw_w_m2", "LW", "Rg", "tair", "p_hPa", "sun (W/m2)", "x_mm_h"}) {
+        EXPECT_THAT(refusal(table(std::string("air_temp_c,") + name, 24,
+                                  [](int h, int c) { return c ? "3" : usual(h, c); })),
+                    HasSubstr(name));
+    }
+    const auto r = read_weather(table("air_temp_c,sw_in_w_m2,lw_in_w_m2", 24, [](int h, int c) {
+        return c == 0 ? usual(h, 0) : c == 1 ? number(h > 6 && h < 18 ? 200 : 0) : "280";
+    }));
+    EXPECT_EQ(r.table[Field::Shortwave][12], 200.0);
+    EXPECT_EQ(r.table[Field::Longwave][12], 280.0);
+    EXPECT_EQ(refusal(table("air_temp_c,station,remark", 24,
+                            [](int h, int c) { return c ? "x" : usual(h, c); })),
+              "");
+}
+
+TEST(MisnamedColumns, TextOfTwoBytesALetterIsNamed)
+{
+    EXPECT_THAT(refusal(std::string("\xFF\xFEt\0i\0m\0e\0", 10)), HasSubstr("UTF-16"));
+}
+
+}  // namespace
+}  // namespace petrichor::weather
