@@ -124,7 +124,7 @@ void add_texture_bench(CLI::App& bench)
         "that are not\n"
         "installed are named with their Debian package. Goals at 4096 x 4096, in CPU seconds: "
         "median 6,\n"
-        "overlap quick 30, full 120; pack 4 as PNG, 1 as DDS.");
+        "picture quick 30, full 120; pack 4 as PNG, 1 as DDS.");
     command->callback([o] {
         const std::vector<TextureBenchRow> rows = texture_rows(*o);
         std::cout << (o->json ? to_json(rows) : to_text(rows));

@@ -36,10 +36,10 @@ constexpr Contest kContests[] = {
     {"prefilter", "petrichor median", nullptr, "",
      "$P texture prefilter --rule median --normal $N --roughness $R -o $D/r_%d.png "
      "--normal-out $D/n_%d.png"},
-    {"prefilter", "petrichor overlap quick", nullptr, "",
+    {"prefilter", "petrichor picture quick", nullptr, "",
      "$P texture prefilter --quality quick --normal $N --roughness $R -o $D/r_%d.png "
      "--normal-out $D/n_%d.png"},
-    {"prefilter", "petrichor overlap full", nullptr, "",
+    {"prefilter", "petrichor picture full", nullptr, "",
      "$P texture prefilter --normal $N --roughness $R -o $D/r_%d.png --normal-out $D/n_%d.png",
      true},
     {"prefilter", "roughness-prefilter", "roughness-prefilter", "libfilament-tools",

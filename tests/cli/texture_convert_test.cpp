@@ -55,6 +55,21 @@ TEST_F(Convert, WritesLevelsInBlocksWithTheirLabel)
     EXPECT_EQ(read_file(place / "one.dds"), read_file(place / "five.dds"));
 }
 
+TEST_F(Convert, TradesErrorForSizeWhereThereAreBlocks)
+{
+    const auto size_at = [&](const char* price) {
+        const Outcome done =
+            convert({"in.png", "-o", "a.ktx2", "--format", "bc7", "--zstd", "18", "--rdo", price});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return read_file(place / "a.ktx2").size();
+    };
+    EXPECT_LT(size_at("1000"), size_at("0"));
+    const Outcome plain = convert({"in.png", "-o", "a.ktx2", "--rdo", "1"});
+    EXPECT_EQ(plain.exit_code, 2);
+    EXPECT_THAT(plain.err, testing::HasSubstr("--rdo is for formats of blocks"));
+    EXPECT_EQ(convert({"in.png", "-o", "a.dds", "--format", "bc6h", "--rdo", "1"}).exit_code, 2);
+}
+
 TEST_F(Convert, LevelZeroKeepsItsCodes)
 {
     EXPECT_EQ(convert({"in.png", "-o", "a.dds", "--srgb", "--mips"}).exit_code, 0);

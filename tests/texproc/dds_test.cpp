@@ -10,6 +10,7 @@
 #include "base/input_file.h"
 #include "tests/support/assets.h"
 #include "tests/texproc/textures.h"
+#include "texproc/codecs/files/detail/sha1.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -24,11 +25,13 @@ class Dds : public TextureFiles {};
 TEST_F(Dds, KeepsEveryFormatBitForBit)
 {
     for (const std::string& name : texture_format_names()) {
-        const bool srgb = name == "rgba8" || name == "bgra8" || name == "bc1" || name == "bc3" || name == "bc7";
+        const bool srgb =
+            name == "rgba8" || name == "bgra8" || name == "bc1" || name == "bc3" || name == "bc7";
         for (int label = 0; label <= (srgb ? 1 : 0); ++label) {
             const MipTexture texture = make_texture(small_chain(21, 10, 4, PixelType::U8),
                                                     {.format = name, .srgb = label == 1});
-            if (name == "rgb16" || name == "rgb16f" || name.starts_with("uastc") || name.starts_with("astc")) {  // which the container does not have
+            if (name == "rgb16" || name == "rgb16f" || name.starts_with("uastc") ||
+                name.starts_with("astc")) {  // which the container does not have
                 EXPECT_THROW(detail::dds_header(texture, 1), Error) << name;
                 continue;
             }
@@ -61,10 +64,10 @@ TEST_F(Dds, BlueFirstHasTheExtendedHeader)
         EXPECT_EQ(back.srgb, srgb);
         EXPECT_EQ(static_cast<int>(back.levels[0][0]), 255) << "read with red first";
     }
-    EXPECT_THROW(write_mip_chain(folder / "b.ktx2",
-                                 std::vector<RawImage>{to_raw(red, PixelType::U8)},
-                                 {.format = "bgra8"}),
-                 Error);
+    EXPECT_THROW(
+        write_mip_chain(folder / "b.ktx2", std::vector<RawImage>{to_raw(red, PixelType::U8)},
+                        {.format = "bgra8"}),
+        Error);
 }
 
 TEST_F(Dds, GoesThroughTheOneReader)
@@ -182,6 +185,47 @@ TEST_F(Dds, ExrHoldsLevelsToo)
     EXPECT_EQ(read_raw(folder / "h.exr").type, PixelType::F16);
     EXPECT_THROW(write_mip_chain(folder / "b.exr", std::vector<RawImage>{chain[0]}), Error);
     EXPECT_THROW(write_mip_chain(folder / "b.exr", chain, {.format = "bc7"}), Error);
+}
+
+TEST_F(Dds, ExrLevelsTellTheirMeanAndTheNameOfTheirContent)
+{
+    const auto header_of = [&](float first) {
+        std::vector<Image> chain;
+        for (const int side : {4, 2, 1}) chain.emplace_back(side, side, 3, ColorSpace::Data, 0.25f);
+        chain[0].pixels[0] = first;
+        write_mip_chain(folder / "a.exr", chain);
+        const std::vector<std::byte> bytes = content_of(folder / "a.exr");
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    const auto value_of = [](const std::string& file, const std::string& name) -> std::string {
+        const std::string key = name + std::string("\0string\0", 8);
+        const std::size_t at = file.find(key);
+        if (at == std::string::npos) return "";
+        std::uint32_t length = 0;
+        std::memcpy(&length, file.data() + at + key.size(), 4);
+        return file.substr(at + key.size() + 4, length);
+    };
+    const std::string even = header_of(0.25f), again = header_of(0.25f), other = header_of(4.25f);
+    EXPECT_EQ(value_of(even, "oiio:AverageColor"), "0.25,0.25,0.25");
+    EXPECT_EQ(value_of(even, "oiio:ConstantColor"), "0.25,0.25,0.25");
+    EXPECT_EQ(value_of(other, "oiio:AverageColor"), "0.5,0.25,0.25");
+    EXPECT_EQ(value_of(other, "oiio:ConstantColor"), "");
+    EXPECT_EQ(value_of(even, "oiio:SHA-1").size(), 40u);
+    EXPECT_EQ(value_of(even, "oiio:SHA-1"), value_of(again, "oiio:SHA-1"));
+    EXPECT_NE(value_of(even, "oiio:SHA-1"), value_of(other, "oiio:SHA-1"));
+}
+
+// FIPS 180-4, examples of NIST.
+TEST(Sha1, KnownDigests)
+{
+    const auto digest = [](const std::string& text) {
+        return detail::sha1(std::as_bytes(std::span(text)));
+    };
+    EXPECT_EQ(digest(""), "DA39A3EE5E6B4B0D3255BFEF95601890AFD80709");
+    EXPECT_EQ(digest("abc"), "A9993E364706816ABA3E25717850C26C9CD0D89D");
+    EXPECT_EQ(digest("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+              "84983E441C3BD26EBAAE4AA1F95129E5E54670F1");
+    EXPECT_EQ(digest(std::string(1000000, 'a')), "34AA973CD4C4DAA4F61EEB2BDBAD27316534016F");
 }
 
 // Dithering: exact codes stay, the mean of a ramp is kept, nothing is off by a whole code.

@@ -158,6 +158,19 @@ INSTANTIATE_TEST_SUITE_P(All, Filters,
                                          FilterCase{"mitchell", MipFilter::Mitchell}),
                          [](const auto& test) { return test.param.name; });
 
+TEST(Mips, WithoutTheFirstLevelTheOthersAreTheSame)
+{
+    for (const bool normals : {false, true}) {
+        const Image image = noise(24, 18, 3);
+        const auto all = mip_chain(image, {.normals = normals});
+        const auto rest = mip_chain(image, {.normals = normals, .drop_first = true});
+        ASSERT_EQ(rest.size(), all.size());
+        EXPECT_TRUE(rest[0].empty());
+        EXPECT_EQ(all[0].pixels, image.pixels);
+        for (std::size_t k = 1; k < all.size(); ++k) EXPECT_EQ(rest[k].pixels, all[k].pixels);
+    }
+}
+
 TEST(Mips, NormalsComeOutWithUnitLength)
 {
     for (const Image& level : mip_chain(noise(9, 6, 3), {.normals = true})) {

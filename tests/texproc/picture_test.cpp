@@ -83,6 +83,45 @@ TEST(PictureYardstick, SameNumbersForAnyThreads)
     }
 }
 
+// The mixture that is filtered once shows what the mixed chain shows.
+TEST(PictureYardstick, AMixtureOfLevelsIsTheMixedChain)
+{
+    const ScoredMaps maps = material("facets", 5);
+    const PictureBench bench(maps.normal, maps.roughness, {}, small(4));
+    const Prefiltered whole = prefilter_raw(maps.normal, maps.roughness, {.rule = "picture"});
+    Prefiltered rough = whole;  // another chain than the plain one on every level
+    const std::vector<Image> plain = bench.plain_roughness();
+    for (std::size_t k = 1; k < rough.roughness.size(); ++k)
+        for (std::size_t i = 0; i < plain[k].pixels.size(); ++i) {
+            rough.roughness[k].pixels[i] = std::min(1.0f, plain[k].pixels[i] + 0.3f);
+            rough.base_share[k].pixels[i] = 0.8f;
+        }
+    PictureBench::Blend blend(bench, rough);
+    PictureBench::Blend::Shares shares{std::vector<float>(plain.size(), 0.0f),
+                                       std::vector<float>(plain.size(), 0.0f)};
+    const auto same = [&](const Prefiltered& chain) {
+        const auto a = bench.score(chain), b = blend.score(shares);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_NEAR(a[i].rmse, b[i].rmse, 1e-5) << a[i].name;
+            EXPECT_NEAR(a[i].flicker, b[i].flicker, 1e-5) << a[i].name;
+        }
+    };
+    same({});
+    shares.roughness[2] = 0.5f;  // one level is another: the rest is remembered
+    shares.base[3] = 1.0f;
+    Prefiltered mixed;
+    mixed.roughness = plain;
+    mixed.base_share = rough.base_share;
+    for (std::size_t k = 1; k < plain.size(); ++k)
+        for (std::size_t i = 0; i < plain[k].pixels.size(); ++i) {
+            if (k == 2)
+                mixed.roughness[k].pixels[i] +=
+                    0.5f * (rough.roughness[k].pixels[i] - plain[k].pixels[i]);
+            if (k != 3) mixed.base_share[k].pixels[i] = 1.0f;
+        }
+    same(mixed);
+}
+
 TEST(PictureYardstick, AMapThatGlossesOverItsSlopesIsWorseThanPlain)
 {
     const ScoredMaps maps = material("mica", 3);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "texproc/filter/area.h"
@@ -85,7 +86,7 @@ std::vector<Image> color_levels(const Image& image, const MipOptions& options)
 
 }  // namespace
 
-std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
+std::vector<Image> mip_chain(Image image, const MipOptions& options)
 {
     if (image.empty()) throw Error("mips: the image is empty", "Pass an image with pixels.");
     if (options.normals && image.channels < 3) {
@@ -99,7 +100,7 @@ std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
     }
     std::vector<Image> chain;
     if (options.normals) {
-        Image unit = image;
+        Image unit = options.drop_first && !cut ? std::move(image) : image;
         normalize_texels(unit);  // a vector that is too long must not count for more
         chain = smaller_levels(unit, options);
         if (!options.keep_length) {
@@ -112,7 +113,7 @@ std::vector<Image> mip_chain(const Image& image, const MipOptions& options)
         const double wanted = coverage(image, options.alpha_cutoff);
         for (Image& level : chain) keep_coverage(level, options.alpha_cutoff, wanted);
     }
-    chain.insert(chain.begin(), image);
+    chain.insert(chain.begin(), options.drop_first ? Image() : std::move(image));
     return chain;
 }
 

@@ -39,14 +39,15 @@ struct MipOptions {
     /// Colour (space Linear) with alpha counts by its alpha, which means coverage: no fringes of
     /// what lies under holes. An opaque image gives the same bits either way. Data: no effect.
     bool alpha_weighted = false;
-    int threads = 0;  ///< 0: all cores; the bytes do not depend on it
+    bool drop_first = false;  ///< level 0 of the result is left empty: a large image is not kept
+    int threads = 0;          ///< 0: all cores; the bytes do not depend on it
 };
 
 /// Level 0 is the input; each next level is floor(half), at least 1, down to 1 x 1. Box: a texel is
 /// the mean over its exact area of level 0 (fractional edge weights for odd sizes). The others
 /// filter the level before. Colour is filtered as it is: linear light. Rolling a tileable image by
 /// the texels of a level rolls that level, bit for bit.
-std::vector<Image> mip_chain(const Image& image, const MipOptions& options = {});
+std::vector<Image> mip_chain(Image image, const MipOptions& options = {});
 
 /// One filtered reduction. Throws Error when the target is empty or larger than the image.
 Image resampled(const Image& image, int width, int height, MipFilter filter, Edge edge_u,

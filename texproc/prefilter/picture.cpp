@@ -30,41 +30,73 @@ struct Texel {
     float diffuse = 1.0f;  // share of the base colour
 };
 
+// A texel of level 0, of which there are many.
+struct SmallTexel {
+    std::int16_t n[3];
+    std::uint16_t stored;
+};
+SmallTexel to_small(const glm::vec3& n, float stored)
+{
+    const auto code = [](float v, float most) {
+        return std::floor(std::clamp(v, -1.0f, 1.0f) * most + 0.5f);
+    };
+    SmallTexel to{};
+    for (int c = 0; c < 3; ++c) to.n[c] = static_cast<std::int16_t>(code(n[c], 32767.0f));
+    to.stored = static_cast<std::uint16_t>(code(std::max(stored, 0.0f), 65535.0f));
+    return to;
+}
+
+// The four texels about a point of a map that repeats, with their weights.
+template <class Take>
+void bilinear(int width, int height, double u, double v, float weight, const Take& take)
+{
+    const double x = (u - std::floor(u)) * width - 0.5, y = (v - std::floor(v)) * height - 0.5;
+    const double fx = std::floor(x), fy = std::floor(y);
+    const float tx = static_cast<float>(x - fx), ty = static_cast<float>(y - fy);
+    const auto wrapped = [](double at, int n) {
+        const int i = static_cast<int>(at);
+        return static_cast<std::size_t>(i < 0 ? i + n : i >= n ? i - n : i);
+    };
+    const std::size_t x0 = wrapped(fx, width), x1 = wrapped(fx + 1.0, width);
+    const std::size_t y0 = wrapped(fy, height) * static_cast<std::size_t>(width);
+    const std::size_t y1 = wrapped(fy + 1.0, height) * static_cast<std::size_t>(width);
+    take(y0 + x0, weight * (1.0f - tx) * (1.0f - ty));
+    take(y0 + x1, weight * tx * (1.0f - ty));
+    take(y1 + x0, weight * (1.0f - tx) * ty);
+    take(y1 + x1, weight * tx * ty);
+}
+
 struct Level {
     int width = 0, height = 0;
     std::vector<Texel> texels;
+    std::vector<SmallTexel> small{};  // instead of texels
 
-    const Texel& nearest(double u, double v) const
+    Texel at(std::size_t i) const
     {
-        const auto at = [](double x, int n) {
+        if (small.empty()) return texels[i];
+        const SmallTexel& t = small[i];
+        constexpr float kUnit = 1.0f / 32767.0f;
+        return {glm::vec3(t.n[0], t.n[1], t.n[2]) * kUnit,
+                static_cast<float>(t.stored) * (1.0f / 65535.0f), 1.0f};
+    }
+    Texel nearest(double u, double v) const
+    {
+        const auto place = [](double x, int n) {
             const int i = static_cast<int>((x - std::floor(x)) * n);
             return std::min(i, n - 1);
         };
-        return texels[static_cast<std::size_t>(at(v, height)) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(at(u, width))];
+        return at(static_cast<std::size_t>(place(v, height)) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(place(u, width)));
     }
     // Bilinear, wrapped; added with a weight.
     void add_to(Texel& sum, double u, double v, float weight) const
     {
-        const double x = (u - std::floor(u)) * width - 0.5, y = (v - std::floor(v)) * height - 0.5;
-        const double fx = std::floor(x), fy = std::floor(y);
-        const float tx = static_cast<float>(x - fx), ty = static_cast<float>(y - fy);
-        const auto wrapped = [](double at, int n) {
-            const int i = static_cast<int>(at);
-            return static_cast<std::size_t>(i < 0 ? i + n : i >= n ? i - n : i);
-        };
-        const std::size_t x0 = wrapped(fx, width), x1 = wrapped(fx + 1.0, width);
-        const std::size_t y0 = wrapped(fy, height) * static_cast<std::size_t>(width);
-        const std::size_t y1 = wrapped(fy + 1.0, height) * static_cast<std::size_t>(width);
-        const auto take = [&](std::size_t i, float w) {
-            sum.n += texels[i].n * w;
-            sum.stored += texels[i].stored * w;
-            sum.diffuse += texels[i].diffuse * w;
-        };
-        take(y0 + x0, weight * (1.0f - tx) * (1.0f - ty));
-        take(y0 + x1, weight * tx * (1.0f - ty));
-        take(y1 + x0, weight * (1.0f - tx) * ty);
-        take(y1 + x1, weight * tx * ty);
+        bilinear(width, height, u, v, weight, [&](std::size_t i, float w) {
+            const Texel t = at(i);
+            sum.n += t.n * w;
+            sum.stored += t.stored * w;
+            sum.diffuse += t.diffuse * w;
+        });
     }
 };
 using Levels = std::vector<Level>;
@@ -134,33 +166,53 @@ float stored_value(float p, const PrefilterOptions& input)
 // The plain mips: mean normals of unit length, mean of the roughness as stored.
 Levels plain_levels(Level base)
 {
-    Image all(base.width, base.height, 4, ColorSpace::Data);
-    for (std::size_t i = 0; i < base.texels.size(); ++i) {
-        const Texel& t = base.texels[i];
-        float* to = &all.pixels[4 * i];
-        to[0] = t.n.x, to[1] = t.n.y, to[2] = t.n.z, to[3] = t.stored;
-    }
     Levels levels;
     levels.push_back(std::move(base));
-    for (const Image& mip : area_levels(all)) {
-        if (mip.empty()) continue;
-        Level level{mip.width, mip.height, {}};
-        for (std::size_t i = 0; i < mip.pixels.size(); i += 4) {
-            const float* m = &mip.pixels[i];
-            const glm::vec3 n(m[0], m[1], m[2]);
-            const float length = glm::length(n);
-            level.texels.push_back(
-                {length > 0.0f ? n / length : glm::vec3(0.0f, 0.0f, 1.0f), m[3], 1.0f});
+    const Level& first = levels.front();
+    const std::vector<LevelSize> sizes = level_sizes(first.width, first.height);
+    for (std::size_t k = 1; k < sizes.size(); ++k)
+        levels.push_back({sizes[k].width, sizes[k].height,
+                          std::vector<Texel>(static_cast<std::size_t>(sizes[k].width) *
+                                             static_cast<std::size_t>(sizes[k].height))});
+    for (int c = 0; c < 4; ++c) {  // one at a time: a large map is large
+        Image plane(levels[0].width, levels[0].height, 1, ColorSpace::Data);
+        for (std::size_t i = 0; i < plane.pixels.size(); ++i) {
+            const Texel t = levels[0].at(i);
+            plane.pixels[i] = c < 3 ? t.n[c] : t.stored;
         }
-        levels.push_back(std::move(level));
+        const std::vector<Image> smaller = area_levels(plane);
+        for (std::size_t k = 1; k < levels.size(); ++k)
+            for (std::size_t i = 0; i < levels[k].texels.size(); ++i) {
+                Texel& t = levels[k].texels[i];
+                (c < 3 ? t.n[c] : t.stored) = smaller[k - 1].pixels[i];
+            }
+    }
+    for (std::size_t k = 1; k < levels.size(); ++k) {
+        for (Texel& t : levels[k].texels) {
+            const float length = glm::length(t.n);
+            t.n = length > 0.0f ? t.n / length : glm::vec3(0.0f, 0.0f, 1.0f);
+        }
     }
     return levels;
 }
 
-// What one shading of a pixel sees: trilinear samples along the longer axis of its footprint.
-Texel filtered(const std::vector<const Level*>& levels, const FloorPixel& pixel, int most_taps)
+// The trilinear samples along the longer axis of a pixel's footprint.
+struct Taps {
+    int count = 1;
+    double u = 0.0, v = 0.0, step_u = 0.0, step_v = 0.0;  // the first, and from one to the next
+    std::size_t fine = 0, coarse = 0;
+    float share = 0.0f;  // of the coarse level
+
+    // Of one of the two levels, with its share.
+    void add_to(Texel& sum, const Level& level, float of_level) const
+    {
+        for (int i = 0; i < count; ++i)
+            level.add_to(sum, u + i * step_u, v + i * step_v, of_level / static_cast<float>(count));
+    }
+};
+Taps taps_of(const Levels& levels, const FloorPixel& pixel, int most_taps)
 {
-    const Level& base = *levels.front();
+    const Level& base = levels.front();
     const double ax = pixel.across_u * base.width, ay = pixel.across_v * base.height;
     const double bx = pixel.along_u * base.width, by = pixel.along_v * base.height;
     double longer = std::hypot(ax, ay), shorter = std::hypot(bx, by);
@@ -173,21 +225,40 @@ Texel filtered(const std::vector<const Level*>& levels, const FloorPixel& pixel,
         std::clamp(static_cast<int>(std::ceil(longer / std::max(shorter, 1e-9))), 1, most_taps);
     const double top = static_cast<double>(levels.size() - 1);
     const double lod = std::clamp(std::log2(std::max(longer / taps, 1e-9)), 0.0, top);
-    const std::size_t fine = std::min(static_cast<std::size_t>(lod), levels.size() - 1);
-    const std::size_t coarse = std::min(fine + 1, levels.size() - 1);
-    const float share = static_cast<float>(lod - static_cast<double>(fine));
+    Taps to;
+    to.count = taps;
+    to.step_u = du / taps, to.step_v = dv / taps;
+    to.u = pixel.u + (0.5 / taps - 0.5) * du, to.v = pixel.v + (0.5 / taps - 0.5) * dv;
+    to.fine = std::min(static_cast<std::size_t>(lod), levels.size() - 1);
+    to.coarse = std::min(to.fine + 1, levels.size() - 1);
+    to.share = static_cast<float>(lod - static_cast<double>(to.fine));
+    return to;
+}
+
+// What one shading of a pixel sees.
+Texel filtered(const std::vector<const Level*>& levels, const Taps& taps)
+{
     Texel sum{glm::vec3(0.0f), 0.0f, 0.0f};
-    for (int i = 0; i < taps; ++i) {
-        const double at = (i + 0.5) / taps - 0.5;
-        const double u = pixel.u + at * du, v = pixel.v + at * dv;
-        const float weight = 1.0f / static_cast<float>(taps);
-        levels[fine]->add_to(sum, u, v, weight * (1.0f - share));
-        if (share > 0.0f) levels[coarse]->add_to(sum, u, v, weight * share);
-    }
+    taps.add_to(sum, *levels[taps.fine], 1.0f - taps.share);
+    if (taps.share > 0.0f) taps.add_to(sum, *levels[taps.coarse], taps.share);
     const float length = glm::length(sum.n);
     sum.n = length > 0.0f ? sum.n / length : glm::vec3(0.0f, 0.0f, 1.0f);
     return sum;
 }
+
+void check_level(const Image& given, const Level& plain, std::size_t k)
+{
+    if (given.width == plain.width && given.height == plain.height) return;
+    throw Error("score: level " + std::to_string(k) + " is " + std::to_string(given.width) + " x " +
+                    std::to_string(given.height) + ", expected " + std::to_string(plain.width) +
+                    " x " + std::to_string(plain.height),
+                "Give the chain of the same maps.");
+}
+
+// Of a row of pixels: squares of the errors, and deviations in time.
+struct RowSums {
+    double squares = 0.0, deviation = 0.0;
+};
 
 }  // namespace
 
@@ -218,6 +289,14 @@ struct PictureBench::State {
     void render_truth();
     std::vector<Level> levels_of(const Prefiltered& chain) const;
     std::vector<const Level*> merged(const std::vector<Level>& own) const;
+    // Adds up one row of pixels: shade(frame, to) gives the radiance of every case.
+    template <class Shade>
+    void sum_row(std::size_t view, int y, const std::vector<std::size_t>& cases, const Shade& shade,
+                 std::vector<RowSums>& to) const;
+    // The scores of cases that share a view, from the sums of its rows in their order.
+    void add_up(std::size_t view, const std::vector<std::size_t>& cases,
+                const std::vector<std::vector<RowSums>>& rows,
+                std::vector<PictureScore>& scores) const;
     // Radiance of cases that share a view, one row of one frame; to[case][pixel].
     void shade_row(const std::vector<const Level*>& levels, const FloorPlan& plan, int frame, int y,
                    const std::vector<std::size_t>& cases,
@@ -247,7 +326,7 @@ void PictureBench::State::render_truth()
                         const auto [jx, jy] = detail::jitter(options.seed, frame, x, y, s);
                         const auto at =
                             plan.ray(frame, x + ((s % n) + jx) / n, y + ((s / n) + jy) / n);
-                        const Texel& t = plain.front().nearest(at.u, at.v);
+                        const Texel t = plain.front().nearest(at.u, at.v);
                         const float p = perceptual(t.stored, input);
                         for (std::size_t i = 0; i < cases.size(); ++i)
                             sum[i] += static_cast<double>(
@@ -278,16 +357,8 @@ std::vector<Level> PictureBench::State::levels_of(const Prefiltered& chain) cons
         const bool rough = k < chain.roughness.size() && !chain.roughness[k].empty();
         if (!normals && !rough) continue;
         own[k] = plain[k];
-        const auto check = [&](const Image& level) {
-            if (level.width == plain[k].width && level.height == plain[k].height) return;
-            throw Error("score: level " + std::to_string(k) + " is " + std::to_string(level.width) +
-                            " x " + std::to_string(level.height) + ", expected " +
-                            std::to_string(plain[k].width) + " x " +
-                            std::to_string(plain[k].height),
-                        "Give the chain of the same maps.");
-        };
         if (normals) {
-            check(chain.normal[k]);
+            check_level(chain.normal[k], plain[k], k);
             for (std::size_t i = 0; i < own[k].texels.size(); ++i) {
                 const float* n = &chain.normal[k].pixels[3 * i];
                 const float y = 2.0f * n[1] - 1.0f;
@@ -296,12 +367,12 @@ std::vector<Level> PictureBench::State::levels_of(const Prefiltered& chain) cons
             }
         }
         if (k < chain.base_share.size() && !chain.base_share[k].empty()) {
-            check(chain.base_share[k]);
+            check_level(chain.base_share[k], plain[k], k);
             for (std::size_t i = 0; i < own[k].texels.size(); ++i)
                 own[k].texels[i].diffuse = chain.base_share[k].pixels[i];
         }
         if (rough) {
-            check(chain.roughness[k]);
+            check_level(chain.roughness[k], plain[k], k);
             for (std::size_t i = 0; i < own[k].texels.size(); ++i)
                 own[k].texels[i].stored = chain.roughness[k].pixels[i];
         }
@@ -324,11 +395,62 @@ void PictureBench::State::shade_row(const std::vector<const Level*>& levels, con
     const PictureView& view = view_of(cases.front());
     for (int x = 0; x < view.width; ++x) {
         const FloorPixel pixel = plan.pixel(frame, x, y);
-        const Texel t = filtered(levels, pixel, view.taps);
+        const Texel t = filtered(levels, taps_of(plain, pixel, view.taps));
         const float p = perceptual(t.stored, input);
         for (std::size_t i = 0; i < cases.size(); ++i)
             to[i][static_cast<std::size_t>(x)] =
                 shade(t.n, p, t.diffuse, pixel.to_eye, lights[cases[i]]);
+    }
+}
+
+template <class Shade>
+void PictureBench::State::sum_row(std::size_t view, int y, const std::vector<std::size_t>& cases,
+                                  const Shade& shade, std::vector<RowSums>& to) const
+{
+    const std::size_t width = static_cast<std::size_t>(options.views[view].width);
+    const std::size_t rows = static_cast<std::size_t>(options.views[view].rows);
+    std::vector<std::vector<float>> line(cases.size(), std::vector<float>(width));
+    std::vector<std::vector<double>> first(cases.size(), std::vector<double>(width)),
+        second = first;
+    for (int f = 0; f < options.frames; ++f) {
+        shade(f, line);
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            const std::vector<float>& known = truth[cases[i]];
+            for (std::size_t x = 0; x < width; ++x) {
+                const std::size_t at =
+                    (static_cast<std::size_t>(f) * rows + static_cast<std::size_t>(y)) * width + x;
+                const double error =
+                    static_cast<double>(shown(line[i][x], exposure[cases[i]]) - known[at]);
+                first[i][x] += error;
+                second[i][x] += error * error;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        to[i] = {};
+        for (std::size_t x = 0; x < width; ++x) {
+            to[i].squares += second[i][x];
+            const double mean = first[i][x] / options.frames;
+            to[i].deviation +=
+                std::sqrt(std::max(second[i][x] / options.frames - mean * mean, 0.0));
+        }
+    }
+}
+
+void PictureBench::State::add_up(std::size_t v, const std::vector<std::size_t>& cases,
+                                 const std::vector<std::vector<RowSums>>& rows,
+                                 std::vector<PictureScore>& scores) const
+{
+    const PictureView& view = options.views[v];
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        double squares = 0.0, deviation = 0.0;
+        for (const auto& row : rows) squares += row[i].squares, deviation += row[i].deviation;
+        const double count = static_cast<double>(view.width) * static_cast<double>(rows.size());
+        const PictureCase& c = options.cases[cases[i]];
+        scores[cases[i]] = {view.name + ", " +
+                                options.lights[static_cast<std::size_t>(c.light)].name +
+                                (c.metal ? ", metal" : ""),
+                            std::sqrt(squares / (count * options.frames)), deviation / count};
     }
 }
 
@@ -347,14 +469,14 @@ PictureBench::PictureBench(const detail::MapSurface& surface, const PrefilterOpt
     s.options = std::move(options);
     s.input = input;
     Level base{surface.width, surface.height, {}};
-    base.texels.reserve(static_cast<std::size_t>(base.width) *
-                        static_cast<std::size_t>(base.height));
+    base.small.reserve(static_cast<std::size_t>(base.width) *
+                       static_cast<std::size_t>(base.height));
     detail::SurfaceRow row;
     for (int y = 0; y < surface.height; ++y) {
         detail::fetch(surface, y, row);
         for (std::size_t x = 0; x < row.nx.size(); ++x)
-            base.texels.push_back(
-                {{row.nx[x], row.ny[x], row.nz[x]}, stored_value(row.p[x], input), 1.0f});
+            base.small.push_back(
+                to_small({row.nx[x], row.ny[x], row.nz[x]}, stored_value(row.p[x], input)));
     }
     s.plain = plain_levels(std::move(base));
     for (const PictureCase& c : s.options.cases) {
@@ -398,50 +520,134 @@ std::vector<PictureScore> PictureBench::score(const Prefiltered& chain) const
         if (cases.empty()) continue;
         const PictureView& view = s.options.views[v];
         const FloorPlan plan(view);
-        const std::size_t width = static_cast<std::size_t>(view.width);
-        const int frames = s.options.frames;
-        // Of every row, squares of the errors and deviations in time; added in the order of rows.
-        struct RowSums {
-            double squares = 0.0, deviation = 0.0;
-        };
         std::vector<std::vector<RowSums>> rows(static_cast<std::size_t>(view.rows),
                                                std::vector<RowSums>(cases.size()));
         parallel_for(rows.size(), s.options.threads, [&](std::size_t y) {
-            std::vector<std::vector<float>> line(cases.size(), std::vector<float>(width));
-            std::vector<std::vector<double>> first(cases.size(), std::vector<double>(width)),
-                second = first;
-            for (int f = 0; f < frames; ++f) {
-                s.shade_row(levels, plan, f, static_cast<int>(y), cases, line);
-                for (std::size_t i = 0; i < cases.size(); ++i) {
-                    const std::vector<float>& truth = s.truth[cases[i]];
-                    for (std::size_t x = 0; x < width; ++x) {
-                        const std::size_t at =
-                            (static_cast<std::size_t>(f) * rows.size() + y) * width + x;
-                        const double error = static_cast<double>(
-                            shown(line[i][x], s.exposure[cases[i]]) - truth[at]);
-                        first[i][x] += error;
-                        second[i][x] += error * error;
-                    }
-                }
-            }
-            for (std::size_t i = 0; i < cases.size(); ++i)
-                for (std::size_t x = 0; x < width; ++x) {
-                    rows[y][i].squares += second[i][x];
-                    const double mean = first[i][x] / frames;
-                    rows[y][i].deviation +=
-                        std::sqrt(std::max(second[i][x] / frames - mean * mean, 0.0));
-                }
+            s.sum_row(
+                v, static_cast<int>(y), cases,
+                [&](int frame, std::vector<std::vector<float>>& line) {
+                    s.shade_row(levels, plan, frame, static_cast<int>(y), cases, line);
+                },
+                rows[y]);
         });
-        for (std::size_t i = 0; i < cases.size(); ++i) {
-            double squares = 0.0, deviation = 0.0;
-            for (const auto& row : rows) squares += row[i].squares, deviation += row[i].deviation;
-            const double count = static_cast<double>(width * rows.size());
-            const PictureCase& c = s.options.cases[cases[i]];
-            scores[cases[i]] = {view.name + ", " +
-                                    s.options.lights[static_cast<std::size_t>(c.light)].name +
-                                    (c.metal ? ", metal" : ""),
-                                std::sqrt(squares / (count * frames)), deviation / count};
-        }
+        s.add_up(v, cases, rows, scores);
+    }
+    return scores;
+}
+
+struct PictureBench::Blend::State {
+    const PictureBench::State& bench;
+    // A pixel: what plain mips give, and what the chain adds to it on either level.
+    struct Pixel {
+        glm::vec3 n, to_eye;
+        float stored = 0.0f, add_fine = 0.0f, add_coarse = 0.0f;
+        float darken_fine = 0.0f, darken_coarse = 0.0f;
+        std::uint8_t fine = 0, coarse = 0;
+    };
+    struct View {
+        std::vector<std::size_t> cases;
+        std::vector<Pixel> pixels;        // row by row, in it frame by frame
+        std::vector<std::uint32_t> sees;  // of a row: a bit a level
+        std::vector<std::vector<RowSums>> rows;
+    };
+    std::vector<View> views;
+    Shares last;  // of which `rows` are
+
+    explicit State(const PictureBench::State& of) : bench(of) {}
+};
+
+PictureBench::Blend::Blend(const PictureBench& bench, const Prefiltered& chain)
+    : state_(std::make_unique<State>(*bench.state_))
+{
+    const PictureBench::State& s = *bench.state_;
+    // The chain less the plain mips: roughness as stored, and what it takes from the base colour.
+    std::vector<std::vector<glm::vec2>> more(s.plain.size());
+    for (std::size_t k = 1; k < more.size() && k < chain.roughness.size(); ++k) {
+        const Image &rough = chain.roughness[k], &base = chain.base_share.at(k);
+        const Level& level = s.plain[k];
+        for (const Image* of : {&rough, &base}) check_level(*of, level, k);
+        more[k].reserve(level.texels.size());
+        for (std::size_t i = 0; i < level.texels.size(); ++i)
+            more[k].emplace_back(rough.pixels[i] - level.texels[i].stored, base.pixels[i] - 1.0f);
+    }
+    const std::vector<const Level*> plain = s.merged({});
+    state_->views.resize(s.options.views.size());
+    for (std::size_t v = 0; v < s.options.views.size(); ++v) {
+        State::View& to = state_->views[v];
+        to.cases = s.cases_of(v);
+        if (to.cases.empty()) continue;
+        const PictureView& view = s.options.views[v];
+        const FloorPlan plan(view);
+        const std::size_t width = static_cast<std::size_t>(view.width);
+        const std::size_t row = width * static_cast<std::size_t>(s.options.frames);
+        to.pixels.resize(row * static_cast<std::size_t>(view.rows));
+        to.sees.assign(static_cast<std::size_t>(view.rows), 0);
+        to.rows.assign(static_cast<std::size_t>(view.rows), std::vector<RowSums>(to.cases.size()));
+        parallel_for(to.rows.size(), s.options.threads, [&](std::size_t y) {
+            for (std::size_t i = 0; i < row; ++i) {
+                const FloorPixel at = plan.pixel(static_cast<int>(i / width),
+                                                 static_cast<int>(i % width), static_cast<int>(y));
+                const Taps taps = taps_of(s.plain, at, view.taps);
+                const Texel t = filtered(plain, taps);
+                State::Pixel& pixel = to.pixels[y * row + i];
+                pixel.n = t.n, pixel.to_eye = at.to_eye, pixel.stored = t.stored;
+                pixel.fine = static_cast<std::uint8_t>(taps.fine);
+                pixel.coarse = static_cast<std::uint8_t>(taps.coarse);
+                const auto add = [&](std::size_t level, float share, float& stored, float& dark) {
+                    if (more[level].empty() || !(share > 0.0f)) return;
+                    const Level& size = s.plain[level];
+                    for (int tap = 0; tap < taps.count; ++tap)
+                        bilinear(size.width, size.height, taps.u + tap * taps.step_u,
+                                 taps.v + tap * taps.step_v, share / static_cast<float>(taps.count),
+                                 [&](std::size_t at_texel, float w) {
+                                     stored += more[level][at_texel].x * w;
+                                     dark += more[level][at_texel].y * w;
+                                 });
+                    to.sees[y] |= 1u << level;
+                };
+                add(taps.fine, 1.0f - taps.share, pixel.add_fine, pixel.darken_fine);
+                add(taps.coarse, taps.share, pixel.add_coarse, pixel.darken_coarse);
+            }
+        });
+    }
+}
+
+PictureBench::Blend::~Blend() = default;
+
+std::vector<PictureScore> PictureBench::Blend::score(const Shares& shares)
+{
+    const PictureBench::State& s = state_->bench;
+    const bool all = state_->last.roughness.empty();
+    std::uint32_t changed = 0;
+    for (std::size_t k = 0; k < shares.roughness.size() && !all; ++k)
+        if (shares.roughness[k] != state_->last.roughness[k] ||
+            shares.base[k] != state_->last.base[k])
+            changed |= 1u << k;
+    state_->last = shares;
+    std::vector<PictureScore> scores(s.options.cases.size());
+    for (std::size_t v = 0; v < state_->views.size(); ++v) {
+        State::View& view = state_->views[v];
+        if (view.cases.empty()) continue;
+        const std::size_t width = static_cast<std::size_t>(s.options.views[v].width);
+        parallel_for(view.rows.size(), s.options.threads, [&](std::size_t y) {
+            if (!all && !(view.sees[y] & changed)) return;
+            const State::Pixel* row =
+                &view.pixels[y * width * static_cast<std::size_t>(s.options.frames)];
+            const auto shade_all = [&](int frame, std::vector<std::vector<float>>& line) {
+                for (std::size_t x = 0; x < width; ++x) {
+                    const State::Pixel& t = row[static_cast<std::size_t>(frame) * width + x];
+                    const float stored = t.stored + shares.roughness[t.fine] * t.add_fine +
+                                         shares.roughness[t.coarse] * t.add_coarse;
+                    const float base = 1.0f + shares.base[t.fine] * t.darken_fine +
+                                       shares.base[t.coarse] * t.darken_coarse;
+                    const float p = perceptual(std::clamp(stored, 0.0f, 1.0f), s.input);
+                    for (std::size_t i = 0; i < view.cases.size(); ++i)
+                        line[i][x] = shade(t.n, p, base, t.to_eye, s.lights[view.cases[i]]);
+                }
+            };
+            s.sum_row(v, static_cast<int>(y), view.cases, shade_all, view.rows[y]);
+        });
+        s.add_up(v, view.cases, view.rows, scores);
     }
     return scores;
 }
@@ -482,11 +688,11 @@ PictureOptions reference_pictures()
     return o;
 }
 
-PictureOptions design_pictures()
+PictureOptions design_pictures(bool quick)
 {
     PictureOptions o;
     o.frames = 2;
-    o.samples = 8;
+    o.samples = quick ? 5 : 8;
     o.seed = 77;
     o.views = {{.name = "near",
                 .height_m = 1.2,
@@ -511,13 +717,34 @@ PictureOptions design_pictures()
                 .rows = 48,
                 .step_right_m = 0.007,
                 .step_ahead_m = 0.013}};
-    o.lights = {{.name = "ahead, low", .to_light = {-0.25f, 1.0f, 0.30f}},
-                {.name = "ahead, high", .to_light = {0.3f, 1.0f, 0.8f}},
-                {.name = "from the right", .to_light = {1.0f, 0.1f, 0.6f}},
-                {.name = "behind", .to_light = {-0.5f, -0.9f, 0.9f}},
-                {.name = "window", .to_light = {-0.1f, 1.0f, 0.5f}, .alpha = 0.12f}};
-    for (int view = 0; view < 3; ++view)
-        for (int light = 0; light < 5; ++light) o.cases.push_back({view, light, false});
+    if (quick) {
+        o.lights = {{.name = "ahead, low", .to_light = {-0.25f, 1.0f, 0.30f}},
+                    {.name = "ahead, high", .to_light = {0.3f, 1.0f, 0.8f}},
+                    {.name = "from the right", .to_light = {1.0f, 0.1f, 0.6f}},
+                    {.name = "behind", .to_light = {-0.5f, -0.9f, 0.9f}}};
+    } else {
+        // As fine as a large picture, but less of it.
+        o.views.push_back({.name = "part",
+                           .height_m = 1.7,
+                           .pitch_deg = 15.0,
+                           .field_of_view_deg = 12.0,
+                           .width = 100,
+                           .rows = 64,
+                           .step_right_m = 0.005,
+                           .step_ahead_m = 0.019});
+        // A ring of suns, low and high in turn, another ahead.
+        constexpr float kRing[][3] = {
+            {0.26f, 0.97f, 0.45f},  {0.83f, 0.56f, 1.1f},    {0.97f, -0.26f, 0.45f},
+            {0.56f, -0.83f, 1.1f},  {-0.26f, 0.97f, 1.1f},   {-0.83f, 0.56f, 0.45f},
+            {-0.97f, -0.26f, 1.1f}, {-0.56f, -0.83f, 0.45f}, {-0.1f, 1.0f, 0.3f}};
+        for (const auto& sun : kRing)
+            o.lights.push_back({.name = "sun " + std::to_string(o.lights.size()),
+                                .to_light = {sun[0], sun[1], sun[2]}});
+    }
+    o.lights.push_back({.name = "window", .to_light = {-0.1f, 1.0f, 0.5f}, .alpha = 0.12f});
+    for (int view = 0; view < static_cast<int>(o.views.size()); ++view)
+        for (int light = 0; light < static_cast<int>(o.lights.size()); ++light)
+            o.cases.push_back({view, light, false});
     return o;
 }
 

@@ -61,8 +61,9 @@ PictureOptions reference_pictures();
 /// Those, with the light of the sky beside the sun, a sky alone, metal from the side and behind, a
 /// floor from above, and plain trilinear filtering.
 PictureOptions all_pictures();
-/// Small ones with other lights, views and places: what the rule picture checks itself on.
-PictureOptions design_pictures();
+/// Small ones with other lights, views and places: what the rule picture checks itself on. A ring of
+/// suns, low and high, and a window; quick: four suns, and one view less.
+PictureOptions design_pictures(bool quick = false);
 
 /// One case of one material: display-referred, 0..1.
 struct PictureScore {
@@ -74,6 +75,9 @@ struct PictureScore {
 /// Truth of one material, rendered once and kept, against which any number of chains is held.
 class PictureBench {
 public:
+    /// A chain between plain mips and another one, held against the truth again and again.
+    class Blend;
+
     /// normal, roughness: level 0 as `input` names it. Throws Error when sizes do not fit.
     PictureBench(const RawImage& normal, const RawImage& roughness, const PrefilterOptions& input,
                  PictureOptions options);
@@ -95,6 +99,28 @@ public:
     Image picture(std::size_t which, int frame, const Prefiltered* chain) const;
 
     const PictureOptions& options() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// What lies between plain mips and a chain of the same normals is linear, level by level, so each
+/// pixel is filtered once, and only shaded for every mixture that is tried.
+class PictureBench::Blend {
+public:
+    /// chain: its roughness and base_share, all levels from 1 on. `bench` must outlive this.
+    Blend(const PictureBench& bench, const Prefiltered& chain);
+    ~Blend();
+
+    /// Which share of the chain's roughness, and of its darkening of the base colour, a level has:
+    /// 0 the plain mip, 1 the chain. As many as the chain has levels.
+    struct Shares {
+        std::vector<float> roughness, base;
+    };
+    /// A row a case, as PictureBench::score() gives it. Only rows of pixels that see a level whose
+    /// shares have changed are shaded again.
+    std::vector<PictureScore> score(const Shares& shares);
 
 private:
     struct State;

@@ -10,6 +10,7 @@
 #include "texproc/codecs/blocks/detail/astc.h"
 #include "texproc/codecs/blocks/detail/block_table.h"
 #include "texproc/codecs/blocks/detail/decode_block.h"
+#include "texproc/codecs/blocks/detail/repeat.h"
 
 namespace petrichor::texproc {
 
@@ -84,6 +85,11 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
         throw Error("block texture: it is made from " + numbers + ", at least one pixel of them",
                     "Convert the image to " + numbers + " first.");
     }
+    if (!(options.repeat >= 0.0f) || (options.repeat > 0.0f && !format.encode)) {
+        throw Error(std::string("block texture: ") + format.title +
+                        " cannot trade error for size, or by less than 0",
+                    "Use BC1, BC3, BC4, BC5, BC7 or UASTC and a number from 0, or leave it out.");
+    }
     if (format.astc) return detail::encode_astc(image, format.side, options);
     std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));
     const int across = (image.width + 3) / 4;
@@ -101,6 +107,13 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                          }
                      }
                  });
+    if (options.repeat > 0.0f) {
+        std::array<float, 4> weights = options.weights;
+        if (image.channels < 4) weights[3] = std::max(weights[3], 1.0f);  // opaque stays so
+        detail::repeat_blocks(
+            bytes, across, format, [&](int bx, int by) { return gather(image, bx, by); }, weights,
+            options.repeat, options.threads);
+    }
     return bytes;
 }
 

@@ -88,9 +88,25 @@ RawImage converted(const RawImage& image, PixelType type, int channels,
 {
     if (image.type == type && image.channels == channels) return image;
     if (image.type == type && type == PixelType::U8) return with_channels8(image, channels);
-    const Image values = to_image(image, options.srgb ? ColorSpace::Linear : ColorSpace::Data);
-    return to_raw(with_channels(values, channels), type,
-                  options.dither ? Rounding::Ordered : Rounding::Nearest);
+    // In bands, so that no level stands in memory as floats; the pattern of the dither repeats every
+    // eight rows.
+    constexpr int kRows = 64;
+    const std::size_t row = image.bytes.size() / static_cast<std::size_t>(image.height);
+    RawImage to{image.width, image.height, channels, type, {}, {}};
+    to.bytes.reserve(to.values() * size_of(type));
+    for (int y = 0; y < image.height; y += kRows) {
+        RawImage band{image.width, std::min(kRows, image.height - y), image.channels, image.type,
+                      {}, {}};
+        const auto from = image.bytes.begin() +
+                          static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(y));
+        band.bytes.assign(from, from + static_cast<std::ptrdiff_t>(
+                                           row * static_cast<std::size_t>(band.height)));
+        const Image values = to_image(band, options.srgb ? ColorSpace::Linear : ColorSpace::Data);
+        const RawImage codes = to_raw(with_channels(values, channels), type,
+                                      options.dither ? Rounding::Ordered : Rounding::Nearest);
+        to.bytes.insert(to.bytes.end(), codes.bytes.begin(), codes.bytes.end());
+    }
+    return to;
 }
 
 void check_level(const RawImage& level, const RawImage& first, int k)
@@ -231,6 +247,7 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
             .punch_through = *format.block == Block::Bc1 && format.channels == 4,
             .srgb = texture.srgb,
             .is_signed = format.is_signed,
+            .repeat = options.repeat,
             .threads = options.threads};
         const int channels = std::min(level.channels, 4);
         const PixelType type = *format.block == Block::Bc6h ? PixelType::F16 : PixelType::U8;

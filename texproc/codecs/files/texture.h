@@ -60,6 +60,7 @@ struct TextureWriteOptions {
     /// BC4 and BC5: what an error of each texel costs, by level; empty (or an empty level): all
     /// alike.
     std::vector<Image> texel_weights{};
+    float repeat = 0.0f;  ///< BlockOptions::repeat
     int zstd = 0;     ///< KTX2: 0 stored plain, 1..22 compressed
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "texproc/prefilter/picture.h"
 
@@ -10,57 +11,95 @@ namespace petrichor::texproc::detail {
 
 namespace {
 
-constexpr float kShares[] = {1.0f, 0.75f, 0.5f, 0.25f, 0.0f};
+// Shares of what was fitted, and of the darkening of the base colour.
+constexpr float kShares[] = {1.3f, 1.0f, 0.75f, 0.5f, 0.25f, 0.0f};
+constexpr float kDark[] = {1.0f, 0.5f, 0.0f};
 constexpr double kFlickerWeight = 0.3;
-// What a case costs that is worse than plain mips, beside its mean error.
-constexpr double kWorse = 10.0, kWorseFlicker = 3.0;
-constexpr double kClear = 1e-3;  // a smaller gain changes nothing
+// What a case costs that is worse than plain mips, beside its part of the mean. Fewer would let one
+// picture pay for the gain of another.
+constexpr double kWorse = 10.0, kWorseFlicker = 1.0, kWithin = 0.005;
+// The same of quick, whose few pictures are let pay for each other: by squares.
+constexpr double kWorseSquare = 10.0, kWorseFlickerSquare = 3.0;
+constexpr double kNothing = 3e-4;  // an error that nobody sees has no ratio
+constexpr double kClear = 1e-3;    // a smaller gain changes nothing
+constexpr int kSweeps = 2;
 
-// Below 0 where the pictures are better than those of plain mips.
-double cost_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain)
+// 0 for plain mips, below it where the pictures are better.
+double cost_of(const std::vector<PictureScore>& scores, const std::vector<PictureScore>& plain,
+               bool quick)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
-        constexpr double kNothing = 1e-5;  // a picture without error has no ratio
-        const double rmse = (scores[i].rmse + kNothing) / (plain[i].rmse + kNothing);
-        const double flicker = (scores[i].flicker + kNothing) / (plain[i].flicker + kNothing);
-        const double above = std::max(rmse - 1.0, 0.0), livelier = std::max(flicker - 1.0, 0.0);
-        sum += (rmse - 1.0) + kFlickerWeight * (flicker - 1.0) + kWorse * above * above +
-               kWorseFlicker * livelier * livelier;
+        const double rmse = (scores[i].rmse + kNothing) / (plain[i].rmse + kNothing) - 1.0;
+        const double flicker = (scores[i].flicker + kNothing) / (plain[i].flicker + kNothing) - 1.0;
+        sum += rmse + kFlickerWeight * flicker;
+        if (quick) {
+            const double above = std::max(rmse, 0.0), livelier = std::max(flicker, 0.0);
+            sum += kWorseSquare * above * above + kWorseFlickerSquare * livelier * livelier;
+        } else {
+            sum += kWorse * std::max(rmse - kWithin, 0.0) +
+                   kWorseFlicker * std::max(flicker - kWithin, 0.0);
+        }
     }
     return sum / static_cast<double>(scores.size());
-}
-
-void mix(std::vector<Image>& to, const std::vector<Image>& from, const std::vector<Image>& with,
-         float share)
-{
-    for (std::size_t k = 1; k < to.size(); ++k)
-        for (std::size_t i = 0; i < to[k].pixels.size(); ++i)
-            to[k].pixels[i] = from[k].pixels[i] + share * (with[k].pixels[i] - from[k].pixels[i]);
 }
 
 }  // namespace
 
 void settle_picture(const MapSurface& surface, const PrefilterOptions& options, Prefiltered& chain)
 {
-    if (chain.roughness.size() < 2) return;
-    PictureOptions pictures = design_pictures();
+    const std::size_t levels = chain.roughness.size();
+    if (levels < 2) return;
+    PictureOptions pictures = design_pictures(options.quick);
     pictures.threads = options.threads;
-    if (options.quick) pictures.samples = 5;
     const PictureBench bench(surface, options, pictures);
-    const std::vector<PictureScore> plain_scores = bench.score({});
-    const std::vector<Image> plain = bench.plain_roughness();
-    const std::vector<Image> fitted = chain.roughness;
-    double least = 0.0;
-    float best = -1.0f;
-    for (const float share : kShares) {
-        mix(chain.roughness, plain, fitted, share);
-        const double cost = cost_of(bench.score(chain), plain_scores);
-        if (best >= 0.0f && cost > least - kClear) continue;
+    PictureBench::Blend blend(bench, chain);
+    using Shares = PictureBench::Blend::Shares;
+    const auto alike = [&](float share, float dark) {
+        return Shares{std::vector<float>(levels, share), std::vector<float>(levels, dark)};
+    };
+    const std::vector<PictureScore> plain_scores = blend.score(alike(0.0f, 0.0f));
+    // What was fitted stays where the pictures say nothing: levels that they do not show.
+    Shares best = alike(1.0f, 1.0f);
+    double least = cost_of(blend.score(best), plain_scores, options.quick);
+    const auto attempt = [&](const Shares& shares) {
+        const double cost = cost_of(blend.score(shares), plain_scores, options.quick);
+        if (!(cost < least - kClear)) return;
         least = cost;
-        best = share;
+        best = shares;
+    };
+    // All levels alike first, then one by one, the coarsest first.
+    for (const float dark : kDark) {
+        if (options.quick && dark < 1.0f) break;
+        for (const float share : kShares)
+            if (!options.quick || share <= 1.0f) attempt(alike(share, dark));
     }
-    mix(chain.roughness, plain, fitted, best);
+    for (int sweep = 0; sweep < kSweeps && !options.quick; ++sweep) {
+        const double before = least;
+        for (std::size_t k = levels; k-- > 1;) {
+            for (const float share : kShares) {
+                Shares shares = best;
+                shares.roughness[k] = share;
+                if (share != best.roughness[k]) attempt(shares);
+            }
+            for (const float dark : kDark) {
+                Shares shares = best;
+                shares.base[k] = dark;
+                if (dark != best.base[k]) attempt(shares);
+            }
+        }
+        if (least > before - kClear) break;
+    }
+    const std::vector<Image> plain = bench.plain_roughness();
+    for (std::size_t k = 1; k < levels; ++k) {
+        for (std::size_t i = 0; i < chain.roughness[k].pixels.size(); ++i) {
+            float& p = chain.roughness[k].pixels[i];
+            p = std::clamp(plain[k].pixels[i] + best.roughness[k] * (p - plain[k].pixels[i]), 0.0f,
+                           1.0f);
+            float& share = chain.base_share[k].pixels[i];
+            share = 1.0f + best.base[k] * (share - 1.0f);
+        }
+    }
 }
 
 }  // namespace petrichor::texproc::detail

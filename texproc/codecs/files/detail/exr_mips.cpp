@@ -8,9 +8,12 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "texproc/codecs/files/detail/sha1.h"
 
 namespace petrichor::texproc::detail {
 
@@ -22,6 +25,49 @@ std::string channel_name(int c, int channels)
 {
     if (channels == 1) return "Y";
     return std::string(1, "RGBA"[c]);
+}
+
+// What texture systems look for in the header: the mean, whether all texels are alike, and a name
+// of the content, by which one that is there twice is loaded once.
+void describe(const MipTexture& texture, Imf::Header& header)
+{
+    const std::vector<std::byte>& bytes = texture.levels.front();
+    const std::size_t channels = static_cast<std::size_t>(texture.format.channels);
+    const Image level = to_image(
+        {texture.width, texture.height, texture.format.channels, texture.format.type, {}, bytes},
+        ColorSpace::Data);
+    const std::size_t pixels = level.pixels.size() / channels;
+    const auto listed = [&](const auto& number_of) {
+        std::string text;
+        for (std::size_t c = 0; c < channels; ++c) {
+            char digits[32];
+            std::snprintf(digits, sizeof digits, "%.9g", number_of(c));
+            text += (c ? "," : "") + std::string(digits);
+        }
+        return text;
+    };
+    header.insert("oiio:AverageColor", Imf::StringAttribute(listed([&](std::size_t c) {
+                      double sum = 0.0;
+                      for (std::size_t p = 0; p < pixels; ++p)
+                          sum += static_cast<double>(level.pixels[p * channels + c]);
+                      return sum / static_cast<double>(pixels);
+                  })));
+    const std::size_t pixel = bytes.size() / pixels;
+    bool constant = true;
+    for (std::size_t at = pixel; constant && at < bytes.size(); at += pixel)
+        constant = std::memcmp(bytes.data(), bytes.data() + at, pixel) == 0;
+    if (constant)
+        header.insert("oiio:ConstantColor", Imf::StringAttribute(listed([&](std::size_t c) {
+                          return static_cast<double>(level.pixels[c]);
+                      })));
+    // The shape counts: the same numbers in other rows are another texture.
+    std::vector<std::byte> content = bytes;
+    const std::string shape = std::to_string(texture.width) + " x " +
+                              std::to_string(texture.height) + " x " + std::to_string(channels) +
+                              " x " + std::to_string(size_of(texture.format.type));
+    const auto words = std::as_bytes(std::span(shape));
+    content.insert(content.end(), words.begin(), words.end());
+    header.insert("oiio:SHA-1", Imf::StringAttribute(sha1(content)));
 }
 
 }  // namespace
@@ -46,6 +92,7 @@ void write_exr_mips(const std::filesystem::path& path, const MipTexture& texture
         Imf::TileDescription(kTile, kTile, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
     header.insert("textureformat", Imf::StringAttribute("Plain Texture"));
     header.insert("wrapmodes", Imf::StringAttribute("periodic,periodic"));
+    describe(texture, header);
     for (int c = 0; c < channels; ++c) {
         header.channels().insert(channel_name(c, channels),
                                  Imf::Channel(half ? Imf::HALF : Imf::FLOAT));
