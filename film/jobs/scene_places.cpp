@@ -111,6 +111,7 @@ void ScenePlaces::place(const Sequence& sequence, const Job& job, SequenceFrame&
                     {"ice_kg", sums.ice_kg},
                     {"snow_kg", sums.snow_kg},
                     {"ponds_m3", sums.ponds_m3},
+                    {"pond_ice_kg", sums.pond_ice_kg},
                     {"fallen_kg", sums.books.fallen},
                     {"evaporated_kg", sums.books.evaporated + sums.books.lost_from_ponds},
                     {"sublimated_kg", sums.books.sublimated},

@@ -255,7 +255,26 @@ struct FromBytes {
     }
 };
 
-// Glow and lamps from what was kept; false when it does not fit.
+// Whether numbers of a patch, of entries and of rays are there.
+bool near_fits(const scene::NearLinks& near, std::uint32_t count, int rays)
+{
+    const std::size_t entries = near.sender.size();
+    bool good = near.first.size() == std::size_t{count} + 1 &&
+                near.ray_first.size() == std::size_t{count} + 1 && near.corners.size() == entries &&
+                near.seen.size() == entries && near.visible.size() == entries && near.ray_entry.size() == near.rays.size() &&
+                near.first.front() == 0 && near.first.back() == entries &&
+                near.ray_first.front() == 0 && near.ray_first.back() == near.rays.size();
+    for (std::uint32_t i = 0; good && i < count; ++i) {
+        good = near.first[i + 1] >= near.first[i] &&
+               near.first[i + 1] - near.first[i] <= scene::NearLinks::kMostAPatch &&
+               near.ray_first[i + 1] >= near.ray_first[i];
+    }
+    for (const std::uint32_t s : near.sender) good = good && s < count;
+    for (const std::uint16_t r : near.rays) good = good && r < rays;
+    return good;
+}
+
+// Glow, what is near and lamps from what was kept; false when it does not fit.
 bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::PatchScene& made)
 {
     FromBytes from{bytes};
@@ -264,9 +283,21 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     glow.first = from.take<std::uint32_t>();
     glow.sender = from.take<std::uint32_t>();
     glow.factor = from.take<float>();
+    scene::NearLinks near;
+    near.first = from.take<std::uint32_t>();
+    near.corners = from.take<std::array<glm::vec3, 4>>();
+    near.seen = from.take<float>();
+    near.sender = from.take<std::uint32_t>();
+    near.visible = from.take<std::array<std::uint32_t, 8>>();
+    near.ray_first = from.take<std::uint32_t>();
+    near.rays = from.take<std::uint16_t>();
+    near.ray_entry = from.take<std::uint8_t>();
     std::vector<std::vector<std::uint8_t>> reach;
     for (std::size_t i = 0; i < lights && from.good; ++i)
         reach.push_back(from.take<std::uint8_t>());
+    std::vector<std::vector<std::uint8_t>> near_reach;
+    for (std::size_t i = 0; i < lights && from.good; ++i)
+        near_reach.push_back(from.take<std::uint8_t>());
     const std::uint32_t count = made.patches.count;
     bool good = from.good && from.left.empty() && glow.sender.size() == glow.factor.size() &&
                 (glow.senders.empty() || (glow.first.size() == std::size_t{count} + 1 &&
@@ -275,18 +306,25 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     for (const std::uint32_t s : glow.sender) good = good && s < glow.senders.size();
     for (std::size_t i = 1; i < glow.first.size(); ++i)
         good = good && glow.first[i] >= glow.first[i - 1];
+    good = good && near_fits(near, count, made.patches.rays);
     for (const auto& list : reach) good = good && (list.empty() || list.size() == count);
+    for (const auto& list : near_reach)
+        good = good && (list.empty() || list.size() == near.sender.size());
     if (!good) return false;
+    made.near_reach = std::move(near_reach);
     made.glow = std::move(glow);
+    made.near = std::move(near);
     made.lamp_reach = std::move(reach);
     return true;
 }
 
-std::string lights_key(const gpu::PatchScene& made, const std::vector<scene::Light>& lights,
+std::string lights_key(const std::string& transport_key, const gpu::PatchScene& made,
+                       const std::vector<scene::Light>& lights,
                        const std::vector<std::uint32_t>& senders)
 {
     Hasher hasher;
     hasher.add(source_fingerprint());
+    hasher.add(transport_key);
     hasher.add_bytes(scene::patches_to_bytes(made.patches));
     hasher.add_bytes(std::as_bytes(std::span(senders)));
     for (const scene::Light& light : lights) {
@@ -319,7 +357,7 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         }
     }
     const auto senders = scene::glowing_patches(made->patches, made->surfaces);
-    const std::string key = lights_key(*made, scene.lights, senders);
+    const std::string key = lights_key(transport.key, *made, scene.lights, senders);
     bool kept = false;
     if (const auto bytes = options.cache.find(kLampKind, key))
         kept = take_lights(*bytes, scene.lights.size(), *made);
@@ -328,19 +366,33 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         const int threads = options.patches.threads;
         if (!senders.empty())
             made->glow = scene::trace_glow(made->patches, rays.get(), senders, threads);
+        made->near = scene::trace_near(made->patches, rays.get(), threads);
         for (const scene::Light& light : scene.lights) {
             made->lamp_reach.emplace_back();
+            made->near_reach.emplace_back();
             if (light.kind == scene::LightKind::Directional) continue;
             const float range = light.range_m > 0.0f ? light.range_m : 5000.0f;
             made->lamp_reach.back() = scene::trace_lamp(made->patches, rays.get(),
                                                         light.position_m, range, threads);
+            made->near_reach.back() =
+                scene::trace_near_lamp(made->near, rays.get(), made->patches.level_cell_m(1),
+                                       light.position_m, range, threads);
         }
         Bytes bytes;
         bytes.add(made->glow.senders);
         bytes.add(made->glow.first);
         bytes.add(made->glow.sender);
         bytes.add(made->glow.factor);
+        bytes.add(made->near.first);
+        bytes.add(made->near.corners);
+        bytes.add(made->near.seen);
+        bytes.add(made->near.sender);
+        bytes.add(made->near.visible);
+        bytes.add(made->near.ray_first);
+        bytes.add(made->near.rays);
+        bytes.add(made->near.ray_entry);
         for (const auto& reach : made->lamp_reach) bytes.add(reach);
+        for (const auto& reach : made->near_reach) bytes.add(reach);
         if (options.cache.on()) keep(options.cache, kLampKind, key, bytes.all, notes);
     }
     char text[160];
@@ -374,6 +426,7 @@ SceneTransport prepare_transport(const scene::Scene& scene, const TransportOptio
     // The alpha of holes counts by its encoded bytes: nothing is decoded when all is kept.
     const scene::Triangles plain(scene, {});
     const std::string key = scene::patches_fingerprint(what_rays_see(scene, plain), options.patches);
+    transport.key = key;
 
     bool found_patches = false, found_surfaces = false;
     if (const auto bytes = options.cache.find(kPatchKind, key)) {

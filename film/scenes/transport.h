@@ -21,6 +21,7 @@ namespace petrichor::film {
 struct SceneTransport {
     scene::Patches patches;
     std::vector<scene::PatchSurface> surfaces;  ///< a leaf each, dry
+    std::string key;  ///< fingerprint of what rays see and of the options
     bool kept = false;                          ///< all of it was found in the cache
     double seconds = 0.0;
     std::vector<std::string> notes;  ///< what a user should know: textures that could not be read

@@ -383,6 +383,15 @@ weather::Ponds ponds_of(const SceneGround& ground)
         std::copy(volume.begin(), volume.end(), water.volume_m3.begin());
         return scene::stored_m3(*basins, water);
     };
+    ponds.shape = [basins](std::span<const double> volume) {
+        scene::BasinWater water(*basins);
+        std::copy(volume.begin(), volume.end(), water.volume_m3.begin());
+        std::vector<weather::PondShape> shapes;
+        for (const scene::WaterShape& shape : scene::water_shapes(*basins, water))
+            shapes.push_back({shape.depth_m, shape.area_m2});
+        shapes.erase(shapes.begin());  // that of the outside
+        return shapes;
+    };
     return ponds;
 }
 

@@ -7,6 +7,7 @@
 #include "scene/basins/water.h"
 #include "scene/patches/lookup.h"
 #include "weather/models/physical/mapping.h"
+#include "weather/patches/pond_ice.h"
 #include "weather/physics/constants.h"
 
 namespace petrichor::film {
@@ -66,9 +67,24 @@ float narrow(double v)
     return static_cast<float>(v);
 }
 
-// The texels of gpu/frame/place_io.h.
+// So much ice hides the water below it.
+constexpr double kWhiteIce_kg_m2 = 5.0;
+
+// The water of a hollow over the middle of a patch, kg/m2, and how much of it is ice.
+struct PondOver {
+    double water_kg_m2 = 0.0, ice_kg_m2 = 0.0;
+    double frozen() const
+    {
+        return water_kg_m2 > 0.0
+                   ? std::min(1.0, ice_kg_m2 / std::min(kWhiteIce_kg_m2, water_kg_m2))
+                   : 0.0;
+    }
+};
+
+// The texels of gpu/frame/place_io.h. What stands in a hollow is in the ice and the liquid share.
 void put_state(const weather::PatchState& s, const weather::Surface& surface,
-               const WaterRelief& relief, std::uint32_t material, glm::vec4* out)
+               const WaterRelief& relief, std::uint32_t material, const PondOver& pond,
+               glm::vec4* out)
 {
     const weather::CellState& c = s.cell;
     const weather::CellDiagnostics d = weather::diagnostics(c);
@@ -78,12 +94,15 @@ void put_state(const weather::PatchState& s, const weather::Surface& surface,
     const float level = relief_level(relief, standing_mm);
     out[0] = {narrow(masks.wetness), drowned_share(relief, level), narrow(masks.puddles),
               narrow(masks.snow)};
-    out[1] = {narrow(frost), narrow(masks.water_to_snow), narrow(s.rain_share), 2.0f + level};
-    const double frozen = d.swe_kg_m2 - d.snow_liquid_kg_m2 + d.surface_ice_kg_m2;
-    const double all = d.swe_kg_m2 + d.surface_water_kg_m2 + d.surface_ice_kg_m2;
+    const double of_water = pond.water_kg_m2 > 0.0 ? pond.frozen() : masks.water_to_snow;
+    out[1] = {narrow(frost), narrow(of_water), narrow(s.rain_share), 2.0f + level};
+    const double ice = d.surface_ice_kg_m2 + pond.ice_kg_m2;
+    const double frozen = d.swe_kg_m2 - d.snow_liquid_kg_m2 + ice;
+    const double all =
+        d.swe_kg_m2 + d.surface_water_kg_m2 + d.surface_ice_kg_m2 + pond.water_kg_m2;
     out[2] = {narrow(c.film),
               narrow(1e-3 * standing_mm),
-              narrow(d.snow_depth_m), narrow(d.surface_ice_kg_m2)};
+              narrow(d.snow_depth_m), narrow(ice)};
     out[3] = {narrow(all > 0.0 ? std::clamp(1.0 - frozen / all, 0.0, 1.0) : 1.0),
               narrow(c.surface_temp_c + weather::kZeroCelsiusK), narrow(s.rain_share),
               static_cast<float>(material)};
@@ -145,6 +164,9 @@ struct PlaceWeatherOfFile::Impl {
     std::vector<WaterRelief> relief;         // by material
     std::vector<std::uint32_t> material;     // of a patch
     std::vector<double> area_m2;
+    // Of a patch of the ground: its pond (kRunsOut: none) and the height of its middle.
+    std::vector<std::uint32_t> pond;
+    std::vector<double> height_m;
     weather::PatchWeather run;
     std::int64_t first_us;
 };
@@ -155,14 +177,19 @@ PlaceWeatherOfFile::PlaceWeatherOfFile(const SceneSites& sites, const weather::F
     std::vector<weather::Surface> surfaces;
     for (const weather::PatchKind& k : sites.set.kinds) surfaces.push_back(k.surface);
     std::vector<std::uint32_t> kind;
-    std::vector<double> area_m2;
+    std::vector<double> area_m2, height_m;
+    std::vector<std::uint32_t> pond;
     for (const weather::WeatherPatch& p : sites.set.patches) {
         kind.push_back(p.kind);
         area_m2.push_back(p.area_m2);
+        height_m.push_back(p.height_m);
+        const bool drains = p.runs_to != weather::kRunsOut && (p.runs_to & weather::kToPond) != 0;
+        pond.push_back(drains ? p.runs_to & ~weather::kToPond : weather::kRunsOut);
     }
     impl_ = std::make_shared<Impl>(Impl{
         sites.shape, std::make_shared<const scene::Basins>(sites.ground.basins),
         std::move(surfaces), std::move(kind), sites.relief, sites.material, std::move(area_m2),
+        std::move(pond), std::move(height_m),
         weather::PatchWeather(table, sites.set, params, from_us, ponds_of(sites.ground)), from_us});
 }
 
@@ -178,13 +205,27 @@ std::shared_ptr<const gpu::PlaceWeather> PlaceWeatherOfFile::at(std::int64_t utc
     const auto place = std::make_shared<gpu::PlaceWeather>();
     place->shape = m.shape;
     place->states.resize(m.run.patches() * PLACE_STATE_TEXELS);
-    for (std::size_t i = 0; i < m.run.patches(); ++i)
-        put_state(m.run.state(i), m.surfaces[m.kind[i]], m.relief[m.material[i]],
-                  m.material[i], &place->states[i * PLACE_STATE_TEXELS]);
     scene::BasinWater water(*m.basins);
     const auto volumes = m.run.pond_volumes_m3();
     std::copy(volumes.begin(), volumes.end(), water.volume_m3.begin());
     place->levels_m = scene::levels_m(*m.basins, water);
+    const auto shapes = scene::water_shapes(*m.basins, water);
+    const auto heat = m.run.pond_heat_j_kg();
+    for (std::size_t i = 0; i < m.run.patches(); ++i) {
+        PondOver pond;
+        if (const std::uint32_t p = m.pond[i]; p < heat.size()) {
+            const double over_m = static_cast<double>(place->levels_m[p + 1]) - m.height_m[i];
+            if (over_m > 0.0) {
+                pond.water_kg_m2 = over_m * weather::kWaterDensity;
+                // Ice is as thick everywhere, as far as there is water for it.
+                pond.ice_kg_m2 = std::min(pond.water_kg_m2,
+                                          weather::pond_ice_share(heat[p]) *
+                                              shapes[p + 1].depth_m * weather::kWaterDensity);
+            }
+        }
+        put_state(m.run.state(i), m.surfaces[m.kind[i]], m.relief[m.material[i]], m.material[i],
+                  pond, &place->states[i * PLACE_STATE_TEXELS]);
+    }
     return place;
 }
 
@@ -202,6 +243,14 @@ PlaceSums PlaceWeatherOfFile::sums() const
         sums.snow_kg += m.area_m2[i] * d.swe_kg_m2;
     }
     sums.books = m.run.ledger();
+    scene::BasinWater water(*m.basins);
+    const auto volumes = m.run.pond_volumes_m3();
+    std::copy(volumes.begin(), volumes.end(), water.volume_m3.begin());
+    const auto shapes = scene::water_shapes(*m.basins, water);
+    const auto heat = m.run.pond_heat_j_kg();
+    for (std::size_t p = 0; p < heat.size(); ++p)
+        sums.pond_ice_kg += weather::pond_ice_share(heat[p]) * shapes[p + 1].depth_m *
+                            shapes[p + 1].area_m2 * weather::kWaterDensity;
     sums.ponds_m3 = sums.books.in_ponds * 1e-3;
     return sums;
 }

@@ -37,6 +37,7 @@ SceneSites scene_sites(const scene::Scene& scene, const scene::Patches& patches,
 struct PlaceSums {
     double area_m2 = 0.0;
     double film_kg = 0.0, standing_kg = 0.0, ice_kg = 0.0, snow_kg = 0.0, ponds_m3 = 0.0;
+    double pond_ice_kg = 0.0;  ///< of ponds_m3, which counts ice as the water that it is
     weather::PatchLedger books;
 };
 

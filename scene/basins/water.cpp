@@ -146,6 +146,37 @@ double stored_m3(const Basins& basins, const BasinWater& water)
     return sum;
 }
 
+std::vector<WaterShape> water_shapes(const Basins& basins, const BasinWater& water)
+{
+    const Levels levels(basins, water);
+    const std::size_t count = basins.hollow.size();
+    std::vector<double> cells(count, 0.0);
+    for (std::uint32_t i = 1; i < count; ++i) {
+        if (is_pit(basins.hollow[i])) cells[i] = basins.pit_cells[i];
+        if (basins.hollow[i].parent != 0) cells[basins.hollow[i].parent] += cells[i];
+    }
+    // Of a water as a whole, then of its pits: parents come after their children.
+    std::vector<WaterShape> whole(count);
+    std::vector<double> per_cell(count, 0.0);
+    for (std::uint32_t i = static_cast<std::uint32_t>(count); i-- > 1;) {
+        const std::uint32_t parent = basins.hollow[i].parent;
+        if (parent != 0 && levels.merged(parent)) {
+            whole[i] = whole[parent];
+            per_cell[i] = per_cell[parent];
+        } else if (levels.is_top(i) && water.volume_m3[i] > 0.0) {
+            const double area =
+                wet_area_m2(basins, i, level_at_m(basins, i, water.volume_m3[i]));
+            if (!(area > 0.0)) continue;
+            whole[i] = {water.volume_m3[i] / area, area};
+            per_cell[i] = area / cells[i];
+        }
+    }
+    std::vector<WaterShape> shapes(basins.pits + 1);
+    for (std::uint32_t i = 1; i <= basins.pits; ++i)
+        shapes[i] = {whole[i].depth_m, per_cell[i] * cells[i]};
+    return shapes;
+}
+
 std::vector<float> levels_m(const Basins& basins, const BasinWater& water)
 {
     const Levels levels(basins, water);

@@ -33,6 +33,13 @@ double evaporate(const Basins& basins, BasinWater& water, std::span<const double
 /// All water, m3.
 double stored_m3(const Basins& basins, const BasinWater& water);
 
+/// The water over each pit by its label ([0] is not used): its mean depth, m, and its surface, m2; one
+/// water's surface is parted among its pits by their cells. Depth times surface adds up to stored_m3.
+struct WaterShape {
+    double depth_m = 0.0, area_m2 = 0.0;
+};
+std::vector<WaterShape> water_shapes(const Basins& basins, const BasinWater& water);
+
 /// Level of the water over each pit, world y in metres; the height of the pit where it is dry.
 /// [0] is not used. With the label of a cell this draws the water: its depth there is
 /// max(0, level[label] - height), and all of one water has one level, to the bit.

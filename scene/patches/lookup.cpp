@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "formulas/light/near_light.h"
 #include "scene/patches/detail/cells.h"
 
 namespace petrichor::shared {
@@ -21,6 +22,7 @@ struct Lookup {
     vec4 patch_plane(uint node) const { return lit.planes[node]; }
     vec4 patch_irradiance(uint node) const { return lit.irradiance[node]; }
     vec4 patch_gradient(uint node) const { return lit.gradient[node]; }
+    vec4 patch_near(uint texel) const { return lit.near[texel]; }
 
 #include "formulas/light/patch_lookup.inc"
 };
@@ -81,7 +83,7 @@ std::uint32_t node_at(const Patches& patches, glm::ivec3 cell, int axis, int lev
 
 }  // namespace
 
-LookupWays lookup_ways(const Patches& patches)
+LookupWays lookup_ways(const Patches& patches, const NearLinks* near)
 {
     LookupWays made;
     std::vector<std::uint32_t> roots;
@@ -98,7 +100,7 @@ LookupWays lookup_ways(const Patches& patches)
     for (const std::uint32_t root : roots) add_root(made, patches, root);
 
     made.ways.assign(std::max<std::size_t>(std::size_t{patches.interior} * 8 +
-                                               std::size_t{patches.count} * 27,
+                                               std::size_t{patches.count} * 28,
                                            1),
                      shared::kNoPatch);
     for (std::uint32_t i = 0; i < patches.interior; ++i) {
@@ -109,6 +111,13 @@ LookupWays lookup_ways(const Patches& patches)
             made.ways[std::size_t{i} * 8 + static_cast<std::size_t>(octant)] =
                 with_level(patches, child);
         }
+    }
+    const std::size_t ranges = std::size_t{made.grid.neighbors} + std::size_t{patches.count} * 27;
+    for (std::uint32_t leaf = 0; leaf < patches.count; ++leaf) {
+        const bool any = near != nullptr && !near->empty();
+        const std::uint32_t first = any ? near->first[leaf] : 0;
+        const std::uint32_t many = any ? near->first[leaf + 1] - first : 0;
+        made.ways[ranges + leaf] = first << 3 | many;
     }
     for (std::uint32_t leaf = 0; leaf < patches.count; ++leaf) {
         const shared::PatchKey key = patches.key[leaf];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formulas/light/patch_cells.h"
+#include "scene/patches/near_light.h"
 #include "scene/patches/patches.h"
 
 namespace petrichor::scene {
@@ -27,7 +28,8 @@ struct LookupWays {
     std::vector<std::uint32_t> ways;
     shared::PatchGrid grid;
 };
-LookupWays lookup_ways(const Patches& patches);
+/// near: entries of leaves that points know as close; null: none.
+LookupWays lookup_ways(const Patches& patches, const NearLinks* near = nullptr);
 
 /// Light of patches as pixels look it up: see formulas/light/patch_lookup.inc. Views: what they are
 /// made from must outlive them.
@@ -38,6 +40,7 @@ struct LitPatches {
     std::span<const glm::vec4> irradiance;  ///< of nodes; w: open
     std::span<const glm::vec4> gradient;    ///< of nodes; w: lookup_sizes
     shared::PatchGrid grid;
+    std::span<const glm::vec4> near = {};  ///< PatchIrradiance::near, where lookup_ways had NearLinks
 };
 
 /// Light at a point of a surface, metres, with the normal of its geometry, unit. Weight 0 where no

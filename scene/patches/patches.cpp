@@ -262,8 +262,12 @@ std::optional<std::uint32_t> patch_at(const Patches& patches, glm::vec3 position
 
 float visible_share(const Patches& patches, std::uint32_t patch, glm::vec3 direction)
 {
+    return visible_share(patches.visible[patch], direction);
+}
+
+float visible_share(const std::array<std::uint32_t, 8>& bits, glm::vec3 direction)
+{
     if (!(direction.y > 0.0f)) return 0.0f;
-    const auto& bits = patches.visible[patch];
     const glm::vec2 at = shared::visibility_texel(direction) - 0.5f;
     const glm::vec2 corner = glm::floor(at);
     const glm::vec2 part = at - corner;

@@ -134,6 +134,9 @@ std::optional<std::uint32_t> patch_at(const Patches& patches, glm::vec3 position
 /// bits mixed. 0 below the horizon. Samples that face away do not see it.
 float visible_share(const Patches& patches, std::uint32_t patch, glm::vec3 direction);
 
+/// The same of bits that stand as Patches::visible.
+float visible_share(const std::array<std::uint32_t, 8>& bits, glm::vec3 direction);
+
 /// Falling rain that a patch gets, over what level open ground gets: drops come along their velocity
 /// (m/s, falling: y < 0), walls catch the more the stronger the wind. 0 for drops that do not fall.
 float rain_exposure(const Patches& patches, std::uint32_t patch, glm::vec3 drop_velocity_m_s);

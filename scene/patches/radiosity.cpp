@@ -77,6 +77,25 @@ glm::vec3 gradient_of(glm::vec3 mean)
     return gradient;
 }
 
+// Of the light of glowing patches what does not come from those that patch i knows as near.
+Four glow_beyond(const Relight& input, std::uint32_t i, int rays, Four all)
+{
+    const NearLinks& near = *input.near;
+    const GlowLinks& glow = *input.glow;
+    const float share = 1.0f / static_cast<float>(rays);
+    for (std::uint32_t e = near.first[i]; e < near.first[i + 1]; ++e) {
+        float met = 0.0f;
+        for (std::uint32_t k = near.ray_first[i]; k < near.ray_first[i + 1]; ++k)
+            met += near.first[i] + near.ray_entry[k] == e ? share : 0.0f;
+        for (std::uint32_t g = glow.first[i]; g < glow.first[i + 1]; ++g) {
+            if (glow.senders[glow.sender[g]] != near.sender[e]) continue;
+            const float taken = std::min(glow.factor[g], met);
+            all -= four(input.emission[near.sender[e]]) * Four{taken, taken, taken, taken};
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
@@ -182,6 +201,7 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
 {
     assert(input.albedo.size() == patches.count && input.direct.size() == patches.count);
     assert(input.emission.empty() || input.emission.size() == patches.count);
+    assert(input.near == nullptr || input.near_direct.size() == input.near->sender.size());
     assert(input.sky.size() == static_cast<std::size_t>(shared::kSkyBins));
     const std::uint32_t count = patches.count;
     const bool glows = input.glow != nullptr && !input.glow->empty();
@@ -241,6 +261,8 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         sent[i] = four(rgb);
     }
     PatchIrradiance result;
+    std::vector<Four> falls(count);
+    const bool close = input.near != nullptr && !input.near->empty();
     std::vector<glm::vec4> irradiance(count), gradient(count);
     result.radiosity.resize(count);
     const std::vector<Four> pattern = row_pattern(patches.rays);
@@ -268,14 +290,45 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
             const auto c = static_cast<float>(turn.cosine), s = static_cast<float>(turn.sine);
             g = f.t * (mean.x * c - mean.y * s) + f.b * (mean.x * s + mean.y * c) + n * mean.z;
         }
-        sum = sum * shares + glow_light[i];
-        irradiance[i] = {sum[0], sum[1], sum[2], patches.open[i]};
+        falls[i] = sum * shares + glow_light[i];
+        float open = patches.open[i];
+        Four glow_far = glow_light[i];
+        const std::uint32_t met = close ? input.near->rays_of(i) : 0;
+        if (met > 0) {
+            // What its rays met close by is left to the points themselves.
+            const NearLinks& near = *input.near;
+            const float left = static_cast<float>(patches.rays) - static_cast<float>(met);
+            Four nearby{};  // in the order of the entries
+            for (std::uint32_t k = near.ray_first[i]; k < near.ray_first[i + 1]; ++k)
+                nearby += sent[row[near.rays[k]]];
+            const float over = left > 0.5f ? 1.0f / left : 0.0f;
+            sum = (sum - nearby) * Four{over, over, over, over};
+            open = std::min(1.0f, open * static_cast<float>(patches.rays) * over);
+            const float all = static_cast<float>(patches.rays) * over;
+            if (glows)
+                glow_far = glow_beyond(input, i, patches.rays, glow_light[i]) *
+                           Four{all, all, all, all};
+            for (int c = 0; c < 3; ++c) sum[c] = std::max(sum[c], 0.0f);  // rounding
+        } else {
+            sum = sum * shares;
+        }
+        sum = sum + glow_far;
+        irradiance[i] = {sum[0], sum[1], sum[2], open};
         gradient[i] = glm::vec4(g, sizes[i]);
         result.radiosity[i] = {sent[i][0], sent[i][1], sent[i][2]};
     });
     result.irradiance = with_interior(patches, irradiance);
     result.gradient = with_interior(patches, gradient);
     for (std::uint32_t i = 0; i < patches.nodes(); ++i) result.gradient[i].w = sizes[i];
+    for (std::size_t e = 0; close && e < input.near->sender.size(); ++e) {
+        const std::uint32_t j = input.near->sender[e];
+        Four light = albedo[j] * (four(input.near_direct[e]) + falls[j]);
+        if (!input.emission.empty()) light += four(input.emission[j]);
+        const auto& corner = input.near->corners[e];
+        result.near.emplace_back(corner[0], input.near->seen[e]);
+        for (int c = 0; c < 3; ++c)
+            result.near.emplace_back(corner[static_cast<std::size_t>(c) + 1], light[c]);
+    }
     return result;
 }
 

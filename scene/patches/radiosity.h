@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/patches/near_light.h"
 #include "scene/patches/patches.h"
 
 namespace petrichor::scene {
@@ -45,14 +46,19 @@ struct Relight {
     std::span<const glm::vec3> emission;  ///< radiosity of a leaf by itself; empty: none
     std::span<const glm::vec3> sky;       ///< pi x mean radiance of a sky bin, kSkyBins entries
     const GlowLinks* glow = nullptr;
+    const NearLinks* near = nullptr;  ///< of these patches; for lookups that know them
+    std::span<const glm::vec3> near_direct;  ///< irradiance of its entries from sun and lamps
     int bounces = 3;  ///< between patches, 0..64; the light that then falls on them is gathered
     int threads = 0;
 };
 
 /// Light that patches get from each other and from the sky, without what falls on them directly.
 struct PatchIrradiance {
-    /// A node each: irradiance, w: Patches::open.
+    /// A node each: irradiance, w: Patches::open. With Relight::near both are of what is not close: the mean
+    /// over the other directions, that a lookup takes for those that its point has left.
     std::vector<glm::vec4> irradiance;
+    /// Four texels an entry of Relight::near: corners, w: the share that is seen, then its radiosity by channel.
+    std::vector<glm::vec4> near;
     /// A node each: shared::irradiance_towards, w: lookup_sizes.
     std::vector<glm::vec4> gradient;
     /// A leaf each: what it sends out after `bounces`.

@@ -80,6 +80,15 @@ glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Bary
     return glm::clamp(color, 0.0f, 1.0f);
 }
 
+glm::vec3 surface_emission(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
+                           std::span<const ColorImage> images)
+{
+    const Material& m = triangles.scene().materials[triangles.material(triangle)];
+    if (!(luminance(m.emissive) > 0.0f)) return glm::vec3(0.0f);
+    return m.emissive * m.emissive_strength *
+           texel(triangles, PatchSample{triangle, at}, m.emissive_texture, images);
+}
+
 std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
                                          std::span<const ColorImage> images)
 {
@@ -101,10 +110,8 @@ std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles
                 surface_color(triangles, sample.triangle, sample.at, images) * kShare;
             mean.metallic += (m.specular_workflow ? 0.0f : m.metallic * gloss.z) * kShare;
             mean.roughness += m.roughness * gloss.y * kShare;
-            if (luminance(m.emissive) > 0.0f) {
-                mean.emission += m.emissive * m.emissive_strength *
-                                 texel(triangles, sample, m.emissive_texture, images) * kShare;
-            }
+            mean.emission +=
+                surface_emission(triangles, sample.triangle, sample.at, images) * kShare;
         }
         surfaces.push_back(mean);
     }

@@ -36,6 +36,10 @@ std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles
 glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
                         std::span<const ColorImage> images);
 
+/// Radiance that a point of a triangle sends out by itself: emissive factor x strength x texture.
+glm::vec3 surface_emission(const Triangles& triangles, std::uint32_t triangle, Barycentric at,
+                           std::span<const ColorImage> images);
+
 /// Leaves that glow, brightest power (area x luminance) first, at most `most`; then ascending. Only
 /// those whose radiance is above the mean of all surfaces.
 std::vector<std::uint32_t> glowing_patches(const Patches& patches,

@@ -4,14 +4,17 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace petrichor::scene {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kLeaf = 4;       // triangles of a leaf that need no thought
-constexpr std::uint32_t kLargestLeaf = 32;  // beyond that a leaf is halved whatever the heuristic says
+constexpr std::uint32_t kLeaf = 4;  // triangles of a leaf that need no thought
+constexpr std::uint32_t kLargestLeaf =
+    32;  // beyond that a leaf is halved whatever the heuristic says
 constexpr int kDeepest = 96;
+constexpr std::uint32_t kEmpty = 0xffffffffu;
 
 struct Box {
     glm::vec3 low{std::numeric_limits<float>::max()};
@@ -35,6 +38,13 @@ struct Box {
     }
 };
 
+// Of a tree of two children a node, as it is built.
+struct Pair {
+    Box box[2];
+    std::uint32_t child[2];  // number of a pair, or of a first triangle in the order
+    std::uint32_t count[2];  // triangles of a leaf; 0: a pair
+};
+
 // Further than rounding in the slab test can miss a triangle that lies in the face of its box.
 Box widened(const Box& box)
 {
@@ -53,7 +63,9 @@ Box widened(const Box& box)
 struct Tracer::Builder {
     const Triangles& triangles;
     std::vector<Node>& nodes;
-    std::vector<std::uint32_t>& order;
+    std::vector<Packet>& packets;
+    std::vector<std::uint32_t> order;
+    std::vector<Pair> pairs;
     std::vector<Box> boxes;
     std::vector<glm::vec3> centres;
 
@@ -117,18 +129,16 @@ struct Tracer::Builder {
         }
         if (best_axis < 0) return part.count > kLargestLeaf ? part.count / 2 : 0;
         const float low = range.low[best_axis];
-        const float scale =
-            static_cast<float>(kBins) * 0.9999f / (range.high[best_axis] - low);
+        const float scale = static_cast<float>(kBins) * 0.9999f / (range.high[best_axis] - low);
         const auto begin = order.begin() + part.first;
-        const auto middle = std::stable_partition(
-            begin, begin + part.count, [&](std::uint32_t t) {
-                return std::clamp(static_cast<int>((centres[t][best_axis] - low) * scale), 0,
-                                  kBins - 1) <= best_bin;
-            });
+        const auto middle = std::stable_partition(begin, begin + part.count, [&](std::uint32_t t) {
+            return std::clamp(static_cast<int>((centres[t][best_axis] - low) * scale), 0,
+                              kBins - 1) <= best_bin;
+        });
         return static_cast<std::uint32_t>(middle - begin);
     }
 
-    // The node that holds two parts. Explicit stack: scenes can be deep.
+    // The pair that holds two parts. Explicit stack: scenes can be deep.
     void build()
     {
         struct Work {
@@ -137,26 +147,19 @@ struct Tracer::Builder {
             int side, depth;
         };
         const auto all = static_cast<std::uint32_t>(order.size());
-        nodes.push_back({});
+        pairs.push_back({});
         std::vector<Work> stack;
         const auto place = [&](const Part& part, std::uint32_t node, int side, int depth) {
-            const Box wide = widened(part.box);
-            for (int k = 0; k < 3; ++k) {
-                nodes[node].low[side][k] = wide.low[k];
-                nodes[node].high[side][k] = wide.high[k];
-            }
-            nodes[node].child[side] = part.first;
-            nodes[node].count[side] = part.count;
+            pairs[node].box[side] = part.box;
+            pairs[node].child[side] = part.first;
+            pairs[node].count[side] = part.count;
             if (part.count > kLeaf) stack.push_back({part, node, side, depth});
         };
         place({0, all, box_of(0, all)}, 0, 0, 0);
-        // The root's second side is a point that no ray reaches.
-        for (int k = 0; k < 3; ++k) {
-            nodes[0].low[1][k] = std::numeric_limits<float>::max();
-            nodes[0].high[1][k] = std::numeric_limits<float>::max();
-        }
-        nodes[0].child[1] = 0;
-        nodes[0].count[1] = 1;
+        // The root has one child.
+        pairs[0].box[1] = {};
+        pairs[0].child[1] = kEmpty;
+        pairs[0].count[1] = 0;
         while (!stack.empty()) {
             const Work work = stack.back();
             stack.pop_back();
@@ -165,14 +168,106 @@ struct Tracer::Builder {
                                            ? work.part.count / 2
                                            : cut(work.part);
             if (left == 0 || work.depth >= kDeepest - 2) continue;
-            const auto child = static_cast<std::uint32_t>(nodes.size());
-            nodes.push_back({});
-            nodes[work.node].child[work.side] = child;
-            nodes[work.node].count[work.side] = 0;
+            const auto child = static_cast<std::uint32_t>(pairs.size());
+            pairs.push_back({});
+            pairs[work.node].child[work.side] = child;
+            pairs[work.node].count[work.side] = 0;
             const std::uint32_t first = work.part.first;
             const std::uint32_t right = work.part.count - left;
             place({first, left, box_of(first, left)}, child, 0, work.depth + 1);
             place({first + left, right, box_of(first + left, right)}, child, 1, work.depth + 1);
+        }
+    }
+
+    // What a node of four is made from: a side of a pair.
+    struct Side {
+        std::uint32_t pair;
+        int side;
+    };
+    const Box& box(Side s) const { return pairs[s.pair].box[s.side]; }
+    std::uint32_t child(Side s) const { return pairs[s.pair].child[s.side]; }
+    std::uint32_t count(Side s) const { return pairs[s.pair].count[s.side]; }
+
+    // The largest inner side is opened until there are four.
+    int open(std::uint32_t pair, std::array<Side, 4>& sides) const
+    {
+        int found = 0;
+        const auto add = [&](Side s) {
+            if (child(s) != kEmpty) sides[static_cast<std::size_t>(found++)] = s;
+        };
+        add({pair, 0});
+        add({pair, 1});
+        while (found < 4) {
+            int largest = -1;
+            for (int k = 0; k < found; ++k) {
+                const Side s = sides[static_cast<std::size_t>(k)];
+                if (count(s) > 0) continue;
+                if (largest < 0 ||
+                    box(s).half_area() > box(sides[static_cast<std::size_t>(largest)]).half_area())
+                    largest = k;
+            }
+            if (largest < 0) break;
+            const std::uint32_t inner = child(sides[static_cast<std::size_t>(largest)]);
+            sides[static_cast<std::size_t>(largest)] = {inner, 0};
+            sides[static_cast<std::size_t>(found++)] = {inner, 1};
+        }
+        return found;
+    }
+
+    std::uint32_t pack(std::uint32_t first, std::uint32_t count_of)
+    {
+        const auto packet = static_cast<std::uint32_t>(packets.size());
+        for (std::uint32_t i = 0; i < count_of; ++i) {
+            if (i % 4 == 0) packets.push_back({});
+            const std::uint32_t t = order[first + i];
+            const glm::vec3 a = triangles.corner(t), b = triangles.edge1(t), c = triangles.edge2(t);
+            for (int k = 0; k < 3; ++k) {
+                packets.back().corner[k][i % 4] = a[k];
+                packets.back().edge1[k][i % 4] = b[k];
+                packets.back().edge2[k][i % 4] = c[k];
+            }
+            packets.back().triangle[i % 4] = t;
+        }
+        return packet;
+    }
+
+    // Nodes of four from the pairs.
+    void widen()
+    {
+        struct Work {
+            std::uint32_t pair, node;
+        };
+        nodes.push_back({});
+        std::vector<Work> stack{{0, 0}};
+        while (!stack.empty()) {
+            const Work work = stack.back();
+            stack.pop_back();
+            std::array<Side, 4> sides{};
+            const int found = open(work.pair, sides);
+            for (int lane = 0; lane < 4; ++lane) {
+                // A lane without a child is a point that no ray reaches.
+                Box wide{glm::vec3(std::numeric_limits<float>::max()),
+                         glm::vec3(std::numeric_limits<float>::max())};
+                std::uint32_t to = 0, many = 1;
+                if (lane < found) {
+                    const Side s = sides[static_cast<std::size_t>(lane)];
+                    wide = widened(box(s));
+                    many = (count(s) + 3) / 4;
+                    to = many > 0 ? pack(child(s), count(s))
+                                  : static_cast<std::uint32_t>(nodes.size());
+                    if (many == 0) {
+                        nodes.push_back({});
+                        stack.push_back({child(s), to});
+                    }
+                }
+                Node& node = nodes[work.node];
+                for (int k = 0; k < 3; ++k) {
+                    node.low[k][lane] = wide.low[k];
+                    node.high[k][lane] = wide.high[k];
+                }
+                node.child[lane] = to;
+                node.count[lane] = many;
+            }
         }
     }
 };
@@ -181,12 +276,12 @@ Tracer::Tracer(const Triangles& triangles) : triangles_(&triangles)
 {
     const std::uint32_t count = triangles.size();
     if (count == 0) return;
-    order_.resize(count);
-    Builder builder{triangles, nodes_, order_, {}, {}};
+    Builder builder{triangles, nodes_, packets_, {}, {}, {}, {}};
+    builder.order.resize(count);
     builder.boxes.reserve(count);
     builder.centres.reserve(count);
     for (std::uint32_t t = 0; t < count; ++t) {
-        order_[t] = t;
+        builder.order[t] = t;
         Box box;
         const glm::vec3 a = triangles.corner(t);
         box.add(a);
@@ -196,32 +291,59 @@ Tracer::Tracer(const Triangles& triangles) : triangles_(&triangles)
         builder.boxes.push_back(box);
     }
     builder.build();
-    faces_.reserve(count);
-    for (const std::uint32_t t : order_)
-        faces_.push_back({triangles.corner(t), triangles.edge1(t), triangles.edge2(t)});
+    builder.widen();
 }
 
 namespace {
 
-struct Slabs {
-    float origin[3], inverse[3];
-};
+// Four floats that one instruction works on: the compiler's own vectors, on any machine. Each lane
+// has the bits that a float alone would have.
+using Four = float __attribute__((vector_size(16)));
+using Signs = std::int32_t __attribute__((vector_size(16)));
 
-// Where the ray enters a box, or a number beyond `longest` when it does not.
-inline float entry(const float low[3], const float high[3], const Slabs& ray, float longest)
+inline Four four(const float* from)
 {
-    float near = 0.0f;
-    float far = longest;
-    for (int k = 0; k < 3; ++k) {
-        const float a = (low[k] - ray.origin[k]) * ray.inverse[k];
-        const float b = (high[k] - ray.origin[k]) * ray.inverse[k];
-        const float first = a < b ? a : b;
-        const float last = a < b ? b : a;
-        near = first > near ? first : near;
-        far = last < far ? last : far;
-    }
-    // Entry and exit may be off by rounding.
-    return near <= far * 1.000001f ? near : std::numeric_limits<float>::infinity();
+    Four lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+inline Four all(float x)
+{
+    return Four{x, x, x, x};
+}
+inline Four larger(Four a, Four b)
+{
+    return a > b ? a : b;
+}
+inline Four smaller(Four a, Four b)
+{
+    return a < b ? a : b;
+}
+inline bool none(Signs mask)
+{
+    std::uint64_t halves[2];
+    std::memcpy(halves, &mask, sizeof halves);
+    return (halves[0] | halves[1]) == 0;
+}
+
+struct Four3 {
+    Four x, y, z;
+};
+inline Four3 four3(const float from[3][4])
+{
+    return {four(from[0]), four(from[1]), four(from[2])};
+}
+inline Four3 all3(glm::vec3 v)
+{
+    return {all(v.x), all(v.y), all(v.z)};
+}
+inline Four dot(const Four3& a, const Four3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Four3 cross(const Four3& a, const Four3& b)
+{
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
 }  // namespace
@@ -232,67 +354,95 @@ RayHit Tracer::trace(const Ray& ray) const
     RayHit best;
     best.distance_m = ray.longest_m;
     if (nodes_.empty()) return best;
-    Slabs slabs;
+    Four start[3], inverse[3];
+    bool falling[3];
     for (int k = 0; k < 3; ++k) {
-        slabs.origin[k] = ray.origin[k];
         // Not exactly along an axis: 0 * infinity would be no number.
         const float d = ray.direction[k];
-        slabs.inverse[k] = 1.0f / (std::abs(d) < 1e-20f ? std::copysign(1e-20f, d) : d);
+        const float over = 1.0f / (std::abs(d) < 1e-20f ? std::copysign(1e-20f, d) : d);
+        start[k] = all(ray.origin[k]);
+        inverse[k] = all(over);
+        falling[k] = over < 0.0f;
     }
-    const glm::vec3 origin = ray.origin, direction = ray.direction;
+    const Four3 origin = all3(ray.origin), direction = all3(ray.direction);
     struct Waiting {
         std::uint32_t node;
         float entry;
     };
-    std::array<Waiting, kDeepest + 2> stack;
+    std::array<Waiting, 3 * kDeepest + 4> stack;
     std::size_t depth = 0;
     std::uint32_t at = 0;
     for (;;) {
         const Node& node = nodes_[at];
-        const float entries[2] = {entry(node.low[0], node.high[0], slabs, best.distance_m),
-                                  entry(node.low[1], node.high[1], slabs, best.distance_m)};
-        const int nearer = entries[1] < entries[0] ? 1 : 0;
-        std::uint32_t next[2];
-        int found = 0;
-        for (int k = 0; k < 2; ++k) {
-            const int side = k == 0 ? nearer : 1 - nearer;
-            if (!(entries[side] <= best.distance_m)) continue;
-            if (node.count[side] == 0) {
-                next[found++] = static_cast<std::uint32_t>(side);
+        // Where the ray enters each box, and leaves it.
+        Four near = all(0.0f), far = all(best.distance_m);
+        for (int k = 0; k < 3; ++k) {
+            const Four low = (four(node.low[k]) - start[k]) * inverse[k];
+            const Four high = (four(node.high[k]) - start[k]) * inverse[k];
+            near = larger(falling[k] ? high : low, near);
+            far = smaller(falling[k] ? low : high, far);
+        }
+        // Both may be off by rounding.
+        const Signs meets = (near <= far * all(1.000001f)) & (near <= all(best.distance_m));
+        if (!none(meets)) {
+            // Those that are met, nearest first.
+            std::uint32_t lane_of[4];
+            int found = 0;
+            for (std::uint32_t lane = 0; lane < 4; ++lane) {
+                if (meets[lane] == 0) continue;
+                int place = found++;
+                for (; place > 0 && near[lane_of[place - 1]] > near[lane]; --place)
+                    lane_of[place] = lane_of[place - 1];
+                lane_of[place] = lane;
+            }
+            int inner = 0;
+            for (int f = 0; f < found; ++f) {
+                const std::uint32_t lane = lane_of[f];
+                if (node.count[lane] == 0) {
+                    lane_of[inner++] = lane;
+                    continue;
+                }
+                if (near[lane] > best.distance_m) continue;
+                const std::uint32_t first = node.child[lane];
+                for (std::uint32_t i = first; i < first + node.count[lane]; ++i) {
+                    const Packet& faces = packets_[i];
+                    const Four3 edge1 = four3(faces.edge1), edge2 = four3(faces.edge2);
+                    const Four3 corner = four3(faces.corner);
+                    const Four3 p = cross(direction, edge2);
+                    const Four determinant = dot(edge1, p);
+                    const Four3 s{origin.x - corner.x, origin.y - corner.y, origin.z - corner.z};
+                    const Four u = dot(s, p);
+                    const Four3 q = cross(s, edge1);
+                    const Four v = dot(direction, q);
+                    const Four zero = all(0.0f);
+                    const Signs inside =
+                        ((determinant > zero) & (u >= zero) & (v >= zero) &
+                         (u + v <= determinant)) |
+                        ((determinant < zero) & (u <= zero) & (v <= zero) & (u + v >= determinant));
+                    if (none(inside)) continue;
+                    const Four along = dot(edge2, q);
+                    for (int k = 0; k < 4; ++k) {
+                        if (inside[k] == 0) continue;
+                        const float distance = along[k] / determinant[k];
+                        if (!(distance > 0.0f) || distance > best.distance_m) continue;
+                        const std::uint32_t triangle = faces.triangle[k];
+                        if (distance == best.distance_m && triangle > best.triangle) continue;
+                        const Barycentric place{u[k] / determinant[k], v[k] / determinant[k]};
+                        if (triangles_->flags(triangle) & kTriangleMasked) {
+                            if (triangles_->is_hole(triangle, place)) continue;
+                        }
+                        best = {triangle, distance, place, determinant[k] < 0.0f};
+                        if (kAny) return best;
+                    }
+                }
+            }
+            // Inner ones: the further wait.
+            for (int k = inner - 1; k > 0; --k)
+                stack[depth++] = {node.child[lane_of[k]], near[lane_of[k]]};
+            if (inner > 0 && near[lane_of[0]] <= best.distance_m) {
+                at = node.child[lane_of[0]];
                 continue;
             }
-            const std::uint32_t first = node.child[side];
-            for (std::uint32_t i = first; i < first + node.count[side]; ++i) {
-                const Face& face = faces_[i];
-                const glm::vec3 p = glm::cross(direction, face.edge2);
-                const float determinant = glm::dot(face.edge1, p);
-                if (determinant == 0.0f) continue;
-                const glm::vec3 s = origin - face.corner;
-                const float u = glm::dot(s, p);
-                const glm::vec3 q = glm::cross(s, face.edge1);
-                const float v = glm::dot(direction, q);
-                if (determinant > 0.0f) {
-                    if (u < 0.0f || v < 0.0f || u + v > determinant) continue;
-                } else {
-                    if (u > 0.0f || v > 0.0f || u + v < determinant) continue;
-                }
-                const float distance = glm::dot(face.edge2, q) / determinant;
-                if (!(distance > 0.0f) || distance > best.distance_m) continue;
-                const std::uint32_t triangle = order_[i];
-                if (distance == best.distance_m && triangle > best.triangle) continue;
-                const Barycentric place{u / determinant, v / determinant};
-                if (triangles_->flags(triangle) & kTriangleMasked) {
-                    if (triangles_->is_hole(triangle, place)) continue;
-                }
-                best = {triangle, distance, place, determinant < 0.0f};
-                if (kAny) return best;
-            }
-        }
-        // Both inner: the further waits.
-        if (found == 2) stack[depth++] = {node.child[next[1]], entries[next[1]]};
-        if (found > 0) {
-            at = node.child[next[0]];
-            continue;
         }
         do {
             if (depth == 0) return best;

@@ -26,10 +26,11 @@ struct RayHit {
     bool hit() const { return triangle != kNothing; }
 };
 
-/// Rays against triangles: a tree of boxes split by the surface area heuristic (16 bins), triangles
-/// by Moeller and Trumbore 1997 with an exact division, holes by alpha. Of several triangles at the
-/// same distance the one with the lowest number counts, so that a hit does not depend on the tree.
-/// Only additions, multiplications, divisions and comparisons: the same bits on every machine.
+/// Rays against triangles: a tree of boxes split by the surface area heuristic (16 bins), four
+/// children a node, triangles by Moeller and Trumbore 1997 with an exact division, holes by alpha.
+/// Of several triangles at the same distance the one with the lowest number counts, so that a hit
+/// does not depend on the tree. Only additions, multiplications, divisions and comparisons: the
+/// same bits on every machine.
 class Tracer {
 public:
     /// The triangles must outlive the tracer. Built by one thread, about 1 us a triangle.
@@ -45,11 +46,16 @@ public:
     const Triangles& triangles() const { return *triangles_; }
 
 private:
-    // Both children's boxes lie in their parent, so that a ray decides with one read.
+    // Four children's boxes lie in their parent, side by side: one instruction looks at all.
     struct Node {
-        float low[2][3], high[2][3];
-        std::uint32_t child[2];  // number of a node, or of a first triangle in order_
-        std::uint32_t count[2];  // triangles of a leaf; 0: a node
+        float low[3][4], high[3][4];
+        std::uint32_t child[4];  // number of a node, or of the first of a leaf's packets
+        std::uint32_t count[4];  // packets of a leaf; 0: a node
+    };
+    // Four triangles of a leaf; what is left over has no area.
+    struct Packet {
+        float corner[3][4], edge1[3][4], edge2[3][4];
+        std::uint32_t triangle[4];
     };
     template <bool kAny>
     RayHit trace(const Ray& ray) const;
@@ -57,12 +63,7 @@ private:
 
     const Triangles* triangles_ = nullptr;
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> order_;
-    // Copies in the order of the tree.
-    struct Face {
-        glm::vec3 corner, edge1, edge2;
-    };
-    std::vector<Face> faces_;
+    std::vector<Packet> packets_;
 };
 
 }  // namespace petrichor::scene

@@ -189,6 +189,37 @@ TEST(PatchWeatherOfAScene, RainFillsTheHollowAndTheBooksClose)
     EXPECT_EQ(again->levels_m, wet->levels_m);
 }
 
+// Frost after rain: what stands in the hollow turns to ice, which floats: the level stays.
+TEST(PatchWeatherOfAScene, TheHollowFreezes)
+{
+    const Place place;
+    const auto table = rain_table(72, 10.0, 2.0, 0.0, 4, -12.0);
+    PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
+    const auto bottom = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.y < -0.05f && std::abs(p.z) < 2.0f;
+    });
+    const auto high = place.patch_where([](glm::vec3 p, glm::vec3 n) {
+        return n.y > 0.9f && p.x > 4.0f && p.x < 5.0f && p.y < 0.1f && std::abs(p.z) < 3.0f;
+    });
+    const auto ice = [&](const gpu::PlaceWeather& at, std::uint32_t patch) {
+        return at.states[patch * PLACE_STATE_TEXELS + 2].w;
+    };
+    const auto wet = run.at(table.time_us[4]);
+    const double before_m3 = run.sums().ponds_m3;
+    EXPECT_LT(wet->states[bottom * PLACE_STATE_TEXELS + 1].y, 0.01f);
+    EXPECT_EQ(run.sums().pond_ice_kg, 0.0);
+    const auto frozen = run.at(table.time_us[60]);
+    const PlaceSums sums = run.sums();
+    EXPECT_EQ(frozen->states[bottom * PLACE_STATE_TEXELS + 1].y, 1.0f);
+    EXPECT_GT(ice(*frozen, bottom), 5.0f);
+    EXPECT_GT(ice(*frozen, bottom), ice(*frozen, high) + 4.0f);
+    EXPECT_LT(frozen->states[bottom * PLACE_STATE_TEXELS + 3].x, 0.9f);
+    EXPECT_GT(sums.pond_ice_kg, 0.05 * sums.ponds_m3 * weather::kWaterDensity);
+    EXPECT_LE(sums.pond_ice_kg, sums.ponds_m3 * weather::kWaterDensity * (1.0 + 1e-9));
+    EXPECT_GT(sums.ponds_m3, 0.8 * before_m3);
+    EXPECT_LT(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen);
+}
+
 // What stands below the levels is what the books say, to rounding; it rises until it spills.
 TEST(PatchWeatherOfAScene, TwoTenAndFortyMillimetresStandAsTheyFell)
 {
@@ -264,6 +295,56 @@ TEST(PatchWeatherOfAScene, WetnessIsThatOfTheModel)
     for (const double mm : {0.0, 0.01, 0.1, 0.25, 1.0, 5.0})
         EXPECT_NEAR(static_cast<double>(shared::wetness_of_film(static_cast<float>(mm))),
                     weather::wetness_of_film({}, mm), 1e-6);
+}
+
+// A ball in the air: nothing is ground, there are no hollows, and all that runs off leaves the scene.
+TEST(PatchWeatherOfAScene, SomethingWithoutGroundHasItsWeather)
+{
+    scene::Scene scene = yard();
+    scene.meshes.front().primitives.clear();
+    add_quad(scene, 1, {-1, 5, 1}, {2, 0, 0}, {0, 2, 0});
+    add_quad(scene, 1, {1, 5, -1}, {-2, 0, 0}, {0, 2, 0});
+    const scene::Triangles triangles(scene, {});
+    const scene::Tracer tracer(triangles);
+    const scene::Patches patches = cut(tracer);
+    ASSERT_GT(patches.count, 0u);
+    const auto surfaces = scene::patch_surfaces(patches, triangles, {});
+    const SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+    EXPECT_EQ(sites.ground.basins.pits, 0u);
+    for (const double wind : {0.0, 60.0}) {
+        const auto table = rain_table(6, 5.0, wind, 180.0);
+        PlaceWeatherOfFile run(sites, table, {}, table.time_us.front());
+        const auto place = run.at(table.time_us[5]);
+        for (const glm::vec4& texel : place->states)
+            for (int k = 0; k < 4; ++k) EXPECT_TRUE(std::isfinite(texel[k]));
+        const PlaceSums sums = run.sums();
+        EXPECT_EQ(sums.ponds_m3, 0.0);
+        EXPECT_LE(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen);
+        if (wind > 0.0) {
+            EXPECT_GT(sums.books.out, 0.0);
+        } else {
+            EXPECT_EQ(sums.books.fallen, 0.0) << "upright faces in still air";
+        }
+    }
+}
+
+// A file of one row: its weather, for as long as it is asked for.
+TEST(PatchWeatherOfAScene, AFileOfOneRowIsItsHour)
+{
+    const Place place;
+    const auto table = rain_table(1, 5.0, 3.0, 180.0);
+    PlaceWeatherOfFile run(place.sites, table, {}, table.time_us.front());
+    constexpr std::int64_t kHour_us = 3600000000LL;
+    const auto end = run.at(table.time_us.front() + 10 * kHour_us);
+    const PlaceSums sums = run.sums();
+    EXPECT_GT(sums.books.fallen, 0.0);
+    EXPECT_LT(std::abs(sums.books.residual()), 1e-9 * sums.books.fallen);
+    const auto before = run.at(table.time_us.front() - 10 * kHour_us);
+    EXPECT_EQ(run.sums().books.fallen, 0.0);
+    for (const auto& states : {end->states, before->states})
+        for (const glm::vec4& texel : states)
+            for (int k = 0; k < 4; ++k) EXPECT_TRUE(std::isfinite(texel[k]));
 }
 
 TEST(SceneGroundKeys, DrainsAndGlobsThatMeetNothingAreSaid)

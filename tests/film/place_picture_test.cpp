@@ -104,6 +104,50 @@ TEST_F(PlacePicture, AFilmOnTheRoadDarkensIt)
     EXPECT_LT(wet, 0.86f * dry);
 }
 
+// An eye below the ground, under every sun and none, in calm and in a hurricane: a picture of numbers.
+TEST_F(PlacePicture, AnEyeBelowTheGroundAndASunBelowTheHorizonAreDefined)
+{
+    const House house;
+    renderer->load(house.scene, {});
+    auto lit = std::make_shared<gpu::PatchScene>();
+    lit->patches = house.patches;
+    lit->surfaces = house.surfaces;
+    lit->materials = house.scene.materials;
+    renderer->set_patches(lit);
+    for (const float eye_m : {-3.0f, 1.5f}) {
+        for (const float sun_rad : {0.7f, 0.0f, -0.4f, -1.5f}) {
+            for (const double wind : {0.0, 60.0}) {
+                SCOPED_TRACE(eye_m);
+                SCOPED_TRACE(sun_rad);
+                gpu::Frame frame;
+                frame.camera = gpu::look({6, eye_m, 5}, {0, eye_m + 0.5f, 0}, 0.8f);
+                frame.sky.sun_elevation_rad = sun_rad;
+                frame.settings.width = frame.settings.height = 32;
+                frame.settings.samples = 1;
+                frame.settings.aovs = {"depth"};
+                frame.weather.wind_m_s = glm::vec2(static_cast<float>(wind), 0.0f);
+                const auto table = rain_table(4, 6.0, wind, 270.0);
+                PlaceWeatherOfFile run(house.sites, table, {}, table.time_us.front());
+                frame.place = run.at(table.time_us[3]);
+                const gpu::RenderResult r = renderer->render(frame);
+                int surfaces = 0;
+                for (int y = 0; y < 32; ++y) {
+                    for (int x = 0; x < 32; ++x) {
+                        const glm::vec3 c = gpu::pixel(r, x, y);
+                        for (int k = 0; k < 3; ++k) {
+                            ASSERT_TRUE(std::isfinite(c[k])) << x << " " << y;
+                            ASSERT_GE(c[k], 0.0f) << x << " " << y;
+                        }
+                        surfaces += std::isfinite(gpu::aov(r, "depth", x, y)) ? 1 : 0;
+                    }
+                }
+                EXPECT_GT(surfaces, 0);
+            }
+        }
+    }
+    renderer->set_patches(nullptr);
+}
+
 // Setts whose relief has four levels, seen from above: a road without hollows of its geometry.
 struct Setts {
     scene::Scene scene = made();

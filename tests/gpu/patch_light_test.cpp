@@ -45,6 +45,10 @@ std::shared_ptr<PatchScene> traced(const Scene& scene, float cell_m = 0.3f)
             scene::trace_lamp(made->patches, tracer, light.position_m, 5000.0f));
     made->glow = scene::trace_glow(made->patches, tracer,
                                    scene::glowing_patches(made->patches, made->surfaces));
+    made->near = scene::trace_near(made->patches, tracer);
+    for (const Light& light : scene.lights)
+        made->near_reach.push_back(
+            scene::trace_near_lamp(made->near, tracer, cell_m, light.position_m, 5000.0f));
     return made;
 }
 
@@ -137,11 +141,15 @@ TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
     input.albedo = seen.albedo;
     input.direct = none;
     input.sky = sky;
+    const std::vector<glm::vec3> near_direct(patches->near.sender.size(), glm::vec3(0.0f));
+    ASSERT_GT(near_direct.size(), 50u);
+    input.near = &patches->near;
+    input.near_direct = near_direct;
     const auto light = scene::relight(p, input);
     const auto planes = scene::lookup_planes(p);
-    const scene::LookupWays ways = scene::lookup_ways(p);
-    const scene::LitPatches lit{ways.table,       ways.ways,      planes,
-                                light.irradiance, light.gradient, ways.grid};
+    const scene::LookupWays ways = scene::lookup_ways(p, &patches->near);
+    const scene::LitPatches lit{ways.table,     ways.ways, planes,    light.irradiance,
+                                light.gradient, ways.grid, light.near};
     // Looked up is one pixel of each block; the others take it from the blocks around.
     int looked_up = 0, different = 0, spread = 0, off = 0;
     for (int y = 0; y < r.height; ++y) {

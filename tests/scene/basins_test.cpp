@@ -151,6 +151,10 @@ TEST(Basins, WaterIsNeitherMadeNorLostInAnyOrder)
             if (turn == 0) first = level;
             for (std::size_t i = 1; i < level.size(); ++i)
                 EXPECT_NEAR(level[i], first[i], 1e-5) << seed << " " << i;
+            double held = 0.0;
+            for (const WaterShape& shape : water_shapes(basins, water))
+                held += shape.depth_m * shape.area_m2;
+            EXPECT_NEAR(held, stored_m3(basins, water), 1e-9 * fallen);
         }
     }
 }

@@ -9,6 +9,8 @@
 #include "tests/weather/made_up.h"
 #include "weather/patches/driving_rain.h"
 #include "weather/patches/patch_weather.h"
+#include "weather/patches/pond_ice.h"
+#include "weather/physics/constants.h"
 
 namespace petrichor::weather {
 namespace {
@@ -170,6 +172,9 @@ Ponds tubs()
         return done;
     };
     p.stored_m3 = [](std::span<const double> v) { return v[0] + v[1]; };
+    p.shape = [](std::span<const double> v) {
+        return std::vector<PondShape>{{v[0] / 2.0, 2.0}, {v[1] / 2.0, 2.0}};
+    };
     return p;
 }
 
@@ -453,6 +458,88 @@ TEST(PatchWeather, ALawnIsWetInClearNights)
     };
     EXPECT_GT(dew("lawn"), dew("grass") + 0.01);
     EXPECT_GT(dew("lawn"), 0.02);
+}
+
+// Of ice on water at 0 C, whose air takes a fixed heat from a surface at 0 C and less of a colder one:
+// d + B d^2 / 2 k = q t / (rho L).
+TEST(PondHeat, IceGrowsAsStefanSays)
+{
+    PondAir air;
+    air.gain_w_m2 = air.ice_gain_w_m2 = -120.0;
+    air.ice_loss_w_m2_k = 20.0;
+    constexpr double kDeep_kg_m2 = 2000.0;
+    double heat = 0.0;
+    for (int hour = 1; hour <= 24 * 20; ++hour) {
+        heat = step_pond_heat(heat, kDeep_kg_m2, air, 3600.0);
+        const double right = 120.0 * hour * 3600.0 / (kIceDensity * kLatentFusion);
+        const double b = 20.0 / 2.2;
+        const double ice_m = (std::sqrt(1.0 + 2.0 * b * right) - 1.0) / b;
+        const double found = pond_ice_share(heat) * kDeep_kg_m2 / kIceDensity;
+        EXPECT_NEAR(found, ice_m, 0.005 * ice_m + 1e-4) << hour;
+    }
+    // Snow on it keeps the cold out.
+    PondAir covered = air;
+    covered.cover_m2_k_w = 0.4;
+    EXPECT_GT(step_pond_heat(heat, kDeep_kg_m2, covered, 3600.0),
+              step_pond_heat(heat, kDeep_kg_m2, air, 3600.0));
+    EXPECT_EQ(step_pond_heat(heat, kDeep_kg_m2, air, 0.0), heat);
+}
+
+TEST(PondHeat, WaterCoolsToTheAirAndFreezesToTheGround)
+{
+    // Of 5 C water under air that a surface of 3 C is at rest with.
+    PondAir air;
+    air.loss_w_m2_k = 25.0;
+    air.gain_w_m2 = 75.0;
+    double heat = 5.0 * kWaterHeatCapacity, before = heat;
+    for (int hour = 0; hour < 200; ++hour) {
+        heat = step_pond_heat(heat, 50.0, air, 3600.0);
+        EXPECT_LE(heat, before);
+        before = heat;
+    }
+    EXPECT_NEAR(pond_water_c(heat), 3.0, 1e-6);
+    EXPECT_EQ(pond_ice_share(heat), 0.0);
+    air.gain_w_m2 = air.ice_gain_w_m2 = -200.0;
+    for (int hour = 0; hour < 200; ++hour) heat = step_pond_heat(heat, 5.0, air, 3600.0);
+    EXPECT_EQ(pond_ice_share(heat), 1.0);
+    // What froze and melts again is water as it was: its latent heat, no more.
+    air.ice_gain_w_m2 = 100.0;
+    const double hours = kLatentFusion * 5.0 / 100.0 / 3600.0;
+    for (int piece = 0; piece < 6 * static_cast<int>(hours) - 6; ++piece)
+        heat = step_pond_heat(heat, 5.0, air, 600.0);
+    EXPECT_GT(pond_ice_share(heat), 0.0);
+    EXPECT_LT(pond_ice_share(heat), 0.5);
+}
+
+// Frost after rain: ponds freeze from above, hold what they held, and thaw.
+TEST(PatchWeather, PondsFreezeAndThaw)
+{
+    ForcingTable table = steady(24 * 12, 3.0, 0.0, 2.0, 240);
+    for (std::size_t i = 0; i < 12; ++i) table[Field::Precip][i] = 4.0 / 3600.0;
+    for (std::size_t i = 24; i < 24 * 6; ++i) table[Field::AirTemp][i] = kZeroCelsiusK - 8.0;
+    for (std::size_t i = 24 * 6; i < table.rows(); ++i) table[Field::AirTemp][i] = kZeroCelsiusK + 7.0;
+    refill(table);
+    PatchParams params;
+    params.spin_up_days = 0;
+    PatchWeather patches(table, busy_street(), params, table.time_us.front(), tubs());
+    patches.go_to(table.time_us[23]);
+    EXPECT_EQ(pond_ice_share(patches.pond_heat_j_kg()[0]), 0.0);
+    EXPECT_GT(patches.pond_volumes_m3()[0], 0.01);
+    double before = 0.0;
+    for (std::size_t day = 1; day <= 5; ++day) {
+        patches.go_to(table.time_us[24 * day + 20]);
+        const double ice = pond_ice_share(patches.pond_heat_j_kg()[0]);
+        EXPECT_GE(ice, before) << day;
+        before = ice;
+    }
+    EXPECT_GT(before, 0.9);  // 25 mm in five days of frost
+    const double volume = patches.pond_volumes_m3()[0];
+    patches.go_to(table.time_us[24 * 5]);
+    EXPECT_NEAR(patches.pond_volumes_m3()[0], volume, 1e-12) << "the air takes no water from below ice";
+    patches.go_to(table.time_us.back());
+    EXPECT_EQ(pond_ice_share(patches.pond_heat_j_kg()[0]), 0.0);
+    const PatchLedger books = patches.ledger();
+    EXPECT_LT(std::abs(books.residual()), 1e-9 * books.fallen);
 }
 
 TEST(PatchWeather, OddWeatherIsDefined)

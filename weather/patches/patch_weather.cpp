@@ -22,7 +22,7 @@ constexpr std::size_t kMostCheckpoints = 6;
 constexpr std::size_t kCheckpointEvery = 24;  // steps, at first; doubled when there are too many
 constexpr double kBare_kg_m2 = 0.01;          // of snow: nothing
 constexpr double kDarkSky = 0.2;              // of the scout in the yard
-constexpr std::uint64_t kMagic = 0x3143544150525450ull;  // "PTRPATC1"
+constexpr std::uint64_t kMagic = 0x3243544150525450ull;  // "PTRPATC2"
 
 void check(const PatchParams& p)
 {
@@ -188,6 +188,7 @@ struct PatchWeather::Impl {
         initial.radiosity.assign(tables.slots(), kStefanBoltzmann * air_k * air_k * air_k * air_k);
         initial.hoar.assign(tables.slots(), 0.0);
         initial.pond_m3 = ponds.volume_m3;
+        initial.pond_heat_j_kg.assign(tables.set.ponds, 0.0);
         for (auto* row : {&initial.run_on_kg_m2_s, &initial.rain_share, &initial.wind_factor,
                           &initial.shortwave_w_m2, &initial.longwave_w_m2})
             row->assign(tables.slots(), 0.0f);
@@ -334,6 +335,11 @@ std::span<const double> PatchWeather::pond_volumes_m3() const
     return impl_->moment.pond_m3;
 }
 
+std::span<const double> PatchWeather::pond_heat_j_kg() const
+{
+    return impl_->moment.pond_heat_j_kg;
+}
+
 PatchLedger PatchWeather::ledger() const
 {
     const Impl& m = *impl_;
@@ -367,6 +373,7 @@ std::uint64_t PatchWeather::hash() const
         hash.add(m.moment.radiosity[m.tables.slot_of_patch[i]]);
     }
     for (const double v : m.moment.pond_m3) hash.add(v);
+    for (const double v : m.moment.pond_heat_j_kg) hash.add(v);
     hash.add(m.moment.out_kg, m.moment.pond_lost_kg);
     return hash.value();
 }
@@ -384,6 +391,7 @@ std::vector<std::byte> PatchWeather::save() const
     append_row(out, m.live.radiosity);
     append_row(out, m.live.hoar);
     append_row(out, m.live.pond_m3);
+    append_row(out, m.live.pond_heat_j_kg);
     append_row(out, m.live.run_on_kg_m2_s);
     return out;
 }
@@ -407,6 +415,7 @@ void PatchWeather::restore(std::span<const std::byte> saved)
     bytes.take_row(live.radiosity);
     bytes.take_row(live.hoar);
     bytes.take_row(live.pond_m3);
+    bytes.take_row(live.pond_heat_j_kg);
     bytes.take_row(live.run_on_kg_m2_s);
     if (!bytes.empty()) {
         throw Error("weather of patches: the saved state is too long",

@@ -14,6 +14,12 @@
 
 namespace petrichor::weather {
 
+/// Of the water over a pond: how deep it is in the mean, and how much of its surface is this pond's.
+struct PondShape {
+    double depth_m = 0.0;  ///< ice counted as the water that it is
+    double area_m2 = 0.0;
+};
+
 /// Water that stands in ponds, kept by whoever knows their shape. Called once a step, by one
 /// thread: takes what ran in (m3, by pond), lets the level fall by `loss_m` (by pond), changes
 /// `volume_m3` and returns what ran over and out of the scene, and what was lost, m3. Must depend
@@ -27,6 +33,8 @@ struct Ponds {
                            std::span<const double> loss_m)>
         step;
     std::function<double(std::span<const double> volume_m3)> stored_m3;
+    /// By pond; depth times area adds up to stored_m3. Without it ponds do not freeze.
+    std::function<std::vector<PondShape>(std::span<const double> volume_m3)> shape;
 };
 
 struct PatchParams {
@@ -91,6 +99,9 @@ public:
     void go_to(std::int64_t utc_us);
     PatchState state(std::size_t patch) const;
     std::span<const double> pond_volumes_m3() const;
+    /// Heat of the water over each pond (pond_ice.h), J/kg; 0 where none stands. Ice floats: levels and
+    /// volumes hold it as the water that it is.
+    std::span<const double> pond_heat_j_kg() const;
     PatchLedger ledger() const;
     /// Hash of all that the moment holds, in the order of the patches.
     std::uint64_t hash() const;

@@ -1,5 +1,6 @@
 #include "gpu/passes/patch_light/patch_light.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -41,12 +42,14 @@ void add_list(Hasher& hasher, const std::vector<T>& list)
 
 PatchLights::PatchLights(const Device& device) : device_(&device)
 {
-    make_buffers(1, 1, 1);
+    make_buffers(1, 1, 1, 1);
 }
 
-void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways)
+void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways,
+                               std::size_t near)
 {
-    for (auto* buffer : {&table_, &ways_, &planes_, &irradiance_, &gradient_, &sky_bins_}) *buffer = nullptr;
+    for (auto* buffer : {&table_, &ways_, &planes_, &irradiance_, &gradient_, &near_, &sky_bins_})
+        *buffer = nullptr;
     arena_ = std::make_unique<MemoryArena>(*device_);
     table_ = host_texels(*arena_, "patch_table", slots, VK_FORMAT_R32G32B32A32_UINT);
     ways_ = arena_->buffer({.name = "patch_ways",
@@ -57,6 +60,7 @@ void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t
     planes_ = host_texels(*arena_, "patch_planes", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
     irradiance_ = host_texels(*arena_, "patch_irradiance", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
     gradient_ = host_texels(*arena_, "patch_gradient", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    near_ = host_texels(*arena_, "patch_near", near, VK_FORMAT_R32G32B32A32_SFLOAT);
     sky_bins_ = arena_->buffer({.name = "sky_bins",
                                 .size = static_cast<VkDeviceSize>(shared::kSkyBins) * 16,
                                 .host = true});
@@ -70,12 +74,13 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     radiosity_.clear();
     grid_ = {};
     if (!loaded()) {
-        make_buffers(1, 1, 1);
+        make_buffers(1, 1, 1, 1);
         return;
     }
     const scene::Patches& p = scene_->patches;
-    const scene::LookupWays ways = scene::lookup_ways(p);
-    make_buffers(p.nodes(), ways.table.size(), ways.ways.size());
+    const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
+    make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
+                 std::max<std::size_t>(4 * scene_->near.sender.size(), 1));
     grid_ = ways.grid;
     const auto planes = scene::lookup_planes(p);
     std::memcpy(table_->mapped, ways.table.data(), ways.table.size() * sizeof(ways.table[0]));
@@ -136,7 +141,9 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                                 frame.materials, frame.place.get());
     if (frame.patch_albedo.size() == p.count) look.albedo = frame.patch_albedo;
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
+    std::vector<glm::vec3> near_direct(scene_->near.sender.size(), glm::vec3(0.0f));
     scene::add_sun(p, sun.direction, sun.illuminance, direct);
+    scene::add_sun(scene_->near, sun.direction, sun.illuminance, near_direct);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (&lights[i] == scene_sun) continue;
         if (lights[i].kind == LightKind::Directional && frame.sky.analytic_sun) continue;
@@ -145,8 +152,14 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         std::span<const std::uint8_t> reach;
         if (i < scene_->lamp_reach.size()) reach = scene_->lamp_reach[i];
         scene::add_lamp(p, light, reach, direct);
+        std::span<const std::uint8_t> near_reach;
+        if (i < scene_->near_reach.size()) near_reach = scene_->near_reach[i];
+        scene::add_lamp(scene_->near, light, near_reach, near_direct);
     }
-    for (const Light& light : frame.extra_lights) scene::add_lamp(p, light, {}, direct);
+    for (const Light& light : frame.extra_lights) {
+        scene::add_lamp(p, light, {}, direct);
+        scene::add_lamp(scene_->near, light, {}, near_direct);
+    }
     float bright = 0.0f, area = 0.0f;
     for (std::uint32_t i = 0; i < p.count; ++i) {
         emission[i] = look.emission[i] * (shared::kPi * frame.emissive_scale);
@@ -160,12 +173,16 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     input.emission = emission;
     input.sky = sky;
     input.glow = &scene_->glow;
+    input.near = &scene_->near;
+    input.near_direct = near_direct;
     input.bounces = bright > kBright * area ? kBouncesBright : kBounces;
     const scene::PatchIrradiance lit = scene::relight(p, input);
     std::memcpy(irradiance_->mapped, lit.irradiance.data(),
                 lit.irradiance.size() * sizeof(lit.irradiance[0]));
     std::memcpy(gradient_->mapped, lit.gradient.data(),
                 lit.gradient.size() * sizeof(lit.gradient[0]));
+    if (!lit.near.empty())
+        std::memcpy(near_->mapped, lit.near.data(), lit.near.size() * sizeof(lit.near[0]));
     radiosity_ = lit.radiosity;
     rough_radiosity_ = lit.radiosity;
     if (frame.emissive_lights) {

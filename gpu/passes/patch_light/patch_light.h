@@ -46,14 +46,15 @@ public:
     GpuBuffer& planes() const { return *planes_; }
     GpuBuffer& irradiance() const { return *irradiance_; }
     GpuBuffer& gradient() const { return *gradient_; }
+    GpuBuffer& near() const { return *near_; }
     GpuBuffer& sky_bins() const { return *sky_bins_; }
 
 private:
-    void make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways);
+    void make_buffers(std::size_t nodes, std::size_t slots, std::size_t ways, std::size_t near);
 
     const Device* device_;
     std::unique_ptr<MemoryArena> arena_;
-    std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, sky_bins_;
+    std::unique_ptr<GpuBuffer> table_, ways_, planes_, irradiance_, gradient_, near_, sky_bins_;
     std::shared_ptr<const PatchScene> scene_;
     shared::PatchGrid grid_{};
     std::uint64_t loads_ = 0;

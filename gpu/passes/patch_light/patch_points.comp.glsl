@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "gpu/frame/gbuffer.glsl"
 #include "formulas/light/patch_cells.h"
+#include "formulas/light/near_light.h"
 #include "gpu/passes/patch_light/patch_plane.glsl"
 
 layout(local_size_x = PATCH_POINTS_TILE, local_size_y = PATCH_POINTS_TILE) in;
@@ -16,6 +17,7 @@ layout(binding = PATCH_POINTS_WAYS) uniform usamplerBuffer patch_way_texels;
 layout(binding = PATCH_POINTS_PLANES) uniform samplerBuffer patch_plane_texels;
 layout(binding = PATCH_POINTS_IRRADIANCE) uniform samplerBuffer patch_irradiance_texels;
 layout(binding = PATCH_POINTS_GRADIENT) uniform samplerBuffer patch_gradient_texels;
+layout(binding = PATCH_POINTS_NEAR) uniform samplerBuffer patch_near_texels;
 layout(binding = PATCH_POINTS_TARGET, scalar) writeonly buffer Target { uvec4 points[]; };
 
 uvec4 patch_table(uint slot)
@@ -37,6 +39,10 @@ vec4 patch_irradiance(uint node)
 vec4 patch_gradient(uint node)
 {
     return texelFetch(patch_gradient_texels, int(node));
+}
+vec4 patch_near(uint texel)
+{
+    return texelFetch(patch_near_texels, int(texel));
 }
 #include "formulas/light/patch_lookup.inc"
 

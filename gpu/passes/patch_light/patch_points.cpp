@@ -21,6 +21,7 @@ void add_patch_points(FrameGraph& graph, FrameTargets& targets, const PatchLight
                      {PATCH_POINTS_PLANES, texels(patches.planes())},
                      {PATCH_POINTS_IRRADIANCE, texels(patches.irradiance())},
                      {PATCH_POINTS_GRADIENT, texels(patches.gradient())},
+                     {PATCH_POINTS_NEAR, texels(patches.near())},
                      {PATCH_POINTS_TARGET, storage_buffer(*targets.patch_points)}},
         .push = {},
         .groups = groups_over(blocks(targets.width), blocks(targets.height), PATCH_POINTS_TILE)});

@@ -66,15 +66,33 @@ float open_radius_m(const Triangles& triangles)
 
 }  // namespace
 
+LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r)
+{
+    const Triangles& triangles = tracer.triangles();
+    const float regular = patches.level_cell_m(1);
+    const std::uint64_t hash = cell_hash(patches.seed, patches.key[patch]);
+    LinkRay link;
+    for (int draw = 0; draw <= kRedraws; ++draw) {
+        const std::uint64_t which =
+            mixed(hash, static_cast<std::uint64_t>(r * (kRedraws + 1) + draw));
+        const SamplePoint from = point_of(patches, triangles, patch, which >> 7);
+        link.ray = {from.position_m + from.normal * ray_lift_m(from.position_m, regular),
+                    row_direction(from.normal, r, patches.rays, hash)};
+        link.hit = tracer.nearest(link.ray);
+        link.inside =
+            link.hit.hit() && link.hit.back && !triangles.double_sided(link.hit.triangle);
+        if (!link.inside) break;
+    }
+    return link;
+}
+
 void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options)
 {
     const Triangles& triangles = tracer.triangles();
     const float open_m = open_radius_m(triangles);
-    const float regular = patches.level_cell_m(1);
     patches.links.resize(std::size_t{patches.count} * static_cast<std::size_t>(patches.rays));
     patches.sky_view.resize(patches.count);
     over_patches(patches, options, "links", [&](std::uint32_t patch) {
-        const std::uint64_t hash = cell_hash(options.seed, patches.key[patch]);
         std::uint16_t* row =
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
         int sky = 0;
@@ -82,25 +100,16 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
         int lost = 0;
         std::vector<std::pair<int, std::uint16_t>> replaced;
         for (int r = 0; r < patches.rays; ++r) {
+            const LinkRay link = trace_link(patches, tracer, patch, r);
             std::uint32_t id = patches.black();
-            for (int draw = 0; draw <= kRedraws; ++draw) {
-                const std::uint64_t which =
-                    mixed(hash, static_cast<std::uint64_t>(r * (kRedraws + 1) + draw));
-                const SamplePoint from = point_of(patches, triangles, patch, which >> 7);
-                const Ray ray{
-                    from.position_m + from.normal * ray_lift_m(from.position_m, regular),
-                    row_direction(from.normal, r, patches.rays, hash)};
-                const RayHit hit = tracer.nearest(ray);
-                if (!hit.hit()) {
-                    id = patches.count + static_cast<std::uint32_t>(shared::sky_bin(ray.direction));
-                    sky += ray.direction.y > 0.0f ? 1 : 0;
-                    ++far;
-                    break;
-                }
-                if (hit.back && !triangles.double_sided(hit.triangle)) continue;
-                id = patch_of_hit(patches, triangles, ray, hit);
-                far += hit.distance_m > open_m ? 1 : 0;
-                break;
+            if (!link.hit.hit() && !link.inside) {
+                id = patches.count +
+                     static_cast<std::uint32_t>(shared::sky_bin(link.ray.direction));
+                sky += link.ray.direction.y > 0.0f ? 1 : 0;
+                ++far;
+            } else if (!link.inside) {
+                id = patch_of_hit(patches, triangles, link.ray, link.hit);
+                far += link.hit.distance_m > open_m ? 1 : 0;
             }
             row[r] = static_cast<std::uint16_t>(id);
             lost += id == patches.black() ? 1 : 0;

@@ -6,6 +6,14 @@
 
 namespace petrichor::scene {
 
+struct LinkRay {
+    Ray ray;
+    RayHit hit;
+    bool inside = false;  ///< it starts inside a body, whatever was drawn
+};
+/// Ray r of a patch's row: drawn again, up to three times, where it starts inside a body.
+LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r);
+
 /// Fills links, sky_view and open.
 void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options);
 /// Fills connected.

@@ -9,6 +9,7 @@
 #include "weather/patches/detail/patch_water.h"
 #include "weather/physics/evaporation.h"
 #include "weather/physics/exchange.h"
+#include "weather/physics/humidity.h"
 #include "weather/physics/solar.h"
 
 namespace petrichor::weather::detail {
@@ -107,6 +108,11 @@ void set_open_water(SkyStep& sky, const ForcingTable& table)
     p.exchange_coefficient =
         neutral_exchange(table.site.wind_height_m, table.site.temp_height_m, kWaterRoughness_m);
     sky.open_water_kg_m2_s = std::max(0.0, penman_monteith(p).rate_kg_m2_s);
+    sky.air_humidity =
+        specific_humidity(vapour_pressure_pa(sky.air_k, p.rel_humidity_pct), p.pressure_pa);
+    sky.pond_exchange_kg_m3 =
+        air_density_kg_m3(sky.air_k, sky.air_humidity, p.pressure_pa) * p.exchange_coefficient;
+    sky.wind_m_s = sky.forcing.wind.at(0.5);
 }
 
 // Sun and sky on a slot, W/m2.
@@ -282,6 +288,7 @@ PatchScratch::PatchScratch(const PatchTables& t)
     splash_left.assign(t.set.patches.size(), 0.0);
     pond_in_m3.assign(t.set.ponds, 0.0);
     pond_loss_m.assign(t.set.ponds, 0.0);
+    pond_view.assign(t.set.ponds, {});
 }
 
 void advance_patches(PatchLive& live, const PatchTables& t, const SkyStep& sky,

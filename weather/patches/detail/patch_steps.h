@@ -17,6 +17,7 @@ struct PatchLive {
     std::vector<double> radiosity;  // J, longwave that leaves, W/m2
     std::vector<double> hoar;       // kg/m2
     std::vector<double> pond_m3;
+    std::vector<double> pond_heat_j_kg;  // by pond
     double out_kg = 0.0, pond_lost_kg = 0.0;
     // Of the last step, for whoever asks: recomputed by the next.
     std::vector<float> run_on_kg_m2_s, rain_share, wind_factor, shortwave_w_m2, longwave_w_m2;
@@ -43,6 +44,8 @@ struct SkyStep {
     std::vector<Bit> rain_from;
     VisibleLookup snow_from;
     double open_water_kg_m2_s = 0.0;  // that evaporates from ponds, >= 0
+    // Of the air over ponds: what it holds, kg/kg, and what a metre a second of wind carries, kg/m3.
+    double air_humidity = 0.0, pond_exchange_kg_m3 = 0.0, wind_m_s = 0.0;
 };
 SkyStep make_sky_step(const ForcingTable& table, const PatchParams& params, std::int64_t begin_us,
                       std::int64_t length_us, bool shares_asked);
@@ -58,6 +61,11 @@ struct PatchScratch {
     std::vector<double> drained;                // kg/m2 in the step
     std::vector<double> arriving, splash_left;  // by patch
     std::vector<double> pond_in_m3, pond_loss_m;
+    // Of the patches that drain to a pond: their area, and means over it.
+    struct PondView {
+        double area_m2 = 0.0, light_w_m2 = 0.0, longwave_w_m2 = 0.0, wind = 0.0, snow_m = 0.0;
+    };
+    std::vector<PondView> pond_view;
     explicit PatchScratch(const PatchTables& tables);
 };
 

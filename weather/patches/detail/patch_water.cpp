@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "weather/patches/pond_ice.h"
+#include "weather/physics/humidity.h"
 
 namespace petrichor::weather::detail {
 
@@ -228,17 +232,117 @@ void run_off(PatchLive& live, const PatchTables& t, double dt_s, PatchScratch& w
     }
 }
 
+namespace {
+
+constexpr double kWaterAlbedo = 0.08, kIceAlbedo = 0.3;  // of clear ice on dark ground
+constexpr double kWaterEmissivity = 0.97;
+constexpr double kSnowConductivity_w_m_k = 0.25;
+constexpr double kLeastWind_m_s = 0.1;
+constexpr double kSeenIce_kg_m2 = 0.1;  // that shuts water off from the air
+
+// What ponds see of sun, sky and wind: the mean of the ground that drains to them.
+void view_from_ponds(const PatchLive& live, const PatchTables& t, PatchScratch& w)
+{
+    std::fill(w.pond_view.begin(), w.pond_view.end(), PatchScratch::PondView{});
+    for (std::uint32_t i = 0; i < t.twin; ++i) {
+        const WeatherPatch& patch = t.set.patches[i];
+        if (patch.runs_to == kRunsOut || (patch.runs_to & kToPond) == 0) continue;
+        PatchScratch::PondView& view = w.pond_view[patch.runs_to & ~kToPond];
+        const std::size_t slot = t.slot_of_patch[i], lane = slot % kPatchLanes;
+        double snow = 0.0;
+        for (std::size_t k = 0; k < kSnowLayers; ++k)
+            snow += number(live.blocks[slot / kPatchLanes], kThick + k, lane);
+        view.area_m2 += patch.area_m2;
+        view.light_w_m2 += patch.area_m2 * w.light[slot];
+        view.longwave_w_m2 += patch.area_m2 * w.longwave[slot];
+        view.wind += patch.area_m2 * w.wind[slot];
+        view.snow_m += patch.area_m2 * snow;
+    }
+    for (PatchScratch::PondView& view : w.pond_view) {
+        if (!(view.area_m2 > 0.0)) continue;
+        view.light_w_m2 /= view.area_m2;
+        view.longwave_w_m2 /= view.area_m2;
+        view.wind /= view.area_m2;
+        view.snow_m /= view.area_m2;
+    }
+}
+
+PondAir air_over(const PatchScratch::PondView& view, const SkyStep& sky)
+{
+    const double wind = std::max(sky.wind_m_s * view.wind, kLeastWind_m_s);
+    const double exchange = sky.pond_exchange_kg_m3 * wind;  // kg m-2 s-1
+    constexpr double kZero = kZeroCelsiusK;
+    const double cube = kZero * kZero * kZero;
+    const auto surface = [&](double albedo, double latent, double full, double slope,
+                             double& gain, double& loss) {
+        gain = (1.0 - albedo) * view.light_w_m2 +
+               kWaterEmissivity * (view.longwave_w_m2 - kStefanBoltzmann * cube * kZero) +
+               exchange * (kAirHeatCapacity * (sky.air_k - kZero) +
+                           latent * (sky.air_humidity - full));
+        loss = 4.0 * kWaterEmissivity * kStefanBoltzmann * cube +
+               exchange * (kAirHeatCapacity + latent * slope);
+    };
+    const double pressure = sky.forcing.pressure.at(0.5);
+    const auto held = [&](double vapour_pa) { return specific_humidity(vapour_pa, pressure); };
+    const double full = held(saturation_pressure_ice_pa(kZero));
+    PondAir air;
+    surface(kWaterAlbedo, kLatentVaporisation, full,
+            held(saturation_pressure_water_pa(kZero + 1.0)) - full, air.gain_w_m2,
+            air.loss_w_m2_k);
+    // Snow on the ice is as bright as the snow beside it; what light comes through is little.
+    const double albedo = view.snow_m > 0.01 ? 0.8 : kIceAlbedo;
+    surface(albedo, kLatentSublimation, full, full - held(saturation_pressure_ice_pa(kZero - 1.0)),
+            air.ice_gain_w_m2, air.ice_loss_w_m2_k);
+    air.cover_m2_k_w = view.snow_m / kSnowConductivity_w_m_k;
+    return air;
+}
+
+double of(const std::vector<PondShape>& shape, std::size_t pond)
+{
+    return pond < shape.size() ? shape[pond].depth_m * kWaterDensity : 0.0;
+}
+
+// Water that has run in brings the warmth of the air; then the surface gains or loses.
+void freeze_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, const Ponds& ponds,
+                  PatchScratch& w)
+{
+    const std::vector<PondShape> shape = ponds.shape(live.pond_m3);
+    view_from_ponds(live, t, w);
+    for (std::size_t i = 0; i < t.set.ponds; ++i) {
+        const double water_kg_m2 = of(shape, i);
+        double& heat = live.pond_heat_j_kg[i];
+        if (!(water_kg_m2 > 1e-6)) {
+            heat = 0.0;
+            continue;
+        }
+        const double all_kg = water_kg_m2 * shape[i].area_m2;
+        const double share = std::clamp(w.pond_in_m3[i] * kWaterDensity / all_kg, 0.0, 1.0);
+        const double warm = kWaterHeatCapacity * std::max(sky.air_k - kZeroCelsiusK, 0.0);
+        heat += share * (warm - heat);
+        if (w.pond_view[i].area_m2 > 0.0)
+            heat = step_pond_heat(heat, water_kg_m2, air_over(w.pond_view[i], sky),
+                                  sky.forcing.dt_s);
+    }
+}
+
+}  // namespace
+
 void step_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, const Ponds& ponds,
                 PatchScratch& w)
 {
     if (t.set.ponds == 0) return;
     const double dt_s = sky.forcing.dt_s;
     const bool thawed = sky.air_k > kZeroCelsiusK;
+    std::vector<PondShape> before;
+    if (ponds.shape) before = ponds.shape(live.pond_m3);
     for (std::size_t i = 0; i < t.set.ponds; ++i) {
         const double soaks = thawed && i < t.set.pond_soaks_mm_h.size()
                                  ? t.set.pond_soaks_mm_h[i] / 3600.0
                                  : 0.0;  // mm/s, kg m-2 s-1
-        w.pond_loss_m[i] = (sky.open_water_kg_m2_s + soaks) * dt_s * 1e-3;
+        // Under ice the air takes no water.
+        const bool shut = pond_ice_share(live.pond_heat_j_kg[i]) * of(before, i) > kSeenIce_kg_m2;
+        const double rises = shut ? 0.0 : sky.open_water_kg_m2_s;
+        w.pond_loss_m[i] = (rises + soaks) * dt_s * 1e-3;
     }
     if (ponds.step) {
         const PondStep done = ponds.step(live.pond_m3, w.pond_in_m3, w.pond_loss_m);
@@ -247,6 +351,7 @@ void step_ponds(PatchLive& live, const PatchTables& t, const SkyStep& sky, const
     } else {
         for (const double in : w.pond_in_m3) live.out_kg += in * 1e3;
     }
+    if (ponds.shape) freeze_ponds(live, t, sky, ponds, w);
     std::fill(w.pond_in_m3.begin(), w.pond_in_m3.end(), 0.0);
 }
 

@@ -1,0 +1,184 @@
+// Light of what stands closer to a patch than it is wide: closed forms, a furnace, a sunlit sill.
+#include "scene/patches/near_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "formulas/light/near_light.h"
+#include "scene/patches/lookup.h"
+#include "scene/patches/radiosity.h"
+#include "tests/scene/patch_scenes.h"
+
+namespace petrichor::scene {
+namespace {
+
+using namespace patch_scenes;
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// A corner of a square of 2b x 2b at distance 1 over the foot of its middle: four times a quarter's.
+float square_over_point(float b)
+{
+    const float r = std::sqrt(1.0f + b * b);
+    return 4.0f / (2.0f * kPi) * 2.0f * (b / r) * std::atan(b / r);
+}
+
+TEST(NearFormFactor, OfASquareAboveIsTheClosedForm)
+{
+    for (const float b : {0.05f, 0.5f, 2.0f, 40.0f}) {
+        // Seen from below: it faces down.
+        const float found = shared::near_form_factor({-b, 1, -b}, {b, 1, -b}, {b, 1, b}, {-b, 1, b},
+                                                     {0, 1, 0});
+        EXPECT_NEAR(found, square_over_point(b), 3e-4f) << b;
+        EXPECT_EQ(shared::near_form_factor({-b, 1, b}, {b, 1, b}, {b, 1, -b}, {-b, 1, -b}, {0, 1, 0}),
+                  0.0f)
+            << "from behind";
+    }
+    // Of a wall that stands on the point's own plane, c away, a high and 2 b wide.
+    const float a = 1.0f, b = 0.5f;
+    for (const float c : {0.005f, 0.02f, 0.3f}) {
+        const float r = std::sqrt(a * a + c * c);
+        const float right = (std::atan(b / c) - c / r * std::atan(b / r)) / kPi;
+        EXPECT_NEAR(
+            shared::near_form_factor({c, 0, -b}, {c, 0, b}, {c, a, b}, {c, a, -b}, {0, 1, 0}),
+            right, 1e-3f)
+            << c;
+    }
+    // A corner at the point itself is a number.
+    EXPECT_TRUE(std::isfinite(
+        shared::near_form_factor({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 0, 1})));
+}
+
+struct Cut {
+    explicit Cut(const Scene& made, float cell_m = 0.5f)
+        : scene(made), triangles(scene, {}), tracer(triangles)
+    {
+        PatchOptions options;
+        options.cell_m = cell_m;
+        patches = build_patches(tracer, options);
+        near = trace_near(patches, tracer);
+    }
+    Scene scene;
+    Triangles triangles;
+    Tracer tracer;
+    Patches patches;
+    NearLinks near;
+};
+
+struct Lit {
+    Lit(const Cut& cut, const Relight& input)
+        : light(relight(cut.patches, input)),
+          ways(lookup_ways(cut.patches, input.near)),
+          planes(lookup_planes(cut.patches)),
+          lit{ways.table, ways.ways, planes, light.irradiance, light.gradient, ways.grid, light.near}
+    {
+    }
+    PatchIrradiance light;
+    LookupWays ways;
+    std::vector<glm::vec4> planes;
+    LitPatches lit;
+};
+
+// A room with a box in it, everything as bright: wherever a point lies, and however much of what it sees is
+// close by, it gets the same light.
+TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
+{
+    Scene scene = room();
+    add_box(scene, {1, 0, 1}, {1.7f, 1.3f, 1.9f}, false);
+    const Cut cut(scene);
+    ASSERT_GT(cut.near.sender.size(), 100u);
+    const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.8f)),
+        direct(cut.patches.count, glm::vec3(0.0f)), emission(cut.patches.count, glm::vec3(1.0f)),
+        sky(shared::kSkyBins, glm::vec3(0.0f)),
+        near_direct(cut.near.sender.size(), glm::vec3(0.0f));
+    Relight input;
+    input.albedo = albedo;
+    input.direct = direct;
+    input.emission = emission;
+    input.sky = sky;
+    input.bounces = 100;
+    input.near = &cut.near;
+    input.near_direct = near_direct;
+    const Lit lit(cut, input);
+    int close = 0;
+    for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+        for (int k = 0; k < 100; ++k) {
+            const float u = static_cast<float>(k % 10) * 0.0999f,
+                        v = static_cast<float>(k / 10) * 0.0999f;
+            if (u + v >= 1.0f) continue;
+            const glm::vec3 x = cut.triangles.point(t, {u, v});
+            if (x.y < 1e-3f && x.x > 0.9f && x.x < 1.8f && x.z > 0.9f && x.z < 2.0f) continue;
+            const auto found = light_at(lit.lit, x, cut.triangles.normal(t));
+            ASSERT_GT(found.weight, 0.0f);
+            EXPECT_NEAR(found.irradiance.x, 5.0f, 2e-3f) << x.x << " " << x.y << " " << x.z;
+            EXPECT_LE(found.open, 1.0f);
+            EXPECT_GE(found.open, 0.0f);
+            close += found.open < 0.75f ? 1 : 0;
+        }
+    }
+    EXPECT_GT(close, 20) << "corners";
+}
+
+// A wall over a sill of 6 cm that the sun lights, no sky: a finger's breadth above the sill its light is
+// nearly half of what the sill sends, an arm's length above nothing of it is left.
+TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 0, 2}, {0, 0, -4}, {0, 3, 0});         // the wall, facing +x
+    add_face(scene, {0, 1.0f, 2}, {0.06f, 0, 0}, {0, 0, -4});  // the sill, facing up
+    const Cut cut(scene, 0.35f);
+    const glm::vec3 sun = glm::normalize(glm::vec3(1.0f, 1.5f, 0.0f));
+    const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.5f)),
+        sky(shared::kSkyBins, glm::vec3(0.0f));
+    std::vector<glm::vec3> direct(cut.patches.count, glm::vec3(0.0f)),
+        near_direct(cut.near.sender.size(), glm::vec3(0.0f));
+    add_sun(cut.patches, sun, glm::vec3(1.0f), direct);
+    add_sun(cut.near, sun, glm::vec3(1.0f), near_direct);
+    Relight input;
+    input.albedo = albedo;
+    input.direct = direct;
+    input.sky = sky;
+    input.bounces = 2;
+    input.near = &cut.near;
+    input.near_direct = near_direct;
+    const Lit lit(cut, input);
+    // Of a strip of width w that meets the wall, h below the point: half of 1 - h / sqrt(h^2 + w^2).
+    for (const float h : {0.01f, 0.03f, 0.08f, 0.15f}) {
+        const float right =
+            0.5f * 0.5f * sun.y * (1.0f - h / std::sqrt(h * h + 0.06f * 0.06f));
+        double sum = 0.0;
+        for (int k = -8; k <= 8; ++k) {
+            sum += static_cast<double>(
+                       light_at(lit.lit, {0, 1.0f + h, 0.1f * static_cast<float>(k)}, {1, 0, 0})
+                           .irradiance.x) /
+                   17.0;
+        }
+        EXPECT_NEAR(sum, right, 0.25 * static_cast<double>(right) + 0.01) << h;
+    }
+    EXPECT_LT(light_at(lit.lit, {0, 2.2f, 0}, {1, 0, 0}).irradiance.x, 0.01f);
+    EXPECT_LT(light_at(lit.lit, {0, 0.98f, 0}, {1, 0, 0}).irradiance.x, 0.02f) << "below it";
+}
+
+TEST(NearLight, IsTheSameForAnyNumberOfThreads)
+{
+    Scene scene = room();
+    add_box(scene, {1, 0, 1}, {1.7f, 1.3f, 1.9f}, false);
+    const Cut cut(scene);
+    for (const int threads : {1, 3}) {
+        const NearLinks again = trace_near(cut.patches, cut.tracer, threads);
+        EXPECT_EQ(again.first, cut.near.first);
+        EXPECT_EQ(again.corners, cut.near.corners);
+        EXPECT_EQ(again.seen, cut.near.seen);
+        EXPECT_EQ(again.sender, cut.near.sender);
+        EXPECT_EQ(again.visible, cut.near.visible);
+        EXPECT_EQ(again.rays, cut.near.rays);
+    }
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        EXPECT_LE(cut.near.first[i + 1] - cut.near.first[i], NearLinks::kMostAPatch);
+        EXPECT_LE(cut.near.rays_of(i), static_cast<std::uint32_t>(cut.patches.rays));
+    }
+}
+
+}  // namespace
+}  // namespace petrichor::scene
