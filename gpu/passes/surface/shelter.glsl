@@ -17,7 +17,7 @@ struct Exposure {
 vec3 stray(SurfaceInput at)
 {
     const float turn = 6.2831853 * dither(at.pixel, frame.sample_index + 3u);
-    const vec2 wander = textureLod(snow_map, at.position.xz * 0.7, 2.0).xy - 0.5;
+    const vec2 wander = texel_from_above(snow_map, at, 0.7, vec2(0.0)).xy - 0.5;
     const vec2 way = (5.0 * wander + 0.7 * vec2(cos(turn), sin(turn))) * frame.shelter_spread_m;
     const vec3 level = vec3(way.x, 0.0, way.y);
     return level - at.normal * dot(at.normal, level);
