@@ -182,7 +182,7 @@ TEST_F(Surface, FrozenWaterStandsStill)
     wall.frame.weather.freeze_exp = 1.0f;
     const RenderResult before = shot(wall.scene, wall.frame);
     wall.frame.settings.time_s = 0.0005;
-    EXPECT_EQ(rows_down(before, shot(wall.scene, wall.frame)), 0);
+    EXPECT_EQ(before.beauty, shot(wall.scene, wall.frame).beauty) << "ice is level: no wave of it moves";
 }
 
 // What a material's wetness lets water do.
