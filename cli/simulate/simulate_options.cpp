@@ -121,9 +121,11 @@ void add_physics(CLI::App& command, SimulateOptions& o)
         "what it measured: the run begins at its last temperature, under radiation that the\nhours "
         "before it correct (docs/weather.md)");
     add(command, group, "--coupling", "HOURS", o.coupling.window_h,
-        "of --road-observed that correct the radiation (default 3, 0: none)");
+        "of --road-observed that correct the radiation (default 3, 0: none)")
+        ->check(CLI::Range(0.0, 48.0));
     add(command, group, "--coupling-fade", "HOURS", o.coupling.relaxation_h,
-        "in which that correction falls to 1/e (default 4)");
+        "in which that correction falls to 1/e (default 4)")
+        ->check(CLI::Range(0.01, 1000.0));
     add(command, group, "--horizon", "FILE", o.horizon,
         "what hides the sun: lines of azimuth and elevation, degrees (--road brings its own)");
     add(command, group, "--events", "FILE.csv", o.events,

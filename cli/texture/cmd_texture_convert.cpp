@@ -226,6 +226,10 @@ void run(const Arguments& a)
     const auto first = [&] {
         return raw.type == type ? raw : stored(texproc::to_image(raw, space));
     };
+    if (a.rdo > 0.0f && a.zstd == 0) {
+        std::cerr << "note: --rdo makes what is packed later smaller, not this file"
+                  << (extension == ".ktx2" ? " (--zstd packs it)\n" : "\n");
+    }
     if (!a.mips) {
         const texproc::RawImage image = first();
         if (is_container(extension)) {
@@ -284,7 +288,7 @@ void add_texture_convert(CLI::App& texture)
         ->check(CLI::Range(0, 22));
     app->add_option("--rdo", a->rdo,
                     "blocks repeat bytes of earlier ones where that costs at most so much squared "
-                    "error a bit (0.25 is hardly seen, 4 is): smaller files with --zstd")
+                    "error a bit (0.25 is hardly seen; 1 shows as stripes on smooth maps): smaller files with --zstd")
         ->check(CLI::Range(0.0, 1000.0));
     app->add_option("--jpeg-quality", a->jpeg_quality, "1 to 100")->check(CLI::Range(1, 100));
     app->add_option("--threads", a->threads, "0: all cores; the bytes do not depend on it");

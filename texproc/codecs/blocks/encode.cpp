@@ -85,10 +85,15 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
         throw Error("block texture: it is made from " + numbers + ", at least one pixel of them",
                     "Convert the image to " + numbers + " first.");
     }
-    if (!(options.repeat >= 0.0f) || (options.repeat > 0.0f && !format.encode)) {
+    if (!(options.repeat >= 0.0f)) {
+        throw Error("block texture: the price of a bit must be 0 or more, got " +
+                        std::to_string(options.repeat),
+                    "Give a number from 0 (no bytes are repeated), or leave it out.");
+    }
+    if (options.repeat > 0.0f && !format.encode) {
         throw Error(std::string("block texture: ") + format.title +
-                        " cannot trade error for size, or by less than 0",
-                    "Use BC1, BC3, BC4, BC5, BC7 or UASTC and a number from 0, or leave it out.");
+                        " cannot trade error for size",
+                    "Use BC1, BC3, BC4, BC5, BC7 or UASTC, or leave it out.");
     }
     if (format.astc) return detail::encode_astc(image, format.side, options);
     std::vector<std::byte> bytes(blocks_size(block, image.width, image.height));

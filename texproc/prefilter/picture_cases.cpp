@@ -1,0 +1,118 @@
+// Which pictures are taken: views, lights, and what is tried under them.
+#include <string>
+
+#include "texproc/prefilter/picture.h"
+
+namespace petrichor::texproc {
+
+PictureOptions reference_pictures()
+{
+    PictureOptions o;
+    o.views = {{.name = "floor"}};
+    o.lights = {{.name = "sun ahead", .to_light = {0.15f, 1.0f, 0.42f}},
+                {.name = "sun from the left", .to_light = {-0.6f, 0.8f, 1.0f}},
+                {.name = "sun behind", .to_light = {0.6f, -0.8f, 0.7f}},
+                {.name = "window ahead", .to_light = {0.15f, 1.0f, 0.42f}, .alpha = 0.1f}};
+    o.cases = {{0, 0, false}, {0, 1, false}, {0, 2, false}, {0, 3, false}, {0, 0, true}};
+    return o;
+}
+
+PictureOptions design_pictures(bool quick)
+{
+    PictureOptions o;
+    o.frames = 2;
+    o.samples = quick ? 5 : 8;
+    o.seed = 77;
+    o.views = {{.name = "near",
+                .height_m = 1.2,
+                .pitch_deg = 20.0,
+                .width = 110,
+                .rows = 56,
+                .step_right_m = 0.006,
+                .step_ahead_m = 0.017},
+               {.name = "far",
+                .height_m = 2.6,
+                .pitch_deg = 13.0,
+                .field_of_view_deg = 40.0,
+                .width = 110,
+                .rows = 48,
+                .step_right_m = 0.011,
+                .step_ahead_m = 0.031},
+               {.name = "down",
+                .height_m = 4.0,
+                .pitch_deg = 70.0,
+                .field_of_view_deg = 50.0,
+                .width = 80,
+                .rows = 48,
+                .step_right_m = 0.007,
+                .step_ahead_m = 0.013}};
+    if (quick) {
+        o.lights = {{.name = "ahead, low", .to_light = {-0.25f, 1.0f, 0.30f}},
+                    {.name = "ahead, high", .to_light = {0.3f, 1.0f, 0.8f}},
+                    {.name = "from the right", .to_light = {1.0f, 0.1f, 0.6f}},
+                    {.name = "behind", .to_light = {-0.5f, -0.9f, 0.9f}}};
+    } else {
+        // As fine as a large picture, but less of it.
+        o.views.push_back({.name = "part",
+                           .height_m = 1.7,
+                           .pitch_deg = 15.0,
+                           .field_of_view_deg = 12.0,
+                           .width = 100,
+                           .rows = 64,
+                           .step_right_m = 0.005,
+                           .step_ahead_m = 0.019});
+        // A ring of suns, low and high in turn, another ahead.
+        constexpr float kRing[][3] = {
+            {0.26f, 0.97f, 0.45f},  {0.83f, 0.56f, 1.1f},    {0.97f, -0.26f, 0.45f},
+            {0.56f, -0.83f, 1.1f},  {-0.26f, 0.97f, 1.1f},   {-0.83f, 0.56f, 0.45f},
+            {-0.97f, -0.26f, 1.1f}, {-0.56f, -0.83f, 0.45f}, {-0.1f, 1.0f, 0.3f}};
+        for (const auto& sun : kRing)
+            o.lights.push_back({.name = "sun " + std::to_string(o.lights.size()),
+                                .to_light = {sun[0], sun[1], sun[2]}});
+    }
+    o.lights.push_back({.name = "window", .to_light = {-0.1f, 1.0f, 0.5f}, .alpha = 0.12f});
+    for (int view = 0; view < static_cast<int>(o.views.size()); ++view)
+        for (int light = 0; light < static_cast<int>(o.lights.size()); ++light)
+            o.cases.push_back({view, light, false});
+    return o;
+}
+
+PictureOptions all_pictures()
+{
+    PictureOptions o = reference_pictures();
+    o.views.push_back({.name = "floor, one tap", .taps = 1});
+    o.views.push_back({.name = "from above",
+                       .height_m = 6.0,
+                       .pitch_deg = 55.0,
+                       .width = 200,
+                       .rows = 100,
+                       .step_right_m = 0.009,
+                       .step_ahead_m = 0.013});
+    // A sun beside which the sky gives a fifth of the light, and a sky alone.
+    constexpr float kBesideSun = 0.1f;
+    for (int i = 0; i < 3; ++i) {
+        PictureLight day = o.lights[static_cast<std::size_t>(i)];
+        day.name += " and sky";
+        day.sky = kBesideSun;
+        o.lights.push_back(day);
+    }
+    o.lights.push_back({.name = "sky", .sun = 0.0f, .sky = 1.0f});
+    constexpr int kAhead = 4, kLeft = 5, kBehind = 6, kSky = 7;
+    for (const PictureCase& c : {PictureCase{0, kLeft, true},
+                                 {0, kBehind, true},
+                                 {0, kAhead, false},
+                                 {0, kSky, false},
+                                 {0, kSky, true},
+                                 {1, kAhead, false},
+                                 {1, kLeft, false},
+                                 {1, kBehind, false},
+                                 {1, kAhead, true},
+                                 {2, kAhead, false},
+                                 {2, kLeft, false},
+                                 {2, kBehind, false},
+                                 {2, kAhead, true}})
+        o.cases.push_back(c);
+    return o;
+}
+
+}  // namespace petrichor::texproc
