@@ -70,7 +70,7 @@ TEST(SimulateRoad, TheMeasuredRoadCorrectsTheRadiation)
                                         "--road-observed", "seen.xml", "--coupling", "-1"}},
                                       work.path());
     EXPECT_EQ(bad.exit_code, 2);
-    EXPECT_NE(bad.err.find("window_h must be in 0..48"), std::string::npos) << bad.err;
+    EXPECT_NE(bad.err.find("--coupling: Value -1 not in range 0"), std::string::npos) << bad.err;
 }
 
 }  // namespace
