@@ -32,8 +32,8 @@ void add_leaf(MeshBuilder& plants, const vec3& at, const vec3& outward, float si
     const std::uint32_t c = plants.add_vertex(tip, normal, vec2(0.5f, 1.0f));
     const std::uint32_t d = plants.add_vertex(
         wing - 0.42f * size * side, glm::normalize(normal - 0.3f * side), vec2(0.0f, 0.5f));
-    plants.add_triangle(a, b, c);
-    plants.add_triangle(a, c, d);
+    plants.add_triangle(a, c, b);
+    plants.add_triangle(a, d, c);
 }
 
 namespace {
@@ -47,7 +47,9 @@ void add_blade(MeshBuilder& plants, const vec3& root, float height, float width,
     const float turn = heading + 1.57f + 0.8f * hash_signed(h, 2);
     const vec3 across(std::cos(turn), 0.0f, std::sin(turn));
     const float bend = height * (0.20f + 0.45f * hash_unit(h, 3));
-    const vec3 normal = glm::normalize(vec3(0.0f, 0.75f, 0.0f) + 0.6f * lean + 0.25f * across);
+    const vec3 face = glm::normalize(
+        glm::cross(across, vec3(0.0f, 0.85f * height, 0.0f) + bend * lean));
+    const vec3 normal = glm::normalize(vec3(0.0f, 0.75f, 0.0f) + 0.45f * face);
     std::uint32_t previous[2] = {0, 0};
     for (int k = 0; k < 3; ++k) {
         const float t = 0.5f * static_cast<float>(k);

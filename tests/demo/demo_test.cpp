@@ -93,12 +93,12 @@ TEST(DemoStreet, TrianglesFaceTheWayTheirNormalsPoint)
 {
     for (const scene::Mesh& mesh : street().meshes) {
         const scene::Primitive& p = mesh.primitives.front();
-        if (street().materials[p.material].double_sided) continue;
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < p.indices.size(); i += 3) {
             const std::uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
             const glm::vec3 n =
                 glm::cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]);
+            if (glm::length(n) < 1e-7f) continue;  // at the pole of a bush's core
             if (glm::dot(n, p.normals[a] + p.normals[b] + p.normals[c]) < 0.0f) ++wrong;
         }
         EXPECT_EQ(wrong, 0u) << mesh.name << " of " << p.indices.size() / 3;
