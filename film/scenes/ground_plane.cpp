@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "formulas/color/srgb.h"
-#include "formulas/noise/noise.h"
 #include "texproc/codecs/files/io.h"
+#include "texproc/generate/generate.h"
 
 namespace petrichor::film {
 namespace {
@@ -19,21 +19,9 @@ using glm::vec3;
 
 constexpr int kCells = 64;         // a side, of the look from above
 constexpr double kFilled = 0.8;    // of them, of a scene with ground
-constexpr int kGrain = 512;        // texels a side
-constexpr int kStones = 110;       // across a tile
-constexpr float kTile_m = 2.4f;
-constexpr float kAlbedo = 0.27f;
+constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 96;
-
-float grain(vec2 uv)
-{
-    return shared::tileable_fbm(uv, kStones, 2, 401u);
-}
-
-float stains(vec2 uv)
-{
-    return shared::tileable_fbm(uv, 7, 4, 411u);
-}
+const vec3 kColor(0.235f, 0.228f, 0.218f);
 
 // Marks the cells that a triangle covers when seen from above.
 void mark(std::vector<bool>& cells, const std::array<vec2, 3>& t)
@@ -59,51 +47,49 @@ void mark(std::vector<bool>& cells, const std::array<vec2, 3>& t)
     cells[static_cast<std::size_t>(clamped(middle.y) * kCells + clamped(middle.x))] = true;
 }
 
-scene::EncodedImage image_of(const char* name, const std::vector<std::uint8_t>& rgb)
+scene::TextureIndex add_texture(scene::Scene& scene, const char* name, const Image& image)
 {
-    scene::EncodedImage image;
-    image.name = name;
-    image.bytes = texproc::encode_png8(kGrain, kGrain, 3, rgb);
+    std::vector<std::uint8_t> bytes(image.pixels.size());
+    const bool color = image.space == ColorSpace::Linear;
+    for (std::size_t k = 0; k < bytes.size(); ++k) {
+        const float v = std::clamp(image.pixels[k], 0.0f, 1.0f);
+        bytes[k] = static_cast<std::uint8_t>(
+            std::lround(255.0f * (color ? shared::srgb_from_linear(v) : v)));
+    }
+    scene.textures.push_back(
+        {.name = name,
+         .bytes = texproc::encode_png8(image.width, image.height, image.channels, bytes)});
+    return static_cast<scene::TextureIndex>(scene.textures.size() - 1);
+}
+
+// Occlusion, roughness and metallic in one picture, as glTF reads them.
+Image packed(const texproc::MaterialMaps& maps)
+{
+    Image image(maps.roughness.width, maps.roughness.height, 3, ColorSpace::Data);
+    for (std::size_t k = 0; k < maps.roughness.pixels.size(); ++k) {
+        image.pixels[3 * k] = maps.occlusion.pixels[k];
+        image.pixels[3 * k + 1] = maps.roughness.pixels[k];
+    }
     return image;
 }
 
-std::uint8_t byte_of(float value)
+// Asphalt of some years, bleached: grey enough to show what stands on it and its shadow. Returns the
+// edge of its square.
+float lay_asphalt(scene::Scene& scene, scene::Material& material)
 {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-}
-
-void add_grain(scene::Scene& scene, scene::Material& material)
-{
-    std::vector<float> height(static_cast<std::size_t>(kGrain * kGrain));
-    const auto at = [&](int x, int y) -> float& {
-        const auto index = [](int i) { return static_cast<std::size_t>((i + kGrain) % kGrain); };
-        return height[index(y) * kGrain + index(x)];
-    };
-    for (int y = 0; y < kGrain; ++y) {
-        for (int x = 0; x < kGrain; ++x) {
-            at(x, y) = grain((vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) /
-                             static_cast<float>(kGrain));
-        }
-    }
-    std::vector<std::uint8_t> color;
-    std::vector<std::uint8_t> normal;
-    for (int y = 0; y < kGrain; ++y) {
-        for (int x = 0; x < kGrain; ++x) {
-            const vec2 uv(static_cast<float>(x) / kGrain, static_cast<float>(y) / kGrain);
-            const float albedo = kAlbedo * (0.55f + 0.5f * at(x, y) + 0.4f * stains(uv));
-            const vec3 tint(1.0f, 0.975f, 0.94f);
-            for (int c = 0; c < 3; ++c)
-                color.push_back(byte_of(shared::srgb_from_linear(albedo * tint[c])));
-            const float steep = 0.8f;
-            const vec3 n = glm::normalize(vec3(steep * (at(x - 1, y) - at(x + 1, y)) * 0.5f,
-                                               steep * (at(x, y + 1) - at(x, y - 1)) * 0.5f, 1.0f));
-            for (int c = 0; c < 3; ++c) normal.push_back(byte_of(0.5f + 0.5f * n[c]));
-        }
-    }
-    material.base_color_texture.texture = static_cast<scene::TextureIndex>(scene.textures.size());
-    scene.textures.push_back(image_of("grain of the ground", color));
-    material.normal_texture.texture = static_cast<scene::TextureIndex>(scene.textures.size());
-    scene.textures.push_back(image_of("relief of the ground", normal));
+    texproc::MaterialRecipe recipe;
+    recipe.kind = texproc::MaterialKind::Asphalt;
+    recipe.size = kTexels;
+    recipe.seed = 11;
+    recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.009f}, {"wear", 0.7f}, {"cracks", 0.0f}};
+    recipe.color = kColor;
+    const texproc::MaterialMaps maps = texproc::generate_material(recipe);
+    material.base_color_texture.texture = add_texture(scene, "colour of the ground", maps.albedo);
+    material.normal_texture.texture = add_texture(scene, "relief of the ground", maps.normal);
+    material.metallic_roughness_texture.texture =
+        add_texture(scene, "gloss of the ground", packed(maps));
+    material.occlusion_texture.texture = material.metallic_roughness_texture.texture;
+    return maps.tile_m;
 }
 
 }  // namespace
@@ -153,10 +139,8 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
                       0.5f * (content.low.z + content.high.z));
     scene::Material material;
     material.name = "default ground";
-    material.metallic = 0.0f;
-    material.roughness = 0.9f;
     material.weather.beads = 0.0f;
-    add_grain(scene, material);
+    const float tile_m = lay_asphalt(scene, material);
 
     scene::Primitive disc;
     disc.material = static_cast<std::uint32_t>(scene.materials.size());
@@ -166,7 +150,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         disc.normals.emplace_back(0.0f, 1.0f, 0.0f);
         disc.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
         // v runs towards +z below: the bitangent of +x and +y up is -z.
-        disc.uv0.push_back(vec2(offset.x, offset.y) / kTile_m);
+        disc.uv0.push_back(vec2(offset.x, offset.y) / tile_m);
     };
     add(vec2(0.0f));
     const float rings[] = {0.5f, 1.0f, 2.0f, 4.0f, 8.0f, 16.0f, 40.0f, 100.0f, 300.0f};

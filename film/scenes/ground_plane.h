@@ -10,7 +10,7 @@ namespace petrichor::film {
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content);
 
 /// Lays level ground below a scene, out to the horizon, as a backdrop. Water and snow lie on it as on
-/// any material; its grain is drawn from noise. The material is named "default ground".
+/// any material; it is asphalt of some years (texproc/generate). The material is named "default ground".
 void add_ground(scene::Scene& scene, const scene::Bounds& content);
 
 }  // namespace petrichor::film

@@ -68,7 +68,7 @@ TEST(GroundPlane, LiesBelowTheSceneAndLeavesItsBoundsAlone)
     }
     EXPECT_GT(reach, 100.0f * glm::length(before.high - before.low));
     EXPECT_EQ(alone.materials.back().name, "default ground");
-    EXPECT_EQ(alone.textures.size(), 2u);
+    EXPECT_EQ(alone.textures.size(), 3u);
 }
 
 }  // namespace
