@@ -436,6 +436,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.patches = &patches;
     resources.probes = &probes;
     resources.place = &place;
+    resources.snow_lift_m = snow ? snow->lift_m() : 0.0f;
     if (prepare_resolve(set, frame)) resources.resolve = &set.resolve;
     if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;

@@ -113,6 +113,10 @@ SHARED_FN vec2 visibility_texel(vec3 d)
 // Nodes are numbered from 0; no node:
 SHARED_CONST uint kNoPatch = 0xffffffffu;
 
+// Where less of patches is found, the ground below snow is asked, in so many steps.
+SHARED_CONST float kPatchFaint = 0.02f;
+SHARED_CONST int kPatchStepsBelow = 24;
+
 // What a lookup needs to know about the grid.
 struct PatchGrid {
     float cell_m;      // edge of a cell of level 0

@@ -99,6 +99,7 @@ struct FrameConstants {
     vec4 tracks;      // world x and z of the map's corner, repeats of it per metre along both
     vec2 tracks_y_m;  // heights between which it counts
     PatchGrid patches;  // levels 0: none
+    float snow_lift_m;  // snow with a body stands at most so far over its ground
     PlaceConstants place;  // of the scene's patches
     vec4 lamp_offset_m[LAMP_SHADOWS_MOST];  // of the point that a lamp's shadow is seen from
 };

@@ -137,6 +137,7 @@ bool SnowBody::lay(const Frame& frame)
     const scene::SnowShape shape = scene::snow_shape(*caps_, depths(frame));
     lies_ = shape.thickest_m > kThin_m;
     if (!lies_) return lay_before;
+    lift_m_ = 0.0f;
     for (std::size_t i = 0; i < overlay_.vertices.size(); ++i) {
         const std::uint32_t point = caps_->corner_points[i];
         Vertex& v = overlay_.vertices[i];
@@ -145,6 +146,7 @@ bool SnowBody::lay(const Frame& frame)
         const vec3 along = vec3(v.tangent);
         const float length = glm::length(along);
         const float lift = std::max(v.position.y - caps_->points[point].base_m.y, 0.0f);
+        lift_m_ = std::max(lift_m_, lift);
         const vec3 unit = length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
         v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
         v.weather[3] =

@@ -30,6 +30,8 @@ public:
     bool lay(const Frame& frame);
     /// Empty: too thin to have a body.
     std::span<const Vertex> vertices() const;
+    /// The farthest that a vertex stands over its ground; 0 without any.
+    float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 
 private:
     struct Key {
@@ -45,6 +47,7 @@ private:
     Overlay overlay_;
     std::optional<Key> laid_;
     bool lies_ = false;
+    float lift_m_ = 0.0f;
     std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
     std::vector<std::array<std::uint32_t, 9>> patches_;  // around each point
 };

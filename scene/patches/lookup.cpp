@@ -139,9 +139,9 @@ shared::PatchGrid table_grid(const Patches& patches)
             patches.count, static_cast<std::uint32_t>(patches.table.size() - 1), 0};
 }
 
-shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal)
+shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal, float lift_m)
 {
-    return shared::Lookup{lit}.patch_lookup(lit.grid, position, normal);
+    return shared::Lookup{lit}.patch_lookup(lit.grid, position, normal, lift_m);
 }
 
 }  // namespace petrichor::scene

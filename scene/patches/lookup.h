@@ -45,7 +45,7 @@ struct LitPatches {
 
 /// Light at a point of a surface, metres, with the normal of its geometry, unit. Weight 0 where no
 /// patch is near. The same text as the renderer's.
-shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal);
+shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal, float lift_m = 0.0f);
 
 }  // namespace petrichor::scene
 

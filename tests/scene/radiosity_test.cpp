@@ -295,6 +295,35 @@ TEST(PatchLookup, AConstantStaysConstantEverywhere)
     EXPECT_EQ(fallbacks, 0);
 }
 
+// Deep snow over small cells: its surface is in none of them, or in those of what hangs in the air.
+TEST(PatchLookup, SnowHasTheLightOfTheGroundBelowIt)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+    add_face(scene, {-0.3f, 0.9f, -0.3f}, {0.1f, 0.3f, 0.6f}, {0.6f, 0.2f, 0});  // a leaf over it
+    const Cut cut(scene, 32, 0.05f);
+    PatchIrradiance light;
+    light.irradiance.assign(cut.patches.nodes(), glm::vec4(9.0f));
+    light.gradient.assign(cut.patches.nodes(), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        if (std::abs(cut.patches.normal[i].y) > 0.999f) light.irradiance[i] = glm::vec4(2.0f);
+    }
+    const Looked looked(cut, light);
+    const glm::vec3 up(0, 1, 0);
+    int elsewhere = 0;
+    for (int k = 0; k < 40; ++k) {
+        const glm::vec3 x(-0.8f + 0.04f * static_cast<float>(k), 0.2f + 0.005f * static_cast<float>(k), 0.31f);
+        const auto found = light_at(looked.lit, x, glm::normalize(glm::vec3(0.2f, 1.0f, 0.1f)), 0.5f);
+        ASSERT_GT(found.weight, 0.0f) << k;
+        EXPECT_NEAR(found.irradiance.x, 2.0f, 1e-4f) << k;
+        const auto without = light_at(looked.lit, x, up);
+        elsewhere += without.weight > 0.0f && std::abs(without.irradiance.x - 2.0f) < 1e-4f ? 0 : 1;
+    }
+    EXPECT_GT(elsewhere, 30) << "which it would not find";
+    // Not from so far below that no snow lies so deep.
+    EXPECT_EQ(light_at(looked.lit, {-0.8f, 40.0f, 0.31f}, up, 0.5f).weight, 0.0f);
+}
+
 TEST(PatchLookup, FarFromEverythingHasNoWeight)
 {
     const Cut cut(room(), 32);

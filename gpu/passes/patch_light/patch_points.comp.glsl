@@ -93,7 +93,7 @@ void main()
                 }
             }
         }
-        const PatchLight light = patch_lookup(frame.patches, x, n);
+        const PatchLight light = patch_lookup(frame.patches, x, n, frame.snow_lift_m);
         vec4 sent = vec4(0.0, 0.0, 0.0, -1.0);
         vec4 turn = vec4(0.0, 0.0, 0.0, 1.0);
         if (light.weight > 0.0) {
