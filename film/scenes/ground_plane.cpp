@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formulas/color/srgb.h"
+#include "formulas/noise/noise.h"
 #include "texproc/codecs/files/io.h"
 #include "texproc/generate/generate.h"
 
@@ -20,7 +21,9 @@ using glm::vec3;
 constexpr int kCells = 64;         // a side, of the look from above
 constexpr double kFilled = 0.8;    // of them, of a scene with ground
 constexpr int kTexels = 1024;      // a side, of the asphalt
-constexpr int kSegments = 96;
+constexpr int kSegments = 128;
+constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
+constexpr float kInnerRing = 0.06f, kFineRings = 40.0f, kOutermostRing = 300.0f;  // times the scene's size
 const vec3 kColor(0.235f, 0.228f, 0.218f);
 
 // Marks the cells that a triangle covers when seen from above.
@@ -92,6 +95,20 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
     return maps.tile_m;
 }
 
+// Stains of all sizes that vertices can carry: on ground of one grain a wide view would be flat.
+float stains(const vec2& at, float around)
+{
+    const float between = (kNextRing - 1.0f) * glm::length(at);
+    float tone = 1.0f;
+    float wide = 0.15f * around;
+    for (std::uint32_t octave = 0; octave < 9; ++octave, wide *= 2.0f) {
+        const float shows = glm::smoothstep(2.0f * between, 5.0f * between, wide);
+        const float noise = shared::tileable_noise(at / wide + 37.7f, 1024, 401u + octave);
+        tone += 0.16f * shows * (noise - 0.5f);
+    }
+    return std::clamp(tone, 0.6f, 1.4f);
+}
+
 }  // namespace
 
 bool brings_ground(const scene::Scene& scene, const scene::Bounds& content)
@@ -151,9 +168,12 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         disc.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
         // v runs towards +z below: the bitangent of +x and +y up is -z.
         disc.uv0.push_back(vec2(offset.x, offset.y) / tile_m);
+        disc.colors.emplace_back(vec3(stains(offset, around)), 1.0f);
     };
     add(vec2(0.0f));
-    const float rings[] = {0.5f, 1.0f, 2.0f, 4.0f, 8.0f, 16.0f, 40.0f, 100.0f, 300.0f};
+    std::vector<float> rings;
+    for (float ring = kInnerRing; ring < kFineRings; ring *= kNextRing) rings.push_back(ring);
+    rings.insert(rings.end(), {kFineRings, 100.0f, kOutermostRing});
     for (const float ring : rings) {
         for (int s = 0; s < kSegments; ++s) {
             const float angle = 6.2831853f * static_cast<float>(s) / kSegments;
