@@ -11,6 +11,8 @@ SHARED_BEGIN
 SHARED_CONST int kSkyBinsAcross = 32;  // octahedral, whole sphere
 SHARED_CONST int kSkyBins = 1024;
 SHARED_CONST int kVisibilityAcross = 16;  // hemi-octahedral about +y
+SHARED_CONST int kVisibilityTexels = 256;
+SHARED_CONST int kSkySubsamples = 16;
 SHARED_CONST int kPatchLevels = 16;
 // A cell of level 0 is counted from here, so that no index is negative: 2^19 cells along an axis.
 SHARED_CONST int kPatchCellBias = 262144;
@@ -72,6 +74,35 @@ SHARED_FN int sky_bin(vec3 d)
     return y * kSkyBinsAcross + x;
 }
 
+// The bin of a ray that leaves the scene. Bins on the horizon hold directions of both sides and light of both: a ray is
+// given to the next bin of its own side.
+SHARED_FN int sky_bin_left(vec3 d)
+{
+    const int bin = sky_bin(d);
+    const int x = bin % kSkyBinsAcross;
+    const int y = bin / kSkyBinsAcross;
+    const int last = kSkyBinsAcross - 1;
+    // On the horizon |u| + |v| is 1: the two indices, counted from their nearer edges, add up to half.
+    const int from_x = min(x, last - x);
+    const int from_y = min(y, last - y);
+    const bool up = d.y > 0.0f;
+    const int short_of = kSkyBinsAcross / 2 - from_x - from_y;
+    if (up ? short_of <= 0 : short_of >= 2) return bin;
+    // Up is inwards.
+    const bool wide = up ? from_x < from_y : from_x > from_y;
+    const int across = wide ? (2 * x < last ? 1 : -1) : (2 * y < last ? kSkyBinsAcross : -kSkyBinsAcross);
+    return up ? bin + across : bin - across;
+}
+
+// Whether a bin is one of rays that leave upwards.
+SHARED_FN bool sky_bin_above(int bin)
+{
+    const int last = kSkyBinsAcross - 1;
+    const int x = bin % kSkyBinsAcross;
+    const int y = bin / kSkyBinsAcross;
+    return min(x, last - x) + min(y, last - y) >= kSkyBinsAcross / 2;
+}
+
 // The middle of a sky bin, unit.
 SHARED_FN vec3 sky_bin_direction(int bin)
 {
@@ -81,15 +112,33 @@ SHARED_FN vec3 sky_bin_direction(int bin)
     return octahedral_decode(vec2(u, v));
 }
 
-// Direction of a visibility bit before it is made unit: texel centres, x fastest.
-SHARED_FN vec3 visibility_raw_direction(int texel)
+// Direction at a place among the visibility bits, in texels, before it is made unit.
+SHARED_FN vec3 visibility_raw_at(float x_texels, float y_texels)
 {
     const float across = float(kVisibilityAcross);
-    const float u = (float(texel % kVisibilityAcross) + 0.5f) / across * 2.0f - 1.0f;
-    const float v = (float(texel / kVisibilityAcross) + 0.5f) / across * 2.0f - 1.0f;
+    const float u = x_texels / across * 2.0f - 1.0f;
+    const float v = y_texels / across * 2.0f - 1.0f;
     const float x = 0.5f * (u + v);
     const float z = 0.5f * (u - v);
     return vec3(x, 1.0f - abs(x) - abs(z), z);
+}
+
+// Direction of a visibility bit before it is made unit: texel centres, x fastest.
+SHARED_FN vec3 visibility_raw_direction(int texel)
+{
+    return visibility_raw_at(float(texel % kVisibilityAcross) + 0.5f, float(texel / kVisibilityAcross) + 0.5f);
+}
+
+// Directions inside the texel of a visibility bit, kSkySubsamples of them: unit, w: its share of the solid angle, not
+// normalized.
+SHARED_FN vec4 visibility_subsample(int texel, int sample_index)
+{
+    const float side = 4.0f;
+    const vec3 raw = visibility_raw_at(float(texel % kVisibilityAcross) + (float(sample_index % 4) + 0.5f) / side,
+                                       float(texel / kVisibilityAcross) + (float(sample_index / 4) + 0.5f) / side);
+    const float length2 = dot(raw, raw);
+    const float inverse = 1.0f / sqrt(length2);
+    return vec4(raw * inverse, inverse / length2);
 }
 
 // Solid angle that a visibility bit stands for; all of them add up to 2 pi.

@@ -29,6 +29,23 @@ SHARED_FN float cosine_band(int i)
     return i == 0 ? 1.0f : i < 4 ? 2.0f / 3.0f : 0.25f;
 }
 
+// Six directions that carry what the harmonics miss: +x, -x, +y, -y, +z, -z. Low light at the horizon leaks into level
+// ground, by a third at dusk.
+SHARED_CONST int kSkyAxes = 6;
+
+SHARED_FN vec3 sky_axis(int i)
+{
+    const float side = i % 2 == 0 ? 1.0f : -1.0f;
+    return i < 2 ? vec3(side, 0.0f, 0.0f) : i < 4 ? vec3(0.0f, side, 0.0f) : vec3(0.0f, 0.0f, side);
+}
+
+// Share of an axis in the direction n, unit; those of all axes add up to 1.
+SHARED_FN float sky_axis_share(int i, vec3 n)
+{
+    const float along = max(dot(n, sky_axis(i)), 0.0f);
+    return along * along;
+}
+
 SHARED_END
 
 #endif

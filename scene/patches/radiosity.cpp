@@ -10,6 +10,7 @@
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
+#include "scene/patches/open_sky.h"
 
 namespace petrichor::scene {
 namespace {
@@ -63,18 +64,60 @@ std::vector<Four> row_pattern(int rays)
 }
 
 // Radiance a + b . w over the hemisphere whose cosine-weighted moments are `mean` (share of the
-// light times direction, in the frame of the normal): E = pi a + 2 pi / 3 b_n, m_n = 2 pi / 3 a +
-// pi / 2 b_n, m_t = pi / 4 b_t, for E = 1. What is returned is 2 pi / 3 b, in the frame.
-glm::vec3 gradient_of(glm::vec3 mean)
+// light times direction) about the normal n: E = pi a + 2 pi / 3 b_n, m_n = 2 pi / 3 a + pi / 2 b_n, m_t = pi / 4 b_t,
+// for E = 1. What is returned is 2 pi / 3 b.
+glm::vec3 gradient_of(glm::vec3 mean, glm::vec3 n)
 {
-    const float b_normal = (mean.z - 2.0f / 3.0f) * (18.0f / std::numbers::pi_v<float>);
-    const glm::vec3 b{4.0f / std::numbers::pi_v<float> * mean.x,
-                      4.0f / std::numbers::pi_v<float> * mean.y, b_normal};
+    const float along = glm::dot(mean, n);
+    const float b_normal = (along - 2.0f / 3.0f) * (18.0f / std::numbers::pi_v<float>);
+    const glm::vec3 b = (mean - n * along) * (4.0f / std::numbers::pi_v<float>) + n * b_normal;
     glm::vec3 gradient = b * (2.0f * std::numbers::pi_v<float> / 3.0f);
     // A radiance below zero nowhere: no more than all of it.
     const float length = std::sqrt(glm::dot(gradient, gradient));
     if (length > 1.0f) gradient = gradient / length;
     return gradient;
+}
+
+// Of each patch: the light of the sky above the horizon as it is where it is seen, and the share of its rays that
+// leave there.
+struct SkyShares {
+    std::vector<Four> light;
+    std::vector<glm::vec3> moment;  // world
+    std::vector<float> share;
+};
+
+SkyShares sky_shares(const Patches& patches, const Relight& input)
+{
+    SkyShares sky{std::vector<Four>(patches.count, Four{}), std::vector<glm::vec3>(patches.count, glm::vec3(0.0f)),
+                  std::vector<float>(patches.count, 0.0f)};
+    const std::vector<SkyTexel> coarse = input.sky_above.empty() ? sky_texels(input.sky) : std::vector<SkyTexel>{};
+    const OpenSky open(input.sky_above.empty() ? std::span<const SkyTexel>(coarse) : input.sky_above);
+    std::array<std::uint8_t, shared::kSkyBins> above{};
+    for (int bin = 0; bin < shared::kSkyBins; ++bin)
+        above[static_cast<std::size_t>(bin)] = shared::sky_bin_above(bin) ? 1 : 0;
+    over_rows(patches.count, input.threads, [&](std::uint32_t i) {
+        const std::uint16_t* row = patches.row(i);
+        int rays = 0;
+        glm::vec3 mean(0.0f);
+        for (int r = 0; r < patches.rays; ++r) {
+            const std::uint32_t bin = static_cast<std::uint32_t>(row[r]) - patches.count;
+            if (bin >= static_cast<std::uint32_t>(shared::kSkyBins) || above[bin] == 0) continue;
+            ++rays;
+            mean += input.sky[bin];
+        }
+        if (rays == 0) return;
+        sky.share[i] = static_cast<float>(rays) / static_cast<float>(patches.rays);
+        const OpenSky::Mean seen = open.seen_by(patches, i);
+        if (seen.known) {
+            sky.light[i] = Four{seen.light.x, seen.light.y, seen.light.z, seen.light.w};
+            sky.moment[i] = seen.moment;
+        } else {
+            // A slit that none of its bits looks through: by the rays that do.
+            sky.light[i] = four(mean / static_cast<float>(rays));
+            sky.moment[i] = patches.normal[i] * (sky.light[i][3] * 2.0f / 3.0f);
+        }
+    });
+    return sky;
 }
 
 // Of the light of glowing patches what does not come from those that patch i knows as near.
@@ -233,8 +276,16 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
 
     std::vector<Four> sent(count + shared::kSkyBins + 1, Four{}), next(sent.size());
     for (std::uint32_t i = 0; i < count; ++i) sent[i] = own[i];
-    for (std::size_t s = 0; s < static_cast<std::size_t>(shared::kSkyBins); ++s)
-        sent[count + s] = four(input.sky[s]);
+    const SkyShares sky = sky_shares(patches, input);
+    std::vector<Four> reflected(count);  // own, and of the sky above
+    for (int s = 0; s < shared::kSkyBins; ++s) {
+        const auto bin = static_cast<std::size_t>(s);
+        if (!shared::sky_bin_above(s)) sent[count + bin] = four(input.sky[bin]);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Four share{sky.share[i], sky.share[i], sky.share[i], sky.share[i]};
+        reflected[i] = own[i] + albedo[i] * (sky.light[i] * share);
+    }
     next = sent;
     const auto rays = static_cast<std::size_t>(patches.rays);
     const float share = 1.0f / static_cast<float>(patches.rays);
@@ -250,7 +301,7 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
                 odd += sent[row[r + 1]];
             }
             if (r < rays) even += sent[row[r]];
-            next[i] = own[i] + albedo[i] * ((even + odd) * shares);
+            next[i] = reflected[i] + albedo[i] * ((even + odd) * shares);
         });
         sent.swap(next);
     }
@@ -276,19 +327,21 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
             sum += light;
             moment += pattern[r] * Four{luminance, luminance, luminance, luminance};
         }
+        const float from_above = sky.share[i] * static_cast<float>(rays);
+        sum += sky.light[i] * Four{from_above, from_above, from_above, from_above};
         const float all = sum[3];
         glm::vec3 g(0.0f);
         if (all > 0.0f) {
             const glm::vec3 n = patches.normal[i];
             const Tangents f = tangents_of(n);
-            const glm::vec3 mean =
-                gradient_of(glm::vec3(moment[0], moment[1], moment[2]) / all);
-            // Turned about the normal as the rays of this patch were.
+            // The rays of this patch were turned about the normal.
             const auto turn = portable_sin_cos(
                 6.283185307179586 *
                 static_cast<double>(row_turn(cell_hash(patches.seed, patches.key[i]))));
             const auto c = static_cast<float>(turn.cosine), s = static_cast<float>(turn.sine);
-            g = f.t * (mean.x * c - mean.y * s) + f.b * (mean.x * s + mean.y * c) + n * mean.z;
+            const glm::vec3 by_rays = f.t * (moment[0] * c - moment[1] * s) +
+                                      f.b * (moment[0] * s + moment[1] * c) + n * moment[2];
+            g = gradient_of((by_rays + sky.moment[i] * from_above) / all, n);
         }
         falls[i] = sum * shares + glow_light[i];
         float open = patches.open[i];
@@ -304,10 +357,10 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
             const float over = left > 0.5f ? 1.0f / left : 0.0f;
             sum = (sum - nearby) * Four{over, over, over, over};
             open = std::min(1.0f, open * static_cast<float>(patches.rays) * over);
-            const float all = static_cast<float>(patches.rays) * over;
+            const float rest = static_cast<float>(patches.rays) * over;
             if (glows)
                 glow_far = glow_beyond(input, i, patches.rays, glow_light[i]) *
-                           Four{all, all, all, all};
+                           Four{rest, rest, rest, rest};
             for (int c = 0; c < 3; ++c) sum[c] = std::max(sum[c], 0.0f);  // rounding
         } else {
             sum = sum * shares;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/patches/near_light.h"
+#include "scene/patches/open_sky.h"
 #include "scene/patches/patches.h"
 
 namespace petrichor::scene {
@@ -45,6 +46,7 @@ struct Relight {
     std::span<const glm::vec3> direct;    ///< irradiance of a leaf from sun and lamps
     std::span<const glm::vec3> emission;  ///< radiosity of a leaf by itself; empty: none
     std::span<const glm::vec3> sky;       ///< pi x mean radiance of a sky bin, kSkyBins entries
+    std::span<const SkyTexel> sky_above = {};  ///< the same above the horizon, finer; empty: from the bins
     const GlowLinks* glow = nullptr;
     const NearLinks* near = nullptr;  ///< of these patches; for lookups that know them
     std::span<const glm::vec3> near_direct;  ///< irradiance of its entries from sun and lamps

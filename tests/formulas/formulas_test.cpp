@@ -500,6 +500,21 @@ TEST(Harmonics, AreOrthonormalAndKeepAConstantSky)
     EXPECT_NEAR(constant * static_cast<double>(returned), 1.0, 1e-3);
 }
 
+TEST(Harmonics, AxesShareADirection)
+{
+    for (int i = 0; i < 500; ++i) {
+        const float y = -1.0f + static_cast<float>(i) / 250.0f, turn = 2.4f * static_cast<float>(i);
+        const float side = std::sqrt(std::max(1.0f - y * y, 0.0f));
+        const glm::vec3 n(side * std::cos(turn), y, side * std::sin(turn));
+        float sum = 0.0f;
+        for (int a = 0; a < kSkyAxes; ++a) sum += sky_axis_share(a, n);
+        EXPECT_NEAR(sum, 1.0f, 1e-6f);
+    }
+    for (int a = 0; a < kSkyAxes; ++a) {
+        for (int b = 0; b < kSkyAxes; ++b) EXPECT_EQ(sky_axis_share(a, sky_axis(b)), a == b ? 1.0f : 0.0f);
+    }
+}
+
 // Every half there is, what lies between two, and what is beyond them, as GLM packs them.
 TEST(HalfCode, IsTheNearestHalf)
 {

@@ -1,5 +1,7 @@
 // Light between surfaces in whole frames: the device looks up what the CPU does; laws of a room, an
 // arch, snow, a lamp round the corner.
+#include <numbers>
+
 #include "gpu/frame/patch_points_io.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
 #include "scene/patches/lookup.h"
@@ -76,6 +78,45 @@ Scene yard(const Material& material)
 }
 
 class PatchLightTest : public GpuTest {};
+
+// Low light at the horizon, of 4 degrees: level ground gets a fourteenth of what a wall has that faces it. With patches
+// and without, every pixel alike: rays of a patch meet it by chance, three bands of harmonics let half as much again in.
+TEST_F(PatchLightTest, AGlowAtTheHorizonFallsOnLevelGroundAsItsCosineSays)
+{
+    EnvironmentMap map;
+    map.width = 256;
+    map.height = 128;
+    map.rgb.assign(std::size_t{256} * 128 * 3, 0.0f);
+    double up = 0.0;
+    for (int y = 0; y < 128; ++y) {
+        const double elevation = (0.5 - (y + 0.5) / 128.0) * std::numbers::pi;
+        for (int x = 0; x < 256; ++x) {
+            const bool glow = x >= 100 && x < 130 && elevation > 0.03 && elevation < 0.11;
+            const float radiance = glow ? 50.0f : elevation > 0.0 ? 0.4f : 0.0f;
+            for (std::size_t c = 0; c < 3; ++c)
+                map.rgb[(static_cast<std::size_t>(y) * 256 + static_cast<std::size_t>(x)) * 3 + c] = radiance;
+            const double area = std::cos(elevation) * (std::numbers::pi / 128.0) * (std::numbers::pi / 128.0);
+            up += static_cast<double>(radiance) * area * std::max(std::sin(elevation), 0.0);
+        }
+    }
+    const auto expected = static_cast<float>(0.5 * up / std::numbers::pi);
+    const Scene scene = scene_of({quad({-8, 0, 8}, {16, 0, 0}, {0, 0, -16})}, {lambert(glm::vec3(0.5f))});
+    for (const bool patches : {true, false}) {
+        renderer->load(scene, {});
+        renderer->set_patches(patches ? traced(scene) : nullptr);
+        renderer->set_environment(map);
+        const RenderResult r = renderer->render(frame_from(look({0, 6, 5}, {0, 0, 0}, 0.6f)));
+        float least = 1e9f, most = 0.0f;
+        for (int y = 0; y < r.height; ++y) {
+            for (int x = 0; x < r.width; ++x) {
+                least = std::min(least, pixel(r, x, y).g);
+                most = std::max(most, pixel(r, x, y).g);
+            }
+        }
+        EXPECT_NEAR(least, expected, 0.06f * expected) << patches;
+        EXPECT_NEAR(most, least, 0.01f * expected) << patches;
+    }
+}
 
 // Ground that no patch is near is lit by the sky, up to the outline of what hangs over it.
 TEST_F(PatchLightTest, FarGroundBehindANearThingIsNotLitAsThatThing)

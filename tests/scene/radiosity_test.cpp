@@ -224,6 +224,79 @@ TEST(Radiosity, AGlowingWindowIsLinkedByPairs)
     }
 }
 
+// A glow that a ray in a hundred meets, low over the horizon: a patch has what its open sky sends, not what its rays
+// chance to meet.
+TEST(Radiosity, ASmallGlowFallsOnAllOpenPatchesAlike)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-6, 0, -6}, {0, 0, 12}, {12, 0, 0});
+    add_box(scene, {-0.4f, 0, -0.4f}, {0.4f, 1, 0.4f}, false);
+    const Cut cut(scene, 128);
+    Lights lights(cut.patches);
+    std::vector<SkyTexel> above(shared::kVisibilityTexels);
+    float expected = 0.0f;
+    for (int t = 0; t < shared::kVisibilityTexels; ++t) {
+        const glm::vec3 d = glm::normalize(shared::visibility_raw_direction(t));
+        const bool glow = d.y < 0.12f && d.x > 0.9f;
+        above[static_cast<std::size_t>(t)] = {glm::vec3(kPi * (glow ? 80.0f : 0.5f)), d};
+        expected += (glow ? 80.0f : 0.5f) * d.y * shared::visibility_solid_angle(t);
+    }
+    for (int bin = 0; bin < shared::kSkyBins; ++bin) {
+        const glm::vec3 d = shared::sky_bin_direction(bin);
+        lights.sky[static_cast<std::size_t>(bin)] =
+            glm::vec3(d.y <= 0.0f ? 0.0f : kPi * (d.y < 0.12f && d.x > 0.9f ? 80.0f : 0.5f));
+    }
+    Relight input = lights.input(0);
+    input.sky_above = above;
+    const auto lit = relight(cut.patches, input);
+    int open = 0;
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        if (cut.patches.normal[i].y < 0.99f || cut.patches.position_m[i].y > 0.5f) continue;
+        // On the side of the glow, where the box hides nothing of it, and next to nothing of the rest.
+        if (cut.patches.position_m[i].x < 0.6f || cut.patches.sky_view[i] < 0.999f) continue;
+        ++open;
+        EXPECT_NEAR(lit.irradiance[i].x, expected, 0.02f * expected);
+    }
+    EXPECT_GT(open, 50);
+    // In the box's shadow from the glow there is only the rest of the sky.
+    float darkest = expected;
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        const glm::vec3 x = cut.patches.position_m[i];
+        if (cut.patches.normal[i].y > 0.99f && x.y < 0.5f && x.x < -0.45f && x.x > -0.9f && std::abs(x.z) < 0.2f)
+            darkest = std::min(darkest, lit.irradiance[i].x);
+    }
+    EXPECT_LT(darkest, 0.6f * expected);
+}
+
+TEST(PatchCells, ARayIsInABinOfItsSideOfTheHorizon)
+{
+    for (int k = 0; k < 20000; ++k) {
+        const float turn = 0.0007f * static_cast<float>(k), y = 0.4f * std::sin(0.37f * static_cast<float>(k));
+        const glm::vec3 d = glm::normalize(glm::vec3(std::cos(turn), y * y * y, std::sin(turn)));
+        const int bin = shared::sky_bin_left(d);
+        ASSERT_TRUE(bin >= 0 && bin < shared::kSkyBins);
+        EXPECT_EQ(shared::sky_bin_above(bin), d.y > 0.0f) << d.x << " " << d.y << " " << d.z;
+        EXPECT_EQ(shared::sky_bin_direction(bin).y > 0.0f, d.y > 0.0f);
+        EXPECT_GT(glm::dot(shared::sky_bin_direction(bin), d), 0.98f) << "and near it";
+    }
+}
+
+TEST(PatchCells, TexelsOfTheSkyAddUpToTheHemisphere)
+{
+    double solid = 0.0, up = 0.0;
+    const float step = 2.0f / static_cast<float>(shared::kVisibilityAcross * 4);
+    for (int t = 0; t < shared::kVisibilityTexels; ++t) {
+        for (int s = 0; s < shared::kSkySubsamples; ++s) {
+            const glm::vec4 d = shared::visibility_subsample(t, s);
+            const double area = static_cast<double>(0.5f * step * step * d.w);
+            solid += area;
+            up += area * static_cast<double>(d.y);
+        }
+    }
+    EXPECT_NEAR(solid, 2.0 * std::numbers::pi, 1e-5);
+    EXPECT_NEAR(up, std::numbers::pi, 1e-4);
+}
+
 // Radiance a + b . w has a closed form for any normal.
 TEST(Radiosity, TheGradientTurnsIrradianceAsALinearSkyDoes)
 {

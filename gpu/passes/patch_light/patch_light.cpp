@@ -62,7 +62,7 @@ void PatchLights::make_buffers(std::size_t nodes, std::size_t slots, std::size_t
     gradient_ = host_texels(*arena_, "patch_gradient", nodes, VK_FORMAT_R32G32B32A32_SFLOAT);
     near_ = host_texels(*arena_, "patch_near", near, VK_FORMAT_R32G32B32A32_SFLOAT);
     sky_bins_ = arena_->buffer({.name = "sky_bins",
-                                .size = static_cast<VkDeviceSize>(shared::kSkyBins) * 16,
+                                .size = static_cast<VkDeviceSize>(shared::kSkyBins + 2 * shared::kVisibilityTexels) * 16,
                                 .host = true});
 }
 
@@ -95,12 +95,16 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     if (!loaded()) return;
     const auto start = std::chrono::steady_clock::now();
     const scene::Patches& p = scene_->patches;
+    const auto texel_of_sky = [&](std::size_t i) {
+        glm::vec4 texel;
+        std::memcpy(&texel, sky_bins_->mapped + i * sizeof texel, sizeof texel);
+        return glm::vec3(texel);
+    };
     std::vector<glm::vec3> sky(static_cast<std::size_t>(shared::kSkyBins));
-    for (std::size_t i = 0; i < sky.size(); ++i) {
-        glm::vec4 bin;
-        std::memcpy(&bin, sky_bins_->mapped + i * sizeof bin, sizeof bin);
-        sky[i] = glm::vec3(bin);
-    }
+    for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = texel_of_sky(i);
+    std::vector<scene::SkyTexel> sky_above(static_cast<std::size_t>(shared::kVisibilityTexels));
+    for (std::size_t i = 0; i < sky_above.size(); ++i)
+        sky_above[i] = {texel_of_sky(sky.size() + 2 * i), texel_of_sky(sky.size() + 2 * i + 1)};
 
     Hasher hasher;
     add_list(hasher, sky);
@@ -172,6 +176,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     input.direct = direct;
     input.emission = emission;
     input.sky = sky;
+    input.sky_above = sky_above;
     input.glow = &scene_->glow;
     input.near = &scene_->near;
     input.near_direct = near_direct;
@@ -203,7 +208,7 @@ void add_sky_bins(FrameGraph& graph, SkyMaps& sky, PatchLights& lights)
         .bindings = {{SKY_BINS_SOURCE, sampled(*sky.cube, sky.linear)},
                      {SKY_BINS_TARGET, storage_buffer(lights.sky_bins())}},
         .push = {},
-        .groups = {(static_cast<std::uint32_t>(shared::kSkyBins) + SKY_BINS_GROUP - 1) /
+        .groups = {(static_cast<std::uint32_t>(shared::kSkyBins + shared::kVisibilityTexels) + SKY_BINS_GROUP - 1) /
                        SKY_BINS_GROUP,
                    1, 1}});
     graph.read_back({&lights.sky_bins()});

@@ -7,17 +7,20 @@
 #include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/passes/sky/sky_io.h"
 
-layout(local_size_x = 9) in;
+layout(local_size_x = 15) in;  // kHarmonics + kSkyAxes
 layout(binding = SKY_SOURCE) uniform samplerCube sky;
 layout(binding = SKY_TARGET, scalar) writeonly buffer Output { SkyLight result; };
 
 layout(push_constant, scalar) uniform Push { SkyLightParams params; };
 
-shared vec3 coefficients[9];
+shared vec3 coefficients[kHarmonics];
+shared vec3 exact[kSkyAxes];
 
 void main()
 {
     const int i = int(gl_LocalInvocationID.x);
+    const bool axis = i >= kHarmonics;
+    const vec3 along = sky_axis(axis ? i - kHarmonics : 0);
     const int n = int(params.face_size);
     vec3 sum = vec3(0.0);
     float weight = 0.0;
@@ -27,20 +30,28 @@ void main()
                 const vec2 st = (vec2(x, y) + 0.5) / params.face_size * 2.0 - 1.0;
                 const float w = cube_texel_weight(st);
                 const vec3 d = normalize(cube_direction(face, st));
-                sum += textureLod(sky, d, params.mip).rgb * (w * harmonic(i, d));
+                sum += textureLod(sky, d, params.mip).rgb * (w * (axis ? max(dot(d, along), 0.0) : harmonic(i, d)));
                 weight += w;
             }
         }
     }
-    const vec3 coefficient = sum * (12.566371 / weight) * cosine_band(i);
-    coefficients[i] = coefficient;
-    result.harmonics[i] = vec4(coefficient, 0.0);
+    if (axis) {
+        exact[i - kHarmonics] = sum * (4.0 / weight);
+    } else {
+        const vec3 coefficient = sum * (12.566371 / weight) * cosine_band(i);
+        coefficients[i] = coefficient;
+        result.harmonics[i] = vec4(coefficient, 0.0);
+    }
     barrier();
+    if (axis) {
+        vec3 told = vec3(0.0);
+        for (int k = 0; k < kHarmonics; ++k) told += coefficients[k] * harmonic(k, along);
+        result.missed[i - kHarmonics] = vec4(exact[i - kHarmonics] - told, 0.0);
+    }
     if (i != 0) return;
 
     // What falls on level ground: the sky's irradiance along +y and the sun.
-    vec3 up = vec3(0.0);
-    for (int k = 0; k < kHarmonics; ++k) up += coefficients[k] * harmonic(k, vec3(0.0, 1.0, 0.0));
+    const vec3 up = exact[2];
     const vec3 weights = vec3(0.2126, 0.7152, 0.0722);
     const float sky_lux = max(dot(up, weights), 0.0) * 3.14159265 * params.ambient_scale;
     const float lux =

@@ -8,6 +8,7 @@ SHARED_BEGIN
 
 struct SkyLight {
     vec4 harmonics[9];  // irradiance / pi, order-2 spherical harmonics, in x, y, z
+    vec4 missed[6];     // irradiance / pi along sky_axis(i), less what the harmonics say there
     float exposure;     // linear scale for the display
     float illuminance;  // metered, lux on level ground
 };

@@ -104,7 +104,7 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
             std::uint32_t id = patches.black();
             if (!link.hit.hit() && !link.inside) {
                 id = patches.count +
-                     static_cast<std::uint32_t>(shared::sky_bin(link.ray.direction));
+                     static_cast<std::uint32_t>(shared::sky_bin_left(link.ray.direction));
                 sky += link.ray.direction.y > 0.0f ? 1 : 0;
                 ++far;
             } else if (!link.inside) {
