@@ -311,6 +311,9 @@ bool Grower::holds_content(const Cell& cell) const
                        });
 }
 
+constexpr int kMoreAsked = 32;
+constexpr int kLeastOuter = 3;
+
 // Two groups of samples, a fifth of them or more each, that do not see one another.
 bool Grower::parted(const Cell& cell) const
 {
@@ -394,6 +397,19 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
     if (cell.points == 0) {
         cell.state = CellState::Buried;
         return;
+    }
+    // Of dense leaves few are outside: more are asked, and stand in for those within.
+    auto looking = static_cast<int>(std::count(outer.begin(), outer.begin() + cell.points, true));
+    for (int k = 0; k < kMoreAsked && looking < kLeastOuter && cell.points == kPatchSamples; ++k) {
+        const float along = fraction(kGoldenRatio * static_cast<float>(k + 1));
+        const auto at = std::min(static_cast<std::size_t>(along * static_cast<float>(count)), count - 1);
+        const PatchSample& sample = raw[at]->point;
+        const Outlook outlook = look_out(sample_point(triangles_, sample), mixed(hash, at));
+        if (outlook.buried || !outlook.outer) continue;
+        const auto within = std::find(outer.begin(), outer.end(), false);
+        cell.samples[static_cast<std::size_t>(within - outer.begin())] = sample;
+        *within = true;
+        ++looking;
     }
     float area = 0.0f;
     for (std::size_t i = 0; i < count; ++i) area += raw[i]->area_m2;
