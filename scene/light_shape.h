@@ -13,11 +13,11 @@ namespace petrichor::scene {
 /// The size of a lamp, as files say it. Its intensity stays in candela: what it sends straight out of its
 /// front (of a tube: across it) is spread over its face.
 struct LightShape {
-    std::optional<float> radius_m;  ///< of a point: a sphere; of a spot: a disc
-    std::optional<float> length_m;  ///< with a radius: a tube along the lamp's y axis
-    std::optional<float> width_m;   ///< with height: a rectangle in its x and y axes that faces -z
-    std::optional<float> height_m;
-    std::optional<float> specular;  ///< of its highlights
+    std::optional<float> radius_m = {};  ///< of a point: a sphere; of a spot: a disc
+    std::optional<float> length_m = {};  ///< with a radius: a tube along the lamp's y axis
+    std::optional<float> width_m = {};   ///< with height: a rectangle in its x and y axes that faces -z
+    std::optional<float> height_m = {};
+    std::optional<float> specular = {};  ///< of its highlights
     bool both_sides = false;        ///< of a rectangle
 };
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "film/frames/frames_jsonl.h"
 #include "scene/material_table.h"
 #include "tests/support/tiny_render.h"
@@ -32,8 +34,8 @@ std::string striped_png()
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
             const bool band = x / 8 % 2 == 0;
-            for (const int value : band ? std::initializer_list<int>{30, 90, 210, 255}
-                                        : std::initializer_list<int>{200, 160, 225, 255})
+            const std::array<int, 4> light{30, 90, 210, 255}, dark{200, 160, 225, 255};
+            for (const int value : band ? light : dark)
                 pixels.push_back(static_cast<std::uint8_t>(value));
         }
     }
