@@ -154,15 +154,15 @@ constexpr StatedScore kStated[] = {
     {"gustav_adolfs", "K down", 47.6, 3.0, kNoScore},
     {"gustav_adolfs", "K up", 10.1, 1.0, kNoScore},
     {"gustav_adolfs", "K of the sides", 73.1, 3.0, kNoScore},
-    {"gustav_adolfs", "L down", 31, 2.0, kNoScore},
-    {"gustav_adolfs", "L up", 37.4, 2.0, kNoScore},
-    {"gustav_adolfs", "L of the sides", 26.7, 2.0, kNoScore},
-    {"kronenhuset", "K down", 14.4, 3.0, kNoScore},
-    {"kronenhuset", "K up", 5.78, 1.0, kNoScore},
+    {"gustav_adolfs", "L down", 31.3, 2.0, kNoScore},
+    {"gustav_adolfs", "L up", 37.5, 2.0, kNoScore},
+    {"gustav_adolfs", "L of the sides", 27.5, 2.0, kNoScore},
+    {"kronenhuset", "K down", 14.3, 3.0, kNoScore},
+    {"kronenhuset", "K up", 5.54, 1.0, kNoScore},
     {"kronenhuset", "K of the sides", 39.5, 3.0, kNoScore},
-    {"kronenhuset", "L down", 25.5, 2.0, kNoScore},
-    {"kronenhuset", "L up", 10.7, 1.0, kNoScore},
-    {"kronenhuset", "L of the sides", 8.45, 1.0, kNoScore},
+    {"kronenhuset", "L down", 30.9, 2.0, kNoScore},
+    {"kronenhuset", "L up", 7.68, 1.0, kNoScore},
+    {"kronenhuset", "L of the sides", 8.63, 1.0, kNoScore},
 };
 
 }  // namespace

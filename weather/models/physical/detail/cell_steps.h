@@ -56,6 +56,10 @@ double climate_amplitude_k(double latitude_deg);
 YearlyWave yearly_wave(const ForcingTable& table);
 /// Ground as the yearly wave leaves it at a time of the table (at its beginning), dry, no snow.
 CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);
+/// Behind the layers of a wall of a house: lining, and the air of the room.
+double behind_wall_m2_k_w(const CellConstants& k);
+/// The wall of a house.
+CellState initial_wall(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);
 CellState initial_cell(const ForcingTable& table, const CellConstants& k);
 
 }  // namespace petrichor::weather::detail
