@@ -323,6 +323,12 @@ const std::vector<Rule>& rules()
         {{"weather", "max_gap_days", "60.0",
           "longest time between two rows of the file; longer ones are refused"},
          [](Scenario& s, const TomlValue& v) { s.weather.site.max_gap_days = v.number(0.0, 1e6); }},
+        {{"weather", "date_order", "\"dmy\"",
+          "or mdy: of dates such as 01/02/2024 where no row of the file shows which"},
+         [](Scenario& s, const TomlValue& v) {
+             constexpr const char* kOrders[] = {"dmy", "mdy"};
+             s.weather.site.date_order = kOrders[v.choice({"dmy", "mdy"})];
+         }},
         {{"weather", "latitude_degrees", "45.3", "north; where the file does not say"},
          [](Scenario& s, const TomlValue& v) {
              s.weather.site.latitude_deg = v.number(-90.0, 90.0);
