@@ -59,6 +59,15 @@ bool machine_has_wide_registers()
 #endif
 }
 
+bool machine_has_widest_registers()
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+#else
+    return false;
+#endif
+}
+
 AdvanceCell fastest_advance_cell()
 {
     return machine_has_wide_registers() ? advance_cell_wide : advance_cell_plain;
@@ -66,6 +75,7 @@ AdvanceCell fastest_advance_cell()
 
 AdvanceBlock fastest_advance_block()
 {
+    if (machine_has_widest_registers()) return advance_block_64;
     return machine_has_wide_registers() ? advance_block_32 : advance_block_16;
 }
 
