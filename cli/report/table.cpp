@@ -21,13 +21,14 @@ void append_shortest(std::string& text, double value)
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-// Computed states are not known to more than six digits, and shown with no more. The artist model is
-// exact, and so are times.
+// Computed states are not known to more than six digits, and shown with no more. The artist model
+// is exact, and so are times.
 double shown_value(const SimulationTable& table, std::size_t column, double value)
 {
     if (column == 0 || table.model != "physical" || !std::isfinite(value)) return value;
     char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6);
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6);
     double rounded = value;
     std::from_chars(digits, end.ptr, rounded);
     return rounded;
@@ -153,8 +154,8 @@ void append_json_number(std::string& text, double value)
 }
 
 // A JSON object with one more member at its end.
-std::string with_member(const std::string& object, const std::string& indent, const std::string& name,
-                        const std::string& value)
+std::string with_member(const std::string& object, const std::string& indent,
+                        const std::string& name, const std::string& value)
 {
     std::string text = object.substr(0, object.rfind('}'));
     while (text.back() == '\n') text.pop_back();
@@ -178,8 +179,8 @@ std::string json_text(const SimulationTable& table)
         rows += ']';
     }
     rows += ']';
-    return with_member(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "", "rows",
-                       rows);
+    return with_member(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "",
+                       "rows", rows);
 }
 
 std::string json_summary(const SimulationTable& table)
@@ -196,15 +197,15 @@ std::string json_summary(const SimulationTable& table)
         const std::pair<const char*, double> numbers[] = {
             {"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
         for (const auto& [name, value] : numbers) {
-            columns += std::string(name == numbers[0].first ? "" : ",") + "\n      \"" + name + "\": ";
+            columns +=
+                std::string(name == numbers[0].first ? "" : ",") + "\n      \"" + name + "\": ";
             append_json_number(columns, shown_value(table, c, value));
         }
         columns += "\n    }";
     }
     columns += columns.size() > 1 ? "\n  }" : "}";
-    return with_member(
-        head_of(table).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n  ", "columns",
-        columns);
+    return with_member(head_of(table).dump(2, ' ', false, nlohmann::json::error_handler_t::replace),
+                       "\n  ", "columns", columns);
 }
 
 }  // namespace petrichor::cli

@@ -212,8 +212,8 @@ public:
         return weather::wall_rain_factor(static_cast<double>(above_ground_m) / height, edge);
     }
 
-    // What is behind an upright patch: a house is as wide as a room at least, has a wall across that is
-    // seen from behind, and a roof as high as a door; what is thin shows its own back.
+    // What is behind an upright patch: a house is as wide as a room at least, has a wall across
+    // that is seen from behind, and a roof as high as a door; what is thin shows its own back.
     GroundForm behind(std::uint32_t i) const
     {
         const glm::vec3 n = patches_.normal[i], c = patches_.position_m[i];
@@ -222,12 +222,13 @@ public:
         const scene::RayHit across = tracer_.nearest({inside, -n, kAcrossHouse_m});
         if (across.back && across.distance_m >= kRoomLeast_m - kIntoHouse_m) {
             const scene::RayHit up = tracer_.nearest({inside, {0.0f, 1.0f, 0.0f}, kAcrossHouse_m});
-            const scene::RayHit down = tracer_.nearest({inside, {0.0f, -1.0f, 0.0f}, kAcrossHouse_m});
+            const scene::RayHit down =
+                tracer_.nearest({inside, {0.0f, -1.0f, 0.0f}, kAcrossHouse_m});
             if (up.hit() && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
                 return GroundForm::House;
         }
         return tracer_.nearest({c - n * 0.01f, -n, kSlabMost_m}).back ? GroundForm::Slab
-                                                                    : GroundForm::Steep;
+                                                                      : GroundForm::Steep;
     }
 
 private:

@@ -103,7 +103,8 @@ TEST(SimulatePhysical, TheOrderOfDatesIsAsSaid)
 {
     std::string csv = "time,air_temp_c,rel_humidity_pct\n";
     for (int hour = 0; hour < 24; ++hour)
-        csv += "02/03/2024 " + std::to_string(hour % 12 ? hour % 12 : 12) + ":00 " + (hour < 12 ? "AM" : "PM") + ",5,60\n";
+        csv += "02/03/2024 " + std::to_string(hour % 12 ? hour % 12 : 12) + ":00 " +
+               (hour < 12 ? "AM" : "PM") + ",5,60\n";
     PhysicalRun run = city();
     EXPECT_THROW(simulated(csv, run), Error);
     run.site.date_order = "dmy";

@@ -116,7 +116,8 @@ TEST(FilmByName, LawnsShowAThirdOfAFilmUnlessTheirMaterialSaysMore)
 }
 
 // A closed box without its floor.
-void add_box(scene::Scene& scene, std::uint32_t material, const glm::vec3& low, const glm::vec3& high)
+void add_box(scene::Scene& scene, std::uint32_t material, const glm::vec3& low,
+             const glm::vec3& high)
 {
     const glm::vec3 s = high - low;
     add_quad(scene, material, {low.x, low.y, high.z}, {s.x, 0, 0}, {0, s.y, 0});
@@ -157,7 +158,8 @@ TEST(PatchSites, HousesHaveRoomsBehindTheirWallsAndGardenWallsAir)
             EXPECT_TRUE(kind.surface.open_below && !kind.room_behind) << at.x << " " << at.z;
         } else if (std::abs(at.x + 2.0f) < 0.1f && std::abs(at.z) < 3.0f) {
             ++lone;  // a wall of one side: nobody knows what is behind
-            EXPECT_TRUE(!kind.surface.open_below && !kind.room_behind && kind.surface.layers.empty());
+            EXPECT_TRUE(!kind.surface.open_below && !kind.room_behind &&
+                        kind.surface.layers.empty());
         }
     }
     EXPECT_GT(house, 50u);

@@ -41,18 +41,19 @@ TEST(CsvTimes, OneColumn)
 
 TEST(CsvTimes, MonthsByName)
 {
-    for (const char* date :
-         {"02-Jan-2021", "2-Jan-2021", "2 Jan 2021", "2 January 2021", "Jan 2 2021", "\"Jan 2, 2021\"",
-          "\"January 02, 2021\"", "jan-02-2021", "2021-Jan-02", "2/JAN/2021", "2.1.2021", "02.01.2021"})
+    for (const char* date : {"02-Jan-2021", "2-Jan-2021", "2 Jan 2021", "2 January 2021",
+                             "Jan 2 2021", "\"Jan 2, 2021\"", "\"January 02, 2021\"", "jan-02-2021",
+                             "2021-Jan-02", "2/JAN/2021", "2.1.2021", "02.01.2021"})
         EXPECT_EQ(time_of("time", date), "2021-01-02T00:00:00Z") << date;
     EXPECT_EQ(time_of("time", "30-Sept-2021 9:05"), "2021-09-30T09:05:00Z");
     EXPECT_EQ(time_of("time", "29-Feb-2024T23:59:30"), "2024-02-29T23:59:30Z");
     EXPECT_EQ(time_of("time", "5 May 2021 13:00+02:00"), "2021-05-05T11:00:00Z");
     for (const char* none :
-         {"29-Feb-2023", "02-Jan-21", "2-Ja-2021", "Jan-Feb-2021", "02-Janx-2021", "32 Jan 2021", "0-Jan-2021",
-          "Jan 2", "2-Jan/2021", "2 Jan 2021 25:00", "2 Jan 2021 noon", "May 2021 5"})
+         {"29-Feb-2023", "02-Jan-21", "2-Ja-2021", "Jan-Feb-2021", "02-Janx-2021", "32 Jan 2021",
+          "0-Jan-2021", "Jan 2", "2-Jan/2021", "2 Jan 2021 25:00", "2 Jan 2021 noon", "May 2021 5"})
         EXPECT_EQ(time_of("time", none), "-") << none;
-    const char* months[] = {"jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"};
+    const char* months[] = {"jan", "feb", "mar", "apr", "may", "jun",
+                            "jul", "aug", "sep", "oct", "nov", "dec"};
     for (int m = 0; m < 12; ++m) {
         char iso[32];
         std::snprintf(iso, sizeof iso, "2021-%02d-07T00:00:00Z", m + 1);
@@ -62,14 +63,17 @@ TEST(CsvTimes, MonthsByName)
 
 TEST(CsvTimes, MorningAndAfternoon)
 {
-    const char* const cases[][2] = {{"12:00 AM", "00:00:00"}, {"12:30 am", "00:30:00"}, {"1:00 AM", "01:00:00"},
-                                    {"11:59 a.m.", "11:59:00"}, {"12:00 PM", "12:00:00"}, {"1:00PM", "13:00:00"},
+    const char* const cases[][2] = {{"12:00 AM", "00:00:00"},    {"12:30 am", "00:30:00"},
+                                    {"1:00 AM", "01:00:00"},     {"11:59 a.m.", "11:59:00"},
+                                    {"12:00 PM", "12:00:00"},    {"1:00PM", "13:00:00"},
                                     {"01:05:09 pm", "13:05:09"}, {"11 P.M.", "23:00:00"}};
     for (const auto& [clock, shows] : cases) {
         for (const char* date : {"2021-01-02", "02-Jan-2021", "02.01.2021", "2021/01/02"}) {
-            const std::string cell = std::string(date) + " " + clock, expected = std::string("2021-01-02T") + shows + "Z";
+            const std::string cell = std::string(date) + " " + clock,
+                              expected = std::string("2021-01-02T") + shows + "Z";
             EXPECT_EQ(time_of("time", cell.c_str()), expected) << cell;
-            EXPECT_EQ(time_of("date,time", (std::string(date) + "," + clock).c_str()), expected) << cell;
+            EXPECT_EQ(time_of("date,time", (std::string(date) + "," + clock).c_str()), expected)
+                << cell;
         }
     }
     for (const char* clock : {"13:00 PM", "0:00 AM", "1:00 XM", "PM", ":30 PM", "123 PM"})
@@ -99,7 +103,8 @@ TEST(CsvTimes, DayOrMonthFirst)
 }
 
 // What a file of a date in each row says; or the error.
-std::string read_dates(std::initializer_list<const char*> dates, DateOrder order = DateOrder::Unknown)
+std::string read_dates(std::initializer_list<const char*> dates,
+                       DateOrder order = DateOrder::Unknown)
 {
     std::string text = "time,air_temp_c\n";
     for (const char* date : dates) text += std::string(date) + ",1\n";
@@ -107,8 +112,8 @@ std::string read_dates(std::initializer_list<const char*> dates, DateOrder order
     options.date_order = order;
     try {
         const auto r = read_weather(text, options);
-        return iso_from_us(r.table.time_us.front()) + " " + iso_from_us(r.table.time_us.back()) + " " +
-               to_text(r.report);
+        return iso_from_us(r.table.time_us.front()) + " " + iso_from_us(r.table.time_us.back()) +
+               " " + to_text(r.report);
     } catch (const Error& error) {
         return std::string("error ") + error.what() + " | " + error.fix();
     }
@@ -126,12 +131,15 @@ TEST(CsvTimes, AFileShowsItsOrderOrIsAsked)
     EXPECT_EQ(eu.substr(0, 41), "2024-01-12T23:00:00Z 2024-01-13T00:00:00Z");
     has(eu, "dates are read as day/month/year");
     const std::string unknown = read_dates({"01/02/2024 00:00", "02/02/2024 00:00"});
-    has(unknown, "error weather: column 'time' has dates as '01/02/2024 00:00', and no row shows whether");
+    has(unknown,
+        "error weather: column 'time' has dates as '01/02/2024 00:00', and no row shows whether");
     has(unknown, "--date-order dmy or mdy");
-    EXPECT_EQ(read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::DayFirst).substr(0, 31),
-              "2024-02-01T00:00:00Z 2024-02-02");
-    EXPECT_EQ(read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::MonthFirst).substr(0, 31),
-              "2024-01-02T00:00:00Z 2024-02-02");
+    EXPECT_EQ(
+        read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::DayFirst).substr(0, 31),
+        "2024-02-01T00:00:00Z 2024-02-02");
+    EXPECT_EQ(
+        read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::MonthFirst).substr(0, 31),
+        "2024-01-02T00:00:00Z 2024-02-02");
     has(read_dates({"13/01/2024 00:00", "01/14/2024 00:00"}), "not always in the same place");
     // What was said against what is there: no row is turned round in silence.
     has(read_dates({"13/01/2024 00:00", "14/01/2024 00:00"}, DateOrder::MonthFirst),

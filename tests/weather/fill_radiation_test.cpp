@@ -234,8 +234,8 @@ TEST(FillRadiation, RainHasTheLightOfNimbostratus)
     EXPECT_NEAR(wet[Field::Shortwave][20] / t[Field::Shortwave][20], 0.16 / 0.25, 1e-9);
 }
 
-// A year at Bondville: of the clear sky's light 0.18 came in half hours of rain, and what is filled is
-// nearer to it than other overcast would be.
+// A year at Bondville: of the clear sky's light 0.18 came in half hours of rain, and what is filled
+// is nearer to it than other overcast would be.
 TEST(FillRadiation, RainAtBondvilleWasAsDark)
 {
     READ_ASSET(text, "champaign_1998_half_hourly.dat");

@@ -54,7 +54,8 @@ inline ForcingTable rough_year(std::size_t hours = 8760)
             clear + std::max(0.955 - clear, 0.0) * detail::clamped(cloud * cloud, 0.0, 1.0);
         const std::int64_t now_us = t.time_us.back();
         t[Field::Shortwave].push_back(cloudy_sky_w_m2(
-            SunNear(now_us, Observer(t.site.latitude_deg, t.site.longitude_deg)).at(now_us).up, cloud));
+            SunNear(now_us, Observer(t.site.latitude_deg, t.site.longitude_deg)).at(now_us).up,
+            cloud));
         t[Field::Longwave].push_back(sent * kStefanBoltzmann * (temp_k * temp_k) *
                                      (temp_k * temp_k));
     }

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "weather/readers/read_weather.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/read_weather.h"
 #include "weather/text/utf16.h"
 
 namespace petrichor::weather {
@@ -210,10 +210,14 @@ TEST(Utf16, IsReadAsTheSameTextInUtf8)
 TEST(Utf16, LettersBeyondAscii)
 {
     using namespace std::literals;
-    EXPECT_EQ(utf8_of_utf16("\xFF\xFE\xB0\x00\xAC\x20\x3D\xD8\x27\xDC"s), "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
-    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\x00\xB0\x20\xAC\xD8\x3D\xDC\x27"s), "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
+    EXPECT_EQ(utf8_of_utf16("\xFF\xFE\xB0\x00\xAC\x20\x3D\xD8\x27\xDC"s),
+              "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
+    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\x00\xB0\x20\xAC\xD8\x3D\xDC\x27"s),
+              "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
     // Halves of pairs.
-    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\xD8\x3D\x00\x61"s), "\xEF\xBF\xBD" "a");
+    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\xD8\x3D\x00\x61"s),
+              "\xEF\xBF\xBD"
+              "a");
     EXPECT_EQ(utf8_of_utf16("\xFE\xFF\xDC\x27\xD8\x3D"s), "\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 

@@ -270,7 +270,8 @@ std::string reordered(const std::string& text, std::size_t turn, bool cells_too)
 
 TEST(EnvironmentCanada, ColumnsAreFoundByNameAndNamesElsewhereAreSaid)
 {
-    const std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "environment_canada.csv");
+    const std::string text =
+        text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "environment_canada.csv");
     const auto plain = read_weather(text, {});
     for (std::size_t turn = 0; turn < 31; ++turn) {
         const auto r = read_weather(reordered(text, turn, true), {});
@@ -283,13 +284,15 @@ TEST(EnvironmentCanada, ColumnsAreFoundByNameAndNamesElsewhereAreSaid)
             read_weather(reordered(text, turn, false), {});
             ADD_FAILURE() << turn << ": read";
         } catch (const Error& error) {
-            EXPECT_THAT(error.what(), HasSubstr("columns hold what their names do not say: '")) << turn;
+            EXPECT_THAT(error.what(), HasSubstr("columns hold what their names do not say: '"))
+                << turn;
             EXPECT_THAT(error.what(), HasSubstr("' holds ")) << turn;
         }
     }
     // One sensor that fails is no reordering: it is what the usual report is for.
     std::string broken = text;
-    for (std::size_t at; (at = broken.find("\"87\"")) != std::string::npos;) broken.replace(at, 4, "\"xx\"");
+    for (std::size_t at; (at = broken.find("\"87\"")) != std::string::npos;)
+        broken.replace(at, 4, "\"xx\"");
     EXPECT_NO_THROW(read_weather(broken, {}));
 }
 

@@ -1,4 +1,5 @@
-// Walls against balances that are solved by hand: how warm they get, how fast, and when hoar on them goes.
+// Walls against balances that are solved by hand: how warm they get, how fast, and when hoar on
+// them goes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ constexpr std::int64_t kBegin_us = 1610236800LL * 1000000;  // 10 January 2021
 constexpr double kColdAir_c = -9.0, kWarmAir_c = 6.0;
 constexpr double kWind_m_s = 2.0;
 
-// Nights without end: cold and damp for some hours, then as warm as asked, with the longwave of a clear sky.
+// Nights without end: cold and damp for some hours, then as warm as asked, with the longwave of a
+// clear sky.
 ForcingTable thaw(std::size_t cold_hours, std::size_t hours, double humidity_pct,
                   double cold_humidity_pct = 85.0)
 {
@@ -76,17 +78,16 @@ double heat_to(double wall_c, const Outside& o, const Surface& surface, double b
                double conductance)
 {
     const double air_k = o.air_c + kZeroCelsiusK, wall_k = wall_c + kZeroCelsiusK;
-    const double q_air =
-        specific_humidity(vapour_pressure_pa(air_k, o.humidity_pct), kPressure_pa);
+    const double q_air = specific_humidity(vapour_pressure_pa(air_k, o.humidity_pct), kPressure_pa);
     // 0.16 / (ln(10 m / z0) ln(2 m / z0h)), and 1.31 dT^(1/3) beside it
-    const double forced = air_density_kg_m3(air_k, q_air, kPressure_pa) * 0.16 /
-                          (std::log(10.0 / surface.roughness_m) *
-                           std::log(2.0 / (0.1 * surface.roughness_m))) *
-                          o.wind_m_s;
+    const double forced =
+        air_density_kg_m3(air_k, q_air, kPressure_pa) * 0.16 /
+        (std::log(10.0 / surface.roughness_m) * std::log(2.0 / (0.1 * surface.roughness_m))) *
+        o.wind_m_s;
     const double exchange =
         forced + 1.31 * std::cbrt(std::abs(o.air_c - wall_c)) / kAirHeatCapacity;
-    const double pa = wall_c < 0.0 ? saturation_pressure_ice_pa(wall_k)
-                                   : saturation_pressure_water_pa(wall_k);
+    const double pa =
+        wall_c < 0.0 ? saturation_pressure_ice_pa(wall_k) : saturation_pressure_water_pa(wall_k);
     const double settling = std::max(0.0, exchange * (q_air - specific_humidity(pa, kPressure_pa)));
     const double latent = wall_c < 0.0 ? kLatentSublimation : kLatentVaporisation;
     return surface.emissivity * (o.longwave_w_m2 - kStefanBoltzmann * std::pow(wall_k, 4)) +
@@ -123,7 +124,8 @@ TEST(WallHeat, ConvectionIsThatOfTarpAndStillAirDampsNoWall)
                            neutral_exchange(10.0, 2.0, 0.005);
     EXPECT_NEAR(per_kelvin(0.0, 271.15), neutral + 2.62, 1e-6);  // colder than the air
     EXPECT_NEAR(per_kelvin(0.0, 287.15), neutral + 2.62, 1e-6);  // warmer
-    // Level ground below it is damped when it is cold and boiling when it is warm; a ceiling the other way round.
+    // Level ground below it is damped when it is cold and boiling when it is warm; a ceiling the
+    // other way round.
     EXPECT_LT(per_kelvin(1.0, 271.15), 0.5 * neutral);
     EXPECT_GT(per_kelvin(1.0, 287.15), 2.0 * neutral);
     EXPECT_EQ(per_kelvin(-1.0, 271.15), per_kelvin(1.0, 287.15));
@@ -148,7 +150,8 @@ TEST(WallHeat, AWallOfAHouseIsAsWarmAsItsBalance)
         EXPECT_NEAR(s.cell.surface_temp_c, expected_c, 0.02) << air_c;
         EXPECT_EQ(s.hoar_kg_m2, 0.0) << "a heated wall stays above the frost point";
     }
-    // In summer weather of no wind a room as warm as the air takes no heat: the wall is only as cold as its sky makes it.
+    // In summer weather of no wind a room as warm as the air takes no heat: the wall is only as
+    // cold as its sky makes it.
     PatchParams cold_room;
     cold_room.room_temp_k = kZeroCelsiusK + kWarmAir_c;
     const ForcingTable table = thaw(0, 400, 50.0);
@@ -156,7 +159,8 @@ TEST(WallHeat, AWallOfAHouseIsAsWarmAsItsBalance)
     patches.go_to(table.time_us[390]);
     const PatchState s = patches.state(0);
     EXPECT_NEAR(s.cell.surface_temp_c,
-                balanced_c(outside_of(s, kWarmAir_c, 50.0), surface, kWarmAir_c, conductance), 0.02);
+                balanced_c(outside_of(s, kWarmAir_c, 50.0), surface, kWarmAir_c, conductance),
+                0.02);
 }
 
 TEST(WallHeat, AThinWallWarmsWithItsTimeConstant)
@@ -179,8 +183,10 @@ TEST(WallHeat, AThinWallWarmsWithItsTimeConstant)
     const Outside o = outside_of(patches.state(0), kWarmAir_c, 30.0);
     patches.go_to(table.time_us[100]);
     const double from_c = patches.state(0).cell.surface_temp_c;
-    const double front = heat_to(from_c, o, surface, 0.0, 0.0) - heat_to(end_c, o, surface, 0.0, 0.0);
-    const double tau_s = slab.thickness_m * slab.heat_capacity_j_m3_k / (front / (end_c - from_c) + 10.0);
+    const double front =
+        heat_to(from_c, o, surface, 0.0, 0.0) - heat_to(end_c, o, surface, 0.0, 0.0);
+    const double tau_s =
+        slab.thickness_m * slab.heat_capacity_j_m3_k / (front / (end_c - from_c) + 10.0);
     const double later_s = 3.0 * 3600.0;
     patches.go_to(table.time_us[103]);
     const double left = (end_c - patches.state(0).cell.surface_temp_c) / (end_c - from_c);
@@ -209,27 +215,28 @@ TEST(WallHeat, HoarGrowsAtTheRateOfTheExchangeAndIsGoneWhenTheBalanceHasMeltedIt
     const double q_wall = specific_humidity(
         saturation_pressure_ice_pa(frosty.cell.surface_temp_c + kZeroCelsiusK), kPressure_pa);
     const double exchange =
-        air_density_kg_m3(air_k, q_air, kPressure_pa) * neutral_exchange(10.0, 2.0, surface.roughness_m) *
-            kWind_m_s * frosty.wind_factor +
+        air_density_kg_m3(air_k, q_air, kPressure_pa) *
+            neutral_exchange(10.0, 2.0, surface.roughness_m) * kWind_m_s * frosty.wind_factor +
         wall_convection_w_m2_k(kColdAir_c - frosty.cell.surface_temp_c) / kAirHeatCapacity;
     EXPECT_NEAR(frosty.hoar_kg_m2 - before.hoar_kg_m2, exchange * (q_air - q_wall) * 3600.0,
                 0.02 * (frosty.hoar_kg_m2 - before.hoar_kg_m2));
 
-    // Thaw, from an hour after the change of air. One lump of heat: while it is below 0 C frost settles on
-    // it, at 0 C what reaches it melts what lies there.
+    // Thaw, from an hour after the change of air. One lump of heat: while it is below 0 C frost
+    // settles on it, at 0 C what reaches it melts what lies there.
     patches.go_to(table.time_us[kCold + 1]);
     const PatchState cold = patches.state(0);
     ASSERT_GT(cold.hoar_kg_m2, 0.05);
     ASSERT_LT(cold.cell.surface_temp_c, -2.0);
     const Outside o = outside_of(cold, kWarmAir_c, 70.0);
     const double behind = 1.0 / (0.1 + 0.5 * slab.thickness_m / slab.conductivity_w_m_k);
-    const double warm_q = specific_humidity(
-        vapour_pressure_pa(kZeroCelsiusK + kWarmAir_c, 70.0), kPressure_pa);
+    const double warm_q =
+        specific_humidity(vapour_pressure_pa(kZeroCelsiusK + kWarmAir_c, 70.0), kPressure_pa);
     double wall_c = cold.cell.surface_temp_c, ice = cold.hoar_kg_m2, hours = 1.0;
     for (const double dt_h = 0.001; ice > 0.0 && hours < 48.0; hours += dt_h) {
         const double melting = std::min(wall_c, -1e-9);
         const double heat_j_m2 = heat_to(melting, o, surface, kWarmAir_c, behind) * dt_h * 3600.0;
-        const double q = specific_humidity(saturation_pressure_ice_pa(melting + kZeroCelsiusK), kPressure_pa);
+        const double q =
+            specific_humidity(saturation_pressure_ice_pa(melting + kZeroCelsiusK), kPressure_pa);
         const double rate = air_density_kg_m3(kZeroCelsiusK + kWarmAir_c, warm_q, kPressure_pa) *
                                 neutral_exchange(10.0, 2.0, surface.roughness_m) * o.wind_m_s +
                             wall_convection_w_m2_k(kWarmAir_c - melting) / kAirHeatCapacity;
@@ -247,7 +254,8 @@ TEST(WallHeat, HoarGrowsAtTheRateOfTheExchangeAndIsGoneWhenTheBalanceHasMeltedIt
     for (double h = 1.25; h < 48.0 && gone == 0.0; h += 0.25)
         if (go_on(h).hoar_kg_m2 < 1e-4) gone = h;
     EXPECT_NEAR(gone, hours, 0.03 * hours + 0.25);
-    for (double h = gone; h < 140.0; h += 7.0) EXPECT_LT(go_on(h).hoar_kg_m2, 1e-4) << h << " h after";
+    for (double h = gone; h < 140.0; h += 7.0)
+        EXPECT_LT(go_on(h).hoar_kg_m2, 1e-4) << h << " h after";
     RecordProperty("hours_by_hand", std::to_string(hours));
     RecordProperty("hours_of_model", std::to_string(gone));
 }

@@ -48,8 +48,9 @@ bool is_part_name(std::string_view name, CsvTimes::Part part)
 // 1 to 12 of an English name or its beginning of three letters ("Sept" too); 0 of anything else.
 int month_of_name(std::string_view word)
 {
-    constexpr const char* kMonths[] = {"january", "february", "march",     "april",   "may",      "june",
-                                       "july",    "august",   "september", "october", "november", "december"};
+    constexpr const char* kMonths[] = {"january",   "february", "march",    "april",
+                                       "may",       "june",     "july",     "august",
+                                       "september", "october",  "november", "december"};
     const std::string low = lower(word);
     if (low.size() < 3) return 0;
     for (int m = 0; m < 12; ++m) {
@@ -88,7 +89,9 @@ std::optional<DateParts> date_parts(std::string_view text)
         if (i == 2) break;
         const std::size_t gap = at;
         while (at < text.size() && (text[at] == ' ' || text[at] == ',')) ++at;
-        if (at == gap && at < text.size() && (text[at] == '/' || text[at] == '-' || text[at] == '.')) ++at;
+        if (at == gap && at < text.size() &&
+            (text[at] == '/' || text[at] == '-' || text[at] == '.'))
+            ++at;
         if (at == gap) return std::nullopt;
         if (i == 0) d.separator = text[gap];
         // One kind of separator, but for "Jan 2, 2021".
@@ -124,8 +127,8 @@ std::optional<std::string> by_24_hours(std::string_view text)
     return two + (colon < clock.size() ? std::string(clock.substr(colon)) : std::string(":00"));
 }
 
-// The same date and time as ISO 8601; nothing where it is no date of words, dots or an order that is known,
-// nor one with AM or PM.
+// The same date and time as ISO 8601; nothing where it is no date of words, dots or an order that
+// is known, nor one with AM or PM.
 std::optional<std::string> iso_of_date(std::string_view text, DateOrder order)
 {
     const auto d = date_parts(text);
@@ -156,10 +159,11 @@ std::optional<std::string> iso_of_date(std::string_view text, DateOrder order)
     const auto two = [](std::string_view digits) {
         return digits.size() == 1 ? "0" + std::string(digits) : std::string(digits);
     };
-    if (year.size() != 4 || !is_digit(year[0]) || day.empty() || day.size() > 2 || !is_digit(day[0]))
+    if (year.size() != 4 || !is_digit(year[0]) || day.empty() || day.size() > 2 ||
+        !is_digit(day[0]))
         return std::nullopt;
-    std::string iso = std::string(year) + "-" + (named > 0 ? two(std::to_string(named)) : two(month)) +
-                      "-" + two(day);
+    std::string iso = std::string(year) + "-" +
+                      (named > 0 ? two(std::to_string(named)) : two(month)) + "-" + two(day);
     std::string_view rest = d->rest;
     while (!rest.empty() && (is_blank(rest.front()) || rest.front() == ',')) rest.remove_prefix(1);
     if (!rest.empty() && (rest.front() == 'T' || rest.front() == 't')) rest.remove_prefix(1);
@@ -322,8 +326,7 @@ CsvTimes find_csv_times(const std::vector<std::string_view>& names,
     const std::size_t clock = first_where(is_clock_name);
     const std::size_t stamp = first_where(is_stamp_name);
     // "date,time": unless that time is whole by itself.
-    const bool whole_stamp = stamp < first_row.size() &&
-                             holds_time(first_row[stamp]) &&
+    const bool whole_stamp = stamp < first_row.size() && holds_time(first_row[stamp]) &&
                              trimmed(first_row[stamp]).size() >= 8;
     if (date != CsvTimes::kNone && !whole_stamp) {
         times.stamp = date;

@@ -25,7 +25,8 @@ struct CsvTimes {
     std::size_t clock = kNone;  ///< beside a date
     std::array<std::size_t, kParts> part = {kNone, kNone, kNone, kNone, kNone, kNone, kNone};
 
-    DateOrder order = DateOrder::Unknown;  ///< of 01/02/2024; such times are none while it is unknown
+    DateOrder order =
+        DateOrder::Unknown;  ///< of 01/02/2024; such times are none while it is unknown
 
     bool found() const { return stamp != kNone || part[Year] != kNone; }
     /// Whether a column says when its row is, so that it says nothing else.
@@ -47,13 +48,14 @@ CsvTimes find_csv_times(const std::vector<std::string_view>& names,
 /// Whether a cell with a date and time says its zone: Z, UTC, +01:00, or seconds since 1970.
 bool names_zone(std::string_view text, DateOrder order = DateOrder::Unknown);
 
-/// A date and time in one cell: ISO 8601; 31.12.2024, 2-Jan-2021, Jan 2 2021 or January 2, 2021, and with
-/// an order 1/2/2021 or 01-02-2021, with 13:00, 13:00:15 or 1:00 PM behind them; seconds or milliseconds
-/// since 1970.
-std::optional<std::int64_t> time_of_cell(std::string_view text, DateOrder order = DateOrder::Unknown);
+/// A date and time in one cell: ISO 8601; 31.12.2024, 2-Jan-2021, Jan 2 2021 or January 2, 2021,
+/// and with an order 1/2/2021 or 01-02-2021, with 13:00, 13:00:15 or 1:00 PM behind them; seconds
+/// or milliseconds since 1970.
+std::optional<std::int64_t> time_of_cell(std::string_view text,
+                                         DateOrder order = DateOrder::Unknown);
 
-/// Which order the dates of a column have, by those whose one part is above 12. An example of each kind;
-/// empty where there is none.
+/// Which order the dates of a column have, by those whose one part is above 12. An example of each
+/// kind; empty where there is none.
 class DateOrders {
 public:
     void add(std::string_view cell);

@@ -81,7 +81,8 @@ bool fits(const TableColumn& column, std::string_view cell)
     const FieldInfo& info = field_info(column.field);
     const double si = *number * column.scale + column.offset;
     // An amount falls in some hours, and no limit of a rate tells it from another number.
-    return column.fell_hours > 0.0 ? *number >= 0.0 : si >= info.low - info.noise && si <= info.high;
+    return column.fell_hours > 0.0 ? *number >= 0.0
+                                   : si >= info.low - info.noise && si <= info.high;
 }
 
 // Names over columns of something else, as when a program has sorted one and not the other.
@@ -113,7 +114,8 @@ void refuse_misplaced(Lines lines, const TableHeader& header, std::size_t stamp)
     add(header.at("month"), within(1.0, 12.0));
     add(header.at("day"), within(1.0, 31.0));
     for (const TableColumn& column : kColumns)
-        add(header.at(column.name), [&column](std::string_view cell) { return fits(column, cell); });
+        add(header.at(column.name),
+            [&column](std::string_view cell) { return fits(column, cell); });
     std::vector<std::string_view> cells;
     for (std::size_t row = 0; row < kLooked; ++row) {
         const auto line = lines.next();

@@ -252,7 +252,8 @@ void find_date_order(Header& h, Lines lines, RowCollector& rows, const ReadOptio
     h.times.order = options.date_order;
     if (options.date_order != DateOrder::Unknown) return;
     constexpr const char* kFix =
-        "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] date_order)";
+        "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] "
+        "date_order)";
     if (!orders.day_first().empty() && !orders.month_first().empty()) {
         throw Error("weather: column '" + shown(h.names[h.times.stamp]) + "' has dates as '" +
                         orders.day_first() + "' and as '" + orders.month_first() +

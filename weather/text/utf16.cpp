@@ -49,7 +49,8 @@ std::string utf8_of_utf16(std::string_view bytes)
     }
     const bool big = bytes.front() == '\xFE';
     const auto unit = [&](std::size_t at) {
-        const auto first = static_cast<unsigned char>(bytes[at]), second = static_cast<unsigned char>(bytes[at + 1]);
+        const auto first = static_cast<unsigned char>(bytes[at]),
+                   second = static_cast<unsigned char>(bytes[at + 1]);
         return static_cast<std::uint32_t>(big ? first << 8 | second : second << 8 | first);
     };
     std::string out;

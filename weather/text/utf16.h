@@ -6,7 +6,8 @@
 
 namespace petrichor::weather {
 
-/// Whether a text begins with the byte order mark of UTF-16, as "Unicode Text" of spreadsheets does.
+/// Whether a text begins with the byte order mark of UTF-16, as "Unicode Text" of spreadsheets
+/// does.
 bool is_utf16(std::string_view bytes);
 
 /// Such a text in UTF-8, without its mark. Halves of pairs become U+FFFD.

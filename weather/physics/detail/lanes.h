@@ -134,14 +134,14 @@ PETRICHOR_LANE_OPERATOR(/)
         return r;                                                                                 \
     }
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-#define PETRICHOR_LANE_COMPARISON_64(op, predicate)                                        \
-    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, const Lanes<64>& b)      \
-    {                                                                                      \
-        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], (__m512d)b.part[0], predicate)}};  \
-    }                                                                                      \
-    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, double b)                \
-    {                                                                                      \
-        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], _mm512_set1_pd(b), predicate)}};   \
+#define PETRICHOR_LANE_COMPARISON_64(op, predicate)                                       \
+    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, const Lanes<64>& b)     \
+    {                                                                                     \
+        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], (__m512d)b.part[0], predicate)}}; \
+    }                                                                                     \
+    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, double b)               \
+    {                                                                                     \
+        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], _mm512_set1_pd(b), predicate)}};  \
     }
 PETRICHOR_LANE_COMPARISON_64(<, _CMP_LT_OS)
 PETRICHOR_LANE_COMPARISON_64(>, _CMP_GT_OS)
@@ -354,13 +354,15 @@ PETRICHOR_INLINE Lanes<32> larger(const Lanes<32>& a, const Lanes<32>& b)
 PETRICHOR_INLINE Lanes<64> smaller(const Lanes<64>& a, const Lanes<64>& b)
 {
     Lanes<64> r;
-    r.part[0] = (Native<64>::Number)_mm512_maskz_min_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
+    r.part[0] =
+        (Native<64>::Number)_mm512_maskz_min_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
     return r;
 }
 PETRICHOR_INLINE Lanes<64> larger(const Lanes<64>& a, const Lanes<64>& b)
 {
     Lanes<64> r;
-    r.part[0] = (Native<64>::Number)_mm512_maskz_max_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
+    r.part[0] =
+        (Native<64>::Number)_mm512_maskz_max_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
     return r;
 }
 #endif

@@ -17,7 +17,7 @@ namespace {
 // The day's course of sun and air asks for this much, however long a step is.
 constexpr double kLongestPart_s = 3600.0;
 constexpr std::int64_t kDay_us = 86400 * kMicrosPerSecond;
-constexpr double kPlainDeck_m = 0.3;  // of a bridge or a wall whose layers are not given
+constexpr double kPlainDeck_m = 0.3;        // of a bridge or a wall whose layers are not given
 constexpr double kOuterWall_m2_k_w = 0.04;  // of a wall in the wind (ISO 6946)
 constexpr double kInRoom_m2_k_w = 0.13;     // and in a room
 // Old houses of masonry let 1.4 to 2.2 through (TABULA); chosen.
