@@ -21,6 +21,19 @@ void append_shortest(std::string& text, double value)
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
+// Computed states are not known to more than six digits, and shown with no more. The artist model
+// is exact, and so are times.
+double shown_value(const SimulationTable& table, std::size_t column, double value)
+{
+    if (column == 0 || table.model != "physical" || !std::isfinite(value)) return value;
+    char digits[40];
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6);
+    double rounded = value;
+    std::from_chars(digits, end.ptr, rounded);
+    return rounded;
+}
+
 // "2005-12-01T06:00:00Z", by another clock "2005-12-01T06:00:00-07:00".
 std::string stamp(const SimulationTable& table, double time_s)
 {
@@ -114,7 +127,7 @@ std::string csv_text(const SimulationTable& table, bool with_hash)
     for (const auto& row : table.rows) {
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (c > 0) text += ',';
-            append_shortest(text, row[c]);
+            append_shortest(text, shown_value(table, c, row[c]));
             if (c == 0 && table.utc) {
                 text += ',';
                 text += stamp(table, row[0]);
@@ -129,18 +142,50 @@ std::string csv_text(const SimulationTable& table, bool with_hash)
     return text;
 }
 
+namespace {
+
+// The library's numbers may have digits too many.
+void append_json_number(std::string& text, double value)
+{
+    if (std::isfinite(value))
+        append_shortest(text, value);
+    else
+        text += "null";
+}
+
+// A JSON object with one more member at its end.
+std::string with_member(const std::string& object, const std::string& indent,
+                        const std::string& name, const std::string& value)
+{
+    std::string text = object.substr(0, object.rfind('}'));
+    while (text.back() == '\n') text.pop_back();
+    return text + "," + indent + "\"" + name + "\":" + (indent.empty() ? "" : " ") + value +
+           (indent.empty() ? "}" : "\n}") + "\n";
+}
+
+}  // namespace
+
 std::string json_text(const SimulationTable& table)
 {
     ordered_json json = head_of(table);
     json["columns"] = table.columns;
-    json["rows"] = table.rows;
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    std::string rows = "[";
+    for (const auto& row : table.rows) {
+        rows += rows.size() > 1 ? ",[" : "[";
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            if (c > 0) rows += ',';
+            append_json_number(rows, shown_value(table, c, row[c]));
+        }
+        rows += ']';
+    }
+    rows += ']';
+    return with_member(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "",
+                       "rows", rows);
 }
 
 std::string json_summary(const SimulationTable& table)
 {
-    ordered_json json = head_of(table);
-    ordered_json columns = ordered_json::object();
+    std::string columns = "{";
     for (std::size_t c = 0; c < table.columns.size() && !table.rows.empty(); ++c) {
         double low = table.rows[0][c];
         double high = low;
@@ -148,10 +193,19 @@ std::string json_summary(const SimulationTable& table)
             low = std::min(low, row[c]);
             high = std::max(high, row[c]);
         }
-        columns[table.columns[c]] = {{"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
+        columns += (c > 0 ? ",\n    " : "\n    ") + ordered_json(table.columns[c]).dump() + ": {";
+        const std::pair<const char*, double> numbers[] = {
+            {"min", low}, {"max", high}, {"last", table.rows.back()[c]}};
+        for (const auto& [name, value] : numbers) {
+            columns +=
+                std::string(name == numbers[0].first ? "" : ",") + "\n      \"" + name + "\": ";
+            append_json_number(columns, shown_value(table, c, value));
+        }
+        columns += "\n    }";
     }
-    json["columns"] = columns;
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    columns += columns.size() > 1 ? "\n  }" : "}";
+    return with_member(head_of(table).dump(2, ' ', false, nlohmann::json::error_handler_t::replace),
+                       "\n  ", "columns", columns);
 }
 
 }  // namespace petrichor::cli

@@ -86,6 +86,9 @@ void add_site(CLI::App& command, SimulateOptions& o)
         ->check(CLI::IsMember({"bilinear", "nearest"}));
     add(command, group, "--file-zone", "HOURS", site.file_zone_h,
         "ahead of UTC: of times in the file that name no zone (default: UTC)");
+    add(command, group, "--date-order", "WORD", site.date_order,
+        "dmy or mdy: of dates such as 01/02/2024 where no row shows which")
+        ->check(CLI::IsMember({"dmy", "mdy"}));
     add(command, group, "--ignore", "NAMES", site.ignore,
         "columns of the file that may stay unread, by comma; or all");
     add(command, group, "--latitude", "DEG", site.latitude_deg,

@@ -167,6 +167,13 @@ void begin_at_measurement(const std::string& file, PhysicalInput& input)
     t = weather::cut_forcing(t, at_us, t.time_us.back());
     input.notes.push_back("the run begins at " + weather::iso_from_us(at_us) +
                           " with the measured road");
+    // As other columns of nothing but zeros; METRo takes it as it is.
+    const auto zero = std::count(o.subsurface_c.begin(), o.subsurface_c.end(), 0.0);
+    if (zero >= 6 && zero == std::count_if(o.subsurface_c.begin(), o.subsurface_c.end(),
+                                           [](double c) { return !std::isnan(c); }))
+        input.notes.push_back("the temperature below the road is exactly 0 C in all " +
+                              std::to_string(zero) +
+                              " rows and taken as it is: if nothing measured it, leave <sst> out");
 }
 
 // What the measured road says about the radiation before the run, kept on into it.

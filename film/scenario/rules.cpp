@@ -67,7 +67,8 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.scene.max_texture = v.integer(16, 16384); }},
         {{"scene", "texture_rule", "\"picture\"",
           "how small levels of normals and roughness are made together, as `texture build --rule`: "
-          "picture, median, lean, .., or none, plain mips; textures with levels of their own keep them"},
+          "picture, median, lean, .., or none, plain mips; textures with levels of their own keep "
+          "them"},
          [](Scenario& s, const TomlValue& v) {
              std::vector<std::string> words;
              for (const texproc::Rule& rule : texproc::rules()) words.push_back(rule.name);
@@ -83,7 +84,8 @@ const std::vector<Rule>& rules()
           "where north lies in the scene: clockwise from -z towards +x; turns sun and wind"},
          [](Scenario& s, const TomlValue& v) { s.scene.north_degrees = v.number(-360.0, 360.0); }},
         {{"scene", "variant", "\"\"",
-          "a variant of the scene's materials (KHR_materials_variants); \"\": as the file has them"},
+          "a variant of the scene's materials (KHR_materials_variants); \"\": as the file has "
+          "them"},
          [](Scenario& s, const TomlValue& v) { s.scene.variant = v.text(); }},
         {{"scene", "animation", "\"all\"",
           "which of the scene's animations play over the film: all, none, or the name of one"},
@@ -126,8 +128,10 @@ const std::vector<Rule>& rules()
         {{"camera", "near_m", "0.05", "nothing nearer than this is drawn, metres"},
          [](Scenario& s, const TomlValue& v) { s.camera.near_m = v.number(1e-4, 1e4); }},
         {{"camera", "exposure", "1.0e-4",
-          "of the PNG: \"auto\" (metered from the picture; as without this key), \"incident\" (from the "
-          "light of sun and sky on the ground), \"fixed\" (by ev100), or a number: its linear scale",
+          "of the PNG: \"auto\" (metered from the picture; as without this key), \"incident\" "
+          "(from the "
+          "light of sun and sky on the ground), \"fixed\" (by ev100), or a number: its linear "
+          "scale",
           true},
          [](Scenario& s, const TomlValue& v) {
              s.camera.exposure = {};
@@ -140,7 +144,8 @@ const std::vector<Rule>& rules()
              }
          }},
         {{"camera", "ev100", "12.0",
-          "fixes the exposure: exposure value at ISO 100; sunlight 15, a lit street 4, full moon -3; "
+          "fixes the exposure: exposure value at ISO 100; sunlight 15, a lit street 4, full moon "
+          "-3; "
           "-20 to 40",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.ev100 = v.keyed(-20.0, 40.0); }},
@@ -153,7 +158,8 @@ const std::vector<Rule>& rules()
              s.camera.ev100_high = limits[1];
          }},
         {{"camera", "exposure_smoothing_s", "0.25",
-          "with exposure = \"auto\": frames up to this far before and after are metered too, seconds "
+          "with exposure = \"auto\": frames up to this far before and after are metered too, "
+          "seconds "
           "of the film, 0 to 4"},
          [](Scenario& s, const TomlValue& v) {
              s.camera.exposure_smoothing_s = v.number(0.0, 4.0);
@@ -162,12 +168,14 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.camera.exposure_bias = v.keyed(-10.0, 10.0); }},
 
         {{"camera", "shutter_s", "0.004",
-          "how long the shutter is open: rain is seen as streaks as long as its way in this time, 1e-5 "
+          "how long the shutter is open: rain is seen as streaks as long as its way in this time, "
+          "1e-5 "
           "to 1",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.shutter_s = v.keyed(1e-5, 1.0); }},
         {{"camera", "f_stop", "2.8",
-          "aperture of the lens: what is not at focus_m blurs, by as many samples as it is wide in pixels; "
+          "aperture of the lens: what is not at focus_m blurs, by as many samples as it is wide in "
+          "pixels; "
           "without it all is sharp; 0.1 to 1000",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.f_stop = v.keyed(0.1, 1000.0); }},
@@ -175,17 +183,18 @@ const std::vector<Rule>& rules()
           "distance of what is sharp with f_stop, along the view, 0.01 to 1e6", true},
          [](Scenario& s, const TomlValue& v) { s.camera.focus_m = v.keyed(0.01, 1e6); }},
         {{"camera", "sensor_mm", "24.0",
-          "height of the sensor: with the field of view it gives the lens of f_stop its focal length, 1 to "
+          "height of the sensor: with the field of view it gives the lens of f_stop its focal "
+          "length, 1 to "
           "1000"},
          [](Scenario& s, const TomlValue& v) { s.camera.sensor_mm = v.number(1.0, 1000.0); }},
         {{"camera", "white_balance_k", "5000.0",
-          "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it is",
+          "of the PNG: light of this colour temperature becomes white, 1667 to 25000 K; 0: as it "
+          "is",
           true},
-         [](Scenario& s, const TomlValue& v) {
-             s.camera.white_balance_k = v.keyed(0.0, 25000.0);
-         }},
+         [](Scenario& s, const TomlValue& v) { s.camera.white_balance_k = v.keyed(0.0, 25000.0); }},
         {{"camera", "bloom", "0.04",
-          "of the PNG: share of the light that the lens scatters around, so that lamps glow, 0 to 1",
+          "of the PNG: share of the light that the lens scatters around, so that lamps glow, 0 to "
+          "1",
           true},
          [](Scenario& s, const TomlValue& v) { s.camera.bloom = v.keyed(0.0, 1.0); }},
         {{"camera", "wet_lens", "0.8",
@@ -221,11 +230,13 @@ const std::vector<Rule>& rules()
           "of a clear sun on a plane that faces it, 0 to 200000"},
          [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
         {{"sun", "cookie", "\"leaves.png\"",
-          "a picture that the sun shines through, repeated: shadows of leaves, bars, clouds; black keeps it "
+          "a picture that the sun shines through, repeated: shadows of leaves, bars, clouds; black "
+          "keeps it "
           "away, colours tint it"},
          [](Scenario& s, const TomlValue& v) { s.sun.cookie = v.text(); }},
         {{"sun", "cookie_size_m", "8.0",
-          "side of that picture on a plane that faces the sun, 0.01 to 100000; its top is towards the sky",
+          "side of that picture on a plane that faces the sun, 0.01 to 100000; its top is towards "
+          "the sky",
           true},
          [](Scenario& s, const TomlValue& v) { s.sun.cookie_size_m = v.keyed(0.01, 1e5); }},
 
@@ -259,7 +270,9 @@ const std::vector<Rule>& rules()
           true},
          [](Scenario& s, const TomlValue& v) { s.moon.elevation_degrees = v.keyed(-90.0, 90.0); }},
         {{"moon", "azimuth_degrees", "200.0", "clockwise from north; likewise", true},
-         [](Scenario& s, const TomlValue& v) { s.moon.azimuth_degrees = v.keyed(-3600.0, 3600.0); }},
+         [](Scenario& s, const TomlValue& v) {
+             s.moon.azimuth_degrees = v.keyed(-3600.0, 3600.0);
+         }},
         {{"moon", "illuminated", "1.0", "share of its disc that is lit, 0 to 1; likewise", true},
          [](Scenario& s, const TomlValue& v) { s.moon.illuminated = v.keyed(0.0, 1.0); }},
 
@@ -273,7 +286,8 @@ const std::vector<Rule>& rules()
         {{"fog", "visibility_m", "400.0", "with metres; without it the weather decides, 1 to 1e6",
           true},
          [](Scenario& s, const TomlValue& v) { s.fog.visibility_m = v.keyed(1.0, 1e6); }},
-        {{"fog", "per_m", "0.01", "with exp: extinction, with exp2: density, 0 to 10 a metre", true},
+        {{"fog", "per_m", "0.01", "with exp: extinction, with exp2: density, 0 to 10 a metre",
+          true},
          [](Scenario& s, const TomlValue& v) { s.fog.per_m = v.keyed(0.0, 10.0); }},
         {{"fog", "start_m", "0.0", "with linear: where it begins ..", true},
          [](Scenario& s, const TomlValue& v) { s.fog.start_m = v.keyed(0.0, 1e6); }},
@@ -323,6 +337,12 @@ const std::vector<Rule>& rules()
         {{"weather", "max_gap_days", "60.0",
           "longest time between two rows of the file; longer ones are refused"},
          [](Scenario& s, const TomlValue& v) { s.weather.site.max_gap_days = v.number(0.0, 1e6); }},
+        {{"weather", "date_order", "\"dmy\"",
+          "or mdy: of dates such as 01/02/2024 where no row of the file shows which"},
+         [](Scenario& s, const TomlValue& v) {
+             constexpr const char* kOrders[] = {"dmy", "mdy"};
+             s.weather.site.date_order = kOrders[v.choice({"dmy", "mdy"})];
+         }},
         {{"weather", "latitude_degrees", "45.3", "north; where the file does not say"},
          [](Scenario& s, const TomlValue& v) {
              s.weather.site.latitude_deg = v.number(-90.0, 90.0);
@@ -366,9 +386,9 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) { s.lights.dusk_fade_degrees = v.number(0.0, 90.0); }},
         {{"lights", "emissive", "true", "glowing materials light what is around them"},
          [](Scenario& s, const TomlValue& v) { s.lights.emissive = v.boolean(); }},
-        {{"lights", "area",
-          "\"ltc\"",
-          "lamps with a size: ltc (linearly transformed cosines), nearest (the point nearest to what is "
+        {{"lights", "area", "\"ltc\"",
+          "lamps with a size: ltc (linearly transformed cosines), nearest (the point nearest to "
+          "what is "
           "mirrored, as Lux 2.02), or off (points)"},
          [](Scenario& s, const TomlValue& v) {
              s.lights.area = std::array{gpu::AreaLights::Ltc, gpu::AreaLights::Nearest,
@@ -401,8 +421,10 @@ const std::vector<Rule>& rules()
         {{"ground", "gutters", "true",
           "eaves more than 2 m up give nine tenths of their water to a gutter"},
          [](Scenario& s, const TomlValue& v) { s.ground.gutters = v.boolean(); }},
-        {{"ground", "tracks", "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
-          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent smoothly), "
+        {{"ground", "tracks",
+          "[{ kind = \"tyre\", points_m = [[-4.0, 0.0, 1.0], [4.0, 0.0, 1.0]] }]",
+          "what went through the snow: kind \"tyre\" or \"feet\", points_m of the way (bent "
+          "smoothly), "
           "width_m of one, gauge_m between two tyres (0: one alone), depth 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.ground.tracks = read_tracks(v); }},
 
@@ -411,15 +433,17 @@ const std::vector<Rule>& rules()
      [](Scenario& s, const TomlValue& v) { s.render.name = v.boolean(); }},
         FRAME_SWITCHES(ROW)
 #undef ROW
-        {{"render", "lamp_shadows", "4",
-          "so many lamps throw shadows, 0 to 16: those that give most light at the camera"},
-         [](Scenario& s, const TomlValue& v) { s.render.lamp_shadows = v.integer(0, 16); }},
+            {{"render", "lamp_shadows", "4",
+              "so many lamps throw shadows, 0 to 16: those that give most light at the camera"},
+             [](Scenario& s, const TomlValue& v) { s.render.lamp_shadows = v.integer(0, 16); }},
         {{"render", "transparent_layers", "4",
-          "so many surfaces behind each other that let light through are blended, 0 to 8; what lies "
+          "so many surfaces behind each other that let light through are blended, 0 to 8; what "
+          "lies "
           "deeper, with 0 all of it, is seen or not by chance, a sample at a time"},
          [](Scenario& s, const TomlValue& v) { s.render.transparent_layers = v.integer(0, 8); }},
         {{"render", "falling_budget", "20000",
-          "about so many drops and flakes are drawn one by one, those that hide most, 0 to 1000000; "
+          "about so many drops and flakes are drawn one by one, those that hide most, 0 to "
+          "1000000; "
           "the others dim what lies behind them"},
          [](Scenario& s, const TomlValue& v) { s.render.falling_budget = v.integer(0, 1000000); }},
         {{"render", "falling_density", "1.0",
@@ -458,13 +482,15 @@ const std::vector<Rule>& rules()
           "how much occlusion maps darken sun and lamps too, 0 to 1; they always darken the sky"},
          [](Scenario& s, const TomlValue& v) { s.render.occlusion_direct = v.number(0.0, 1.0); }},
         {{"render", "ambient_fit", "\"table\"",
-          "how strongly surroundings are mirrored: table (GGX, integrated) or lazarov (the fit of Lux "
+          "how strongly surroundings are mirrored: table (GGX, integrated) or lazarov (the fit of "
+          "Lux "
           "2.02)"},
          [](Scenario& s, const TomlValue& v) {
              s.render.lazarov = v.choice({"table", "lazarov"}) == 1;
          }},
         {{"render", "horizon_fade", "0.0",
-          "mirrors darken where their ray would enter the mesh below a normal map, so fast: 0 off, 1.3 "
+          "mirrors darken where their ray would enter the mesh below a normal map, so fast: 0 off, "
+          "1.3 "
           "as Lux 2.02, to 8"},
          [](Scenario& s, const TomlValue& v) { s.render.horizon_fade = v.number(0.0, 8.0); }},
         {{"render", "specular_aa", "1.0",
@@ -473,8 +499,10 @@ const std::vector<Rule>& rules()
         {{"render", "specular_aa_limit", "0.18", "and at most so much of it, 0 to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.specular_aa_limit = v.number(0.0, 1.0); }},
         {{"render", "anisotropic_dither", "0.0",
-          "anisotropic materials mirror their surroundings drawn out along their grain, each sample "
-          "another part of it: 0 not (one bent normal) to 1 as far as their highlights; grainy at few "
+          "anisotropic materials mirror their surroundings drawn out along their grain, each "
+          "sample "
+          "another part of it: 0 not (one bent normal) to 1 as far as their highlights; grainy at "
+          "few "
           "samples"},
          [](Scenario& s, const TomlValue& v) { s.render.anisotropic_dither = v.number(0.0, 1.0); }},
         {{"render", "anisotropic_dither_distance_m", "50.0", "up to so far from the camera"},
@@ -486,11 +514,13 @@ const std::vector<Rule>& rules()
              s.render.anisotropic_dither_fade_m = v.number(0.0, 10000.0);
          }},
         {{"render", "adaptive", "0.02",
-          "pixels whose first two samples differ by less, of the display's range, take no further ones: "
+          "pixels whose first two samples differ by less, of the display's range, take no further "
+          "ones: "
           "0 (all samples everywhere) to 1"},
          [](Scenario& s, const TomlValue& v) { s.render.adaptive = v.number(0.0, 1.0); }},
         {{"render", "lod_scale", "1.0",
-          "levels of detail (glTF MSFT_lod) are chosen as if things were so much larger, 0.01 to 100"},
+          "levels of detail (glTF MSFT_lod) are chosen as if things were so much larger, 0.01 to "
+          "100"},
          [](Scenario& s, const TomlValue& v) { s.render.lod_scale = v.number(0.01, 100.0); }},
         {{"render", "color_space", "\"linear\"",
           "gamma: lights colours as the sRGB codes that they are stored as and shows the sums as "
@@ -499,18 +529,22 @@ const std::vector<Rule>& rules()
              s.render.gamma = v.choice({"linear", "gamma"}) == 1;
          }},
         {{"render", "indirect", "\"auto\"",
-          "light from other surfaces: patches (traced once, solved each frame), ambient (skylight and "
+          "light from other surfaces: patches (traced once, solved each frame), ambient (skylight "
+          "and "
           "a constant), or auto: patches for scenes of up to a million triangles"},
          [](Scenario& s, const TomlValue& v) {
              s.render.indirect =
                  static_cast<IndirectLight>(v.choice({"auto", "patches", "ambient"}));
          }},
         {{"render", "probes", "\"auto\"",
-          "what smooth surfaces mirror of the scene beyond the picture, with light of patches: auto (up "
+          "what smooth surfaces mirror of the scene beyond the picture, with light of patches: "
+          "auto (up "
           "to 4 reflection probes, placed over the ground), off (the sky), or up to 8 of your own: "
           "[{ position_m = [0.0, 1.6, 0.0], low_m = [-4.0, 0.0, -3.0], high_m = [4.0, 3.0, 3.0], "
-          "blend_m = 1.0, importance = 0.0, intensity = 1.0 }]; low_m and high_m are the walls around; "
-          "picture = \"room.hdr\" (lat-long, cd/m2; decode as of [sky] environment_decode) stands for "
+          "blend_m = 1.0, importance = 0.0, intensity = 1.0 }]; low_m and high_m are the walls "
+          "around; "
+          "picture = \"room.hdr\" (lat-long, cd/m2; decode as of [sky] environment_decode) stands "
+          "for "
           "what would be traced"},
          [](Scenario& s, const TomlValue& v) { s.render.probes = read_probes(v); }},
         {{"render", "surface_path", "\"auto\"",

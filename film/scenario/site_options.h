@@ -16,6 +16,7 @@ struct SiteOptions {
     std::string month;                   ///< "2024-02": of METAR reports, which name only the day
     std::string missing_precip = "dry";  ///< dry or estimate
     std::optional<double> file_zone_h;   ///< of times that name no zone, hours ahead of UTC
+    std::string date_order;              ///< dmy or mdy: of dates such as 01/02/2024
     std::string ignore;                  ///< columns that may stay unread, by comma, or all
     double max_gap_days = 60.0;          ///< between two rows; longer ones are asked about
     std::string taf = "expected";        ///< expected, prevailing or worst: TEMPO and PROB groups

@@ -10,6 +10,7 @@
 #include "base/words.h"
 #include "film/data/folders.h"
 #include "weather/readers/text.h"
+#include "weather/text/utf16.h"
 
 namespace petrichor::film {
 namespace {
@@ -35,6 +36,7 @@ std::vector<Input> read_one(const std::string& word, const GridPlace& place,
                             "Give a smaller file.");
             }
         }
+        if (weather::is_utf16(input.text)) input.text = weather::utf8_of_utf16(input.text);
         input.name = "keys";
         input.kind = kind_of_text(input.text);
         return {input};
@@ -81,8 +83,10 @@ std::string read_input_file(const fs::path& path)
     std::string head(4096, ' ');
     const ssize_t got = ::pread(file.fd(), head.data(), head.size(), 0);
     head.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    if (is_packed_weather(head) || head.find('\0') != head.npos) return head;
-    return read_file(path, "simulate: input", kMostBytes);
+    const bool wide = weather::is_utf16(head);
+    if (is_packed_weather(head) || (!wide && head.find('\0') != head.npos)) return head;
+    std::string text = read_file(path, "simulate: input", kMostBytes);
+    return wide ? weather::utf8_of_utf16(text) : text;
 }
 
 std::string read_checkpoint_file(const fs::path& path)

@@ -22,6 +22,10 @@ constexpr double kGutterShare = 0.9;
 constexpr float kSplashReach_m = 0.6f;
 constexpr int kWallSteps = 64;
 constexpr double kNoHollow_mm = 0.01;  // none, for a model that wants some
+// Walls of houses by what they are made of, and half of what stands free.
+constexpr double kBoard_w_m_k = 0.3, kBoard_m = 0.1, kMasonry_m = 0.3, kSlab_m = 0.1;
+constexpr float kIntoHouse_m = 0.5f, kAcrossHouse_m = 60.0f, kSlabMost_m = 1.2f;
+constexpr float kRoomLeast_m = 1.5f, kDoor_m = 2.0f;
 constexpr double kGroundNear_m = 0.3;  // of the height field: higher up it is no ground
 
 struct NameWord {
@@ -90,9 +94,9 @@ double luminance(const glm::vec3& rgb)
     return static_cast<double>(0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b);
 }
 
-enum class GroundForm : std::uint32_t { Level, Hollow, Steep };
+enum class GroundForm : std::uint32_t { Level, Hollow, Steep, House, Slab };
 
-// Three kinds a material, by form; their albedo is what its patches have.
+// Kinds of a material, by form; their albedo is what its patches have.
 std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const scene::Scene& scene,
                                          std::span<const scene::PatchSurface> surfaces,
                                          const weather::Surface& otherwise,
@@ -124,16 +128,27 @@ std::vector<weather::PatchKind> kinds_of(const scene::Patches& patches, const sc
         kind.splash = kind.surface.name == "lawn" ? 0.3 : 1.0;
         kinds.push_back(std::move(kind));
     }
-    // Each as what it is where it is level, in a hollow, and where water runs off.
+    // Each as what it is where it is level, in a hollow, where water runs off, as a wall of a house
+    // and as a thing with air behind it.
     const std::vector<weather::PatchKind> dry = std::move(kinds);
     kinds.clear();
-    for (const GroundForm form : {GroundForm::Level, GroundForm::Hollow, GroundForm::Steep}) {
+    for (const GroundForm form : {GroundForm::Level, GroundForm::Hollow, GroundForm::Steep,
+                                  GroundForm::House, GroundForm::Slab}) {
         for (std::size_t m = 0; m < dry.size(); ++m) {
             weather::PatchKind kind = dry[m];
             kind.surface.cracks = kind.surface.puddles = weather::uniform_hypsometry(kNoHollow_mm);
-            if (form != GroundForm::Steep && reliefs.of_material[m].unit_mm > 0.0)
+            if (form < GroundForm::Steep && reliefs.of_material[m].unit_mm > 0.0)
                 kind.surface.puddles =
                     store_of_relief(reliefs.of_material[m], form == GroundForm::Hollow);
+            const bool solid = kind.surface.conductivity_w_m_k > kBoard_w_m_k;
+            if (form >= GroundForm::House)
+                kind.surface.layers = {{form == GroundForm::Slab ? kSlab_m
+                                        : solid                  ? kMasonry_m
+                                                                 : kBoard_m,
+                                        kind.surface.conductivity_w_m_k,
+                                        kind.surface.heat_capacity_j_m3_k}};
+            kind.room_behind = form == GroundForm::House;
+            kind.surface.open_below = form == GroundForm::Slab;
             kinds.push_back(std::move(kind));
         }
     }
@@ -195,6 +210,25 @@ public:
                           static_cast<double>(run_of_wall(i, side)) < near ||
                           static_cast<double>(run_of_wall(i, -side)) < near;
         return weather::wall_rain_factor(static_cast<double>(above_ground_m) / height, edge);
+    }
+
+    // What is behind an upright patch: a house is as wide as a room at least, has a wall across
+    // that is seen from behind, and a roof as high as a door; what is thin shows its own back.
+    GroundForm behind(std::uint32_t i) const
+    {
+        const glm::vec3 n = patches_.normal[i], c = patches_.position_m[i];
+        if (std::abs(n.y) >= kWallUp) return GroundForm::Steep;
+        const glm::vec3 inside = c - n * kIntoHouse_m;
+        const scene::RayHit across = tracer_.nearest({inside, -n, kAcrossHouse_m});
+        if (across.back && across.distance_m >= kRoomLeast_m - kIntoHouse_m) {
+            const scene::RayHit up = tracer_.nearest({inside, {0.0f, 1.0f, 0.0f}, kAcrossHouse_m});
+            const scene::RayHit down =
+                tracer_.nearest({inside, {0.0f, -1.0f, 0.0f}, kAcrossHouse_m});
+            if (up.hit() && (!down.hit() || up.distance_m + down.distance_m >= kDoor_m))
+                return GroundForm::House;
+        }
+        return tracer_.nearest({c - n * 0.01f, -n, kSlabMost_m}).back ? GroundForm::Slab
+                                                                      : GroundForm::Steep;
     }
 
 private:
@@ -312,8 +346,9 @@ weather::PatchSet patch_sites(const scene::Patches& patches, const scene::Tracer
         p.area_m2 = std::max(static_cast<double>(patches.area_m2[i]), 1e-6);
         p.height_m = static_cast<double>(patches.position_m[i].y);
         p.kind = patches.material[i];
+        const bool stands = !set.kinds[p.kind].like_air && set.kinds[p.kind].surface.layers.empty();
         const GroundForm form = !holds_water(scene.materials[p.kind], patches.normal[i])
-                                    ? GroundForm::Steep
+                                    ? (stands ? ways.behind(i) : GroundForm::Steep)
                                 : reliefs.hollow[i] ? GroundForm::Hollow
                                                     : GroundForm::Level;
         p.kind += static_cast<std::uint32_t>(form) *

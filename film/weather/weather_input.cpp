@@ -33,6 +33,8 @@ weather::ReadOptions read_options(const SiteOptions& options)
                         "Give hours ahead of UTC: -7 for Mountain Standard Time.");
         read.utc_offset_h = *options.file_zone_h;
     }
+    if (options.date_order == "dmy") read.date_order = weather::DateOrder::DayFirst;
+    if (options.date_order == "mdy") read.date_order = weather::DateOrder::MonthFirst;
     for (std::size_t at = 0; at < options.ignore.size();) {
         const std::size_t end = std::min(options.ignore.find(',', at), options.ignore.size());
         const auto name = weather::trimmed(std::string_view(options.ignore).substr(at, end - at));

@@ -15,6 +15,7 @@
 #include "cli/report/report.h"
 #include "cli/report/table.h"
 #include "weather/physics/stores.h"
+#include "weather/readers/text.h"
 
 namespace petrichor::cli {
 namespace {
@@ -57,6 +58,59 @@ std::size_t at(const SimulationTable& t, const char* name)
     const std::size_t i = column_index(t, name);
     EXPECT_LT(i, t.columns.size()) << name;
     return i;
+}
+
+// Digits of a number from its first that is not 0 to its last.
+std::size_t digits_of(const std::string& cell)
+{
+    std::size_t count = 0;
+    for (const char c : cell.substr(0, cell.find('e')))
+        if (c >= '0' && c <= '9' && (count > 0 || c != '0')) ++count;
+    return count;
+}
+
+TEST(SimulatePhysical, ComputedColumnsHaveSixDigitsAtMostAndTimesAllOfTheirs)
+{
+    SimulationTable t = simulated(weather_csv(), city());
+    t.rows[0][0] = 123456789.25;
+    std::size_t six = 0;
+    const auto check = [&](const std::string& cell) {
+        EXPECT_LE(digits_of(cell), 6u) << cell;
+        six += digits_of(cell) == 6;
+    };
+    const std::string csv = csv_text(t);
+    for (std::size_t from = csv.find('\n') + 1; from < csv.size();) {
+        const std::size_t end = csv.find('\n', from);
+        std::string line = csv.substr(from, end - from);
+        from = end + 1;
+        if (line.empty() || line[0] == '#') continue;
+        line = line.substr(line.find(',', line.find(',') + 1) + 1);  // behind both times
+        for (std::size_t at = 0; at <= line.size();) {
+            const std::size_t comma = std::min(line.find(',', at), line.size());
+            check(line.substr(at, comma - at));
+            at = comma + 1;
+        }
+    }
+    EXPECT_GT(six, 1000u) << "and not fewer";
+    EXPECT_NE(csv.find("\n123456789.25,"), std::string::npos);
+    const std::string json = json_text(t);
+    EXPECT_NE(json.find("[123456789.25,"), std::string::npos);
+    EXPECT_EQ(json.find("99999999"), std::string::npos);
+    EXPECT_EQ(json.find("00000000"), std::string::npos);
+}
+
+TEST(SimulatePhysical, TheOrderOfDatesIsAsSaid)
+{
+    std::string csv = "time,air_temp_c,rel_humidity_pct\n";
+    for (int hour = 0; hour < 24; ++hour)
+        csv += "02/03/2024 " + std::to_string(hour % 12 ? hour % 12 : 12) + ":00 " +
+               (hour < 12 ? "AM" : "PM") + ",5,60\n";
+    PhysicalRun run = city();
+    EXPECT_THROW(simulated(csv, run), Error);
+    run.site.date_order = "dmy";
+    EXPECT_EQ(weather::iso_from_us(simulated(csv, run).utc_start_us), "2024-03-02T00:00:00Z");
+    run.site.date_order = "mdy";
+    EXPECT_EQ(weather::iso_from_us(simulated(csv, run).utc_start_us), "2024-02-03T00:00:00Z");
 }
 
 TEST(SimulatePhysical, TableHasTheContractedColumns)

@@ -57,6 +57,14 @@ TEST(SimulateRoad, TheMeasuredRoadCorrectsTheRadiation)
     const auto [warm_says, warm] = run({});
     const auto [off_says, off] = run({"--coupling", "0"});
     EXPECT_NE(cold_says.find("sunlight x 0."), std::string::npos) << cold_says;
+    EXPECT_EQ(warm_says.find("exactly 0 C"), std::string::npos) << warm_says;
+    std::string zero = read_file(work / "seen.xml");
+    for (std::size_t at; (at = zero.find("<sst>-1<")) != std::string::npos;)
+        zero.replace(at, 8, "<sst>.0<");
+    write_file(work / "seen.xml", zero);
+    EXPECT_NE(run({}).first.find("the temperature below the road is exactly 0 C in all 14 rows"),
+              std::string::npos);
+    write_road_case(work, 1.5);
     EXPECT_NE(warm_says.find("brings the modelled road to the measured one"), std::string::npos);
     EXPECT_EQ(off_says.find("brings the modelled road"), std::string::npos);
     EXPECT_NE(warm, off);

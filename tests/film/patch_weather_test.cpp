@@ -115,6 +115,59 @@ TEST(FilmByName, LawnsShowAThirdOfAFilmUnlessTheirMaterialSaysMore)
     EXPECT_EQ(scene.materials[2].weather.film, 0.8f);
 }
 
+// A closed box without its floor.
+void add_box(scene::Scene& scene, std::uint32_t material, const glm::vec3& low,
+             const glm::vec3& high)
+{
+    const glm::vec3 s = high - low;
+    add_quad(scene, material, {low.x, low.y, high.z}, {s.x, 0, 0}, {0, s.y, 0});
+    add_quad(scene, material, {high.x, low.y, low.z}, {-s.x, 0, 0}, {0, s.y, 0});
+    add_quad(scene, material, {high.x, low.y, high.z}, {0, 0, -s.z}, {0, s.y, 0});
+    add_quad(scene, material, {low.x, low.y, low.z}, {0, 0, s.z}, {0, s.y, 0});
+    add_quad(scene, material, {low.x, high.y, high.z}, {s.x, 0, 0}, {0, 0, -s.z});
+}
+
+TEST(PatchSites, HousesHaveRoomsBehindTheirWallsAndGardenWallsAir)
+{
+    scene::Scene scene = yard();
+    add_box(scene, 1, {-4, 0, -14}, {4, 3, -8});      // a house
+    add_box(scene, 1, {-4, 0, 10}, {4, 2, 10.4f});    // a garden wall
+    add_box(scene, 1, {1, 0, -7.9f}, {2, 1, -7.5f});  // a chest before the house
+    const scene::Triangles triangles(scene, {});
+    const scene::Tracer tracer(triangles);
+    const scene::Patches patches = cut(tracer);
+    const auto surfaces = scene::patch_surfaces(patches, triangles, {});
+    const SceneSites sites =
+        scene_sites(scene, patches, tracer, surfaces, {}, weather::surface_preset("asphalt"));
+    std::size_t house = 0, garden = 0, chest = 0, lone = 0;
+    for (std::uint32_t i = 0; i < patches.count; ++i) {
+        const glm::vec3 at = patches.position_m[i];
+        const weather::PatchKind& kind = sites.set.kinds[sites.set.patches[i].kind];
+        if (std::abs(patches.normal[i].y) > 0.3f) {
+            EXPECT_FALSE(kind.room_behind || kind.surface.open_below) << at.x << " " << at.z;
+        } else if (at.z < -7.95f) {
+            ++house;
+            EXPECT_TRUE(kind.room_behind) << at.x << " " << at.y << " " << at.z;
+            EXPECT_DOUBLE_EQ(kind.surface.layers.at(0).thickness_m, 0.3);
+        } else if (at.z > 9.0f && std::abs(patches.normal[i].z) > 0.9f) {
+            ++garden;
+            EXPECT_TRUE(kind.surface.open_below && !kind.room_behind) << at.x << " " << at.z;
+            EXPECT_DOUBLE_EQ(kind.surface.layers.at(0).thickness_m, 0.1);
+        } else if (at.z < -7.4f && patches.normal[i].x * patches.normal[i].x > 0.9f) {
+            ++chest;
+            EXPECT_TRUE(kind.surface.open_below && !kind.room_behind) << at.x << " " << at.z;
+        } else if (std::abs(at.x + 2.0f) < 0.1f && std::abs(at.z) < 3.0f) {
+            ++lone;  // a wall of one side: nobody knows what is behind
+            EXPECT_TRUE(!kind.surface.open_below && !kind.room_behind &&
+                        kind.surface.layers.empty());
+        }
+    }
+    EXPECT_GT(house, 50u);
+    EXPECT_GT(garden, 10u);
+    EXPECT_GT(chest, 2u);
+    EXPECT_GT(lone, 20u);
+}
+
 TEST(PatchSites, WaterGoesWhereTheSceneLeadsIt)
 {
     const Place place;

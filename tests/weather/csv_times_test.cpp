@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "weather/readers/read_weather.h"
 #include "weather/readers/text.h"
 
@@ -13,10 +16,12 @@ namespace petrichor::weather {
 namespace {
 
 // The time of a row under a header, as text; "-" when it is none.
-std::string time_of(const char* header, const char* row)
+std::string time_of(const char* header, const char* row, DateOrder order = DateOrder::Unknown)
 {
     const auto names = split(header, ','), cells = split(row, ',');
-    const auto us = find_csv_times(names, cells).time_of(cells);
+    auto times = find_csv_times(names, cells);
+    times.order = order;
+    const auto us = times.time_of(cells);
     return us ? iso_from_us(*us) : "-";
 }
 
@@ -32,6 +37,113 @@ TEST(CsvTimes, OneColumn)
     EXPECT_EQ(time_of(",temp", "2024-01-01 06:00,3"), "2024-01-01T06:00:00Z") << "without a name";
     EXPECT_EQ(time_of("time", "01/02/2024 00:00"), "-") << "January or February";
     EXPECT_EQ(time_of("time", "30.02.2024"), "-");
+}
+
+TEST(CsvTimes, MonthsByName)
+{
+    for (const char* date : {"02-Jan-2021", "2-Jan-2021", "2 Jan 2021", "2 January 2021",
+                             "Jan 2 2021", "\"Jan 2, 2021\"", "\"January 02, 2021\"", "jan-02-2021",
+                             "2021-Jan-02", "2/JAN/2021", "2.1.2021", "02.01.2021"})
+        EXPECT_EQ(time_of("time", date), "2021-01-02T00:00:00Z") << date;
+    EXPECT_EQ(time_of("time", "30-Sept-2021 9:05"), "2021-09-30T09:05:00Z");
+    EXPECT_EQ(time_of("time", "29-Feb-2024T23:59:30"), "2024-02-29T23:59:30Z");
+    EXPECT_EQ(time_of("time", "5 May 2021 13:00+02:00"), "2021-05-05T11:00:00Z");
+    for (const char* none :
+         {"29-Feb-2023", "02-Jan-21", "2-Ja-2021", "Jan-Feb-2021", "02-Janx-2021", "32 Jan 2021",
+          "0-Jan-2021", "Jan 2", "2-Jan/2021", "2 Jan 2021 25:00", "2 Jan 2021 noon", "May 2021 5"})
+        EXPECT_EQ(time_of("time", none), "-") << none;
+    const char* months[] = {"jan", "feb", "mar", "apr", "may", "jun",
+                            "jul", "aug", "sep", "oct", "nov", "dec"};
+    for (int m = 0; m < 12; ++m) {
+        char iso[32];
+        std::snprintf(iso, sizeof iso, "2021-%02d-07T00:00:00Z", m + 1);
+        EXPECT_EQ(time_of("time", (std::string("7-") + months[m] + "-2021").c_str()), iso);
+    }
+}
+
+TEST(CsvTimes, MorningAndAfternoon)
+{
+    const char* const cases[][2] = {{"12:00 AM", "00:00:00"},    {"12:30 am", "00:30:00"},
+                                    {"1:00 AM", "01:00:00"},     {"11:59 a.m.", "11:59:00"},
+                                    {"12:00 PM", "12:00:00"},    {"1:00PM", "13:00:00"},
+                                    {"01:05:09 pm", "13:05:09"}, {"11 P.M.", "23:00:00"}};
+    for (const auto& [clock, shows] : cases) {
+        for (const char* date : {"2021-01-02", "02-Jan-2021", "02.01.2021", "2021/01/02"}) {
+            const std::string cell = std::string(date) + " " + clock,
+                              expected = std::string("2021-01-02T") + shows + "Z";
+            EXPECT_EQ(time_of("time", cell.c_str()), expected) << cell;
+            EXPECT_EQ(time_of("date,time", (std::string(date) + "," + clock).c_str()), expected)
+                << cell;
+        }
+    }
+    for (const char* clock : {"13:00 PM", "0:00 AM", "1:00 XM", "PM", ":30 PM", "123 PM"})
+        EXPECT_EQ(time_of("time", (std::string("2021-01-02 ") + clock).c_str()), "-") << clock;
+}
+
+TEST(CsvTimes, DayOrMonthFirst)
+{
+    for (const char* cell : {"1/2/2024 6:00", "01/02/2024 06:00", "01-02-2024 6:00 AM"}) {
+        EXPECT_EQ(time_of("time", cell), "-") << cell;
+        EXPECT_EQ(time_of("time", cell, DateOrder::DayFirst), "2024-02-01T06:00:00Z") << cell;
+        EXPECT_EQ(time_of("time", cell, DateOrder::MonthFirst), "2024-01-02T06:00:00Z") << cell;
+    }
+    EXPECT_EQ(time_of("time", "13/01/2024", DateOrder::MonthFirst), "-");
+    EXPECT_EQ(time_of("date,hour", "1/2/2024,6", DateOrder::MonthFirst), "2024-01-02T06:00:00Z");
+    EXPECT_EQ(time_of("time", "1/2/24", DateOrder::MonthFirst), "-") << "which century";
+    DateOrders orders;
+    orders.add("1/2/2024");
+    orders.add("2024-02-01");
+    orders.add("2.1.2024");
+    EXPECT_EQ(orders.order(), DateOrder::Unknown);
+    EXPECT_EQ(orders.either(), "1/2/2024");
+    orders.add("1/13/2024 00:00");
+    EXPECT_EQ(orders.order(), DateOrder::MonthFirst);
+    orders.add("13/1/2024");
+    EXPECT_EQ(orders.order(), DateOrder::Unknown) << "both";
+}
+
+// What a file of a date in each row says; or the error.
+std::string read_dates(std::initializer_list<const char*> dates,
+                       DateOrder order = DateOrder::Unknown)
+{
+    std::string text = "time,air_temp_c\n";
+    for (const char* date : dates) text += std::string(date) + ",1\n";
+    ReadOptions options;
+    options.date_order = order;
+    try {
+        const auto r = read_weather(text, options);
+        return iso_from_us(r.table.time_us.front()) + " " + iso_from_us(r.table.time_us.back()) +
+               " " + to_text(r.report);
+    } catch (const Error& error) {
+        return std::string("error ") + error.what() + " | " + error.fix();
+    }
+}
+
+TEST(CsvTimes, AFileShowsItsOrderOrIsAsked)
+{
+    const auto has = [](const std::string& text, const char* part) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+    };
+    const std::string us = read_dates({"1/12/2024 23:00", "1/13/2024 00:00"});
+    EXPECT_EQ(us.substr(0, 41), "2024-01-12T23:00:00Z 2024-01-13T00:00:00Z");
+    has(us, "dates are read as month/day/year, as '1/13/2024 00:00' can only be");
+    const std::string eu = read_dates({"12/01/2024 11:00 PM", "13/01/2024 12:00 AM"});
+    EXPECT_EQ(eu.substr(0, 41), "2024-01-12T23:00:00Z 2024-01-13T00:00:00Z");
+    has(eu, "dates are read as day/month/year");
+    const std::string unknown = read_dates({"01/02/2024 00:00", "02/02/2024 00:00"});
+    has(unknown,
+        "error weather: column 'time' has dates as '01/02/2024 00:00', and no row shows whether");
+    has(unknown, "--date-order dmy or mdy");
+    EXPECT_EQ(
+        read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::DayFirst).substr(0, 31),
+        "2024-02-01T00:00:00Z 2024-02-02");
+    EXPECT_EQ(
+        read_dates({"01/02/2024 00:00", "02/02/2024 00:00"}, DateOrder::MonthFirst).substr(0, 31),
+        "2024-01-02T00:00:00Z 2024-02-02");
+    has(read_dates({"13/01/2024 00:00", "01/14/2024 00:00"}), "not always in the same place");
+    // What was said against what is there: no row is turned round in silence.
+    has(read_dates({"13/01/2024 00:00", "14/01/2024 00:00"}, DateOrder::MonthFirst),
+        "'13/01/2024 00:00' is not a date and time as 2005-10-01T06:00 (month/day/year)");
 }
 
 TEST(CsvTimes, DateAndClock)

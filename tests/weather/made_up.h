@@ -11,6 +11,7 @@
 #include "weather/physics/detail/formulas.h"
 #include "weather/physics/detail/portable_math.h"
 #include "weather/physics/humidity.h"
+#include "weather/physics/solar.h"
 
 namespace petrichor::weather::testing_weather {
 
@@ -51,6 +52,10 @@ inline ForcingTable rough_year(std::size_t hours = 8760)
         const double clear = 1.0 - (1.0 + x) * detail::exponential(-std::sqrt(1.2 + 3.0 * x));
         const double sent =
             clear + std::max(0.955 - clear, 0.0) * detail::clamped(cloud * cloud, 0.0, 1.0);
+        const std::int64_t now_us = t.time_us.back();
+        t[Field::Shortwave].push_back(cloudy_sky_w_m2(
+            SunNear(now_us, Observer(t.site.latitude_deg, t.site.longitude_deg)).at(now_us).up,
+            cloud));
         t[Field::Longwave].push_back(sent * kStefanBoltzmann * (temp_k * temp_k) *
                                      (temp_k * temp_k));
     }

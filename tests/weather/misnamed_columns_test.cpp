@@ -8,7 +8,9 @@
 #include <string>
 
 #include "base/error.h"
+#include "weather/readers/formats.h"
 #include "weather/readers/read_weather.h"
+#include "weather/text/utf16.h"
 
 namespace petrichor::weather {
 namespace {
@@ -178,9 +180,45 @@ TEST(MisnamedColumns, ShortNamesAndUnitsOfWeatherAreNotDropped)
               "");
 }
 
-TEST(MisnamedColumns, TextOfTwoBytesALetterIsNamed)
+// As "Unicode Text" of spreadsheets.
+std::string in_utf16(const std::string& ascii, bool big)
 {
-    EXPECT_THAT(refusal(std::string("\xFF\xFEt\0i\0m\0e\0", 10)), HasSubstr("UTF-16"));
+    std::string out = big ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char c : ascii) {
+        if (big) out += '\0';
+        out += c;
+        if (!big) out += '\0';
+    }
+    return out;
+}
+
+TEST(Utf16, IsReadAsTheSameTextInUtf8)
+{
+    const std::string text = table("air_temp_c,wind_m_s", 24, usual);
+    const auto plain = read_weather(text);
+    for (const bool big : {false, true}) {
+        const auto wide = read_weather(in_utf16(text, big));
+        EXPECT_EQ(wide.table.time_us, plain.table.time_us) << big;
+        EXPECT_EQ(wide.table[Field::AirTemp], plain.table[Field::AirTemp]) << big;
+        EXPECT_THAT(to_text(wide.report), HasSubstr("UTF-16"));
+        EXPECT_STREQ(recognise_weather(in_utf16(text, big)).name, "forcing CSV");
+    }
+    EXPECT_THAT(refusal(in_utf16(text, false) + "x"), HasSubstr("middle of a character"));
+    EXPECT_THAT(refusal("\xFF\xFE"), HasSubstr("empty"));
+}
+
+TEST(Utf16, LettersBeyondAscii)
+{
+    using namespace std::literals;
+    EXPECT_EQ(utf8_of_utf16("\xFF\xFE\xB0\x00\xAC\x20\x3D\xD8\x27\xDC"s),
+              "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
+    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\x00\xB0\x20\xAC\xD8\x3D\xDC\x27"s),
+              "\xC2\xB0\xE2\x82\xAC\xF0\x9F\x90\xA7");
+    // Halves of pairs.
+    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\xD8\x3D\x00\x61"s),
+              "\xEF\xBF\xBD"
+              "a");
+    EXPECT_EQ(utf8_of_utf16("\xFE\xFF\xDC\x27\xD8\x3D"s), "\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
 }  // namespace

@@ -94,13 +94,22 @@ TEST(Grid, NarrowAndWideRegistersAgree)
         const auto* c = reinterpret_cast<const double*>(&start);
         for (std::size_t i = 0; i < kCellNumbers; ++i) narrow.numbers[i][lane] = c[i];
     }
-    wide = narrow;
+    const detail::CellBlock first = narrow;
+    wide = first;
     detail::advance_block_16(narrow, places, steps.data(), steps.size(), k, s);
     detail::advance_block_32(wide, places, steps.data(), steps.size(), k, s);
-    for (std::size_t i = 0; i < kCellNumbers; ++i) {
-        for (std::size_t lane = 0; lane < 8; ++lane)
-            ASSERT_EQ(narrow.numbers[i][lane], wide.numbers[i][lane]) << i << " " << lane;
-    }
+    const auto expect_narrow = [&](const char* registers) {
+        for (std::size_t i = 0; i < kCellNumbers; ++i) {
+            for (std::size_t lane = 0; lane < 8; ++lane)
+                ASSERT_EQ(narrow.numbers[i][lane], wide.numbers[i][lane])
+                    << registers << ": " << i << " " << lane;
+        }
+    };
+    expect_narrow("AVX2");
+    if (!detail::machine_has_widest_registers()) return;
+    wide = first;
+    detail::advance_block_64(wide, places, steps.data(), steps.size(), k, s);
+    expect_narrow("AVX-512");
 }
 
 TEST(Grid, HigherIsWhiterAndSouthIsWarmer)

@@ -266,6 +266,8 @@ TEST(Radiation, ClearSkyAndClouds)
     EXPECT_NEAR(clear_sky_w_m2(sine(60)), 890.325, kDigits3);
     EXPECT_NEAR(cloudy_sky_w_m2(sine(30), 0.5), 455.046, kDigits3);
     EXPECT_NEAR(cloudy_sky_w_m2(sine(30), 1), 122.462, kDigits3);
+    EXPECT_NEAR(rainy_sky_w_m2(sine(30), 1), 0.16 * 489.850, kDigits3);
+    EXPECT_NEAR(rainy_sky_w_m2(sine(30), 0), 489.850, kDigits3);
     for (double n = 0.05; n < 1; n += 0.05) {
         EXPECT_NEAR(cloud_fraction_of(cloudy_sky_w_m2(0.5, n), 0.5), n, 1e-9);
         EXPECT_NEAR(cloud_fraction_of_diffuse(0.3 + 0.7 * n * n), n, 1e-9);

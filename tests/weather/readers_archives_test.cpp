@@ -16,6 +16,7 @@
 #include "weather/readers/read_weather.h"
 #include "weather/readers/tables.h"
 #include "weather/readers/text.h"
+#include "weather/text/utf16.h"
 
 namespace petrichor::weather {
 namespace {
@@ -248,6 +249,51 @@ TEST(EnvironmentCanada, LocalStandardTimeAndUnitsInUtf8)
     EXPECT_NEAR(at(table, Field::Wind, midnight), 5.0, 1e-9);
     EXPECT_NEAR(total(table, Field::Precip), 1.2, 1e-9);
     EXPECT_EQ(table[Field::SnowShare][row_at(table, "2024-01-09T06:00Z") - 1], 1.0);
+}
+
+// The sample with its columns in another order: names and cells, or the names alone.
+std::string reordered(const std::string& text, std::size_t turn, bool cells_too)
+{
+    std::string out;
+    Lines lines(text);
+    while (const auto line = lines.next()) {
+        const auto fields = split(*line, ',');
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const bool turned = cells_too || lines.number() == 1;
+            out += std::string(i ? "," : "") + "\"" +
+                   std::string(fields[turned ? (i * 7 + turn) % fields.size() : i]) + "\"";
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+TEST(EnvironmentCanada, ColumnsAreFoundByNameAndNamesElsewhereAreSaid)
+{
+    const std::string text =
+        text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "environment_canada.csv");
+    const auto plain = read_weather(text, {});
+    for (std::size_t turn = 0; turn < 31; ++turn) {
+        const auto r = read_weather(reordered(text, turn, true), {});
+        EXPECT_EQ(r.table.time_us, plain.table.time_us) << turn;
+        for (const Field f : {Field::AirTemp, Field::Wind, Field::Precip, Field::Pressure})
+            EXPECT_EQ(r.table[f], plain.table[f]) << turn;
+    }
+    for (std::size_t turn = 1; turn < 31; ++turn) {
+        try {
+            read_weather(reordered(text, turn, false), {});
+            ADD_FAILURE() << turn << ": read";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("columns hold what their names do not say: '"))
+                << turn;
+            EXPECT_THAT(error.what(), HasSubstr("' holds ")) << turn;
+        }
+    }
+    // One sensor that fails is no reordering: it is what the usual report is for.
+    std::string broken = text;
+    for (std::size_t at; (at = broken.find("\"87\"")) != std::string::npos;)
+        broken.replace(at, 4, "\"xx\"");
+    EXPECT_NO_THROW(read_weather(broken, {}));
 }
 
 TEST(Iem, TableOfAnAirport)
@@ -621,8 +667,10 @@ TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
     };
     int read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(PETRICHOR_SAMPLES)) {
-        const std::string text = text_of(entry.path());
-        const std::string as_it_is = answer(text);
+        const std::string bytes = text_of(entry.path());
+        const bool wide = is_utf16(bytes) && bytes.size() % 2 == 0;
+        const std::string text = wide ? utf8_of_utf16(bytes) : bytes;
+        const std::string as_it_is = answer(bytes);
         if (as_it_is.empty()) continue;  // seeds of the fuzzer that are no weather
         ++read;
         std::string crlf;
@@ -630,7 +678,7 @@ TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
         const std::string mark = "\xEF\xBB\xBF";
         const bool marked = text.rfind(mark, 0) == 0;
         for (const std::string& other :
-             {marked ? text : mark + text, text.find('\r') == std::string::npos ? crlf : text,
+             {text, marked ? text : mark + text, text.find('\r') == std::string::npos ? crlf : text,
               "\n\n" + (marked ? text.substr(3) : text), "\r\n" + (marked ? text.substr(3) : text),
               text + "\n\n"})
             EXPECT_EQ(answer(other), as_it_is) << entry.path().filename();

@@ -36,7 +36,7 @@ TEST(Road, UniformLayersAreTheGroundItself)
     const GroundLayer layer{0.37, 0.75, 1.94e6};
     const auto plain = make_ground_stack(0.75, 1.94e6, 600);
     const auto layered =
-        make_ground_stack(make_ground_profile({{layer, layer}}, 0.75, 1.94e6, false), 600);
+        make_ground_stack(make_ground_profile({{layer, layer}}, 0.75, 1.94e6, 0.0), 600);
     EXPECT_NEAR(layered.conductance_w_m2_k, plain.conductance_w_m2_k, 1e-9);
     for (std::size_t i = 0; i < kGroundLayers; ++i)
         EXPECT_NEAR(layered.weight_own[i], plain.weight_own[i], 1e-12) << i;

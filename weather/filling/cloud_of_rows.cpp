@@ -118,9 +118,8 @@ private:
 
     bool falls_or_fog(std::size_t row) const
     {
-        for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
-            if (table_.has(f) && table_[f][row] >= kFalls_kg_m2_s) return true;
-        return table_.has(Field::Visibility) && table_[Field::Visibility][row] < kFog_m;
+        return falls_in(table_, row) ||
+               (table_.has(Field::Visibility) && table_[Field::Visibility][row] < kFog_m);
     }
 
     static void count(From from, std::size_t rows, CloudFills& fills)
@@ -137,6 +136,13 @@ private:
 };
 
 }  // namespace
+
+bool falls_in(const ForcingTable& table, std::size_t row)
+{
+    for (const Field f : {Field::Precip, Field::Rain, Field::Snow})
+        if (table.has(f) && table[f][row] >= kFalls_kg_m2_s) return true;
+    return false;
+}
 
 std::vector<double> cloud_of_rows(const ForcingTable& table, const std::vector<double>& sine,
                                   bool sun_is_known, double assumed, CloudFills& fills)

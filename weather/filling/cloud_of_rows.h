@@ -13,6 +13,9 @@ struct CloudFills {
     std::size_t from_sun = 0, from_sky = 0, falling = 0, assumed = 0;
 };
 
+/// Whether 0.1 mm/h or more falls in a row.
+bool falls_in(const ForcingTable& table, std::size_t row);
+
 /// Cloud of all rows, 0..1: the file's own where it has one; 1 where something falls or in fog; else
 /// from shortwave (from the diffuse share of it where that is known), else from longwave.
 ///

@@ -119,7 +119,8 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     std::size_t shortwave = 0, longwave = 0;
     for (std::size_t i = 0; i < n; ++i) {
         if (std::isnan(sw[i])) {
-            sw[i] = cloudy_sky_w_m2(sine[i], cloud[i]);
+            sw[i] = falls_in(table, i) ? rainy_sky_w_m2(sine[i], cloud[i])
+                                       : cloudy_sky_w_m2(sine[i], cloud[i]);
             ++shortwave;
         }
         sw[i] = std::max(sw[i], 0.0);

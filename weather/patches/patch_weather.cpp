@@ -36,6 +36,8 @@ void check(const PatchParams& p)
     require(p.spin_up_days >= 0.0 && p.spin_up_days <= 3660.0, "spin_up_days", p.spin_up_days,
             "in 0..3660");
     require(std::isfinite(p.wind_from_deg), "wind_from_deg", p.wind_from_deg, "finite");
+    require(p.room_temp_k >= 180.0 && p.room_temp_k <= 350.0, "room_temp_k", p.room_temp_k,
+            "in 180..350");
     require(p.outside_albedo >= 0.0 && p.outside_albedo <= 1.0, "outside_albedo", p.outside_albedo,
             "in 0..1");
     require(p.outside_snow_albedo >= 0.0 && p.outside_snow_albedo <= 1.0, "outside_snow_albedo",
@@ -180,7 +182,9 @@ struct PatchWeather::Impl {
         initial.blocks.resize(tables.blocks());
         std::vector<CellState> start;
         for (const detail::PatchGroup& group : tables.groups)
-            start.push_back(detail::initial_cell(table, group.constants, at_us));
+            start.push_back(tables.set.kinds[group.kind].room_behind
+                                ? detail::initial_wall(table, group.constants, at_us)
+                                : detail::initial_cell(table, group.constants, at_us));
         for (std::size_t b = 0; b < tables.blocks(); ++b)
             for (std::size_t lane = 0; lane < detail::kPatchLanes; ++lane)
                 detail::put_cell(initial.blocks[b], lane, start[tables.group_of_block[b]]);

@@ -43,6 +43,7 @@ struct PatchParams {
     double spin_up_days = 14.0;  ///< >= 0, before the first moment or the last bare ground
     /// Where the file gives no direction of the wind.
     double wind_from_deg = 240.0;
+    double room_temp_k = 293.15;  ///< of houses behind their walls: the set point of ISO 13790
     double outside_albedo = 0.2, outside_snow_albedo = 0.6;  ///< of the ground beyond the scene
     int threads = 1;  ///< >= 1; the result does not depend on it
 };

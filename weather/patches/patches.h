@@ -26,6 +26,9 @@ struct PatchKind {
     /// Falling snow holds by the tilt (snow_holds); on leaves and the like it stays.
     bool holds_by_tilt = true;
     double splash = 1.0;  ///< how hard rain jumps from it, h_f of splash_share
+    /// A wall of a house: behind the layers of its surface (0.3 m where it has none) lies a room of
+    /// PatchParams::room_temp_k, not the ground; 1.5 W m-2 K-1 or less go through.
+    bool room_behind = false;
 };
 
 /// A piece of a surface as weather sees it.

@@ -4,6 +4,7 @@
 
 #include "weather/physics/constants.h"
 #include "weather/physics/detail/formulas.h"
+#include "weather/physics/detail/surface_kernel.h"
 
 namespace petrichor::weather {
 
@@ -30,6 +31,11 @@ double convection_coefficient(double wind_height_m, double roughness_m, double h
 {
     return detail::convection_of(detail::logarithm(wind_height_m / roughness_m),
                                  detail::logarithm(roughness_m / heat_roughness_m));
+}
+
+double wall_convection_w_m2_k(double difference_k)
+{
+    return detail::wall_convection_of(difference_k) * kAirHeatCapacity;
 }
 
 }  // namespace petrichor::weather

@@ -33,6 +33,12 @@ double stability_factor(double richardson, double neutral, double wind_height_m,
 /// own. In calm air the exchange becomes that of free convection.
 double convection_coefficient(double wind_height_m, double roughness_m, double heat_roughness_m);
 
+/// Free convection along a wall, of both signs: 1.31 |dT|^(1/3) W m-2 K-1, for what wind brings to
+/// be added to (Walton 1983, TARP; ASHRAE). What stands upright is not damped by stable air:
+/// gravity across it is none.
+inline constexpr double kWallConvection_w_m2 = 1.31;
+double wall_convection_w_m2_k(double difference_k);
+
 }  // namespace petrichor::weather
 
 #endif

@@ -10,24 +10,24 @@ namespace petrichor::weather {
 
 namespace {
 
-constexpr double kUnderBridge_w_m2_k = 10.0;
-// Nodes below a bridge: they carry no heat and resist nothing.
+// Nodes behind the last layer: they carry no heat and resist nothing.
 constexpr double kNoResistance_w_m_k = 1e6, kNoCapacity_j_m3_k = 1e-3;
 
 }  // namespace
 
 GroundProfile make_ground_profile(std::span<const GroundLayer> layers, double conductivity,
-                                  double heat_capacity, bool open_below)
+                                  double heat_capacity, double back_resistance)
 {
     GroundProfile profile;
-    if (layers.empty() && !open_below) {
+    const bool open = back_resistance > 0.0;
+    if (layers.empty() && !open) {
         profile.conductivity.fill(conductivity);
         profile.heat_capacity.fill(heat_capacity);
         return profile;
     }
-    if (open_below) profile.bottom_resistance = 1.0 / kUnderBridge_w_m2_k;
-    const GroundLayer below{1e9, open_below ? kNoResistance_w_m_k : conductivity,
-                            open_below ? kNoCapacity_j_m3_k : heat_capacity};
+    profile.bottom_resistance = back_resistance;
+    const GroundLayer below{1e9, open ? kNoResistance_w_m_k : conductivity,
+                            open ? kNoCapacity_j_m3_k : heat_capacity};
     std::size_t at = 0;
     double left_m = layers.empty() ? below.thickness_m : layers[0].thickness_m;
     for (std::size_t i = 0; i < kGroundLayers; ++i) {
@@ -52,7 +52,7 @@ GroundProfile make_ground_profile(std::span<const GroundLayer> layers, double co
 
 GroundStack make_ground_stack(double conductivity, double heat_capacity, double dt_s)
 {
-    return make_ground_stack(make_ground_profile({}, conductivity, heat_capacity, false), dt_s);
+    return make_ground_stack(make_ground_profile({}, conductivity, heat_capacity, 0.0), dt_s);
 }
 
 GroundStack make_ground_stack(const GroundProfile& profile, double dt_s)

@@ -44,10 +44,11 @@ struct GroundProfile {
     std::array<double, kGroundLayers> conductivity{}, heat_capacity{};
     double bottom_resistance = 0.0;  ///< m2 K / W, from the last node on to the fixed temperature
 };
-/// Layers from the top, over ground of the last two values; with `open_below` there is nothing
-/// below them but air, which takes heat away at 10 W m-2 K-1 (a bridge).
+/// Layers from the top, over ground of the last two values.
+///   back_resistance  m2 K / W; above 0 there is no ground below the layers but air behind this
 GroundProfile make_ground_profile(std::span<const GroundLayer> layers, double conductivity,
-                                  double heat_capacity, bool open_below);
+                                  double heat_capacity, double back_resistance);
+inline constexpr double kUnderBridge_m2_k_w = 0.1;  ///< 10 W m-2 K-1
 GroundStack make_ground_stack(const GroundProfile& profile, double dt_s);
 
 /// Temperatures after one step with the surface held at `surface_temp_k`.

@@ -161,10 +161,24 @@ double clear_sky_w_m2(double sine_elevation)
     return 1098.0 * sine_elevation * detail::exponential(-0.057 / sine_elevation);
 }
 
-double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction)
+namespace {
+
+double sky_w_m2(double sine_elevation, double cloud_fraction, double most_taken)
 {
     const double cloud = cloud_fraction > 0.0 ? detail::power(cloud_fraction, 3.4) : 0.0;
-    return clear_sky_w_m2(sine_elevation) * (1.0 - 0.75 * cloud);
+    return clear_sky_w_m2(sine_elevation) * (1.0 - most_taken * cloud);
+}
+
+}  // namespace
+
+double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction)
+{
+    return sky_w_m2(sine_elevation, cloud_fraction, 0.75);
+}
+
+double rainy_sky_w_m2(double sine_elevation, double cloud_fraction)
+{
+    return sky_w_m2(sine_elevation, cloud_fraction, 0.84);
 }
 
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation)

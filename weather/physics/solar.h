@@ -48,6 +48,9 @@ double sine_of_elevation(double latitude_rad, double declination_rad, double sol
 double clear_sky_w_m2(double sine_elevation);
 /// The same under clouds, Kasten & Czeplak 1980: G0 (1 - 0.75 N^3.4).
 double cloudy_sky_w_m2(double sine_elevation, double cloud_fraction);
+/// The same where something falls, from nimbostratus, which lets 0.16 of the clear sky's light
+/// through where other overcast lets 0.25 (their table 2): G0 (1 - 0.84 N^3.4).
+double rainy_sky_w_m2(double sine_elevation, double cloud_fraction);
 /// The inverse: cloud fraction 0..1 from measured shortwave; 0 at or above the clear sky.
 double cloud_fraction_of(double shortwave_w_m2, double sine_elevation);
 

@@ -1,6 +1,7 @@
 #include "weather/physics/surface_energy.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "weather/physics/detail/surface_kernel.h"
 #include "weather/physics/humidity.h"
@@ -23,7 +24,10 @@ Point make_point(const SurfaceForcing& f, const SurfaceSkin& skin, const Exchang
     p.pressure = f.pressure_pa;
     p.exchange = air_density_kg_m3(f.air_temp_k, p.q_air, f.pressure_pa) *
                  neutral_exchange(skin.wind_height_m, skin.temp_height_m, skin.roughness_m) * wind;
-    p.richardson_k = detail::richardson_per_k_of(1.0 / (f.air_temp_k * wind * wind), skin.wind_height_m);
+    p.richardson_k =
+        detail::richardson_per_k_of(1.0 / (f.air_temp_k * wind * wind), skin.wind_height_m) *
+        skin.gravity_across;
+    p.upright = 1.0 - std::abs(skin.gravity_across);
     p.convection =
         convection_coefficient(skin.wind_height_m, skin.roughness_m, 0.1 * skin.roughness_m);
     p.wet.beta = skin.wet_fraction;

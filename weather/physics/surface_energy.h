@@ -25,6 +25,7 @@ struct SurfaceSkin {
     double below_temp_k = 273.15;     ///< T1
     double wind_height_m = 10.0;
     double temp_height_m = 2.0;
+    double gravity_across = 1.0;  ///< cosine of the tilt: 1 level, 0 a wall, -1 a ceiling
 };
 /// Fluxes at a surface temperature; sensible and latent are positive upward (a loss).
 struct SurfaceFluxes {

@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/error.h"
 #include "weather/physics/constants.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/tables.h"
@@ -69,6 +74,73 @@ Sky sky_of_words(std::string_view text)
     return sky;
 }
 
+bool fits(const TableColumn& column, std::string_view cell)
+{
+    const auto number = to_number(cell);
+    if (!number) return cell == "M" || cell == "NA";
+    const FieldInfo& info = field_info(column.field);
+    const double si = *number * column.scale + column.offset;
+    // An amount falls in some hours, and no limit of a rate tells it from another number.
+    return column.fell_hours > 0.0 ? *number >= 0.0
+                                   : si >= info.low - info.noise && si <= info.high;
+}
+
+// Names over columns of something else, as when a program has sorted one and not the other.
+//   throws  Error that says which, for the time or for two columns and more
+void refuse_misplaced(Lines lines, const TableHeader& header, std::size_t stamp)
+{
+    constexpr std::size_t kLooked = 48;
+    struct Check {
+        std::string name;
+        std::size_t at;
+        std::function<bool(std::string_view)> fits;
+        bool some = false;
+        std::string odd{};
+    };
+    std::vector<Check> checks;
+    const auto within = [](double low, double high) {
+        return [=](std::string_view cell) {
+            const auto number = to_number(cell);
+            return number && *number >= low && *number <= high;
+        };
+    };
+    const auto add = [&](std::size_t at, std::function<bool(std::string_view)> good) {
+        if (at < header.size()) checks.push_back({header.names()[at], at, std::move(good)});
+    };
+    add(stamp, [](std::string_view cell) { return us_from_iso(cell).has_value(); });
+    add(header.at("latitude (y)"), within(-90.0, 90.0));
+    add(header.at("longitude (x)"), within(-180.0, 180.0));
+    add(header.at("year"), within(1800.0, 2200.0));
+    add(header.at("month"), within(1.0, 12.0));
+    add(header.at("day"), within(1.0, 31.0));
+    for (const TableColumn& column : kColumns)
+        add(header.at(column.name),
+            [&column](std::string_view cell) { return fits(column, cell); });
+    std::vector<std::string_view> cells;
+    for (std::size_t row = 0; row < kLooked; ++row) {
+        const auto line = lines.next();
+        if (!line) break;
+        split(*line, ',', cells, 64);
+        for (Check& check : checks) {
+            const auto cell = cell_of(cells, check.at);
+            if (cell.empty() && check.at != stamp) continue;  // every row has a time
+            if (check.fits(cell))
+                check.some = true;
+            else if (check.odd.empty())
+                check.odd = cell.empty() ? "nothing" : "'" + shown(cell) + "'";
+        }
+    }
+    std::string list;
+    std::size_t wrong = 0;
+    for (const Check& check : checks) {
+        if (check.some || check.odd.empty()) continue;
+        list += (wrong++ ? ", '" : "'") + check.name + "' holds " + check.odd;
+    }
+    if (wrong == 0 || (wrong == 1 && (checks.front().some || checks.front().odd.empty()))) return;
+    throw Error("weather: Environment Canada: columns hold what their names do not say: " + list,
+                "Put each name over its own column again.");
+}
+
 void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
     Lines lines(text);
@@ -79,6 +151,7 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
                           header.has("time (lst)") ? header.at("time (lst)") : header.at("time"),
                       weather = header.at("weather"), longitude = header.at("longitude (x)"),
                       latitude = header.at("latitude (y)"), name = header.at("station name");
+    refuse_misplaced(lines, header, stamp);
     const bool measured = header.has("precip. amount (mm)");
     {
         Lines below = lines;
@@ -115,12 +188,11 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
         if (!measured) rows.set(Field::Precip, (sky.rain_mm_h + sky.snow_mm_h) / 3600.0);
     };
     // The archive fills the rest of a month with rows that hold only their time.
-    how.skip = [&](const std::vector<std::string_view>& f) {
-        for (std::size_t i = std::max(stamp, clock == TableHeader::kNone ? 0 : clock) + 1;
-             i < f.size(); ++i) {
-            if (!f[i].empty()) return false;
-        }
-        return true;
+    std::vector<std::size_t> values{weather};
+    for (const TableColumn& column : kColumns) values.push_back(header.at(column.name));
+    how.skip = [values = std::move(values)](const std::vector<std::string_view>& f) {
+        return std::all_of(values.begin(), values.end(),
+                           [&](std::size_t at) { return cell_of(f, at).empty(); });
     };
     if (!measured) {
         rows.note(ReadNote::Kind::Info, 1, "precip",

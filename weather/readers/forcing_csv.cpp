@@ -233,6 +233,46 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
     return h;
 }
 
+// Which way round dates such as 01/02/2024 are: as asked, else as one of them shows.
+//   throws  Error where none shows it, or they differ
+void find_date_order(Header& h, Lines lines, RowCollector& rows, const ReadOptions& options)
+{
+    if (h.times.stamp == CsvTimes::kNone) return;
+    DateOrders orders;
+    std::vector<std::string_view> cells;
+    while (const auto line = lines.next()) {
+        const auto t = trimmed(*line);
+        if (t.empty() || t.front() == '#') continue;
+        split(*line, h.separator, cells, 256);
+        if (cells.size() == h.names.size()) orders.add(cells[h.times.stamp]);
+        // Tables of another kind of dates are not read twice.
+        if (orders.either().empty() && orders.day_first().empty() && orders.month_first().empty())
+            return;
+    }
+    h.times.order = options.date_order;
+    if (options.date_order != DateOrder::Unknown) return;
+    constexpr const char* kFix =
+        "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] "
+        "date_order)";
+    if (!orders.day_first().empty() && !orders.month_first().empty()) {
+        throw Error("weather: column '" + shown(h.names[h.times.stamp]) + "' has dates as '" +
+                        orders.day_first() + "' and as '" + orders.month_first() +
+                        "': day and month are not always in the same place",
+                    std::string(kFix) + "; rows of the other order are then reported.");
+    }
+    h.times.order = orders.order();
+    if (h.times.order == DateOrder::Unknown) {
+        throw Error("weather: column '" + shown(h.names[h.times.stamp]) + "' has dates as '" +
+                        orders.either() +
+                        "', and no row shows whether the day or the month comes first",
+                    std::string(kFix) + ".");
+    }
+    const bool day = h.times.order == DateOrder::DayFirst;
+    rows.note(ReadNote::Kind::Info, 0, "time",
+              std::string("dates are read as ") + (day ? "day/month/year" : "month/day/year") +
+                  ", as '" + (day ? orders.day_first() : orders.month_first()) + "' can only be");
+}
+
 // Seconds that the amounts of precipitation of each row stand for: those to the next one. Empty
 // where the table has rates alone.
 std::vector<double> seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
@@ -338,7 +378,8 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
 {
     read_place(text, rows);
     Lines lines(text);
-    const Header h = read_header(lines, rows, options);
+    Header h = read_header(lines, rows, options);
+    find_date_order(h, lines, rows, options);
     const std::vector<double> amount_s = seconds_of_amounts(h, lines, rows);
 
     MissingCodes missing_codes;
@@ -357,10 +398,11 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
         if (!us) {
             const std::string found = h.times.shown_cells(cells);
             plain_numbers += to_number(found).has_value();
-            const bool two_dates = std::count(found.begin(), found.end(), '/') == 2;
+            const char* order = h.times.order == DateOrder::DayFirst     ? " (day/month/year)"
+                                : h.times.order == DateOrder::MonthFirst ? " (month/day/year)"
+                                                                         : "";
             rows.bad_row(lines.number(), "time",
-                         "'" + found + "' is not a date and time as 2005-10-01T06:00" +
-                             (two_dates ? " (month and day may be either way round)" : ""));
+                         "'" + found + "' is not a date and time as 2005-10-01T06:00" + order);
             continue;
         }
         if (!rows.begin_row(*us, lines.number())) continue;

@@ -8,6 +8,7 @@
 #include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
+#include "weather/text/utf16.h"
 
 namespace petrichor::weather {
 
@@ -53,10 +54,6 @@ void refuse_binary(std::string_view text)
                    c != '\f' && c != 3 && c != 1;
         }));
     };
-    if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
-        throw Error("weather: this is UTF-16 text (as \"Unicode Text\" of a spreadsheet)",
-                    "Save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE.");
-    }
     constexpr std::size_t kSample = 1 << 16;
     for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t at = text.size() / 16 * i;
@@ -112,6 +109,7 @@ void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
 
 const Reader& recognise_weather(std::string_view text)
 {
+    if (is_utf16(text)) return recognise_weather(utf8_of_utf16(text));
     if (trimmed(without_mark(text).substr(0, 1 << 16)).empty()) {
         throw Error("weather: the file is empty", "Give a text file: " + known_kinds() + ".");
     }
@@ -133,6 +131,11 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         throw Error("weather: the file has " + std::to_string(text.size()) +
                         " bytes, more than the " + std::to_string(options.most_bytes) + " accepted",
                     "Cut the file into shorter periods.");
+    }
+    if (is_utf16(text)) {
+        ReadResult result = read_weather(utf8_of_utf16(text), options);
+        result.report.add({ReadNote::Kind::Info, 0, "text", "UTF-16, read as such"});
+        return result;
     }
     const Reader& reader = recognise_weather(text);
     RowCollector rows(reader.name);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "weather/forcing/forcing.h"
+#include "weather/readers/csv_times.h"
 #include "weather/readers/taf.h"
 
 namespace petrichor::weather {
@@ -21,6 +22,8 @@ struct ReadOptions {
     TafUse taf = TafUse::Expected;  ///< TAF: what to make of TEMPO and PROB groups
     std::size_t most_bytes = std::size_t{512} << 20;
     double utc_offset_h = kMissing;     ///< of the file's times, where it names no zone; -14..14
+    DateOrder date_order =
+        DateOrder::Unknown;  ///< of 01/02/2024; Unknown: as the file shows, else an error
     std::vector<std::string> ignore{};  ///< names of columns that may be left unread, or "all"
     bool fill = true;                   ///< run fill_forcing
     FillOptions filling{};

@@ -12,6 +12,7 @@ using weather::ForcingTable;
 namespace {
 
 constexpr std::size_t kFewHours = 50;
+constexpr double kSun_w_m2 = 300.0, kClear = 0.3;  // 0.3 of cloud takes a hundredth of the sun
 constexpr double kFalls_kg_m2_s = 0.5 / 3600.0;
 
 // The measured longwave over that of a black sky as warm as the air, less 1, in damp hours with
@@ -48,11 +49,14 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
     const ForcingTable made = without_longwave(raw);
     if (made.rows() != raw.rows()) return {};  // rows were divided: nothing to set side by side
     const ErrorSum black = sky_of_falling_hours(made, raw);
-    ErrorSum all, cloudy, levelled;
+    ErrorSum all, cloudy, levelled, sunny;
     for (std::size_t i = 0; i < raw.rows(); ++i) {
         const double measured = raw[Field::Longwave][i];
         const double error = made[Field::Longwave][i] - measured;
         all.add(error);
+        if (raw.has(Field::Shortwave) && raw[Field::Shortwave][i] > kSun_w_m2 &&
+            made[Field::Cloud][i] < kClear)
+            sunny.add(error);
         if (made[Field::Cloud][i] < 0.9) continue;
         cloudy.add(error);
         if (black.count() >= kFewHours)
@@ -64,6 +68,10 @@ std::vector<SkillRow> longwave_rows(const std::string& set, const ForcingTable& 
     if (cloudy.count() > 0) {
         rows.push_back({set, "longwave under cloud", "W/m2", cloudy.count(),
                         std::abs(cloudy.bias()), cloudy.bias(), "|bias|"});
+    }
+    if (sunny.count() >= kFewHours) {
+        rows.push_back({set, "longwave in clear sun", "W/m2", sunny.count(), std::abs(sunny.bias()),
+                        sunny.bias(), "|bias|"});
     }
     if (black.count() >= kFewHours) {
         rows.push_back({set, "sky measured in rain, snow", "of a black sky", black.count(),

@@ -223,6 +223,7 @@ void run_block(std::size_t b, PatchLive& live, const PatchTables& t, const SkySt
         place.wind_factor = w.wind[slot];
         place.rain_factor = w.rain[slot];
         place.snow_factor = w.snow[slot];
+        place.gravity_across = std::clamp(t.slot[slot].normal.y, -1.0, 1.0);
         double numbers[kPlaceNumbers];
         std::memcpy(numbers, &place, sizeof place);
         for (std::size_t i = 0; i < kPlaceNumbers; ++i) place_block.numbers[i][lane] = numbers[i];

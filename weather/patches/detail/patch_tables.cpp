@@ -120,13 +120,16 @@ PatchTables make_patch_tables(PatchSet set, const PatchParams& params, const Sit
             if (set.patches[i].kind == k) members.push_back(i);
         if (members.empty()) continue;
         PhysicalParams model = params.model;
+        const bool room = set.kinds[k].room_behind;
         model.surface = set.kinds[k].surface;
+        if (room) model.surface.open_below = false;
         model.sky_view = 1.0;
         model.canopy_vai = 0.0;
         check_params(model);
         PatchGroup group;
         group.kind = k;
-        group.constants = make_cell_constants(model, site, deep_temp_k);
+        group.constants = make_cell_constants(model, site, room ? params.room_temp_k : deep_temp_k);
+        if (room) group.constants.back_resistance = behind_wall_m2_k_w(group.constants);
         const std::size_t blocks = (members.size() + kPatchLanes - 1) / kPatchLanes;
         for (std::size_t lane = 0; lane < blocks * kPatchLanes; ++lane) {
             // Spare lanes repeat the last patch.

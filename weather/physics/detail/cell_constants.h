@@ -23,6 +23,7 @@ struct CellConstants {
     ExchangeParams exchange;
     PhaseParams phase;
     double deep_temp_c = 8.0;
+    double back_resistance = 0.0;  // m2 K / W behind the layers; 0: ground
     double wind_height_m = 10.0;
     // surface
     double albedo_dry, albedo_wet, emissivity, snow_emissivity;

@@ -20,6 +20,8 @@ struct CellPlace {
     Real air_offset_k;  // perturbations: added to air temperature
     Real precip_factor, wind_factor, shortwave_factor, longwave_offset;
     Real rain_factor, snow_factor;  // of the precipitation here, by phase: 1 on flat open ground
+    // Of a plate (wall, roof, ceiling) the cosine of its tilt; 1 for ground, terrain too.
+    Real gravity_across;
 };
 
 // What the weather of a step means for a cell, before it is asked for an instant.
@@ -60,6 +62,7 @@ template <class Real>
 struct CellWeather {
     Real air_c, q_air, density, pressure, wind, shortwave, longwave;
     Real per_air_wind2;  // 1 / (T U^2), of the Richardson number
+    Real gravity_across, upright;
     // What still changes until the end of the substep.
     Real later_q, later_shortwave, later_longwave;
     double later_air_k, later_wind;  // wind: as a share
@@ -94,6 +97,8 @@ PETRICHOR_INLINE void weather_at(const StepWeather<Real>& day, const StationMome
     const Real dry_wind2 = dry * wind2 * inverse;  // 1 / (T moist)
     w.density = w.pressure * dry * dry_wind2 * (1.0 / kAirGasConstant);
     w.per_air_wind2 = dry * moist * inverse;
+    w.gravity_across = place.gravity_across;
+    w.upright = 1.0 - larger(place.gravity_across, -place.gravity_across);
 
     // Hidden sky radiates like the air.
     const Real squared = air_k * air_k;

@@ -1,7 +1,7 @@
 // Eight numbers that move together: the same arithmetic as double, for eight cells at once.
 //
 // A kernel is written once as a template over Real and runs with Real = double (one cell) or Real =
-// Lanes<bytes> (eight cells in registers of 16 or 32 bytes). Every operation is the IEEE one on
+// Lanes<bytes> (eight cells in registers of 16, 32 or 64 bytes). Every operation is the IEEE one on
 // each element, in the same order, so both give the same bits. Which registers are used is chosen
 // by the file that instantiates the kernel; the type carries the width, so that two instantiations
 // never share a symbol.
@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -42,10 +43,22 @@ struct Native<32> {
     typedef std::int64_t Bits __attribute__((vector_size(32)));
 };
 
+template <>
+struct Native<64> {
+    typedef double Number __attribute__((vector_size(64)));
+    typedef std::int64_t Bits __attribute__((vector_size(64)));
+};
+
 template <int kBytes>
 struct LaneMask {
     static constexpr int kParts = kLaneCount * 8 / kBytes;
     typename Native<kBytes>::Bits part[kParts];
+};
+// AVX-512 has registers for masks, a bit a lane.
+template <>
+struct LaneMask<64> {
+    static constexpr int kParts = 1;
+    std::uint8_t part[kParts];
 };
 
 template <int kBytes>
@@ -120,6 +133,22 @@ PETRICHOR_LANE_OPERATOR(/)
         }                                                                                         \
         return r;                                                                                 \
     }
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define PETRICHOR_LANE_COMPARISON_64(op, predicate)                                       \
+    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, const Lanes<64>& b)     \
+    {                                                                                     \
+        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], (__m512d)b.part[0], predicate)}}; \
+    }                                                                                     \
+    PETRICHOR_INLINE LaneMask<64> operator op(const Lanes<64>& a, double b)               \
+    {                                                                                     \
+        return {{_mm512_cmp_pd_mask((__m512d)a.part[0], _mm512_set1_pd(b), predicate)}};  \
+    }
+PETRICHOR_LANE_COMPARISON_64(<, _CMP_LT_OS)
+PETRICHOR_LANE_COMPARISON_64(>, _CMP_GT_OS)
+PETRICHOR_LANE_COMPARISON_64(<=, _CMP_LE_OS)
+PETRICHOR_LANE_COMPARISON_64(>=, _CMP_GE_OS)
+#undef PETRICHOR_LANE_COMPARISON_64
+#endif
 PETRICHOR_LANE_COMPARISON(<)
 PETRICHOR_LANE_COMPARISON(>)
 PETRICHOR_LANE_COMPARISON(<=)
@@ -133,7 +162,7 @@ PETRICHOR_LANE_COMPARISON(>=)
     {                                                                                   \
         LaneMask<kBytes> r;                                                             \
         PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = \
-            a.part[p] op b.part[p];                                                     \
+            static_cast<std::decay_t<decltype(r.part[p])>>(a.part[p] op b.part[p]);     \
         return r;                                                                       \
     }
 PETRICHOR_MASK_OPERATOR(&)
@@ -144,7 +173,8 @@ template <int kBytes>
 PETRICHOR_INLINE LaneMask<kBytes> operator!(const LaneMask<kBytes>& a)
 {
     LaneMask<kBytes> r;
-    PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] = ~a.part[p];
+    PETRICHOR_UNROLL for (int p = 0; p < LaneMask<kBytes>::kParts; ++p) r.part[p] =
+        static_cast<std::decay_t<decltype(r.part[p])>>(~a.part[p]);
     return r;
 }
 
@@ -187,6 +217,27 @@ PETRICHOR_INLINE Lanes<kBytes> select(const LaneMask<kBytes>& mask, const Lanes<
     }
     return r;
 }
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+// The forms without a mask warn of an operand that they do not read (GCC 12).
+inline constexpr std::uint8_t kAllLanes = 0xFF;
+PETRICHOR_INLINE Lanes<64> select(const LaneMask<64>& mask, const Lanes<64>& a, const Lanes<64>& b)
+{
+    Lanes<64> r;
+    r.part[0] = (Native<64>::Number)_mm512_mask_blend_pd(mask.part[0], (__m512d)b.part[0],
+                                                         (__m512d)a.part[0]);
+    return r;
+}
+PETRICHOR_INLINE bool any(const LaneMask<64>& mask)
+{
+    return mask.part[0] != 0;
+}
+PETRICHOR_INLINE Lanes<64> square_root(const Lanes<64>& a)
+{
+    Lanes<64> r;
+    r.part[0] = (Native<64>::Number)_mm512_maskz_sqrt_pd(kAllLanes, (__m512d)a.part[0]);
+    return r;
+}
+#endif
 template <int kBytes>
 PETRICHOR_INLINE bool any(const LaneMask<kBytes>& mask)
 {
@@ -296,6 +347,22 @@ PETRICHOR_INLINE Lanes<32> larger(const Lanes<32>& a, const Lanes<32>& b)
     Lanes<32> r;
     PETRICHOR_UNROLL for (int p = 0; p < Lanes<32>::kParts; ++p) r.part[p] =
         _mm256_max_pd(a.part[p], b.part[p]);
+    return r;
+}
+#endif
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+PETRICHOR_INLINE Lanes<64> smaller(const Lanes<64>& a, const Lanes<64>& b)
+{
+    Lanes<64> r;
+    r.part[0] =
+        (Native<64>::Number)_mm512_maskz_min_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
+    return r;
+}
+PETRICHOR_INLINE Lanes<64> larger(const Lanes<64>& a, const Lanes<64>& b)
+{
+    Lanes<64> r;
+    r.part[0] =
+        (Native<64>::Number)_mm512_maskz_max_pd(kAllLanes, (__m512d)a.part[0], (__m512d)b.part[0]);
     return r;
 }
 #endif

@@ -56,7 +56,8 @@ struct SurfacePoint {
     Real q_air;
     Real pressure;
     Real exchange;      // rho * CHn * U, kg m-2 s-1
-    Real richardson_k;  // g zU / (Ta U^2), 1/K
+    Real richardson_k;  // g zU / (Ta U^2), 1/K; g across the surface
+    Real upright;       // 0 of what lies level, 1 of a wall
     Real convection;    // of stability_factor_of
     Wetness wet;
     Real most_vapour;  // kg m-2 s-1 that can leave: the store over the step
@@ -129,7 +130,16 @@ PETRICHOR_INLINE void centre_at_melting_point(SurfaceVapour<Real>& v,
     v.q = specific_humidity_of(select(p.icy, Real(kIceScale_pa), Real(kWaterScale_pa)), p.pressure);
 }
 
-// rho CH U with the stability of a surface temperature.
+// Air sinks along a cold wall and rises along a warm one.
+//   dT  kelvin between air and surface; kg m-2 s-1
+template <class Real>
+PETRICHOR_INLINE Real wall_convection_of(const Real& dt_k)
+{
+    const Real size = larger(larger(dt_k, -dt_k), Real(1e-6));
+    return power_short(size, 1.0 / 3.0) * (kWallConvection_w_m2 / kAirHeatCapacity);
+}
+
+// rho CH U with the stability of a surface temperature, and what a wall adds.
 template <class Real, class Mask, class Wetness>
 PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
                                   const ExchangeParams& params, const Real& surface_c)
@@ -137,7 +147,10 @@ PETRICHOR_INLINE Real exchange_at(const SurfacePoint<Real, Mask, Wetness>& p,
     if (params.stability == Stability::Neutral) return p.exchange;
     Real ri = p.richardson_k * (p.air_c - surface_c);
     if (params.stability == Stability::LouisCapped) ri = smaller(ri, Real(params.max_richardson));
-    return p.exchange * smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
+    const Real level =
+        p.exchange * smaller(stability_factor_of(ri, p.convection), Real(params.max_unstable));
+    if (!any(p.upright > 0.0)) return level;
+    return level + p.upright * wall_convection_of(p.air_c - surface_c);
 }
 
 constexpr double kLongestStep_k = 20.0;

@@ -30,12 +30,15 @@ using AdvanceBlock = void (*)(CellBlock& block, const PlaceBlock& place, const S
                               std::size_t count, const CellConstants& k, const StepConstants& s);
 /// The fastest version this machine can run; all versions give the same bits.
 AdvanceBlock fastest_advance_block();
-/// Registers of 16 bytes (any machine) and of 32 bytes (AVX2), for tests.
+/// Registers of 16 bytes (any machine), of 32 bytes (AVX2) and of 64 (AVX-512), for tests.
 void advance_block_16(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
                       const CellConstants&, const StepConstants&);
 void advance_block_32(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
                       const CellConstants&, const StepConstants&);
+void advance_block_64(CellBlock&, const PlaceBlock&, const StepForcing*, std::size_t,
+                      const CellConstants&, const StepConstants&);
 bool machine_has_wide_registers();
+bool machine_has_widest_registers();
 
 /// The place of a station on flat, open ground.
 CellPlace<double> station_place(double sky_view = 1.0, double precip_factor = 1.0);
@@ -56,6 +59,10 @@ double climate_amplitude_k(double latitude_deg);
 YearlyWave yearly_wave(const ForcingTable& table);
 /// Ground as the yearly wave leaves it at a time of the table (at its beginning), dry, no snow.
 CellState initial_cell(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);
+/// Behind the layers of a wall of a house: lining, and the air of the room.
+double behind_wall_m2_k_w(const CellConstants& k);
+/// The wall of a house.
+CellState initial_wall(const ForcingTable& table, const CellConstants& k, std::int64_t at_us);
 CellState initial_cell(const ForcingTable& table, const CellConstants& k);
 
 }  // namespace petrichor::weather::detail
