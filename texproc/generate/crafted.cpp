@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/portable_math.h"
-#include "texproc/generate/detail/material_texels.h"
+#include "texproc/generate/detail/colonies.h"
 
 namespace petrichor::texproc::detail {
 
@@ -141,6 +141,89 @@ void make_plank(MaterialSurface& surface)
     });
 }
 
+// Rust on a sheet: where it is, how old, and what it leaves below itself. Its edge is a crowd of spots that have grown
+// together, old rust is thick, dark and scales off.
+struct RustAt {
+    float cover = 0.0f;    ///< of the metal, 0..1
+    float height_m = 0.0f; ///< it swells
+    float roughness = 0.9f;
+    vec3 color{0.15f, 0.06f, 0.03f};
+};
+
+class Rust {
+public:
+    Rust(const MaterialSurface& surface, std::uint32_t salt)
+        : spots_(surface, 0.013f, salt), specks_(surface, 0.005f, salt + 1u),
+          coarse_(noise_layer(surface, {0.045f, 0.045f, 4, 0.55f, 800u + salt})),
+          grain_(noise_layer(surface, {0.0045f, 0.0045f, 2, 0.7f, 801u + salt})),
+          hue_(noise_layer(surface, {0.075f, 0.075f, 5, 0.6f, 802u + salt})),
+          scale_x_(noise_layer(surface, {0.016f, 0.016f, 3, 0.55f, 803u + salt})),
+          scale_cells_(surface.cells(0.016f)), to_scales_(static_cast<float>(scale_cells_) / surface.tile_m),
+          seed_(hash_u32(surface.seed + 411u * salt))
+    {
+    }
+
+    /// `level` is 0 where rust begins, 1 where it is old; below 0 there are spots, further down a few specks.
+    RustAt at(float x, float y, std::size_t k, float level) const
+    {
+        RustAt rust;
+        const float body = smooth_step(-0.06f, 0.22f, level + 0.10f * coarse_[k] + 0.09f * grain_[k]);
+        const ColonyAt spot = spots_.at(x, y, saturate(0.55f + 0.95f * level));
+        const ColonyAt speck = specks_.at(x, y, saturate(0.34f + 0.62f * level));
+        const float spotted = std::max(smooth_step(-0.05f, 0.55f, spot.inside + 0.42f * grain_[k] + 0.35f * scale_x_[k]),
+                                       0.85f * smooth_step(0.0f, 0.50f, speck.inside + 0.25f * grain_[k]));
+        rust.cover = std::max(body, spotted);
+        if (rust.cover <= 0.0f) return rust;
+        const float old = smooth_step(0.15f, 0.95f, level + 0.30f * hue_[k] + 0.12f * coarse_[k]);
+        // Scales: plates a few millimetres wide that lift at their edges; some have fallen.
+        const CellBorder scale = cell_border((x + 0.006f * scale_x_[k]) * to_scales_, (y - 0.006f * coarse_[k]) * to_scales_,
+                                             scale_cells_, scale_cells_, seed_, 0.95f);
+        const float edge_m = scale.distance / to_scales_;
+        const float fallen = old * (hash_unit(scale.id, 1) < 0.35f ? 1.0f : 0.0f) * smooth_step(0.0f, 0.0012f, edge_m);
+        const float lip = old * (1.0f - smooth_step(0.0f, 0.0022f, edge_m));
+        rust.height_m = rust.cover * (0.00022f + 0.00030f * body + 0.00035f * old + 0.00013f * grain_[k] + 0.00010f * coarse_[k] +
+                                      0.00016f * lip - 0.00034f * fallen);
+        const vec3 kOchre(0.270f, 0.132f, 0.052f), kOrange(0.172f, 0.066f, 0.027f), kRed(0.098f, 0.038f, 0.021f),
+            kDark(0.046f, 0.025f, 0.019f);
+        const float tone = 0.10f + 0.38f * saturate(level) + 0.34f * hue_[k] + 0.24f * grain_[k] + 0.24f * body + 0.14f * hash_signed(spot.id, 5);
+        vec3 color = mix(kOchre, kOrange, smooth_step(-0.15f, 0.30f, tone));
+        color = mix(color, kRed, smooth_step(0.25f, 0.65f, tone));
+        color = mix(color, kDark, 0.9f * smooth_step(0.55f, 1.05f, tone));
+        color = mix(color, kOrange * 1.15f, 0.65f * fallen);
+        color *= (1.0f + 0.16f * grain_[k]) * (1.0f - 0.35f * lip) * (1.0f + 0.14f * hash_signed(scale.id, 2) * old);
+        rust.color = color;
+        rust.roughness = 0.90f - 0.09f * old * (1.0f - fallen) + 0.05f * grain_[k];
+        return rust;
+    }
+
+private:
+    Colonies spots_, specks_;
+    std::vector<float> coarse_, grain_, hue_, scale_x_;
+    int scale_cells_;
+    float to_scales_;
+    std::uint32_t seed_;
+};
+
+// What rain carries down from a source: each texel keeps a share of the one above. Twice round, so that it repeats.
+std::vector<float> run_down(const MaterialSurface& surface, const std::vector<float>& source, const std::vector<float>& streak,
+                            float length_m)
+{
+    const auto n = static_cast<std::size_t>(surface.size);
+    std::vector<float> run(source.size(), 0.0f);
+    for_rows(surface.size, surface.threads, [&](int first, int last) {
+        for (int i = first; i < last; ++i) {
+            float carried = 0.0f;
+            for (std::size_t j = 0; j < 2 * n; ++j) {
+                const std::size_t k = (j % n) * n + static_cast<std::size_t>(i);
+                const float kept = 1.0f - surface.texel_m() / (length_m * std::clamp(1.0f + 1.1f * streak[k], 0.15f, 2.5f));
+                carried = std::max(source[k], carried * std::max(kept, 0.0f));
+                run[k] = carried;
+            }
+        }
+    });
+    return run;
+}
+
 void make_metal_plate(MaterialSurface& surface)
 {
     const float scratched = 2.0f * surface.value("scratches");
@@ -150,10 +233,20 @@ void make_metal_plate(MaterialSurface& surface)
     const auto warp_y = noise_layer(surface, {0.030f, 0.030f, 4, 0.6f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
     const auto dull = noise_layer(surface, {0.20f, 0.20f, 5, 0.55f, 5});
-    const auto run = noise_layer(surface, {0.020f, 0.40f, 4, 0.6f, 7});
+    const auto run = noise_layer(surface, {0.014f, 0.40f, 4, 0.6f, 7});
     const auto scratches = scratch_layer(surface, static_cast<int>(110.0f * scratched), 0.24f, 6);
     const float spangle_m = surface.value("spangle_m");
     const std::uint32_t seed = hash_u32(surface.seed + 21u);
+    const Rust rust(surface, 3);
+    // Where the zinc is gone, and the stain that rain washes down from there.
+    std::vector<float> level(dull.size()), stain(dull.size());
+    for (std::size_t k = 0; k < level.size(); ++k)
+        level[k] = rusty > 0.0f ? 0.62f * dull[k] + 0.16f * run[k] + 0.14f * warp_x[k] + 2.1f * rusty - 1.30f : -2.0f;
+    if (rusty > 0.0f) {
+        for (std::size_t k = 0; k < level.size(); ++k) stain[k] = smooth_step(-0.25f, 0.25f, level[k]);
+        stain = run_down(surface, stain, run, 0.16f);
+        stain = box_blur(stain, surface.size, static_cast<int>(0.0015f / surface.texel_m()), surface.threads);
+    }
     // Large crystals first, small ones where those left room.
     struct Grid {
         int cells;
@@ -167,7 +260,7 @@ void make_metal_plate(MaterialSurface& surface)
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         // Spangle: zinc crystals grow from a seed in arms, each reflecting a little differently.
         const auto crystal_at = [&](const Grid& g, std::uint32_t salt) {
-            const float wander = 0.22f * spangle_m;
+            const float wander = 0.16f * spangle_m;
             return cell_noise((x + wander * warp_x[k]) * g.to_cells, (y + wander * warp_y[k]) * g.to_cells,
                               g.cells, g.cells, seed + salt);
         };
@@ -181,57 +274,82 @@ void make_metal_plate(MaterialSurface& surface)
         const float angle = 6.2831853f * hash_unit(crystal.id, 2);
         const float along = crystal.dx * portable_cos(angle) + crystal.dy * portable_sin(angle);
         const float across = crystal.dy * portable_cos(angle) - crystal.dx * portable_sin(angle);
-        // Arms of a fir branch: ribs that lean away from two axes.
-        const float rib = portable_sin(58.0f * (std::abs(along) + 0.8f * std::abs(across)) + 2.0f * warp_x[k]);
-        const float feather = rib * smooth_step(0.02f, 0.25f, crystal.second - crystal.nearest);
+        // Arms of a fir branch: ribs that lean away from its axis, finer in some crystals, unseen in others.
+        const float rib = portable_sin(mix(38.0f, 75.0f, hash_unit(crystal.id, 7)) * (along + 0.75f * std::abs(across)) + 1.5f * warp_x[k]);
+        const float feather = rib * smooth_step(0.02f, 0.25f, crystal.second - crystal.nearest) * smooth_step(0.35f, 0.9f, hash_unit(crystal.id, 8));
         const float border = 1.0f - smooth_step(0.01f, 0.07f, crystal.second - crystal.nearest);
-        const float white_rust = smooth_step(0.50f, 1.0f, dull[k] + 0.05f * fine[k]);
-        // Red rust comes through from below in spots that run down.
-        const float spot = dull[k] + 0.55f * warp_x[k] + 0.30f * run[k] + 0.18f * fine[k];
-        const float red = rusty > 0.0f ? smooth_step(1.15f - 1.9f * rusty, 1.45f - 1.9f * rusty, spot) : 0.0f;
-        const float stain = rusty > 0.0f ? smooth_step(1.0f - 1.6f * rusty, 1.9f - 1.6f * rusty,
-                                                       dull[k] + 0.7f * run[k]) : 0.0f;
+        // Zinc goes dull and chalky with the years, in clouds; below its bloom the crystals fade.
+        const float aged = smooth_step(-0.5f, 0.9f, dull[k] + 0.25f * run[k] + 0.5f * rusty);
+        const float white_rust = smooth_step(0.45f, 1.05f, dull[k] + 0.16f * warp_y[k] + 0.12f * fine[k]) * (0.6f + 0.4f * smooth_step(-0.2f, 0.6f, fine[k] + warp_x[k]));
+        const float shown = 1.0f - 0.55f * aged;
         MaterialTexel texel;
         // Each crystal is a facet: a degree or so out of the sheet's plane.
         const float tilt = 0.010f * size_m * (along * hash_signed(crystal.id, 5) + across * hash_signed(crystal.id, 6));
-        texel.height_m = 0.00050f * waves[k] + tilt - 0.00001f * border + 0.000004f * feather +
-                         0.000006f * fine[k] - 0.00012f * scratches[k] + 0.00003f * white_rust +
-                         red * (0.00025f + 0.00022f * fine[k]);
-        vec3 color = vec3(0.545f, 0.560f, 0.575f) * (1.0f + 0.17f * tone + 0.05f * feather - 0.08f * border);
-        color *= 1.0f - 0.14f * smooth_step(-0.2f, 0.9f, dull[k]);
-        color = mix(color, vec3(0.70f, 0.71f, 0.72f), 0.75f * saturate(4.0f * scratches[k]));
-        color = mix(color, vec3(0.47f, 0.47f, 0.46f), 0.6f * white_rust);
-        color = mix(color, vec3(0.26f, 0.15f, 0.085f), 0.45f * stain);
-        color = mix(color, mix(vec3(0.085f, 0.030f, 0.016f), vec3(0.250f, 0.105f, 0.038f),
-                               saturate(0.45f + 0.35f * fine[k] + 0.35f * warp_y[k] + 0.25f * dull[k])), red);
+        texel.height_m = 0.00050f * waves[k] + tilt * shown - 0.00001f * border + 0.000004f * feather +
+                         0.000006f * fine[k] - 0.00012f * scratches[k] + 0.00003f * white_rust;
+        vec3 color = vec3(0.530f, 0.540f, 0.548f) * (1.0f + shown * (0.13f * tone + 0.045f * feather - 0.06f * border));
+        color *= 1.0f - 0.16f * aged + 0.02f * fine[k];
+        color = mix(color, vec3(0.68f, 0.69f, 0.70f), 0.75f * saturate(4.0f * scratches[k]));
+        color = mix(color, vec3(0.50f, 0.50f, 0.485f) * (1.0f + 0.06f * fine[k]), 0.65f * white_rust);
+        texel.metallic = (1.0f - 0.20f * aged) * (1.0f - 0.60f * white_rust);
+        texel.roughness = 0.34f + 0.08f * shown * tone + 0.03f * feather + 0.05f * border + 0.14f * aged +
+                          0.22f * white_rust - 0.22f * scratches[k] + 0.03f * fine[k];
+        if (rusty > 0.0f) {
+            const float washed = 0.85f * stain[k] * (0.6f + 0.4f * smooth_step(-0.6f, 0.6f, run[k]));
+            color = mix(color, vec3(0.235f, 0.128f, 0.066f) * (1.0f + 0.10f * run[k]), 0.80f * washed);
+            texel.metallic *= 1.0f - 0.75f * washed;
+            texel.roughness = mix(texel.roughness, 0.72f, washed);
+            const RustAt red = rust.at(x, y, k, level[k]);
+            // Round every spot the zinc is eaten: a dark, dull halo.
+            color = mix(color, red.color, red.cover);
+            texel.metallic *= 1.0f - red.cover;
+            texel.roughness = mix(texel.roughness, red.roughness, red.cover);
+            texel.height_m += red.height_m;
+        }
         texel.albedo = color;
-        texel.metallic = (1.0f - 0.55f * white_rust) * (1.0f - 0.4f * stain) * (1.0f - red);
-        texel.roughness = mix(0.36f + 0.09f * tone + 0.03f * feather + 0.05f * border +
-                              0.10f * smooth_step(-0.2f, 0.9f, dull[k]) + 0.25f * white_rust -
-                              0.30f * scratches[k] + 0.02f * fine[k] + 0.15f * stain, 0.92f, red);
         return texel;
     });
 }
 
+// Oil paint on a casting: chalked where the sun reaches it, blistered and chipped where rust lifts it.
 void make_painted_iron(MaterialSurface& surface)
 {
-    const float chipped = 0.16f * (surface.value("wear") - 0.5f);
+    const float chipped = surface.value("wear");
     const auto cast = noise_layer(surface, {0.012f, 0.012f, 3, 0.55f, 1});
     const auto waves = noise_layer(surface, {0.13f, 0.13f, 4, 0.45f, 2});
-    const auto wear = noise_layer(surface, {0.10f, 0.10f, 6, 0.62f, 3});
+    const auto wear = noise_layer(surface, {0.10f, 0.10f, 4, 0.50f, 3});
     const auto fine = noise_layer(surface, {0.005f, 0.005f, 2, 0.6f, 4});
-    shade_texels(surface, [&](float, float, std::size_t k) {
-        const float chip = smooth_step(0.86f, 0.93f, wear[k] + 0.2f * cast[k] + 4.0f * chipped);
-        const float rust_halo = smooth_step(0.58f, 0.92f, wear[k] + 0.2f * cast[k] + 4.0f * chipped);
+    const auto run = noise_layer(surface, {0.012f, 0.30f, 4, 0.6f, 5});
+    const Colonies chips(surface, 0.040f, 6);
+    const Rust rust(surface, 7);
+    std::vector<float> depth(wear.size()), stain(wear.size());  // how deep in a chip: > 0 where the paint is off
+    shade_texels(surface, [&](float x, float y, std::size_t k) {
+        const ColonyAt chip = chips.at(x, y, saturate(0.7f * chipped * smooth_step(0.2f, 1.2f, wear[k] + 0.7f * chipped)));
+        const float lost = wear[k] + 0.10f * cast[k] - 1.18f + 0.75f * (chipped - 0.5f);
+        depth[k] = std::max(1.6f * lost, chip.inside > -1.0f ? 0.7f * (chip.inside - 0.25f) + 0.34f * cast[k] + 0.30f * wear[k] : -1.0f);
+        stain[k] = smooth_step(0.05f, 0.35f, depth[k]);
+        return MaterialTexel{};
+    });
+    stain = run_down(surface, stain, run, 0.022f);
+    stain = box_blur(stain, surface.size, static_cast<int>(0.0022f / surface.texel_m()), surface.threads);
+    shade_texels(surface, [&](float x, float y, std::size_t k) {
+        const float bare = smooth_step(0.0f, 0.10f, depth[k]);
+        const float lifted = smooth_step(-0.35f, 0.0f, depth[k]) * (1.0f - bare);
+        const float chalk = smooth_step(-0.5f, 0.9f, waves[k] - 0.3f * wear[k]);
         MaterialTexel texel;
-        texel.height_m =
-            0.00022f * cast[k] + 0.0004f * waves[k] - 0.00035f * chip + chip * 0.00015f * fine[k];
-        vec3 color = vec3(0.0165f, 0.0205f, 0.0195f) * (1.0f + 0.2f * waves[k]);
-        color = mix(color, vec3(0.040f, 0.029f, 0.022f), 0.45f * rust_halo);
-        color = mix(color, vec3(0.150f, 0.062f, 0.028f) * (1.0f + 0.35f * fine[k]), chip);
+        texel.height_m = 0.00022f * cast[k] + 0.0004f * waves[k] + 0.00012f * lifted - 0.00030f * bare;
+        vec3 color = vec3(0.0165f, 0.0205f, 0.0195f) * (1.0f + 0.25f * waves[k] + 0.06f * fine[k]);
+        color = mix(color, vec3(0.040f, 0.044f, 0.042f), 0.28f * chalk);
+        color = mix(color, vec3(0.062f, 0.036f, 0.022f), 0.55f * lifted);
+        color = mix(color, vec3(0.100f, 0.052f, 0.027f), 0.38f * stain[k] * (1.0f - bare));
+        texel.roughness = 0.38f + 0.05f * waves[k] + 0.04f * fine[k] + 0.16f * chalk + 0.12f * lifted + 0.14f * stain[k];
+        if (bare > 0.0f) {
+            const RustAt red = rust.at(x, y, k, 0.35f + 0.7f * depth[k]);
+            color = mix(color, red.color, bare);
+            texel.roughness = mix(texel.roughness, red.roughness, bare);
+            texel.height_m += 0.6f * red.height_m * bare;
+        }
         texel.albedo = color;
-        texel.roughness =
-            mix(0.40f + 0.05f * waves[k] + 0.04f * fine[k] + 0.18f * rust_halo, 0.88f, chip);
         texel.metallic = 0.0f;
         return texel;
     });

@@ -82,7 +82,7 @@ void make_soil(MaterialSurface& surface)
     const float trodden = surface.value("trodden");
     const auto clods = [&](float size, float sunk, float share, float flat, std::uint32_t salt) {
         return StoneLayer(surface, {.size_m = size * clod_m,
-                                    .roundness = 0.75f,
+                                    .roundness = 0.45f,
                                     .flatness = flat * (1.0f - 0.75f * trodden),
                                     .spread_m = 0.10f * size * clod_m,
                                     .sunk_m = sunk * clod_m,
@@ -96,32 +96,35 @@ void make_soil(MaterialSurface& surface)
     const StoneLayer grit(surface, {.size_m = 0.008f, .roundness = 0.5f, .flatness = 0.6f, .spread_m = 0.001f,
                                     .sunk_m = 0.0015f, .share = 0.6f * stony, .salt = 6});
     const auto mounds = noise_layer(surface, {0.45f, 0.45f, 4, 0.5f, 61});
-    const auto warp_x = noise_layer(surface, {0.020f, 0.020f, 4, 0.65f, 62});
-    const auto warp_y = noise_layer(surface, {0.020f, 0.020f, 4, 0.65f, 63});
-    const auto crumbs = noise_layer(surface, {0.007f, 0.007f, 3, 0.75f, 64});
+    const auto warp_x = noise_layer(surface, {0.022f, 0.022f, 5, 0.58f, 62});
+    const auto warp_y = noise_layer(surface, {0.022f, 0.022f, 5, 0.58f, 63});
+    const auto crumbs = noise_layer(surface, {0.009f, 0.009f, 4, 0.75f, 64});
     const auto damp = noise_layer(surface, {0.35f, 0.35f, 5, 0.6f, 65});
     const vec3 kDark(0.062f, 0.043f, 0.028f), kLight(0.150f, 0.112f, 0.074f);
     shade_texels(surface, [&](float x, float y, std::size_t k) {
-        const float px = x + 0.0034f * warp_x[k], py = y + 0.0034f * warp_y[k];
+        // Clods have no outline of their own: they crumble into the crumbs about them.
+        const float px = x + 0.0075f * warp_x[k], py = y + 0.0075f * warp_y[k];
         StoneAt clod;
         for (const StoneLayer& layer : layers) {
             const StoneAt here = layer.at(px, py);
             if (here.height_m > clod.height_m) clod = here;
         }
-        const float bed = -0.10f * clod_m + 0.0016f * crumbs[k];
-        // Crumbs bury the feet of the clods.
-        const float soft = 0.004f;
+        clod.height_m += 0.030f * clod_m * warp_y[k] + 0.0012f * crumbs[k];
+        const float bed = -0.07f * clod_m + 0.0026f * crumbs[k] + 0.0020f * warp_x[k];
+        const float soft = 0.14f * clod_m;
         const float above = clod.height_m - bed;
         const float blend = std::max(soft - std::abs(above), 0.0f);
         MaterialTexel texel;
-        texel.height_m = std::max(clod.height_m, bed) + 0.25f * blend * blend / soft + 0.0011f * crumbs[k] +
-                         0.0016f * warp_x[k] + 0.010f * mounds[k];
+        texel.height_m = std::max(clod.height_m, bed) + 0.25f * blend * blend / soft + 0.0012f * crumbs[k] +
+                         0.0010f * warp_x[k] + 0.010f * mounds[k];
         const float lit = smooth_step(-0.6f, 0.9f, 0.8f * crumbs[k] + 0.5f * warp_y[k]);
         vec3 color = mix(kDark, kLight, 0.25f + 0.45f * lit + 0.12f * hash_signed(clod.id, 40) * (above > 0.0f ? 1.0f : 0.0f));
         // What stands up dries first.
         color *= mix(0.70f, 1.10f, smooth_step(-0.12f * clod_m, 0.25f * clod_m, std::max(clod.height_m, bed)));
-        color *= 1.0f - 0.22f * smooth_step(-0.1f, 1.0f, damp[k]);
-        texel.roughness = 0.95f - 0.05f * trodden * smooth_step(-0.4f, 0.6f, mounds[k]);
+        const float moist = smooth_step(-0.3f, 0.9f, damp[k] + 0.2f * crumbs[k] - 0.35f * (above > 0.0f ? 1.0f : 0.0f));
+        color *= 1.0f - 0.42f * moist;
+        color = mix(color, color * vec3(1.10f, 0.98f, 0.84f), smooth_step(0.0f, 0.9f, -damp[k]));
+        texel.roughness = 0.96f - 0.05f * trodden * smooth_step(-0.4f, 0.6f, mounds[k]) - 0.14f * moist;
         for (const StoneLayer* layer : {&grit, &pebbles}) {
             const StoneAt stone = layer->at(px, py);
             const float out = stone.height_m + 0.010f * mounds[k] - texel.height_m;

@@ -14,16 +14,22 @@ void make_concrete(MaterialSurface& surface)
 {
     const float pored = 2.0f * surface.value("pores");
     const float stained = 2.0f * surface.value("stains");
-    const int boards = surface.cells(surface.value("board_m"));
+    const bool boarded = surface.value("board_m") >= 0.03f;
+    const int boards = boarded ? surface.cells(surface.value("board_m")) : 1;
     const int ties = surface.count("ties");
     const float board_m = surface.tile_m / static_cast<float>(boards);
     const auto waves = noise_layer(surface, {0.50f, 0.33f, 4, 0.5f, 1});
     const auto cloud = noise_layer(surface, {0.40f, 0.40f, 6, 0.55f, 2});
     const auto fine = noise_layer(surface, {0.010f, 0.010f, 2, 0.65f, 3});
-    const auto drip = noise_layer(surface, {0.05f, 0.66f, 4, 0.6f, 4});
+    // Rain streaks a wall; on a floor it dries where it stood.
+    const auto drip = boarded ? noise_layer(surface, {0.05f, 0.66f, 4, 0.6f, 4}) : noise_layer(surface, {0.42f, 0.42f, 6, 0.5f, 4});
     const auto fibre = noise_layer(surface, {0.40f, 0.007f, 3, 0.65f, 5});
     const auto bend = noise_layer(surface, {0.50f, 0.10f, 3, 0.5f, 6});
     const auto patch = noise_layer(surface, {0.22f, 0.16f, 4, 0.55f, 7});
+    const auto sand = noise_layer(surface, {0.0048f, 0.0048f, 4, 0.75f, 8});
+    const auto skin = noise_layer(surface, {0.060f, 0.060f, 5, 0.6f, 9});
+    const auto bend_x = noise_layer(surface, {0.30f, 0.30f, 6, 0.46f, 10});
+    const auto bend_y = noise_layer(surface, {0.30f, 0.30f, 6, 0.46f, 11});
     struct Grid {
         int cells;
         float to_cells;
@@ -32,7 +38,7 @@ void make_concrete(MaterialSurface& surface)
         const int cells = surface.cells(size_m);
         return Grid{cells, static_cast<float>(cells) / surface.tile_m};
     };
-    const Grid small = grid(0.011f), large = grid(0.045f);
+    const Grid small = grid(0.011f), large = grid(0.045f), cracks = grid(0.70f);
     const std::uint32_t seed = hash_u32(surface.seed + 51u);
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         // Air that stayed at the mould: round holes, in swarms.
@@ -51,11 +57,11 @@ void make_concrete(MaterialSurface& surface)
         const float board = std::floor(board_y);
         const std::uint32_t h = hash_cell(wrap_index(static_cast<int>(board), boards), 1, seed);
         const float to_seam = board_m * std::min(board_y - board, board + 1.0f - board_y);
-        const float fin = (1.0f - smooth_step(0.0008f, 0.0030f, to_seam)) * smooth_step(-0.7f, 0.4f, patch[k]);
+        const float fin = !boarded ? 0.0f : (1.0f - smooth_step(0.0008f, 0.0030f, to_seam)) * smooth_step(-0.7f, 0.4f, patch[k]);
         float butt_x = x - surface.tile_m * hash_unit(h, 5);
         butt_x -= surface.tile_m * std::round(butt_x / surface.tile_m);
-        const float butt = 1.0f - smooth_step(0.0008f, 0.0025f, std::abs(butt_x));
-        const float grain = fibre[k] * (0.35f + 0.65f * hash_unit(h, 4));
+        const float butt = !boarded ? 0.0f : 1.0f - smooth_step(0.0008f, 0.0025f, std::abs(butt_x));
+        const float grain = !boarded ? 0.0f : fibre[k] * (0.35f + 0.65f * hash_unit(h, 4));
         // Cones of the ties, plugged with mortar a little below the face.
         float cone = 0.0f, rim = 0.0f;
         if (ties > 0) {
@@ -66,20 +72,42 @@ void make_concrete(MaterialSurface& surface)
             cone = 1.0f - smooth_step(0.0120f, 0.0150f, r);
             rim = smooth_step(0.0115f, 0.0140f, r) * (1.0f - smooth_step(0.0140f, 0.0175f, r));
         }
+        // Hair cracks of shrinkage, no wider than a hair, lime and dirt along them.
+        const CellBorder shrunk = cell_border((x + 0.055f * bend_x[k]) * cracks.to_cells, (y + 0.055f * bend_y[k]) * cracks.to_cells,
+                                              cracks.cells, cracks.cells, seed + 9u, 0.95f);
+        const float crack_m = shrunk.distance / cracks.to_cells;
+        const float opened = smooth_step(0.25f, 0.9f, cloud[k] + 0.4f * skin[k]) * std::min(stained, 1.0f);
+        const float crack = opened * (1.0f - smooth_step(0.0002f, 0.0004f + 0.0006f * opened, crack_m));
+        const float beside = opened * (1.0f - smooth_step(0.0f, 0.010f + 0.006f * skin[k], crack_m));
+        // Where the skin of cement is off, the sand below shows.
+        const float bare = smooth_step(0.20f, 1.0f, skin[k] + 0.45f * cloud[k] + (boarded ? -0.1f : 0.25f));
         MaterialTexel texel;
-        texel.height_m = 0.0009f * waves[k] + 0.0005f * hash_signed(h, 1) + 0.00016f * grain + 0.0010f * fin +
+        texel.height_m = 0.0009f * waves[k] + 0.00010f * sand[k] * (0.35f + bare) - 0.00035f * bare * smooth_step(-0.3f, 0.8f, sand[k] + skin[k]) - 0.0012f * crack + 0.0005f * hash_signed(h, 1) + 0.00016f * grain + 0.0010f * fin +
                          0.0006f * butt - 0.0032f * hole + 0.00008f * fine[k] - 0.0060f * cone;
         vec3 color = vec3(0.345f, 0.335f, 0.315f) *
-                     (1.0f + 0.13f * cloud[k] + 0.05f * fine[k] + 0.07f * hash_signed(h, 2) + 0.05f * grain);
+                     (1.0f + 0.13f * cloud[k] + 0.05f * fine[k] + 0.045f * hash_signed(h, 2) + 0.05f * grain + 0.05f * skin[k]);
+        float trowelled = 0.0f;
+        if (!boarded) {
+            // Edges of pools that dried, and the sheen that the trowel left.
+            const float tide = 1.0f - smooth_step(0.0f, 0.05f + 0.03f * skin[k], std::abs(drip[k] - 0.35f));
+            color *= 1.0f - 0.10f * stained * tide * smooth_step(-0.5f, 0.5f, patch[k]);
+            trowelled = smooth_step(-0.4f, 0.9f, cloud[k] - 0.5f * skin[k]);
+            texel.height_m += 0.00025f * patch[k];
+            // Grains of stone where feet have worn the skin.
+            color *= 1.0f + (0.08f + 0.25f * bare) * smooth_step(0.35f, 0.9f, fine[k]) - (0.12f + 0.30f * bare) * smooth_step(0.35f, 0.9f, -fine[k]);
+        }
+        color *= 1.0f + sand[k] * (boarded ? 0.045f + 0.16f * bare : 0.10f + 0.20f * bare);
+        color = mix(color, color * vec3(0.97f, 0.93f, 0.86f), 0.8f * smooth_step(0.0f, 1.0f, skin[k] - cloud[k]));
         // Where the mould sucked water it is darker, at seams that leaked paler.
         color *= 1.0f - 0.16f * smooth_step(0.1f, 1.0f, patch[k] + 0.4f * cloud[k]);
         color = mix(color, vec3(0.150f, 0.142f, 0.126f),
                     std::min(stained * 0.42f * smooth_step(0.1f, 1.1f, drip[k] + 0.5f * cloud[k]), 1.0f));
         color = mix(color, vec3(0.520f, 0.510f, 0.490f),
                     std::min(stained * 0.35f * smooth_step(0.45f, 1.2f, -drip[k] + 0.3f * patch[k]), 1.0f));
-        color *= 1.0f - 0.62f * saturate(hole) - 0.10f * fin - 0.25f * rim - 0.10f * cone;
+        color = mix(color, vec3(0.43f, 0.42f, 0.40f), 0.22f * beside);
+        color *= (1.0f - 0.62f * saturate(hole) - 0.10f * fin - 0.25f * rim - 0.10f * cone) * (1.0f - 0.6f * crack);
         texel.albedo = color;
-        texel.roughness = 0.80f + 0.05f * cloud[k] + 0.10f * saturate(hole) - 0.06f * smooth_step(0.0f, 1.0f, -patch[k]);
+        texel.roughness = 0.74f + 0.05f * cloud[k] + 0.10f * saturate(hole) - 0.10f * smooth_step(0.0f, 1.0f, -patch[k]) + 0.13f * bare + 0.03f * sand[k] - 0.16f * trowelled * (1.0f - bare);
         return texel;
     });
 }
@@ -180,7 +208,7 @@ void make_grass_ground(MaterialSurface& surface)
 std::vector<KindRow> ground_kinds()
 {
     return {{MaterialKind::Concrete, "concrete", "concrete cast against boards: pores, ties, stains", 2.0f,
-             {{"board_m", "m", 0.20f, 0.03f, 4.0f, "width of the boards of its mould"},
+             {{"board_m", "m", 0.20f, 0.0f, 4.0f, "width of the boards of its mould; below 0.03 none: a floor, trowelled"},
               {"pores", "share", 0.5f, 0.0f, 1.0f, "air holes"},
               {"stains", "share", 0.5f, 0.0f, 1.0f, "streaks of rain and lime"},
               {"ties", "count", 2.0f, 0.0f, 8.0f, "cones of the mould's ties, a side of the tile"}},

@@ -24,11 +24,13 @@ void for_rows(int count, int threads, const std::function<void(int, int)>& rows)
 
 namespace {
 
-// Adds one octave to a row. The gradients of a cell are fetched once, when the row enters it.
+// Adds one octave to a row. The gradients of a cell are fetched once, when the row enters it. Each octave lies a part of
+// a cell off the others: gradient noise is 0 on its lattice, and lattices that share points show as lines.
 void add_octave(float* row, int size, float y, int cells_x, int cells_y, float amplitude,
                 std::uint32_t seed)
 {
-    const float position_y = y * static_cast<float>(cells_y) / static_cast<float>(size);
+    const float shift_x = hash_unit(seed, 1), shift_y = hash_unit(seed, 2);
+    const float position_y = y * static_cast<float>(cells_y) / static_cast<float>(size) + shift_y;
     const int y0 = static_cast<int>(position_y);
     const float fy = position_y - static_cast<float>(y0);
     const int top = wrap_index(y0, cells_y);
@@ -41,7 +43,7 @@ void add_octave(float* row, int size, float y, int cells_x, int cells_y, float a
     // Along a row inside a cell the noise is a0 + b0 fx at the left, a1 + b1 (fx - 1) at the right.
     float a0 = 0.0f, b0 = 0.0f, a1 = 0.0f, b1 = 0.0f;
     for (int i = 0; i < size; ++i) {
-        const float position_x = (static_cast<float>(i) + 0.5f) * scale;
+        const float position_x = (static_cast<float>(i) + 0.5f) * scale + shift_x;
         const int x0 = static_cast<int>(position_x);
         if (x0 != cell) {
             cell = x0;

@@ -119,8 +119,10 @@ void make_plaster(MaterialSurface& surface)
     const auto grain = noise_layer(surface, {0.008f, 0.008f, 2, 0.7f, 3});
     const auto stain = noise_layer(surface, {0.60f, 0.80f, 6, 0.55f, 4});
     const auto drip = noise_layer(surface, {0.040f, 0.60f, 4, 0.6f, 5});
-    const auto crack_x = noise_layer(surface, {0.15f, 0.15f, 5, 0.55f, 6});
-    const auto crack_y = noise_layer(surface, {0.15f, 0.15f, 5, 0.55f, 7});
+    const auto crack_x = noise_layer(surface, {0.15f, 0.15f, 5, 0.46f, 6});
+    const auto crack_y = noise_layer(surface, {0.15f, 0.15f, 5, 0.46f, 7});
+    const auto sand = noise_layer(surface, {0.0052f, 0.0052f, 2, 0.8f, 8});
+    const auto blotch = noise_layer(surface, {0.075f, 0.075f, 5, 0.6f, 9});
     const int crack_cells = surface.cells(0.6f);
     const float to_cells = static_cast<float>(crack_cells) / surface.tile_m;
     const vec3 kLime(0.545f, 0.430f, 0.285f);
@@ -143,17 +145,19 @@ void make_plaster(MaterialSurface& surface)
         const float thin = smooth_step(0.75f, 1.25f, waves[k] + 0.35f * crack_x[k]);
 
         MaterialTexel texel;
-        texel.height_m = 0.0016f * waves[k] + 0.0011f * (1.0f - sweep) + 0.00022f * grain[k] -
+        texel.height_m = 0.0016f * waves[k] + 0.0011f * (1.0f - sweep) + 0.00022f * grain[k] + 0.00016f * sand[k] + 0.00030f * blotch[k] -
                          0.0011f * crack - 0.0016f * thin;
         vec3 color = mix(kLime, kPale, smooth_step(-0.8f, 0.8f, waves[k] + 0.5f * crack_y[k]));
         const float streak = stained * smooth_step(0.05f, 0.8f, drip[k] + 0.5f * stain[k]);
         color = mix(color, kDamp, 0.34f * streak);
         color = mix(color, 0.72f * kDamp, stained * 0.42f * smooth_step(0.15f, 0.8f, stain[k]));
-        color *= 1.0f + 0.035f * grain[k] + 0.05f * trowel[k];
+        color *= 1.0f + 0.035f * grain[k] + 0.05f * trowel[k] + 0.035f * sand[k] + 0.045f * blotch[k];
+        // Limewash is thin on what the trowel left high, and gone in flakes.
+        color = mix(color, vec3(0.47f, 0.37f, 0.25f), 0.35f * smooth_step(0.35f, 1.0f, blotch[k] - 0.6f * trowel[k]));
         color = mix(color, vec3(0.42f, 0.38f, 0.33f), 0.7f * thin);
         color = mix(color, vec3(0.10f, 0.08f, 0.06f), 0.75f * crack);
         texel.albedo = color;
-        texel.roughness = 0.90f + 0.03f * grain[k] - 0.05f * streak;
+        texel.roughness = 0.88f + 0.03f * grain[k] + 0.04f * blotch[k] - 0.07f * streak + 0.05f * thin;
         return texel;
     });
 }

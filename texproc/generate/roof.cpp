@@ -1,7 +1,7 @@
 // Roofs: clay tiles, slates, sheet with seams.
 #include <array>
 
-#include "texproc/generate/detail/material_texels.h"
+#include "texproc/generate/detail/colonies.h"
 
 namespace petrichor::texproc::detail {
 
@@ -22,6 +22,9 @@ void make_roof_tile(MaterialSurface& surface)
     const auto rough = noise_layer(surface, {0.020f, 0.020f, 4, 0.6f, 2});
     const auto fine = noise_layer(surface, {0.007f, 0.007f, 2, 0.6f, 3});
     const auto lichen = noise_layer(surface, {0.09f, 0.09f, 4, 0.6f, 4});
+    const auto sand = noise_layer(surface, {0.0035f, 0.0035f, 1, 0.6f, 6});
+    const auto wash = noise_layer(surface, {0.022f, 0.20f, 4, 0.6f, 7});
+    const Lichen crusts(surface, 11);
     const auto stain = noise_layer(surface, {0.36f, 0.72f, 4, 0.55f, 5});
     static const std::array<vec3, 6> kTiles = {
         vec3(0.290f, 0.108f, 0.062f), vec3(0.235f, 0.085f, 0.052f), vec3(0.330f, 0.140f, 0.082f),
@@ -62,20 +65,27 @@ void make_roof_tile(MaterialSurface& surface)
         texel.height_m = 0.013f * std::sqrt(lip * (2.0f - lip)) - 0.0115f * std::min(up, 1.35f) +
                          0.0022f * (1.0f - hit.across * hit.across) + 0.0015f * hash_signed(id, 3) +
                          0.0012f * hash_signed(id, 4) * hit.across + 0.0006f * rough[k] +
-                         0.00018f * fine[k] - 0.005f * gap;
+                         0.00022f * fine[k] + 0.00010f * sand[k] - 0.0010f * smooth_step(0.75f, 1.25f, fine[k] + 0.4f * rough[k]) - 0.005f * gap;
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 5) * 6.0f) % 6u;
         vec3 color = kTiles[pick] * (1.0f + 0.16f * hash_signed(id, 6));
-        color *= 1.0f + 0.13f * rough[k] + 0.07f * fine[k];
-        color = mix(color, 0.42f * color + vec3(0.012f), 0.62f * smooth_step(0.0f, 1.0f, stain[k]));
+        color *= 1.0f + 0.13f * rough[k] + 0.09f * fine[k] + 0.08f * sand[k];
+        // Fired unevenly: a cloud on some, a dark end on others; then soot and algae, most where rain stays.
+        color = mix(color, 0.45f * color + vec3(0.010f), saturate(1.3f * smooth_step(0.1f, 1.0f, hash_signed(id, 7) * hit.across + 0.6f * warp[k] + 0.5f * hash_signed(id, 8))) * 0.55f);
+        const float soiled = smooth_step(-0.5f, 1.0f, stain[k] + 0.35f * wash[k] + 0.35f * hash_signed(id, 9));
+        color = mix(color, 0.38f * color + vec3(0.012f, 0.012f, 0.010f), (0.30f + 0.35f * grown) * soiled);
         color = mix(color, 0.5f * color, smooth_step(0.5f, 1.1f, up) * 0.6f + 0.6f * gap);
-        const float crust = grown * smooth_step(0.55f, 0.95f, lichen[k] + 0.3f * rough[k]);
-        color = mix(color, vec3(0.30f, 0.29f, 0.20f), 0.55f * crust);
-        const float moss =
-            grown * smooth_step(0.35f, 0.9f, stain[k] - 0.5f * lichen[k]) * smooth_step(0.55f, 1.0f, up);
-        color = mix(color, vec3(0.055f, 0.068f, 0.022f), 0.75f * moss);
-        texel.height_m += 0.0008f * crust + 0.002f * moss;
+        // The tail is chipped and paler, where frost took it.
+        color = mix(color, 1.25f * color + vec3(0.02f, 0.010f, 0.006f), 0.6f * (1.0f - smooth_step(0.0f, 0.006f, hit.below + 0.003f * rough[k])));
+        const LichenAt crust = crusts.at(x, y, k, 0.55f * std::min(grown, 1.6f) * (0.35f + 0.65f * smooth_step(1.1f, 0.3f, up)));
+        color = mix(color, crust.color, 0.78f * crust.cover);
+        // Moss fills the laps from above, in pads that thin out downwards.
+        const float green = grown * smooth_step(-0.1f, 0.9f, stain[k] + 0.35f * lichen[k]);
+        const float moss = std::min(smooth_step(0.05f, 0.45f, green * smooth_step(0.50f, 1.05f, up) + 0.16f * rough[k] + 0.14f * fine[k] - 0.05f) *
+                                        smooth_step(0.0f, 0.2f, green), 1.0f);
+        color = mix(color, mix(vec3(0.040f, 0.054f, 0.014f), vec3(0.115f, 0.125f, 0.030f), saturate(0.45f + 0.4f * fine[k] + 0.3f * sand[k])), 0.92f * moss);
+        texel.height_m += crust.thick_m + moss * (0.0032f + 0.0009f * fine[k] + 0.0005f * sand[k]);
         texel.albedo = color;
-        texel.roughness = 0.80f + 0.05f * rough[k] + 0.08f * crust;
+        texel.roughness = mix(0.76f + 0.05f * rough[k] + 0.04f * sand[k] + 0.08f * hash_signed(id, 10) - 0.06f * soiled, 0.93f, std::max(moss, 0.8f * crust.cover));
         return texel;
     });
 }
@@ -138,10 +148,12 @@ void make_slate(MaterialSurface& surface)
     const auto cleft = noise_layer(surface, {0.035f, 0.10f, 4, 0.55f, 3});
     const auto fine = noise_layer(surface, {0.006f, 0.006f, 2, 0.6f, 4});
     const auto lichen = noise_layer(surface, {0.07f, 0.07f, 5, 0.62f, 5});
+    const auto wash = noise_layer(surface, {0.020f, 0.22f, 4, 0.6f, 7});
+    const Lichen crusts(surface, 12);
     const auto stain = noise_layer(surface, {0.36f, 0.72f, 4, 0.55f, 6});
     static const std::array<vec3, 6> kSlates = {
-        vec3(0.092f, 0.100f, 0.114f), vec3(0.118f, 0.124f, 0.134f), vec3(0.075f, 0.080f, 0.092f),
-        vec3(0.100f, 0.090f, 0.098f), vec3(0.098f, 0.110f, 0.106f), vec3(0.136f, 0.136f, 0.138f)};
+        vec3(0.094f, 0.099f, 0.108f), vec3(0.116f, 0.121f, 0.128f), vec3(0.076f, 0.080f, 0.088f),
+        vec3(0.098f, 0.093f, 0.097f), vec3(0.099f, 0.106f, 0.104f), vec3(0.128f, 0.128f, 0.130f)};
     const std::uint32_t seed = surface.seed;
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         struct Hit {
@@ -179,7 +191,8 @@ void make_slate(MaterialSurface& surface)
         const float lip = saturate(hit.below / 0.0022f);
         const float edge = saturate(std::min(hit.below, hit.side) / 0.010f);
         // Split planes: terraces with sharp, ragged steps.
-        const float layers = (riven[k] + 0.5f * cleft[k] + hash_signed(id, 6)) * 1.7f;
+        const float split = mix(0.5f, 1.9f, hash_unit(id, 14));  // some part in one plane, some in many
+        const float layers = (riven[k] + 0.5f * cleft[k] * hash_unit(id, 15) + hash_signed(id, 6)) * split;
         const float step_at = std::floor(layers);
         const float terrace = step_at + smooth_step(0.42f, 0.58f, layers - step_at);
         const float rise = thick_m * 0.16f;
@@ -195,16 +208,19 @@ void make_slate(MaterialSurface& surface)
         color = mix(color, 1.5f * color + vec3(0.015f), 0.45f * (1.0f - edge));
         color = mix(color, 0.55f * color, 0.5f * smooth_step(0.1f, 1.1f, stain[k]));
         color = mix(color, 0.5f * color, smooth_step(0.55f, 1.15f, up) * 0.55f + (depth > 0.0f ? 0.4f : 0.0f));
-        const float crust = std::min(2.0f * grown, 1.0f) * smooth_step(0.62f, 0.92f, lichen[k] + 0.25f * fine[k]);
-        const vec3 crust_color = mix(vec3(0.285f, 0.290f, 0.245f), vec3(0.330f, 0.235f, 0.060f), hash_unit(id, 12) > 0.8f ? 0.8f : 0.0f);
-        color = mix(color, crust_color, 0.62f * crust);
-        const float green = 2.0f * grown * smooth_step(0.30f, 0.95f, stain[k] + 0.3f * lichen[k]) * smooth_step(0.6f, 1.05f, up + 0.15f * warp[k]);
-        const float moss = std::min(green, 1.0f);
-        color = mix(color, vec3(0.050f, 0.064f, 0.018f) * (1.0f + 0.3f * fine[k]), 0.85f * moss);
-        texel.height_m += 0.0006f * crust + moss * (0.0028f + 0.0008f * fine[k]);
+        const float soiled = smooth_step(-0.3f, 1.0f, stain[k] + 0.4f * wash[k]);
+        color = mix(color, vec3(0.060f, 0.058f, 0.050f), 0.40f * soiled);
+        color = mix(color, vec3(0.165f, 0.165f, 0.160f), 0.22f * smooth_step(0.2f, 1.1f, -wash[k] - 0.4f * stain[k]));
+        const LichenAt crust = crusts.at(x, y, k, 0.75f * grown * (0.4f + 0.6f * smooth_step(1.1f, 0.3f, up)));
+        color = mix(color, crust.color, 0.78f * crust.cover);
+        const float green = 2.0f * grown * smooth_step(0.0f, 0.95f, stain[k] + 0.35f * lichen[k]);
+        const float moss = smooth_step(0.05f, 0.45f, green * smooth_step(0.55f, 1.05f, up) + 0.14f * cleft[k] + 0.12f * fine[k] - 0.05f) *
+                           smooth_step(0.0f, 0.2f, green);
+        color = mix(color, mix(vec3(0.038f, 0.052f, 0.014f), vec3(0.105f, 0.115f, 0.028f), saturate(0.45f + 0.5f * fine[k])), 0.92f * moss);
+        texel.height_m += crust.thick_m + moss * (0.0028f + 0.0010f * fine[k]);
         texel.albedo = color;
-        texel.roughness = mix(0.56f + 0.05f * cleft[k] + 0.08f * hash_signed(id, 13) + 0.12f * smooth_step(0.1f, 1.1f, stain[k]),
-                              0.92f, std::max(moss, 0.8f * crust));
+        texel.roughness = mix(0.56f + 0.05f * cleft[k] + 0.08f * hash_signed(id, 13) + 0.14f * soiled,
+                              0.92f, std::max(moss, 0.8f * crust.cover));
         return texel;
     });
 }

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/portable_math.h"
-#include "texproc/generate/detail/material_texels.h"
+#include "texproc/generate/detail/colonies.h"
 
 namespace petrichor::texproc::detail {
 
@@ -154,9 +154,14 @@ void make_paving(MaterialSurface& surface)
                           surface.seed);
     const auto warp = noise_layer(surface, {0.10f, 0.10f, 4, 0.5f, 1});
     const auto riven = noise_layer(surface, {0.22f, 0.34f, 5, 0.5f, 2});
-    const auto fine = noise_layer(surface, {0.010f, 0.010f, 2, 0.6f, 3});
+    const auto fine = noise_layer(surface, {0.012f, 0.012f, 3, 0.7f, 3});
     const auto stain = noise_layer(surface, {0.55f, 0.55f, 5, 0.55f, 4});
     const auto grit = noise_layer(surface, {0.02f, 0.02f, 3, 0.7f, 5});
+    const auto bands = noise_layer(surface, {0.30f, 0.12f, 4, 0.5f, 6});
+    const auto pits = noise_layer(surface, {0.026f, 0.026f, 3, 0.6f, 7});
+    const auto chips = noise_layer(surface, {0.035f, 0.035f, 3, 0.6f, 8});
+    const Colonies gum(surface, 0.21f, 3);
+    const Lichen crusts(surface, 13);
 
     static const std::array<vec3, 5> kStones = {
         vec3(0.235f, 0.214f, 0.180f), vec3(0.200f, 0.192f, 0.176f), vec3(0.255f, 0.226f, 0.178f),
@@ -170,8 +175,10 @@ void make_paving(MaterialSurface& surface)
         const CourseStone stone = courses.find(px, py);
         const std::uint32_t id = stone.id;
         const Sides sides = sides_of(stone, px, py, joint_m);
-        const float d = rounded_inside(sides.x, sides.y, mix(0.006f, 0.022f, hash_unit(id, 5))) +
-                        0.0012f * std::max(warp[k] - 0.3f, 0.0f) * -4.0f;
+        const float whole = rounded_inside(sides.x, sides.y, mix(0.006f, 0.022f, hash_unit(id, 5)));
+        // Edges are hewn, corners knocked off here and there.
+        const float d = whole - 0.0022f * std::max(chips[k] - 0.15f, 0.0f) * irregular -
+                        worn * 0.010f * smooth_step(0.55f, 1.1f, chips[k]) * (1.0f - smooth_step(0.0f, 0.02f, std::min(sides.x, sides.y)));
 
         // Sandstone splits along its bedding: shallow terraces with soft steps.
         const float layers = (riven[k] + 0.4f * hash_signed(id, 6)) * 2.6f;
@@ -185,7 +192,7 @@ void make_paving(MaterialSurface& surface)
             0.0085f * round + 0.00065f * mix(terrace, layers, 0.45f) - 0.0009f * wear +
             0.0012f * hash_signed(id, 7) +
             0.0011f * (hash_signed(id, 8) * sides.across + hash_signed(id, 9) * sides.along) +
-            0.00012f * fine[k];
+            0.00020f * fine[k] - 0.0007f * smooth_step(0.55f, 1.15f, pits[k] + 0.25f * fine[k]);
         const float green = std::min(mossy * smooth_step(0.25f, 0.8f, stain[k] + 0.2f * grit[k]), 1.0f);
         const float sand = 0.0016f + 0.0006f * grit[k] + 0.0016f * green;
         const float is_stone = smooth_step(-0.0004f, 0.0010f, top - sand);
@@ -193,14 +200,32 @@ void make_paving(MaterialSurface& surface)
         MaterialTexel texel;
         texel.height_m = std::max(top, sand);
         const std::size_t pick = static_cast<std::size_t>(hash_unit(id, 10) * 5.0f) % 5u;
-        vec3 color = kStones[pick] * (1.0f + 0.10f * hash_signed(id, 11));
-        color *= 1.0f + 0.055f * terrace * 0.5f + 0.06f * fine[k] + 0.07f * warp[k];
-        color = mix(color, color * vec3(0.66f, 0.65f, 0.64f), smooth_step(0.1f, 1.0f, -stain[k]));
+        vec3 color = kStones[pick] * (1.0f + 0.12f * hash_signed(id, 11));
+        // Iron in the bedding: rusty bands through some slabs.
+        const float band = 0.5f + 0.5f * portable_sin(9.0f * (bands[k] + hash_signed(id, 13)) + 3.0f * hash_signed(id, 14));
+        const float iron = smooth_step(0.45f, 0.9f, hash_unit(id, 15)) * smooth_step(0.35f, 0.95f, band);
+        color = mix(color, color * vec3(1.08f, 0.86f, 0.66f), 0.75f * iron);
+        color *= 1.0f + 0.055f * terrace * 0.5f + 0.10f * fine[k] + 0.06f * warp[k] + 0.05f * pits[k];
+        if (hash_unit(id, 16) < 0.5f)  // grains of quartz and mica
+            color *= 1.0f + 0.16f * smooth_step(0.5f, 1.0f, fine[k]) - 0.20f * smooth_step(0.55f, 1.1f, -fine[k]);
+        const float pit = smooth_step(0.55f, 1.15f, pits[k] + 0.25f * fine[k]);
+        color *= 1.0f - 0.22f * pit;
+        // Dirt lies in hollows and creeps in from the joints; what feet cross stays clean.
+        const float soiled = smooth_step(-0.1f, 1.0f, -stain[k] + 0.15f * fine[k] - 0.5f * wear);
+        color = mix(color, color * vec3(0.60f, 0.58f, 0.55f), soiled);
+        const float creep = 1.0f - smooth_step(0.0f, 0.055f, std::min(sides.x, sides.y) + 0.020f * warp[k]);
+        color = mix(color, kDirt * 1.3f, 0.42f * creep * smooth_step(-0.7f, 0.6f, stain[k] + 0.5f * chips[k]));
+        color = mix(color, kMoss * 1.2f, 0.30f * creep * green);
         color = mix(color, kDirt, 0.6f * (1.0f - round));
+        const ColonyAt trodden = gum.at(x, y, 0.30f * worn);  // what people drop
+        const float blot = trodden.radius_m < 0.022f + 0.012f * warp[k] ? smooth_step(0.0f, 0.25f, trodden.inside + 0.2f * pits[k]) : 0.0f;
+        color = mix(color, 0.55f * color, 0.65f * blot);
+        const LichenAt crust = crusts.at(x, y, k, 0.22f * mossy);
+        color = mix(color, crust.color, 0.55f * crust.cover * round);
         const vec3 joint = mix(kDirt * (1.0f + 0.3f * grit[k]), kMoss, 0.85f * green);
         texel.albedo = mix(joint, color, is_stone);
         texel.roughness = mix(
-            0.95f, 0.74f - 0.10f * wear + 0.05f * fine[k] + 0.05f * hash_signed(id, 12), is_stone);
+            0.95f, 0.76f - 0.14f * wear + 0.06f * fine[k] + 0.06f * hash_signed(id, 12) + 0.07f * soiled + 0.08f * pit - 0.10f * blot, is_stone);
         return texel;
     });
 }
