@@ -71,9 +71,10 @@ void read(std::string_view text, RowCollector& rows, const ReadOptions& options)
             double flat = direct;
             if (units == 1.0) {
                 rows.set(Field::Direct, direct);
-                flat = std::isnan(latitude) || std::isnan(longitude)
-                           ? kMissing
-                           : direct * std::max(0.0, sun_direction(us, latitude, longitude).up);
+                // Where no place on Earth is meant, the sun is not asked: the reading ends with that error.
+                const bool placed = std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
+                flat = placed ? direct * std::max(0.0, sun_direction(us, latitude, longitude).up)
+                              : kMissing;
             }
             rows.set(Field::Diffuse, diffuse);
             if (!std::isnan(flat)) rows.set(Field::Shortwave, flat + diffuse);
