@@ -88,8 +88,8 @@ TEST_P(Material, HasNoSeam)
 {
     const MaterialMaps maps = generate_material(GetParam().kind, kSize, 3, 2);
     for (const auto& [name, image] : images_of(maps)) {
-        EXPECT_LE(seam_excess(*image, true), 2e-3) << name << ", left to right";
-        EXPECT_LE(seam_excess(*image, false), 2e-3) << name << ", top to bottom";
+        EXPECT_LE(seam_excess(*image, true), 1e-3) << name << ", left to right";
+        EXPECT_LE(seam_excess(*image, false), 1e-3) << name << ", top to bottom";
     }
 }
 

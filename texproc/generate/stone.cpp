@@ -78,9 +78,11 @@ void make_cobble(MaterialSurface& surface)
     const vec3 kDirt(0.060f, 0.050f, 0.039f);
     const vec3 kMoss(0.052f, 0.070f, 0.018f);
 
+    // The edge of the tile runs through stones, not along a joint of theirs, the steepest line there is.
+    const float half_course_m = 0.5f * surface.tile_m / static_cast<float>(surface.cells(surface.value("stone_width_m")));
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         const float px = x + 0.010f * warp_x[k] + 0.0022f * bumps[k];
-        const float py = y + 0.014f * warp_y[k] - 0.0022f * bumps[k];
+        const float py = y + half_course_m + 0.014f * warp_y[k] - 0.0022f * bumps[k];
         const CourseStone stone = courses.find(px, py);
         const std::uint32_t id = stone.id;
         const Sides sides = sides_of(stone, px, py, joint_m);
