@@ -39,11 +39,12 @@ SHARED_FN vec3 sky_axis(int i)
     return i < 2 ? vec3(side, 0.0f, 0.0f) : i < 4 ? vec3(0.0f, side, 0.0f) : vec3(0.0f, 0.0f, side);
 }
 
-// Share of an axis in the direction n, unit; those of all axes add up to 1.
-SHARED_FN float sky_axis_share(int i, vec3 n)
+// What axes say in the direction n, unit: of each pair the one on its side, by the square of what n has of it.
+SHARED_FN vec3 over_sky_axes(vec3 n, vec3 px, vec3 mx, vec3 py, vec3 my, vec3 pz, vec3 mz)
 {
-    const float along = max(dot(n, sky_axis(i)), 0.0f);
-    return along * along;
+    const vec3 squared = n * n;
+    return (n.x > 0.0f ? px : mx) * squared.x + (n.y > 0.0f ? py : my) * squared.y +
+           (n.z > 0.0f ? pz : mz) * squared.z;
 }
 
 SHARED_END

@@ -97,11 +97,8 @@ vec3 sky_irradiance(vec3 n)
 {
     vec3 e = vec3(0.0);  // divided by pi: what a white Lambert surface sends out
     for (int i = 0; i < kHarmonics; ++i) e += sky_light.harmonics[i].xyz * harmonic(i, n);
-    // One axis of each pair, by its side.
-    const vec3 squared = n * n;
-    e += (n.x > 0.0 ? sky_light.missed[0].xyz : sky_light.missed[1].xyz) * squared.x +
-         (n.y > 0.0 ? sky_light.missed[2].xyz : sky_light.missed[3].xyz) * squared.y +
-         (n.z > 0.0 ? sky_light.missed[4].xyz : sky_light.missed[5].xyz) * squared.z;
+    e += over_sky_axes(n, sky_light.missed[0].xyz, sky_light.missed[1].xyz, sky_light.missed[2].xyz,
+                       sky_light.missed[3].xyz, sky_light.missed[4].xyz, sky_light.missed[5].xyz);
     return max(e, vec3(0.0));
 }
 
