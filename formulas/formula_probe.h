@@ -20,6 +20,7 @@
 #include "formulas/light/light_map.h"
 #include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
+#include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
@@ -39,7 +40,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 46;
+SHARED_CONST int kProbeKinds = 48;
 
 SHARED_FN float probe_light_map(vec4 a, vec4 b)
 {
@@ -370,6 +371,15 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const LensDrop drop = lens_drops(vec2(a.x, a.y) - vec2(0.5f), a.z, 30.0f * a.w);
         const float inside = step(0.999f, drop.cover);
         return vec4(drop.shift.x * inside, drop.shift.y * inside, drop.bright * inside, inside);
+    }
+    if (kind == 46) {
+        const int texel = int(min(a.x * 256.0f, 255.0f));
+        return visibility_subsample(texel, int(min(a.y * 16.0f, 15.0f)));
+    }
+    if (kind == 47) {
+        const vec3 sum = over_sky_axes(probe_direction(a.x, a.y), vec3(a.z), vec3(a.w), vec3(b.x), vec3(b.y),
+                                       vec3(b.z), vec3(b.w));
+        return vec4(sum.x, sky_axis(int(min(c.x * 6.0f, 5.0f))));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);
