@@ -84,7 +84,8 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
     recipe.kind = texproc::MaterialKind::Asphalt;
     recipe.size = kTexels;
     recipe.seed = 11;
-    recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.009f}, {"wear", 0.7f}, {"cracks", 0.0f}};
+    recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.009f}, {"wear", 0.7f}, {"cracks", 0.0f},
+                     {"stains", 0.0f}};
     recipe.color = kColor;
     const texproc::MaterialMaps maps = texproc::generate_material(recipe);
     material.base_color_texture.texture = add_texture(scene, "colour of the ground", maps.albedo);
@@ -93,6 +94,16 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
         add_texture(scene, "gloss of the ground", packed(maps));
     material.occlusion_texture.texture = material.metallic_roughness_texture.texture;
     return maps.tile_m;
+}
+
+// Where on the square of asphalt a point lies: shifted by up to two squares from place to place, so that no
+// lattice of squares is seen. No stretch is above one part in six.
+vec2 place_on_square(const vec2& at, float tile_m)
+{
+    const auto shift = [&](std::uint32_t salt) {
+        return 2.0f * shared::tileable_noise(at / (24.0f * tile_m) + 11.3f, 1024, salt);
+    };
+    return at / tile_m + vec2(shift(521), shift(522));
 }
 
 // Stains of all sizes that vertices can carry: on ground of one grain a wide view would be flat.
@@ -167,7 +178,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& content)
         disc.normals.emplace_back(0.0f, 1.0f, 0.0f);
         disc.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
         // v runs towards +z below: the bitangent of +x and +y up is -z.
-        disc.uv0.push_back(vec2(offset.x, offset.y) / tile_m);
+        disc.uv0.push_back(place_on_square(offset, tile_m));
         disc.colors.emplace_back(vec3(stains(offset, around)), 1.0f);
     };
     add(vec2(0.0f));

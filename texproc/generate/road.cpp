@@ -83,6 +83,7 @@ void make_asphalt(MaterialSurface& surface)
     const float wear = surface.value("wear");
     const float cracked = surface.value("cracks");
     const float line_m = surface.value("marking_m");
+    const float stained = surface.value("stains");
     const float tile_m = surface.tile_m;
     const std::uint32_t seed = hash_u32(surface.seed + 41u);
 
@@ -212,9 +213,9 @@ void make_asphalt(MaterialSurface& surface)
                            0.35f * wear * lost;
         color = mix(color, vec3(0.128f, 0.113f, 0.094f), saturate(dust * (1.0f - 0.7f * fresh)));
         color *= 1.0f + 0.07f * zone[k] + 0.05f * tint[k];
-        const float film = smooth_step(0.6f, 1.3f, oil[k]);
+        const float film = stained * smooth_step(0.6f, 1.3f, oil[k]);
         const ColonyAt drop = drops.at(x, y, 0.22f * wear);
-        const float spot = smooth_step(-0.05f, 0.55f, drop.inside + 0.25f * tint[k] + 0.1f * bitumen[k]) * (1.0f - fill);
+        const float spot = stained * smooth_step(-0.05f, 0.55f, drop.inside + 0.25f * tint[k] + 0.1f * bitumen[k]) * (1.0f - fill);
         color *= (1.0f - 0.28f * film) * (1.0f - 0.42f * spot);
         float rough = mix(0.90f, 0.72f, bare) + 0.05f * bitumen[k] + 0.05f * hash_signed(stone.id, 50) - 0.16f * fresh * (1.0f - bare) -
                       0.13f * film - 0.20f * spot + 0.05f * dust;
@@ -250,7 +251,8 @@ std::vector<KindRow> road_kinds()
               {"wear", "share", 0.5f, 0.0f, 1.0f, "bare stones, bleached bitumen, worn paint"},
               {"cracks", "share", 0.35f, 0.0f, 1.0f, "long cracks, then a net of scales"},
               {"patches", "count", 0.0f, 0.0f, 12.0f, "places dug up and filled, trenches, asphalt thrown on"},
-              {"marking_m", "m", 0.0f, 0.0f, 1.0f, "width of a painted line along v; 0 none"}},
+              {"marking_m", "m", 0.0f, 0.0f, 1.0f, "width of a painted line along v; 0 none"},
+              {"stains", "share", 1.0f, 0.0f, 1.0f, "drops and film of oil"}},
              make_asphalt}};
 }
 
