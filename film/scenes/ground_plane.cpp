@@ -24,7 +24,7 @@ constexpr int kTexels = 1024;      // a side, of the asphalt
 constexpr int kSegments = 128;
 constexpr float kNextRing = 1.09f;  // the radius of a ring of vertices over that of the one inside
 constexpr float kInnerRing = 0.06f, kFineRings = 40.0f, kOutermostRing = 300.0f;  // times the scene's size
-const vec3 kColor(0.235f, 0.228f, 0.218f);
+const vec3 kColor(0.222f, 0.224f, 0.226f);
 
 // Marks the cells that a triangle covers when seen from above.
 void mark(std::vector<bool>& cells, const std::array<vec2, 3>& t)
@@ -76,6 +76,51 @@ Image packed(const texproc::MaterialMaps& maps)
     return image;
 }
 
+// Mean of a square of 2 * half + 1 texels around each, over the edges of the tile.
+std::vector<float> blurred(const std::vector<float>& pixels, int size, int channels, int half)
+{
+    const auto at = [&](int i) { return (i % size + size) % size; };
+    const float share = 1.0f / static_cast<float>(2 * half + 1);
+    std::vector<float> from = pixels, to(pixels.size());
+    for (const bool down : {false, true}) {
+        const auto texel = [&](int line, int i, int c) -> std::size_t {
+            const int x = down ? line : at(i), y = down ? at(i) : line;
+            return (static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                    static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels) +
+                   static_cast<std::size_t>(c);
+        };
+        for (int line = 0; line < size; ++line) {
+            for (int c = 0; c < channels; ++c) {
+                double sum = 0.0;
+                for (int i = -half; i <= half; ++i) sum += static_cast<double>(from[texel(line, i, c)]);
+                for (int i = 0; i < size; ++i) {
+                    to[texel(line, i, c)] = static_cast<float>(sum) * share;
+                    sum += static_cast<double>(from[texel(line, i + half + 1, c)]) -
+                           static_cast<double>(from[texel(line, i - half, c)]);
+                }
+            }
+        }
+        std::swap(from, to);
+    }
+    return from;
+}
+
+// Takes out what is wider than an eighth of the tile: where the tile is small in the picture that would be
+// a lattice.
+void level(Image& image)
+{
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const std::vector<float> wide =
+        blurred(blurred(image.pixels, image.width, image.channels, image.width / 16), image.width,
+                image.channels, image.width / 16);
+    std::vector<double> mean(channels);
+    for (std::size_t k = 0; k < wide.size(); ++k)
+        mean[k % channels] += static_cast<double>(wide[k]) *
+                              (static_cast<double>(channels) / static_cast<double>(wide.size()));
+    for (std::size_t k = 0; k < wide.size(); ++k)
+        image.pixels[k] *= static_cast<float>(mean[k % channels]) / std::max(wide[k], 1e-4f);
+}
+
 // Asphalt of some years, bleached: grey enough to show what stands on it and its shadow. Returns the
 // edge of its square.
 float lay_asphalt(scene::Scene& scene, scene::Material& material)
@@ -87,7 +132,9 @@ float lay_asphalt(scene::Scene& scene, scene::Material& material)
     recipe.values = {{"tile_m", 1.6f}, {"stone_m", 0.009f}, {"wear", 0.7f}, {"cracks", 0.0f},
                      {"stains", 0.0f}};
     recipe.color = kColor;
-    const texproc::MaterialMaps maps = texproc::generate_material(recipe);
+    texproc::MaterialMaps maps = texproc::generate_material(recipe);
+    level(maps.albedo);
+    level(maps.roughness);
     material.base_color_texture.texture = add_texture(scene, "colour of the ground", maps.albedo);
     material.normal_texture.texture = add_texture(scene, "relief of the ground", maps.normal);
     material.metallic_roughness_texture.texture =
