@@ -11,6 +11,7 @@
 #include "formulas/light/area.h"
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/clouds.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
@@ -40,7 +41,15 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 48;
+SHARED_CONST int kProbeKinds = 50;
+
+// A table for air_radiance.inc, about as dim as that of a clear sky.
+SHARED_FN vec4 again_entry(int index)
+{
+    return -vec4(3.0f, 2.5f, 2.0f, 1.5f) - vec4(0.1f * float((index * 7) % 13));
+}
+
+#include "formulas/light/air_radiance.inc"
 
 SHARED_FN float probe_light_map(vec4 a, vec4 b)
 {
@@ -389,6 +398,16 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         // Inside a bead; its rim is a step of the whole cover where the last bit decides.
         const float inside = step(0.999f, beads.cover);
         return vec4(up.x * inside, up.y * inside, beads.wiped, bead_seen(0.005f, 0.003f * b.w) + beading_share(c.y, c.z));
+    }
+    if (kind == 49) {
+        const vec2 bend = cloud_bend(20.0f * vec2(a.x, a.y));
+        return vec4(cloud_field(20.0f * vec2(b.x, b.y), 0.5f * a.z, 1 + int(min(a.w * 7.0f, 6.0f))),
+                    cloud_threshold(b.z), bend.x, bend.y);
+    }
+    if (kind == 48) {
+        const int row = int(min(a.z * float(kAgainHeights), float(kAgainHeights - 1)));
+        return scattered_again(70000.0f * a.x * a.x, 1.4f * a.y - 0.4f) +
+               vec4(again_height(row) / kAgainTop, again_sun_up(row), 0.0f, 0.0f);
     }
     const vec3 r = air_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(1.0f), 1.5f + 8.0f * a.w);
     return vec4(r.x, r.y, r.z, 0.0f);

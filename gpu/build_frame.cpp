@@ -96,7 +96,7 @@ bool add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
             return true;
         }
     } else {
-        shared::SkyParams params = sky_params(frame);
+        shared::SkyParams params = sky_params(frame, sky);
         // Without clouds, time and wind change nothing.
         if (params.cloud_cover <= 0.0f) {
             params.time_s = 0.0f;

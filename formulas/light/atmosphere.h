@@ -1,9 +1,13 @@
-// Clear air: single scattering by molecules and haze, absorption by ozone.
+// Clear air: scattering by molecules and haze, absorption by ozone, in four narrow bands of light.
 //
-// One text for C++ and GLSL. Coefficients per metre at sea level, scale heights and the tent of
-// ozone between 10 and 40 km are those of Hillaire 2020 (molecules after Bucholtz 1995, heights
-// after Bruneton and Neyret 2008); ozone at two fifths of its strength: light scattered more than
-// once, which would fill the green it takes, is only sketched here.
+// One text for C++ and GLSL. Bands at 630, 560, 490 and 430 nm: three at the primaries of sRGB miss the red
+// that ozone takes, and twilight comes out purple. air_rgb() makes linear sRGB of them, in which the sun above
+// the air is white; its matrix is the least-squares fit to 252 spectra of sun and sky (paths through 0 to 30
+// airs and 0 to 20 ozone layers; CIE 1931 after Wyman et al. 2013), RMS 2 % of luminance, where bands at 680, 550
+// and 440 nm taken as they are have 24 % in red.
+//
+//   source   molecules Bucholtz 1995, 1.24062e-6 / um^4; ozone as a tent from 10 to 40 km (Bruneton and Neyret
+//            2008) of the strength in Hillaire 2020, by the cross-sections of Bogumil et al. 2003
 #ifndef PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 #define PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 
@@ -13,6 +17,14 @@ SHARED_BEGIN
 
 SHARED_CONST float kEarthRadius = 6360000.0f;
 SHARED_CONST float kAirHeight = 80000.0f;
+
+// Linear sRGB of light in the four bands, each as a share of what the sun sends above the air.
+SHARED_FN vec3 air_rgb(vec4 bands)
+{
+    return vec3(dot(bands, vec4(0.8269f, 0.4895f, -0.4148f, 0.0984f)),
+                dot(bands, vec4(-0.0325f, 0.7671f, 0.3616f, -0.0962f)),
+                dot(bands, vec4(-0.0165f, -0.1701f, 0.5848f, 0.6018f)));
+}
 
 // Distance along a ray from `height` above the ground to the top of the air; `up` is the cosine
 // with the vertical.
@@ -42,9 +54,9 @@ SHARED_FN vec3 air_density(float height)
                 max(0.0f, 1.0f - abs(h - 25000.0f) / 15000.0f));
 }
 
-SHARED_FN vec3 molecule_scattering()
+SHARED_FN vec4 molecule_scattering()
 {
-    return vec3(5.802e-6f, 13.558e-6f, 33.1e-6f);
+    return vec4(7.8755e-6f, 12.615e-6f, 21.521e-6f, 36.288e-6f);
 }
 
 SHARED_FN float haze_scattering(float turbidity)
@@ -52,20 +64,29 @@ SHARED_FN float haze_scattering(float turbidity)
     return 2.6e-6f * max(turbidity - 1.0f, 0.0f);
 }
 
-// Extinction per metre where the relative densities are `density`.
-SHARED_FN vec3 air_extinction(vec3 density, float turbidity)
+// Per metre where the relative densities are `density`: scattered, and scattered or absorbed.
+SHARED_FN vec4 air_scattering(vec3 density, float turbidity)
 {
-    return molecule_scattering() * density.x + vec3(1.1f * haze_scattering(turbidity) * density.y) +
-           vec3(0.260e-6f, 0.752e-6f, 0.034e-6f) * density.z;
+    return molecule_scattering() * density.x + vec4(haze_scattering(turbidity) * density.y);
+}
+SHARED_FN vec4 air_extinction(vec3 density, float turbidity)
+{
+    return molecule_scattering() * density.x + vec4(1.1f * haze_scattering(turbidity) * density.y) +
+           vec4(1.7278e-6f, 2.2927e-6f, 0.4846e-6f, 0.0454e-6f) * density.z;
 }
 
-// Share of light that reaches `height` from space along a direction; 0 behind the earth.
-SHARED_FN vec3 air_transmittance(float height, float up, float turbidity)
+SHARED_FN vec4 air_kept(vec4 depth)
 {
-    if (distance_to_ground(height, up) > 0.0f) return vec3(0.0f);
+    return vec4(exp(-depth.x), exp(-depth.y), exp(-depth.z), exp(-depth.w));
+}
+
+// Share of light that reaches `height` from space along a direction, by band; 0 behind the earth.
+SHARED_FN vec4 air_transmittance_bands(float height, float up, float turbidity)
+{
+    if (distance_to_ground(height, up) > 0.0f) return vec4(0.0f);
     const float reach = distance_to_space(height, up);
     const float r = kEarthRadius + height;
-    vec3 depth = vec3(0.0f);
+    vec4 depth = vec4(0.0f);
     const int steps = 12;
     float before = 0.0f;
     for (int i = 1; i <= steps; ++i) {
@@ -77,7 +98,13 @@ SHARED_FN vec3 air_transmittance(float height, float up, float turbidity)
         depth += air_extinction(air_density(h), turbidity) * (after - before);
         before = after;
     }
-    return vec3(exp(-depth.x), exp(-depth.y), exp(-depth.z));
+    return air_kept(depth);
+}
+
+// The same of white light, in linear sRGB.
+SHARED_FN vec3 air_transmittance(float height, float up, float turbidity)
+{
+    return max(air_rgb(air_transmittance_bands(height, up, turbidity)), vec3(0.0f));
 }
 
 // Share of scattered light per steradian for molecules (x) and haze (y); c is the cosine of the
@@ -91,51 +118,28 @@ SHARED_FN vec2 air_phase(float c)
                 0.1193662f * (1.0f - g2) * (1.0f + c * c) / ((2.0f + g2) * base * sqrt(base)));
 }
 
-// Radiance of clear air seen from the ground, W or lm per m2 and sr for sun light given above the
-// air.
-//   up           cosine of the view direction with the vertical
-//   sun_up       the same for the sun
-//   sun_angle    cosine between view and sun
-SHARED_FN vec3 air_radiance(float up, float sun_up, float sun_angle, vec3 sun_illuminance,
-                            float turbidity)
+// A table of light scattered more than once (air_radiance.inc): rows of height, in each the cosine of the sun
+// with the vertical, from 19 degrees below the horizon.
+SHARED_CONST int kAgainHeights = 12;
+SHARED_CONST int kAgainSuns = 48;
+SHARED_CONST float kAgainTop = 60000.0f;
+SHARED_CONST float kAgainLowest = -0.32f;
+
+// Place in the table of a height and a cosine of the sun, and back.
+SHARED_FN vec2 again_place(float height, float sun_up)
 {
-    const float eye = 2.0f;
-    const float view_up = max(up, 0.005f);
-    const float reach = distance_to_space(eye, view_up);
-    const float r = kEarthRadius + eye;
-    const vec2 phase = air_phase(sun_angle);
-    vec3 sum = vec3(0.0f);
-    vec3 depth = vec3(0.0f);
-    const int steps = 20;
-    float before = 0.0f;
-    for (int i = 1; i <= steps; ++i) {
-        const float u = float(i) / float(steps);
-        const float after = reach * u * u;
-        const float middle = 0.5f * (before + after);
-        const float length_m = after - before;
-        const float radius = sqrt(r * r + middle * middle + 2.0f * r * middle * view_up);
-        const float h = radius - kEarthRadius;
-        const vec3 density = air_density(h);
-        const vec3 extinction = air_extinction(density, turbidity);
-        // Cosine of the sun at that place: the vertical turns along the ray.
-        const float local_sun = clamp((r * sun_up + middle * sun_angle) / radius, -1.0f, 1.0f);
-        const vec3 sun = air_transmittance(h, local_sun, turbidity);
-        const vec3 t = depth + extinction * (0.5f * length_m);
-        const vec3 to_eye = vec3(exp(-t.x), exp(-t.y), exp(-t.z));
-        const vec3 single = molecule_scattering() * (density.x * phase.x) +
-                            vec3(haze_scattering(turbidity) * density.y * phase.y);
-        // Light scattered more than once, nearly the same from all sides.
-        const vec3 again =
-            (molecule_scattering() * density.x + vec3(haze_scattering(turbidity) * density.y)) *
-            (0.0795775f * 0.45f);
-        const float dusk = clamp(0.5f + 4.0f * local_sun, 0.0f, 1.0f);
-        // Its colour is that of the air above: blue, and blue still when the sun has gone.
-        const vec3 glow = vec3(0.08f, 0.13f, 0.20f) * (dusk * dusk);
-        sum += to_eye * (sun * single + again * (sun * 0.4f + glow)) * length_m;
-        depth += extinction * length_m;
-        before = after;
-    }
-    return sum * sun_illuminance;
+    return vec2(sqrt(clamp(height / kAgainTop, 0.0f, 1.0f)) * float(kAgainHeights - 1),
+                sqrt(clamp((sun_up - kAgainLowest) / (1.0f - kAgainLowest), 0.0f, 1.0f)) * float(kAgainSuns - 1));
+}
+SHARED_FN float again_height(int row)
+{
+    const float x = float(row) / float(kAgainHeights - 1);
+    return kAgainTop * x * x;
+}
+SHARED_FN float again_sun_up(int column)
+{
+    const float x = float(column) / float(kAgainSuns - 1);
+    return kAgainLowest + (1.0f - kAgainLowest) * x * x;
 }
 
 SHARED_END

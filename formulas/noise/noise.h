@@ -48,6 +48,21 @@ SHARED_FN float lattice_value(ivec2 cell, int period, uint seed)
     return hash_f(hash_u3(uint(wrapped(cell.x, period)), uint(wrapped(cell.y, period)), seed));
 }
 
+// Value noise that repeats nowhere; cheaper, it divides nothing.
+SHARED_FN float endless_noise(vec2 p, uint seed)
+{
+    const vec2 base = floor(p);
+    const vec2 f = p - base;
+    const vec2 u = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
+    const ivec2 cell = ivec2(base);
+    const uint x = uint(cell.x), y = uint(cell.y);
+    const float a = hash_f(hash_u3(x, y, seed));
+    const float b = hash_f(hash_u3(x + 1u, y, seed));
+    const float c = hash_f(hash_u3(x, y + 1u, seed));
+    const float d = hash_f(hash_u3(x + 1u, y + 1u, seed));
+    return mix(mix(a, b, u.x), mix(c, d, u.x), u.y);
+}
+
 SHARED_FN float tileable_noise(vec2 p, int period, uint seed)
 {
     const vec2 base = floor(p);

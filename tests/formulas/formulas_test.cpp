@@ -163,14 +163,6 @@ TEST(Air, ReddensAndDimsTheLowSun)
     EXPECT_EQ(air_transmittance(2.0f, -0.3f, 2.5f), glm::vec3(0.0f));
 }
 
-TEST(Air, SkyIsBlueOverhead)
-{
-    const glm::vec3 zenith = air_radiance(1.0f, 0.7f, 0.7f, glm::vec3(100000.0f), 2.5f);
-    EXPECT_GT(zenith.b, 1.5f * zenith.r);
-    EXPECT_GT(zenith.g, 500.0f);
-    EXPECT_LT(zenith.g, 8000.0f);
-}
-
 // ---- water and snow
 // --------------------------------------------------------------------------------
 

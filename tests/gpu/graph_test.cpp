@@ -1,6 +1,7 @@
 // The graph on a device, with synchronization validation: what bindings and attachments declare is
 // enough, and a declaration that lies is caught.
 #include "gpu/device/graph.h"
+#include "gpu/passes/sky/scattered_again.h"
 
 #include "tests/gpu/gpu_fixture.h"
 
@@ -118,9 +119,10 @@ TEST_F(GraphTest, LayoutsFollowWhatImagesAreUsedFor)
                       .width = 16,
                       .height = 16,
                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    const auto table = arena->buffer({.name = "table", .size = sizeof(ScatteredAgain::Table)});
     FrameGraph graph;
     for (int i = 0; i < 2; ++i) {
-        graph.add(ComputePass{"write", "sky_air.comp", {}, {{0, storage(*image, 0)}}, {}, {8, 12}});
+        graph.add(ComputePass{"write", "sky_air.comp", {}, {{0, storage(*image, 0)}, {1, storage_buffer(*table)}}, {}, {8, 12}});
         graph.add(TransferPass{"mips",
                                {{image.get(), nullptr, Use::TransferTarget}},
                                [&](VkCommandBuffer commands) { record_mips(commands, *image); }});

@@ -5,6 +5,6 @@
 #define SKY_BINS_GROUP 64
 #define SKY_BINS_SOURCE 0
 #define SKY_BINS_TARGET 1
-#define SKY_BINS_MIP 2  // of the cube: 64 texels a side, two or three a bin
+#define SKY_BINS_MIP 2  // of the cube: 96 texels a side, three or four a bin
 
 #endif

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
 #include "formulas/light/fog.h"
 #include "gpu/frame/frame_constants.h"
@@ -18,11 +20,12 @@ namespace {
 constexpr float kClearNight = 0.01f;
 constexpr float kCloudyNight = 0.05f;
 
+constexpr float kSnowyLand = 0.75f;  // albedo
 constexpr int kAirWidth = 64;
 constexpr int kAirHeight = 96;
-constexpr int kCubeSize = 256;
+constexpr int kCubeSize = 384;
 constexpr int kCubeMips = 9;
-constexpr int kIrradianceMip = 4;  // 16 texels a side
+constexpr int kIrradianceMip = 4;  // 24 texels a side
 constexpr int kSpecularSize = 64;
 constexpr int kBrdfSize = 64;
 
@@ -63,9 +66,29 @@ void add_filtered(FrameGraph& graph, SkyMaps& maps)
     }
 }
 
+bool same_air(const shared::SkyParams& a, const shared::SkyParams& b)
+{
+    return a.sun_direction == b.sun_direction && a.sun_illuminance == b.sun_illuminance &&
+           a.turbidity == b.turbidity && a.land_albedo == b.land_albedo;
+}
+
+// Brings what the maps know of scattered light to the haze, land and sun of a frame.
+void see_clear_sky(SkyMaps& maps, const shared::SkyParams& p)
+{
+    const glm::vec3 seen(p.turbidity, p.land_albedo, p.sun_direction.y);
+    if (seen == maps.level_of) return;
+    if (!maps.scattered || maps.scattered->turbidity() != p.turbidity) maps.scattered.emplace(p.turbidity);
+    if (seen.x != maps.level_of.x || seen.y != maps.level_of.y) {
+        maps.table = maps.scattered->table(p.land_albedo);
+        std::memcpy(maps.again->mapped, maps.table.data(), sizeof maps.table);
+    }
+    maps.clear_level = ClearAir(maps.table).on_level_ground(p.sun_direction.y, p.turbidity);
+    maps.level_of = seen;
+}
+
 }  // namespace
 
-shared::SkyParams sky_params(const Frame& frame)
+shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps)
 {
     const Sky& sky = frame.sky;
     shared::SkyParams p{};
@@ -84,14 +107,17 @@ shared::SkyParams sky_params(const Frame& frame)
         p.fog_end_m = frame.fog.end_m;
         p.fog_height_m = frame.fog.height_m;
     }
-    // Kasten and Czeplak 1980 for the light under clouds; a clear sky adds about 15 % to the sun.
-    const float up = std::max(p.sun_direction.y, 0.0f);
-    const glm::vec3 level =
-        sunlight_at_ground(sky) * up * 1.15f + glm::vec3(0.02f) * sky.sun_illuminance * up;
-    const float through = 1.0f - 0.75f * std::pow(p.cloud_cover, 3.4f);
     const float white = std::clamp(frame.weather.snow_amount * 1.2f, 0.0f, 1.0f);
+    p.land_albedo = glm::mix(sky.ground_albedo, kSnowyLand, white);
+    see_clear_sky(maps, p);
+    p.clear_level = maps.clear_level * sky.sun_illuminance;
+    p.sun_at_ground = shared::air_transmittance(2.0f, std::max(p.sun_direction.y, 0.0f), p.turbidity) *
+                      (sky.sun_illuminance * glm::smoothstep(-0.08f, 0.02f, p.sun_direction.y));
+    // Kasten and Czeplak 1980 for the light under clouds.
+    const glm::vec3 level = sunlight_at_ground(sky) * std::max(p.sun_direction.y, 0.0f) + p.clear_level;
+    const float through = 1.0f - 0.75f * std::pow(p.cloud_cover, 3.4f);
     const glm::vec3 albedo =
-        glm::mix(glm::vec3(1.0f, 0.97f, 0.9f) * sky.ground_albedo, glm::vec3(0.75f), white);
+        glm::mix(glm::vec3(1.0f, 0.97f, 0.9f) * sky.ground_albedo, glm::vec3(kSnowyLand), white);
     const float grey = glm::dot(level, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     p.ground_radiance =
         glm::mix(level, glm::vec3(grey), p.cloud_cover) * through * albedo / shared::kPi;
@@ -116,6 +142,7 @@ SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
            .size = sizeof(shared::SkyLight),
            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
            .host = true})),
+      again(arena.buffer({.name = "scattered_again", .size = sizeof(ScatteredAgain::Table), .host = true})),
       linear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)),
       wrap_u(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
@@ -140,12 +167,14 @@ void add_env_brdf(FrameGraph& graph, SkyMaps& maps)
 
 void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params)
 {
-    graph.add(ComputePass{.name = "sky_air",
-                          .shader = "sky_air.comp",
-                          .constants = {},
-                          .bindings = {{SKY_ALONE_TARGET, storage(*maps.air)}},
-                          .push = PushBlock(params),
-                          .groups = groups_over(kAirWidth, kAirHeight, SKY_TILE)});
+    if (!maps.drawn_valid || !same_air(params, maps.drawn))
+        graph.add(ComputePass{.name = "sky_air",
+                              .shader = "sky_air.comp",
+                              .constants = {},
+                              .bindings = {{SKY_ALONE_TARGET, storage(*maps.air)},
+                                           {SKY_AGAIN, storage_buffer(*maps.again)}},
+                              .push = PushBlock(params),
+                              .groups = groups_over(kAirWidth, kAirHeight, SKY_TILE)});
     graph.add(ComputePass{.name = "sky_cube",
                           .shader = "sky_cube.comp",
                           .constants = {},

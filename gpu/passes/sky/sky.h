@@ -1,8 +1,11 @@
 #ifndef PETRICHOR_GPU_PASSES_SKY_SKY_H
 #define PETRICHOR_GPU_PASSES_SKY_SKY_H
 
+#include <optional>
+
 #include "gpu/device/graph.h"
 #include "gpu/frame/frame.h"
+#include "gpu/passes/sky/scattered_again.h"
 #include "gpu/passes/sky/sky_light_io.h"
 
 namespace petrichor::gpu {
@@ -16,6 +19,7 @@ struct SkyMaps {
     std::unique_ptr<GpuImage> specular;  ///< as GGX lobes see it, one roughness a mip
     std::unique_ptr<GpuImage> env_brdf;  ///< scale and offset of F0
     std::unique_ptr<GpuBuffer> light;    ///< shared::SkyLight
+    std::unique_ptr<GpuBuffer> again;    ///< ScatteredAgain::Table of the sky that is drawn
     SamplerHandle linear;                ///< clamped, trilinear
     SamplerHandle wrap_u;                ///< lat-long maps
     bool env_brdf_valid = false;
@@ -24,6 +28,12 @@ struct SkyMaps {
     float environment_scale = 0.0f;
     float environment_rotation_rad = 0.0f;
     bool drawn_valid = false;
+
+    // Of the haze and sun of the last frame.
+    std::optional<ScatteredAgain> scattered;
+    ScatteredAgain::Table table{};
+    glm::vec3 level_of{-2.0f};       ///< turbidity, albedo of the land, cosine of the sun
+    glm::vec3 clear_level{0.0f};  ///< on level ground, for a sun of illuminance 1
 };
 
 /// The light of the sky as the uniform block that shaders read.
@@ -32,12 +42,13 @@ Binding sky_light_binding(SkyMaps& maps);
 // Split-sum table of GGX; once.
 void add_env_brdf(FrameGraph& graph, SkyMaps& maps);
 
-/// Analytic sky of the frame, with the land lit by it (snow brightens the land).
-shared::SkyParams sky_params(const Frame& frame);
+/// Analytic sky of the frame, with the land lit by it (snow brightens the land). Writes the table of
+/// scattered light where haze or land are others than those of the frame before.
+shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps);
 
 // The analytic sky: clear air, clouds, land.
 //
-//   writes   air, cube with mips, specular
+//   writes   air where it is not that of maps.drawn, cube with mips, specular
 void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params);
 
 // A lat-long map as the sky.

@@ -9,7 +9,15 @@
 
 layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
 layout(binding = SKY_ALONE_TARGET, rgba16f) uniform writeonly image2D target;
+layout(binding = SKY_AGAIN, scalar) readonly buffer Again { vec4 again[]; };
 layout(push_constant, scalar) uniform Push { SkyParams sky; };
+
+vec4 again_entry(int index)
+{
+    return again[index];
+}
+
+#include "formulas/light/air_radiance.inc"
 
 void main()
 {

@@ -34,14 +34,14 @@ float kept_by_fog(float up)
 
 // What the fog itself sends: light from above, scattered until it comes from all sides (a thick layer
 // throws a part of it back up), and around a sun that shines into it a glow.
-vec3 fog_radiance(vec3 direction, vec3 light_on_ground, vec3 sun_at_ground)
+vec3 fog_radiance(vec3 direction, vec3 light_on_ground)
 {
     const float depth = sky.fog_mode == FOG_LINEAR ? 0.0 : sky.fog_per_m * sky.fog_height_m;
     const float half_land = 0.75;  // the lower half of what surrounds it is the darker land
     const vec3 from_all = light_on_ground * (half_land / (kPi * (1.0 + 0.11 * depth)));
     const float up = max(sky.sun_direction.y, 0.05);
     const float shine = (1.0 - smoothstep(0.25, 0.95, sky.cloud_cover)) * exp(-depth / up);
-    return from_all + sun_at_ground * (shine * fog_phase(dot(direction, sky.sun_direction)));
+    return from_all + sky.sun_at_ground * (shine * fog_phase(dot(direction, sky.sun_direction)));
 }
 
 void main()
@@ -52,26 +52,28 @@ void main()
     const vec2 st = (vec2(id.xy) + 0.5) / vec2(size.xy) * 2.0 - 1.0;
     const vec3 direction = normalize(cube_direction(id.z, st));
 
-    const vec3 sun_at_ground =
-        sky.sun_illuminance * air_transmittance(2.0, max(sky.sun_direction.y, 0.0), sky.turbidity) *
-        smoothstep(-0.08, 0.02, sky.sun_direction.y);
     const vec3 zenith = clear_air(vec3(0.0, 1.0, 0.0));
     const vec3 seen = normalize(vec3(direction.x, max(direction.y, 0.002), direction.z));
-    vec3 radiance = clear_air(seen);
-    const vec2 cover = cloud_cover_at(sky, seen);
-    const vec3 cloud = cloud_radiance(sky, seen, cover, sun_at_ground, zenith);
-    // Far clouds fade into the haze of the horizon.
-    const float haze = mix(exp(-0.06 / max(seen.y, 0.004)), 1.0, smoothstep(0.6, 1.0, sky.cloud_cover));
-    radiance = mix(radiance, cloud, cover.x * haze);
-    float seen_through = 1.0 - cover.x * haze;
+    vec3 radiance = vec3(0.0);
+    float seen_through = 1.0;
+    // A loop, which is left when a group of texels is of the land alone: a branch is not.
+    for (int once = 0; once < (direction.y > -0.06 ? 1 : 0); ++once) {
+        radiance = clear_air(seen);
+        const CloudSeen clouds = cloud_seen(sky, seen);
+        const vec3 cloud = cloud_radiance(sky, seen, clouds, zenith);
+        // Far clouds fade into the haze of the horizon.
+        const float haze = mix(exp(-0.06 / max(seen.y, 0.004)), 1.0, smoothstep(0.6, 1.0, sky.cloud_cover));
+        radiance = mix(radiance, cloud, clouds.hides * haze);
+        seen_through = 1.0 - clouds.hides * haze;
+    }
     radiance += sky.night_radiance * vec3(0.75, 0.85, 1.1);
     const float below = smoothstep(0.0, -0.06, direction.y);
     radiance = mix(radiance, sky.ground_radiance + sky.night_radiance * 0.5, below);
     seen_through *= 1.0 - below;
     if (sky.fog_per_m > 0.0) {
         seen_through *= kept_by_fog(direction.y);
-        const vec3 lit = light_under_clouds(sky, sun_at_ground, zenith) + sky.night_radiance * kPi;
-        radiance = mix(fog_radiance(direction, lit, sun_at_ground), radiance, kept_by_fog(direction.y));
+        const vec3 lit = light_under_clouds(sky) + sky.night_radiance * kPi;
+        radiance = mix(fog_radiance(direction, lit), radiance, kept_by_fog(direction.y));
     }
     imageStore(target, id, vec4(min(radiance, vec3(60000.0)), seen_through));
 }

@@ -6,8 +6,9 @@
 
 #define SKY_TILE 8
 
-// sky_air, env_brdf: nothing is read
+// sky_air, env_brdf: no map is read
 #define SKY_ALONE_TARGET 0
+#define SKY_AGAIN 1  // of sky_air: light scattered more than once
 // sky_cube, environment_cube, sky_specular, sky_light
 #define SKY_SOURCE 0
 #define SKY_TARGET 1

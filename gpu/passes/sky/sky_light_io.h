@@ -28,6 +28,9 @@ struct SkyParams {
     float fog_start_m;
     float fog_end_m;
     float fog_height_m;
+    vec3 clear_level;  // what the clear sky sends onto level ground
+    float land_albedo;
+    vec3 sun_at_ground;  // of a clear sky; fades a little below the horizon, where clouds have it still
 };
 
 SHARED_END
