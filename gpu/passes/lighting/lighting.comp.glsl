@@ -137,7 +137,7 @@ vec3 background(vec3 direction)
         const float c = dot(direction, frame.sun_direction);
         if (c > frame.sun_angular_cos) {
             const float solid_angle = 6.2831853 * (1.0 - frame.sun_angular_cos);
-            radiance += frame.sun_illuminance / solid_angle;
+            radiance += frame.sun_illuminance * (sky.a / solid_angle);
         }
     }
     return radiance;

@@ -30,6 +30,7 @@ struct CloudSeen {
     float hides;   // share of the sky behind
     float depth;   // of cloud along the way, optical, about
     float sunward; // the same from there towards the sun
+    float heavy;   // 0 the thinnest of the layer .. 1 the thickest
 };
 
 // Octaves that shade; all of them cut the edge.
@@ -37,7 +38,7 @@ const int kShadeOctaves = 4;
 
 CloudSeen cloud_seen(SkyParams sky, vec3 direction)
 {
-    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0);
+    CloudSeen seen = CloudSeen(0.0, 0.0, 0.0, 0.5);
     const float reach = cloud_reach(max(direction.y, 0.0));
     const vec2 at = direction.xz * reach * 2.2 + sky.time_s * sky.wind_m_s * 0.0015 + 40.0;
     // A texel's angle, seen slantwise.
@@ -52,6 +53,7 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
         const float above = cloud_field(bent, footprint, kCloudOctaves) - edge;
         seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
         seen.depth = max(above, 0.0) / 0.25;
+        seen.heavy = smoothstep(0.32, 1.0, above + edge);
         for (int lit = 0; lit < (seen.hides > 0.0 ? 1 : 0); ++lit)
             seen.sunward =
                 max(cloud_field(bent + sunward, max(footprint, 0.1), kShadeOctaves) - edge, 0.0) / 0.25;
@@ -77,7 +79,7 @@ vec3 cloud_radiance(SkyParams sky, vec3 direction, CloudSeen cloud, vec3 clear_z
                          (0.20 + thin * (0.10 + 0.45 * pow(towards, 10.0) + 1.2 * pow(towards, 80.0))) +
                      sky.clear_level * (0.55 / 3.14159265) + sky.ground_radiance * 0.25 + clear_zenith * 0.3;
     const float grey = smoothstep(0.35, 0.95, c);
-    const float relief = mix(1.15, 0.80, clamp(cloud.depth / 1.6, 0.0, 1.0));
+    const float relief = mix(1.32, 0.68, cloud.heavy);
     return mix(lit * mix(1.0, 0.72, clamp(cloud.depth * 0.6, 0.0, 1.0)), overcast * relief, grey);
 }
 
