@@ -53,7 +53,8 @@ CloudSeen cloud_seen(SkyParams sky, vec3 direction)
         const float above = cloud_field(bent, footprint, kCloudOctaves) - edge;
         seen.hides = smoothstep(0.0, mix(0.11, 0.3, full), above);
         seen.depth = max(above, 0.0) / 0.25;
-        seen.heavy = smoothstep(0.32, 1.0, above + edge);
+        // Through the air before them far ones have less contrast.
+        seen.heavy = mix(0.5, smoothstep(0.32, 1.0, above + edge), exp(-0.13 * reach));
         for (int lit = 0; lit < (seen.hides > 0.0 ? 1 : 0); ++lit)
             seen.sunward =
                 max(cloud_field(bent + sunward, max(footprint, 0.1), kShadeOctaves) - edge, 0.0) / 0.25;
