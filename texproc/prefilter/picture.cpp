@@ -316,21 +316,16 @@ std::vector<PictureScore> PictureBench::score(const Prefiltered& chain) const
 
 struct PictureBench::Blend::State {
     const PictureBench::State& bench;
-    // A pixel: what plain mips give.
+    // A pixel: what plain mips give, and what the chain adds to it on either level.
     struct Pixel {
         glm::vec3 n, to_eye;
-        float stored = 0.0f;
+        float stored = 0.0f, add_fine = 0.0f, add_coarse = 0.0f;
+        float darken_fine = 0.0f, darken_coarse = 0.0f;
         std::uint8_t fine = 0, coarse = 0;
-    };
-    // What something adds to a pixel on either level.
-    struct More {
-        float fine = 0.0f, coarse = 0.0f;
     };
     struct View {
         std::vector<std::size_t> cases;
-        std::vector<Pixel> pixels;                  // row by row, in it frame by frame
-        std::vector<std::vector<More>> roughness;   // of every roughness, as pixels
-        std::vector<More> base;
+        std::vector<Pixel> pixels;        // row by row, in it frame by frame
         std::vector<std::uint32_t> sees;  // of a row: a bit a level
         std::vector<std::vector<RowSums>> rows;
     };
@@ -338,97 +333,60 @@ struct PictureBench::Blend::State {
     Shares last;  // of which `rows` are
 
     explicit State(const PictureBench::State& of) : bench(of) {}
-    std::size_t row_of(std::size_t v) const
-    {
-        return static_cast<std::size_t>(bench.options.views[v].width) *
-               static_cast<std::size_t>(bench.options.frames);
-    }
-    // add(view, pixel, its taps) for all pixels.
-    template <class Add>
-    void for_all(const Add& add)
-    {
-        for (std::size_t v = 0; v < views.size(); ++v) {
-            if (views[v].cases.empty()) continue;
-            const PictureView& view = bench.options.views[v];
-            const FloorPlan plan(view);
-            const std::size_t width = static_cast<std::size_t>(view.width), row = row_of(v);
-            parallel_for(views[v].rows.size(), bench.options.threads, [&](std::size_t y) {
-                for (std::size_t i = 0; i < row; ++i) {
-                    const FloorPixel at = plan.pixel(
-                        static_cast<int>(i / width), static_cast<int>(i % width), static_cast<int>(y));
-                    add(views[v], y, y * row + i, at, detail::taps_of(bench.plain, at, view.taps));
-                }
-            });
-        }
-    }
-    // What levels less the plain mips add.
-    More more(const std::vector<std::vector<float>>& levels, const Taps& taps) const
-    {
-        More sum;
-        const auto add = [&](std::size_t level, float share, float& to) {
-            if (levels[level].empty() || !(share > 0.0f)) return;
-            const Level& size = bench.plain[level];
-            for (int tap = 0; tap < taps.count; ++tap)
-                bilinear(size.width, size.height, taps.u + tap * taps.step_u,
-                         taps.v + tap * taps.step_v, share / static_cast<float>(taps.count),
-                         [&](std::size_t texel, float w) { to += levels[level][texel] * w; });
-        };
-        add(taps.fine, 1.0f - taps.share, sum.fine);
-        add(taps.coarse, taps.share, sum.coarse);
-        return sum;
-    }
 };
 
-PictureBench::Blend::Blend(const PictureBench& bench, std::size_t count,
-                           const std::function<Levels(std::size_t which)>& roughness,
-                           const Levels& base_share)
+PictureBench::Blend::Blend(const PictureBench& bench, const Prefiltered& chain)
     : state_(std::make_unique<State>(*bench.state_))
 {
     const PictureBench::State& s = *bench.state_;
-    // Levels less those of the plain mips, or less 1.
-    const auto differences = [&](const Levels& levels, bool base) {
-        std::vector<std::vector<float>> to(s.plain.size());
-        for (std::size_t k = 1; k < to.size() && k < levels.size(); ++k) {
-            const Level& plain = s.plain[k];
-            check_level(levels[k], plain, k);
-            to[k].resize(plain.texels.size());
-            for (std::size_t i = 0; i < to[k].size(); ++i)
-                to[k][i] = levels[k].pixels[i] - (base ? 1.0f : plain.texels[i].stored);
-        }
-        return to;
-    };
+    // The chain less the plain mips: roughness as stored, and what it takes from the base colour.
+    std::vector<std::vector<glm::vec2>> more(s.plain.size());
+    for (std::size_t k = 1; k < more.size() && k < chain.roughness.size(); ++k) {
+        const Image &rough = chain.roughness[k], &base = chain.base_share.at(k);
+        const Level& level = s.plain[k];
+        for (const Image* of : {&rough, &base}) check_level(*of, level, k);
+        more[k].reserve(level.texels.size());
+        for (std::size_t i = 0; i < level.texels.size(); ++i)
+            more[k].emplace_back(rough.pixels[i] - level.texels[i].stored, base.pixels[i] - 1.0f);
+    }
     const std::vector<const Level*> plain = s.merged({});
     state_->views.resize(s.options.views.size());
     for (std::size_t v = 0; v < s.options.views.size(); ++v) {
         State::View& to = state_->views[v];
         to.cases = s.cases_of(v);
         if (to.cases.empty()) continue;
-        const std::size_t rows = static_cast<std::size_t>(s.options.views[v].rows);
-        to.pixels.resize(state_->row_of(v) * rows);
-        to.base.resize(to.pixels.size());
-        to.roughness.assign(count, to.base);
-        to.sees.assign(rows, 0);
-        to.rows.assign(rows, std::vector<RowSums>(to.cases.size()));
-    }
-    {
-        const auto base = differences(base_share, true);
-        state_->for_all([&](State::View& view, std::size_t y, std::size_t i, const FloorPixel& at,
-                            const Taps& taps) {
-            const Texel t = detail::filtered(plain, taps);
-            State::Pixel& pixel = view.pixels[i];
-            pixel.n = t.n, pixel.to_eye = at.to_eye, pixel.stored = t.stored;
-            pixel.fine = static_cast<std::uint8_t>(taps.fine);
-            pixel.coarse = static_cast<std::uint8_t>(taps.coarse);
-            view.base[i] = state_->more(base, taps);
-            if (taps.share < 1.0f) view.sees[y] |= 1u << taps.fine;
-            if (taps.share > 0.0f) view.sees[y] |= 1u << taps.coarse;
-        });
-    }
-    for (std::size_t which = 0; which < count; ++which) {
-        const auto rough = differences(roughness(which), false);
-        state_->for_all([&](State::View& view, std::size_t, std::size_t i, const FloorPixel&,
-                            const Taps& taps) {
-            view.roughness[which][i] = state_->more(rough, taps);
+        const PictureView& view = s.options.views[v];
+        const FloorPlan plan(view);
+        const std::size_t width = static_cast<std::size_t>(view.width);
+        const std::size_t row = width * static_cast<std::size_t>(s.options.frames);
+        to.pixels.resize(row * static_cast<std::size_t>(view.rows));
+        to.sees.assign(static_cast<std::size_t>(view.rows), 0);
+        to.rows.assign(static_cast<std::size_t>(view.rows), std::vector<RowSums>(to.cases.size()));
+        parallel_for(to.rows.size(), s.options.threads, [&](std::size_t y) {
+            for (std::size_t i = 0; i < row; ++i) {
+                const FloorPixel at = plan.pixel(static_cast<int>(i / width),
+                                                 static_cast<int>(i % width), static_cast<int>(y));
+                const Taps taps = detail::taps_of(s.plain, at, view.taps);
+                const Texel t = detail::filtered(plain, taps);
+                State::Pixel& pixel = to.pixels[y * row + i];
+                pixel.n = t.n, pixel.to_eye = at.to_eye, pixel.stored = t.stored;
+                pixel.fine = static_cast<std::uint8_t>(taps.fine);
+                pixel.coarse = static_cast<std::uint8_t>(taps.coarse);
+                const auto add = [&](std::size_t level, float share, float& stored, float& dark) {
+                    if (more[level].empty() || !(share > 0.0f)) return;
+                    const Level& size = s.plain[level];
+                    for (int tap = 0; tap < taps.count; ++tap)
+                        bilinear(size.width, size.height, taps.u + tap * taps.step_u,
+                                 taps.v + tap * taps.step_v, share / static_cast<float>(taps.count),
+                                 [&](std::size_t at_texel, float w) {
+                                     stored += more[level][at_texel].x * w;
+                                     dark += more[level][at_texel].y * w;
+                                 });
+                    to.sees[y] |= 1u << level;
+                };
+                add(taps.fine, 1.0f - taps.share, pixel.add_fine, pixel.darken_fine);
+                add(taps.coarse, taps.share, pixel.add_coarse, pixel.darken_coarse);
+            }
         });
     }
 }
@@ -442,7 +400,7 @@ std::vector<PictureScore> PictureBench::Blend::score(const Shares& shares)
     std::uint32_t changed = 0;
     for (std::size_t k = 0; k < shares.roughness.size() && !all; ++k)
         if (shares.roughness[k] != state_->last.roughness[k] ||
-            shares.base[k] != state_->last.base[k] || shares.which[k] != state_->last.which[k])
+            shares.base[k] != state_->last.base[k])
             changed |= 1u << k;
     state_->last = shares;
     std::vector<PictureScore> scores(s.options.cases.size());
@@ -452,17 +410,15 @@ std::vector<PictureScore> PictureBench::Blend::score(const Shares& shares)
         const std::size_t width = static_cast<std::size_t>(s.options.views[v].width);
         parallel_for(view.rows.size(), s.options.threads, [&](std::size_t y) {
             if (!all && !(view.sees[y] & changed)) return;
-            const std::size_t first = y * state_->row_of(v);
+            const State::Pixel* row =
+                &view.pixels[y * width * static_cast<std::size_t>(s.options.frames)];
             const auto shade_all = [&](int frame, std::vector<std::vector<float>>& line) {
                 for (std::size_t x = 0; x < width; ++x) {
-                    const std::size_t i = first + static_cast<std::size_t>(frame) * width + x;
-                    const State::Pixel& t = view.pixels[i];
-                    const float stored =
-                        t.stored +
-                        shares.roughness[t.fine] * view.roughness[shares.which[t.fine]][i].fine +
-                        shares.roughness[t.coarse] * view.roughness[shares.which[t.coarse]][i].coarse;
-                    const float base = 1.0f + shares.base[t.fine] * view.base[i].fine +
-                                       shares.base[t.coarse] * view.base[i].coarse;
+                    const State::Pixel& t = row[static_cast<std::size_t>(frame) * width + x];
+                    const float stored = t.stored + shares.roughness[t.fine] * t.add_fine +
+                                         shares.roughness[t.coarse] * t.add_coarse;
+                    const float base = 1.0f + shares.base[t.fine] * t.darken_fine +
+                                       shares.base[t.coarse] * t.darken_coarse;
                     const float p = perceptual(std::clamp(stored, 0.0f, 1.0f), s.input);
                     for (std::size_t i = 0; i < view.cases.size(); ++i)
                         line[i][x] = shade(t.n, p, base, t.to_eye, s.lights[view.cases[i]]);

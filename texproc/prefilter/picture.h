@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -106,24 +105,18 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// What lies between plain mips and other levels of the same normals is linear, level by level, so
-/// each pixel is filtered once, and only shaded for every mixture that is tried.
+/// What lies between plain mips and a chain of the same normals is linear, level by level, so each
+/// pixel is filtered once, and only shaded for every mixture that is tried.
 class PictureBench::Blend {
 public:
-    using Levels = std::vector<Image>;  ///< one channel; level 0 is not looked at
-    /// Of a few roughnesses each level may take one. They are asked for one after the other, so that
-    /// no two need be in memory. `bench` must outlive this.
-    ///   roughness   number `which`, below `count`, all levels from 1 on
-    ///   base_share  the same of what the base colour is multiplied by
-    Blend(const PictureBench& bench, std::size_t count,
-          const std::function<Levels(std::size_t which)>& roughness, const Levels& base_share);
+    /// chain: its roughness and base_share, all levels from 1 on. `bench` must outlive this.
+    Blend(const PictureBench& bench, const Prefiltered& chain);
     ~Blend();
 
-    /// Which roughness a level has and how much of it, and how much of the darkening of the base
-    /// colour: 0 the plain mip, 1 all. As many as there are levels.
+    /// Which share of the chain's roughness, and of its darkening of the base colour, a level has:
+    /// 0 the plain mip, 1 the chain. As many as the chain has levels.
     struct Shares {
         std::vector<float> roughness, base;
-        std::vector<std::size_t> which;
     };
     /// A row a case, as PictureBench::score() gives it. Only rows of pixels that see a level whose
     /// shares have changed are shaded again.

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "texproc/filter/area.h"
 #include "texproc/prefilter/detail/filter.h"
 #include "texproc/prefilter/detail/input.h"
-#include "texproc/prefilter/detail/lit_floor.h"
 #include "texproc/prefilter/detail/picture_settle.h"
 #include "texproc/prefilter/detail/walk.h"
 #include "texproc/prefilter/lux.h"
@@ -67,29 +64,6 @@ void lux_roughness(const MapSurface& surface, const PrefilterOptions& options, P
 
 using Wanted = std::function<bool(int, int, int)>;
 
-// What the rule picture may take besides its own fit: the roughness of the rule median.
-struct Beside {
-    PrefilterOptions options;
-    std::optional<Filter> filter;
-    std::vector<Image> roughness;
-
-    Beside(const PrefilterOptions& picture, const MapSurface& surface,
-           const std::vector<LevelSize>& sizes)
-        : options(picture), roughness(1)
-    {
-        options.rule = "median";
-        filter.emplace(options, surface);
-        for (std::size_t k = 1; k < sizes.size(); ++k)
-            roughness.emplace_back(sizes[k].width, sizes[k].height, 1, ColorSpace::Data);
-    }
-    void take(const MipTexel& t)
-    {
-        const float alpha2 = std::max((*filter)(t).alpha2, 0.0f);
-        roughness[static_cast<std::size_t>(t.level)].at(t.x, t.y, 0) =
-            stored_value(std::sqrt(std::sqrt(alpha2)), options);
-    }
-};
-
 // All variants in one walk; `wanted` empty: every texel.
 std::vector<Prefiltered> filtered(const MapSurface& surface,
                                   const std::vector<PrefilterOptions>& variants,
@@ -98,7 +72,6 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
     const std::vector<LevelSize> sizes = level_sizes(surface.width, surface.height);
     std::vector<Filter> filters;
     std::vector<Prefiltered> chains;
-    std::vector<std::unique_ptr<Beside>> beside(variants.size());
     WalkOptions walking;
     walking.wanted = wanted;
     for (const PrefilterOptions& o : variants) {
@@ -108,22 +81,17 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
         walking.own_lobes |= o.rule == "vmf";
         if (o.rule == "overlap" || o.rule == "picture") walking.apart = kApart;
     }
-    for (std::size_t i = 0; i < variants.size(); ++i)
-        if (variants[i].rule == "picture" && !variants[i].quick && !wanted)
-            beside[i] = std::make_unique<Beside>(variants[i], surface, sizes);
     walking.threads = variants.front().threads;
     walking.progress = variants.front().progress;
     walk(surface, walking, [&](const MipTexel& texel) {
         for (std::size_t i = 0; i < filters.size(); ++i) {
             store(filters[i](texel), texel, variants[i], chains[i]);
-            if (beside[i]) beside[i]->take(texel);
         }
     });
     for (std::size_t i = 0; i < variants.size(); ++i) {
         if (variants[i].rule == "lux") lux_roughness(surface, variants[i], chains[i]);
         if (variants[i].rule == "picture" && !wanted)
-            settle_picture(surface, variants[i],
-                           beside[i] ? beside[i]->roughness : std::vector<Image>{}, chains[i]);
+            settle_picture(surface, variants[i], chains[i]);
     }
     return chains;
 }

@@ -1,8 +1,6 @@
 #ifndef PETRICHOR_TEXPROC_PREFILTER_DETAIL_PICTURE_SETTLE_H
 #define PETRICHOR_TEXPROC_PREFILTER_DETAIL_PICTURE_SETTLE_H
 
-#include <vector>
-
 #include "texproc/prefilter/detail/map_surface.h"
 #include "texproc/prefilter/prefilter.h"
 
@@ -13,13 +11,8 @@ namespace petrichor::texproc::detail {
 /// fitted, from none to all, with which the pictures are nearest to the truth and none is farther
 /// from it than with plain mips, where that can be had.
 ///
-/// In full quality a level may also take what the rule median gives, and what footprints two or four
-/// times as large give.
-///
-///   median  roughness of the rule median, levels 1 on; quick: not looked at
-///   chain   its roughness is changed; base_share counts as part of the pictures
-void settle_picture(const MapSurface& surface, const PrefilterOptions& options,
-                    const std::vector<Image>& median, Prefiltered& chain);
+///   chain  its roughness is changed; base_share counts as part of the pictures
+void settle_picture(const MapSurface& surface, const PrefilterOptions& options, Prefiltered& chain);
 
 }  // namespace petrichor::texproc::detail
 
