@@ -14,6 +14,7 @@
 #include "cli/texture/cmd_texture.h"
 #include "cli/texture/maps/files.h"
 #include "texproc/codecs/files/texture.h"
+#include "texproc/filter/bump_slopes.h"
 #include "texproc/filter/mips.h"
 #include "texproc/filter/normal.h"
 #include "texproc/filter/resample.h"
@@ -29,7 +30,7 @@ struct Arguments {
     std::string in, out, format;
     std::string wrap = "wrap";
     bool srgb = false, linear = false, mips = false, normals = false, dither = false;
-    bool alpha_data = false;
+    bool alpha_data = false, bump_slopes = false;
     std::string size;
     double scale = 0.0;
     float rdo = 0.0f;
@@ -89,6 +90,14 @@ void check(const Arguments& a)
     if (a.mips && !container && extension != ".exr") {
         throw Error("texture convert: '" + extension + "' does not hold mip levels",
                     "Write .dds, .ktx2 or .exr; or: petrichor texture mips IN -o 'out_%d.png'.");
+    }
+    if (a.bump_slopes && (extension != ".exr" || !a.mips)) {
+        throw Error("texture convert: --bump-slopes is for .exr with --mips, not '" + extension + "'",
+                    "Write .exr and add --mips.");
+    }
+    if (a.bump_slopes && (a.srgb || !a.format.empty() || a.bits)) {
+        throw Error("texture convert: --bump-slopes writes six channels of 32-bit floats",
+                    "Leave out --srgb, --format and --bits.");
     }
     if (!a.size.empty() && a.scale > 0.0) {
         throw Error("texture convert: --size and --scale exclude each other", "Give one of them.");
@@ -201,11 +210,43 @@ void tell_losses(const std::string& format, const texproc::RawImage& raw)
         std::cerr << "note: " << beyond << " numbers beyond half floats become the last one, 65504, or 0\n";
 }
 
+void write_slopes(const Arguments& a, const texproc::RawImage& raw)
+{
+    const int channels = a.normals ? 3 : 1;
+    const Image map = texproc::to_image(raw, ColorSpace::Data);
+    if (map.channels < channels) {
+        throw Error("texture convert: --normals needs 3 channels, '" + a.in + "' has " +
+                        std::to_string(map.channels),
+                    "Leave --normals out where it holds heights.");
+    }
+    for (std::size_t i = 0; !a.normals && map.channels > 2 && i < map.pixels.size();
+         i += static_cast<std::size_t>(map.channels)) {  // gray in three channels is fine
+        if (map.pixels[i] == map.pixels[i + 1] && map.pixels[i] == map.pixels[i + 2]) continue;
+        throw Error("texture convert: --bump-slopes needs heights, '" + a.in + "' is coloured",
+                    "Give a height map, or add --normals where it is a normal map.");
+    }
+    texproc::Edge edge = texproc::Edge::Wrap;
+    if (a.wrap == "clamp") edge = texproc::Edge::Clamp;
+    if (a.wrap == "mirror") edge = texproc::Edge::Mirror;
+    Image used(map.width, map.height, channels, ColorSpace::Data);
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x)
+            for (int c = 0; c < channels; ++c) used.at(x, y, c) = map.at(x, y, c);
+    const std::vector<Image> levels = texproc::mip_chain(
+        texproc::bump_slopes(used, edge, edge), {.filter = kFilters.at(a.filter), .threads = a.threads});
+    texproc::write_bump_slopes(a.out, levels);
+    std::cout << levels.size() << " levels\n";
+}
+
 void run(const Arguments& a)
 {
     check(a);
     texproc::RawImage raw = texproc::read_raw(a.in, a.reading);
     if (!a.size.empty() || a.scale > 0.0) raw = in_size(a, raw);
+    if (a.bump_slopes) {
+        write_slopes(a, raw);
+        return;
+    }
     if (a.normals && raw.channels == 3 && texproc::drops_z(a.format))
         raw = texproc::unit_normals(raw, raw.type);
     tell_losses(a.format, raw);
@@ -278,6 +319,9 @@ void add_texture_convert(CLI::App& texture)
     app->add_flag("--alpha-data", a->alpha_data,
                   "--srgb --mips: alpha is no coverage; colour counts the same under all of it");
     app->add_flag("--normals", a->normals, "a normal map: levels are made unit length again");
+    app->add_flag("--bump-slopes", a->bump_slopes,
+                  "exr --mips: height, its slopes a texel, their squares and product, as maketx "
+                  "--bumpslopes; of heights, or with --normals of a normal map");
     app->add_option("--quality", a->quality, "of blocks")
         ->check(CLI::IsMember({"fast", "normal", "best"}))
         ->capture_default_str();

@@ -11,6 +11,7 @@
 #include "tests/support/assets.h"
 #include "tests/texproc/textures.h"
 #include "texproc/codecs/files/detail/sha1.h"
+#include "texproc/filter/bump_slopes.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -173,6 +174,31 @@ TEST_F(Dds, ChainsAreChecked)
     EXPECT_THROW(make_texture({}), Error);
     EXPECT_THROW(texture_format("bc9"), Error);
     EXPECT_THROW(make_texture(small_chain(4, 4, 3, PixelType::U8), {.format = "bc2"}), Error);
+}
+
+// A plane, a valley and a normal map: a level's squares less the square of its means are the
+// variance of the slopes below it.
+TEST(BumpSlopes, LevelsHoldTheMomentsOfSlopes)
+{
+    Image heights(16, 8, 1, ColorSpace::Data);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x)
+            heights.at(x, y, 0) =
+                0.25f * static_cast<float>(std::abs(x - 8)) + 0.5f * static_cast<float>(y);
+    const std::vector<Image> levels = mip_chain(bump_slopes(heights, Edge::Clamp, Edge::Clamp));
+    const float* inside = &levels[0].pixels[6 * (3 * 16 + 3)];
+    const float expected[] = {2.75f, -0.25f, 0.5f, 0.0625f, 0.25f, -0.125f};
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(inside[c], expected[c], 1e-6f) << c;
+    // Of 16 columns 7 fall and 6 rise by 1/4, one is the bottom, at both edges it is half of that.
+    const float* whole = &levels[4].pixels[0];
+    EXPECT_NEAR(whole[1], -1.0f / 64.0f, 1e-6f);
+    EXPECT_NEAR(whole[3], (13.0f / 16.0f + 2.0f / 64.0f) / 16.0f, 1e-6f);
+    Image normal(1, 1, 3, ColorSpace::Data);
+    normal.pixels = {0.5f + 0.5f * 0.6f, 0.5f, 0.5f + 0.5f * 0.8f};
+    const Image slopes = bump_slopes(normal, Edge::Wrap, Edge::Wrap);
+    EXPECT_NEAR(slopes.pixels[1], -0.75f, 1e-5f);
+    EXPECT_NEAR(slopes.pixels[3], 0.5625f, 1e-5f);
+    EXPECT_THROW(bump_slopes(Image(2, 2, 2, ColorSpace::Data), Edge::Wrap, Edge::Wrap), Error);
 }
 
 TEST_F(Dds, ExrHoldsLevelsToo)

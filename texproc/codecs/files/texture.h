@@ -83,7 +83,11 @@ void write_mip_chain(const std::filesystem::path& path, std::span<const RawImage
 void write_mip_chain(const std::filesystem::path& path, const std::vector<RawImage>& levels,
                      const TextureWriteOptions& options = {});
 
-/// The same for images: linear colour is stored as sRGB in integer formats (options.srgb is
+/// Levels of bump_slopes(), all down to 1 x 1, as an .exr of floats in the channels of maketx
+/// --bumpslopes (b0_h, b1_dhds, b2_dhdt, b3_dhds2, b4_dhdt2, b5_dh2dsdt).
+void write_bump_slopes(const std::filesystem::path& path, const std::vector<Image>& levels);
+
+/// write_mip_chain() for images: linear colour is stored as sRGB in integer formats (options.srgb is
 /// implied); without a format: 8 bits for dds and ktx2, half for exr.
 void write_mip_chain(const std::filesystem::path& path, const std::vector<Image>& levels,
                      const TextureWriteOptions& options = {});

@@ -141,6 +141,17 @@ void write_mip_chain(const fs::path& path, const std::vector<Image>& levels,
     write_mip_chain(path, raw, labelled);
 }
 
+void write_bump_slopes(const fs::path& path, const std::vector<Image>& levels)
+{
+    if (lower_extension(path) != ".exr" || levels.empty() || levels[0].channels != 6) {
+        throw Error("output " + path.string() + ": slopes of bumps are six channels of an .exr",
+                    "Write .exr.");
+    }
+    MipTexture texture{levels[0].width, levels[0].height, {{}, PixelType::F32, 6, false}, false, {}};
+    for (const Image& level : levels) texture.levels.push_back(to_raw(level, PixelType::F32).bytes);
+    detail::write_exr_mips(path, texture);
+}
+
 std::vector<std::byte> texture_bytes(const MipTexture& texture, const std::string& container,
                                      int zstd)
 {

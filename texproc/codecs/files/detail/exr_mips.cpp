@@ -24,6 +24,11 @@ constexpr unsigned kTile = 64;
 std::string channel_name(int c, int channels)
 {
     if (channels == 1) return "Y";
+    if (channels == 6) {  // slopes of bumps, as maketx names them
+        constexpr const char* kSlopes[] = {"b0_h",     "b1_dhds",  "b2_dhdt",
+                                           "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"};
+        return kSlopes[c];
+    }
     return std::string(1, "RGBA"[c]);
 }
 
