@@ -15,9 +15,20 @@
 
 #include "formulas/light/brdf.h"
 #include "formulas/light/layers.h"
+#include "formulas/light/ltc.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/translucent.h"
 #include "formulas/light/water_film.h"
+
+// What lamps that have a size need to know of the surface and the eye: the same for every lamp.
+struct ShapedLobes {
+    Frame3 surface;
+    Frame3 lobe;       // in which the lobe is a cosine; the film's
+    Frame3 film;
+    vec2 split_sum;    // scale and offset of F0
+    float film_keeps;  // of light of the surface below, on the way out
+    float film_mirrors;
+};
 
 // A surface point; weather is on it already.
 struct LitPoint {
@@ -40,6 +51,7 @@ struct LitPoint {
     WaterFilm film;    // of rain; the pass adds it
     float sunlit;      // 0 in the shadow of the sun .. 1
     bool point_lamps;  // sizes of lamps are not seen
+    ShapedLobes shaped;  // set where the picture has lamps that have a size
 };
 
 // What a white surface sends back of a light at that cosine (formulas/light/skin.h), from a table.

@@ -129,16 +129,32 @@ float glow_highlight(float roughness)
     return IMAGE_BASED_LIGHT != 0u && PICTURE != 0u ? glow_share(roughness) : 1.0;
 }
 
-// What the surface below answers to an outline, and the film's highlight.   l: towards the middle of what is seen
-vec3 film_over(LitPoint p, Outline o, vec3 l, vec3 below, float highlight)
+// Once for all lamps.
+ShapedLobes shaped_lobes(LitPoint p)
 {
-    const float film_nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
-    const Frame3 above = surface_frame(p.film.normal, p.view);
-    const vec3 g = outline_irradiance(o, lobe_frame(above, ltc_matrix(p.film.roughness, film_nv)));
-    const vec2 sum = split_sum(p.film.normal, p.view, p.film.roughness);
-    return below * ((1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) *
-                    (1.0 - p.film.share * water_fresnel(film_nv))) +
-           vec3((kWaterF0 * sum.x + sum.y) * (cosine_share(g) * highlight * p.film.share * p.film.lit));
+    ShapedLobes lobes;
+    if ((WAYS & LIGHTS_LTC) != 0u) {
+        lobes.surface = surface_frame(p.normal, p.view);
+        lobes.lobe = lobe_frame(lobes.surface, ltc_matrix(p.roughness, clamp(dot(p.normal, p.view), 0.0, 1.0)));
+        lobes.split_sum = split_sum(p.normal, p.view, p.roughness);
+    }
+    if (FILM != 0u && ((WAYS & LIGHTS_LTC) != 0u || RECTANGLES != 0u)) {
+        const float nv = clamp(dot(p.film.normal, p.view), 0.0, 1.0);
+        const vec2 sum = split_sum(p.film.normal, p.view, p.film.roughness);
+        lobes.film = lobe_frame(surface_frame(p.film.normal, p.view), ltc_matrix(p.film.roughness, nv));
+        lobes.film_keeps = 1.0 - p.film.share * water_fresnel(nv);
+        lobes.film_mirrors = (kWaterF0 * sum.x + sum.y) * p.film.share;
+    }
+    return lobes;
+}
+
+// What the surface below answers to a shape, and the film's highlight.
+//   in_film  the shape's irradiance where the film's lobe is a cosine
+//   l        towards the middle of what is seen
+vec3 film_over(LitPoint p, vec3 in_film, vec3 l, vec3 below, float highlight)
+{
+    return below * ((1.0 - p.film.share * water_fresnel(dot(p.film.normal, l))) * p.shaped.film_keeps) +
+           vec3(p.shaped.film_mirrors * (cosine_share(in_film) * highlight * p.film.lit));
 }
 
 // By linearly transformed cosines. Highlights of other shapes than GGX's, of coats, fibres and hair, are
@@ -146,7 +162,7 @@ vec3 film_over(LitPoint p, Outline o, vec3 l, vec3 below, float highlight)
 vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
 {
     const float specular = highlight < 0.0 ? glow_highlight(p.roughness) : highlight;
-    const Frame3 surface = surface_frame(p.normal, p.view);
+    const Frame3 surface = p.shaped.surface;
     const vec3 f = outline_irradiance(o, surface);
     const float size = length(f);
     if (size < 1.0e-7) return vec3(0.0);
@@ -177,14 +193,14 @@ vec3 shape_light(LitPoint p, Outline o, float highlight, float visible)
     }
     if (ggx && p.lobe.lit > 0.0 && specular > 0.0) {
         const float nv = clamp(dot(p.normal, p.view), 0.0, 1.0);
-        const vec3 g = outline_irradiance(o, lobe_frame(surface, ltc_matrix(p.roughness, nv)));
-        const vec2 sum = split_sum(p.normal, p.view, p.roughness);
+        const vec3 g = outline_irradiance(o, p.shaped.lobe);
+        const vec2 sum = p.shaped.split_sum;
         const float kept = 1.0 - p.layers.coat * coat_fresnel(nv);
         radiance += (p.specular * sum.x + vec3(sum.y)) *
                     (cosine_share(g) * specular * kept * kept);
     }
     if (FILM != 0u)
-        radiance = film_over(p, o, l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
+        radiance = film_over(p, outline_irradiance(o, p.shaped.film), l, radiance, highlight < 0.0 ? glow_highlight(p.film.roughness) : highlight);
     radiance *= visible;
     if (BLEEDS && p.translucency.strength > 0.0) {
         radiance += p.translucency.color * (light_through(p.translucency, p.normal, p.view, to_it) *
@@ -283,8 +299,9 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
                        blurred);
     const vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
     if (FILM == 0u) return radiance * color.rgb;
-    return film_over(p, rectangle_outline(centre, half_u, half_v), l, radiance, glow_highlight(p.film.roughness)) *
-           color.rgb;
+    const vec3 in_film = rectangle_irradiance(through(p.shaped.film, centre), through(p.shaped.film, half_u),
+                                              through(p.shaped.film, half_v));
+    return film_over(p, in_film, l, radiance, glow_highlight(p.film.roughness)) * color.rgb;
 }
 
 // Place of the surface that a neighbour sees; the own one where it sees none.

@@ -71,7 +71,7 @@ uint low_bits(uint count)
 }
 
 // Adds those of a range of the table that reach this tile, in their order.
-void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint end, const bool shadowed,
+void add_range(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, uint first, uint end, const bool shadowed,
                const bool shaped)
 {
     if (ALL_LIGHTS != 0u) {
@@ -87,6 +87,7 @@ void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint en
         const uint own = ONE_RANGE ? ~0u : low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
         uint bits = word.g & own;
         if (TOGETHER) {
+            if (SIFTED) bits = lights_of_group(group, low, bits, shadowed, shaped);
             while (bits != 0u) {
                 const LightRow mine = light_row(int(low) + max(findLSB(without_lowest(bits, gl_SubgroupInvocationID)), 0));
                 for (uint lane = 0u; lane < LIGHTS_AT_ONCE && bits != 0u; ++lane) {
@@ -103,24 +104,27 @@ void add_range(inout vec3 radiance, LitPoint p, ivec2 texel, uint first, uint en
 }
 
 // Adds lights far away, then those that reach this tile, in the order of the table.
-void add_all_lights(inout vec3 radiance, LitPoint p, ivec2 texel)
+//   there   a surface is shown here
+void add_all_lights(inout vec3 radiance, LitPoint p, bool there, ivec2 texel)
 {
     for (uint i = 0u; i < frame.directional_count; ++i) {
         const LightRow light = light_row(int(i));
         radiance += shadowed_light(p, -light.axis.xyz, 1.0) * light.color.rgb;
     }
+    LitGroup group;
+    if (SIFTED) group = group_of(p.position, p.normal, there);
     if (LAMP_SHADOWS != 0u)
-        add_range(radiance, p, texel, frame.directional_count, frame.plain_lights, true, true);
+        add_range(radiance, p, group, texel, frame.directional_count, frame.plain_lights, true, true);
     if ((WAYS & LIGHTS_PLAIN) != 0u)
-        add_range(radiance, p, texel, frame.plain_lights, frame.shaped_lights, false, false);
+        add_range(radiance, p, group, texel, frame.plain_lights, frame.shaped_lights, false, false);
     if ((WAYS & LIGHTS_SHAPED) != 0u)
-        add_range(radiance, p, texel, frame.shaped_lights, frame.light_count, false, true);
+        add_range(radiance, p, group, texel, frame.shaped_lights, frame.light_count, false, true);
 }
 
 // .. so much of them.
-void add_lights(inout vec3 radiance, LitPoint p, float share, ivec2 texel)
+void add_lights(inout vec3 radiance, LitPoint p, float share, bool there, ivec2 texel)
 {
     vec3 lamps = BAKED != 0u ? vec3(0.0) : radiance;
-    add_all_lights(lamps, p, texel);
+    add_all_lights(lamps, p, there, texel);
     radiance = BAKED != 0u ? radiance + lamps * share : lamps;
 }

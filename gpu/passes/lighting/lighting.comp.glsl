@@ -195,6 +195,7 @@ vec3 model_own(LitPoint p)
 
 #include "gpu/passes/lighting/light_rows.glsl"
 #include "gpu/passes/lighting/area_lights.glsl"
+#include "gpu/passes/lighting/light_groups.glsl"
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/lighting/light_loops.glsl"
 
@@ -258,6 +259,7 @@ void main()
     }
     const vec2 pixel = vec2(texel) + 0.5;
     const float depth = texelFetch(depth_map, texel, 0).r;
+    const bool there = inside && depth > 0.0;
     vec3 radiance;
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
     vec4 shape = vec4(0.0);
@@ -394,6 +396,8 @@ void main()
         p.lobe = make_lobe(n, v, p.diffuse * (1.0 - p.layers.transmitted), m.specular,
                            p.roughness * p.roughness);
 
+        p.shaped = shaped_lobes(p);
+
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
         bool sunny = false;
@@ -412,7 +416,7 @@ void main()
         }
         // Lamps whose light the map holds are in it.
         const float lamps = BAKED != 0u ? 1.0 - g.baked_shadow.share * g.baked_shadow.lamps : 1.0;
-        add_lights(direct, p, lamps, texel);
+        add_lights(direct, p, lamps, there, texel);
         // Occlusion maps tell of the sky; on sun and lamps they are a choice.
         const vec3 own = model_own(p);
         const float direct_open = mix(1.0, m.occlusion, frame.occlusion_direct);
@@ -421,7 +425,7 @@ void main()
             const LitPoint q = mirroring_part(p);
             vec3 bright = vec3(0.0);
             if (sunny) bright = shadowed_light(q, frame.sun_direction, p.sunlit) * sunlight;
-            add_lights(bright, q, lamps, texel);
+            add_lights(bright, q, lamps, there, texel);
             parts.of[PART_EMITTED] = own;
             parts.of[PART_SPECULAR_DIRECT] = bright * direct_open;
             parts.of[PART_DIFFUSE_DIRECT] = (direct - bright) * direct_open;

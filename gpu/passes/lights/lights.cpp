@@ -162,8 +162,9 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     if (table.shaped > table.plain) table.ways |= LIGHTS_PLAIN;
     if (table.count > table.shaped) table.ways |= LIGHTS_SHAPED;
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
-    else if (device.subgroup_size() >= LIGHTS_AT_ONCE)
+    else if (device.subgroup_size() == LIGHTS_AT_ONCE)
         table.ways |= LIGHTS_TOGETHER;
+    if (table.count > LIGHTS_FEW) table.ways |= LIGHTS_MANY;
     std::vector<glm::vec4> texels;
     for (const Light* light : ordered) {
         const bool spot = light->kind == LightKind::Spot;

@@ -31,6 +31,9 @@
 #define LIGHTS_TOGETHER 512u  // of the device: invocations of a group read lights for each other
 #define LIGHTS_BY_MATERIAL 1024u  // of the scene: some materials see lamps as points
 #define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
+#define LIGHTS_MANY 2048u  // of the table: more than LIGHTS_FEW
+
+#define LIGHTS_FEW 128u
 
 // So many at once, where a subgroup has as many invocations.
 #define LIGHTS_AT_ONCE 8u
