@@ -298,7 +298,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
     }
     if (kind == 31) {
-        return vec4(ground_relief(vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f)),
+        const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
+        return vec4(ground_relief(xz) + drifted_share(3.0f * xz),
                     level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }

@@ -42,11 +42,17 @@ SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
     return vec4(envelope, 0.5f + 0.5f * direction.x, 0.5f + 0.5f * direction.y, offset);
 }
 
-// Height of a snow cover, about 0..1.35, and the slope that a height of 1 has on the tile.
-SHARED_CONST float kSnowSteepness = 0.06f;
+// Height of a snow cover, 0..1.35 or so, and the slope that a height of 1 has on the tile. Fresh snow is
+// smooth: wide swells, and of what is a hand wide or less next to nothing (a natural surface's amplitudes
+// fall as its waves shorten; halved with them, all slopes are alike and it looks like crumpled paper).
+SHARED_CONST float kSnowSteepness = 0.05f;
 SHARED_FN float snow_relief(vec2 uv, uint seed)
 {
-    return tileable_fbm(uv, 6, 6, 11u + seed) + 0.35f * tileable_fbm(uv, 23, 4, 31u + seed);
+    return 0.85f * tileable_noise(uv * 4.0f, 4, 11u + seed) +
+           0.36f * tileable_noise(uv * 9.0f, 9, 12u + seed) +
+           0.1f * tileable_noise(uv * 19.0f, 19, 13u + seed) +
+           0.022f * tileable_noise(uv * 41.0f, 41, 14u + seed) +
+           0.008f * tileable_noise(uv * 97.0f, 97, 15u + seed);
 }
 
 // Where snow lies first and longest, 0..1 around 0.5.

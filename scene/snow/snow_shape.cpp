@@ -11,7 +11,7 @@ using glm::vec3;
 constexpr float kSunk_m = 0.012f;       // of a cap without snow, below its surface
 constexpr float kOverhang = 0.22f;      // of the depth
 constexpr float kMostOverhang_m = 0.05f;
-constexpr float kMostOverWidth = 1.0f;  // height of what stays on a post, over its half width
+constexpr float kMostOverWidth = 0.7f;  // height of what stays on a post, over its half width
 constexpr float kClosed = 1.2f;         // depth over the width of a slot, from which on snow closes it
 
 // Height over that of open ground at a share of the way from the edge (Fearing 2000 has edges round
@@ -21,6 +21,14 @@ float rounded(float s)
     if (s >= 1.0f) return 1.0f;
     const float left = 1.0f - std::max(s, 0.0f);
     return std::sqrt(std::max(1.0f - left * left, 0.0f));
+}
+
+// The lesser of two depths, rounded where they meet.
+float lesser(float a, float b)
+{
+    if (!(a > 0.0f) || !(b > 0.0f)) return 0.0f;
+    const float r = std::min(a, b) / std::max(a, b);
+    return std::min(a, b) / std::sqrt(1.0f + r * r);
 }
 
 }  // namespace
@@ -42,8 +50,8 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.thickness_m.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
-        const float deep =
-            std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m);
+        const float deep = lesser(
+            std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m), p.most_m);
         const float width = std::max(std::min(deep, 0.95f * p.support_m), 1.0e-4f);
         const float s = p.edge_m / width;
         const float slot = std::clamp(2.0f * deep / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);

@@ -276,6 +276,53 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// A ball of 20 cm under half a metre of snow: it carries what lies at repose on its crown, little at its
+// sides, and nowhere is the snow steeper than it holds by itself.
+TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    constexpr int kAround = 48, kUp = 14;
+    constexpr float kRadius = 0.1f;
+    const auto on_ball = [](int ring, int turn) {
+        const float up = 1.45f * static_cast<float>(ring) / kUp;  // from the crown down
+        const float way = 6.2831853f * static_cast<float>(turn) / kAround;
+        return kRadius * vec3(std::sin(up) * std::cos(way), std::cos(up), std::sin(up) * std::sin(way)) +
+               vec3(0.0f, 1.0f, 0.0f);
+    };
+    for (int ring = 0; ring < kUp; ++ring) {
+        for (int turn = 0; turn < kAround; ++turn) {
+            const vec3 a = on_ball(ring, turn), b = on_ball(ring, turn + 1), c = on_ball(ring + 1, turn);
+            const vec3 d = on_ball(ring + 1, turn + 1);
+            Primitive& p = scene.meshes[0].primitives[0];
+            const auto first = static_cast<std::uint32_t>(p.positions.size());
+            for (const vec3& v : {a, b, c, d}) {
+                p.positions.push_back(v);
+                p.normals.push_back(glm::normalize(v - vec3(0.0f, 1.0f, 0.0f)));
+                if (!p.uv0.empty()) p.uv0.emplace_back(0.0f);
+                if (!p.tangents.empty()) p.tangents.emplace_back(1, 0, 0, 1);
+            }
+            for (const std::uint32_t v : {0u, 1u, 2u, 1u, 3u, 2u}) p.indices.push_back(first + v);
+        }
+    }
+    SnowCapOptions options;
+    options.eyes_m = {{0.0f, 1.4f, 1.0f}};
+    const SnowCaps caps = caps_of(scene, options);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.5f));
+    float crown = 0.0f, side = 0.0f, ground = 0.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const vec3& base = caps.points[i].base_m;
+        const float out = glm::length(vec2(base.x, base.z));
+        if (base.y < 0.5f) ground = std::max(ground, shape.thickness_m[i]);
+        else if (out < 0.03f) crown = std::max(crown, shape.thickness_m[i]);
+        else if (out > 0.075f) side = std::max(side, shape.thickness_m[i]);
+    }
+    EXPECT_GT(ground, 0.25f);
+    EXPECT_GT(crown, 0.012f);
+    EXPECT_LT(crown, 0.7f * kRadius) << "no hat";
+    EXPECT_LT(side, 0.5f * crown + 0.012f);
+}
+
 TEST(SnowShape, WithoutSnowCapsAreBelowTheGround)
 {
     const SnowCaps caps = caps_of(yard());
