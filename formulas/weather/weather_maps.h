@@ -48,11 +48,12 @@ SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
 SHARED_CONST float kSnowSteepness = 0.05f;
 SHARED_FN float snow_relief(vec2 uv, uint seed)
 {
-    return 0.85f * tileable_noise(uv * 4.0f, 4, 11u + seed) +
-           0.36f * tileable_noise(uv * 9.0f, 9, 12u + seed) +
-           0.1f * tileable_noise(uv * 19.0f, 19, 13u + seed) +
-           0.022f * tileable_noise(uv * 41.0f, 41, 14u + seed) +
-           0.008f * tileable_noise(uv * 97.0f, 97, 15u + seed);
+    // Bent, so that the lattice is not seen.
+    const vec2 bend = vec2(tileable_noise(uv * 3.0f, 3, 21u + seed), tileable_noise(uv * 3.0f, 3, 22u + seed)) - 0.5f;
+    const vec2 at = uv + 0.22f * bend;
+    return 0.7f * tileable_noise(at * 3.0f, 3, 11u + seed) + 0.42f * tileable_noise(at * 5.0f, 5, 12u + seed) +
+           0.16f * tileable_noise(at * 8.0f, 8, 13u + seed) + 0.05f * tileable_noise(at * 17.0f, 17, 14u + seed) +
+           0.015f * tileable_noise(uv * 41.0f, 41, 15u + seed) + 0.006f * tileable_noise(uv * 97.0f, 97, 16u + seed);
 }
 
 // Where snow lies first and longest, 0..1 around 0.5.

@@ -32,6 +32,7 @@ struct SnowCaps {
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
         float most_m = 1.0e9f;        ///< of snow that holds here, by the angle of repose from the edges
+        float fill_m = 0.0f;          ///< up to the ground without its stones and joints: what deep snow lies on
         float uneven = 1.0f;          ///< times the depth
         glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot
         float gap_m = 1.0e9f;         ///< how wide the slot behind that edge is; 1e9: it is none

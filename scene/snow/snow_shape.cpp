@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/weather/surface_weather.h"
 #include "scene/snow/snow_caps.h"
 
 namespace petrichor::scene {
@@ -59,7 +60,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float thickness = deep * (round + slot * (1.0f - round));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk;
+        at.y += thickness - sunk + p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness);
         const float bridged = p.gap_m < 1.0f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;

@@ -391,7 +391,7 @@ TEST(SnowRelief, IsSmoothAtTheWidthOfAHand)
         fine += (here - wide) * (here - wide);
     }
     EXPECT_LT(fine, 0.3 * all);
-    EXPECT_NEAR(std::sqrt(all / 4000.0) * static_cast<double>(kSnowSteepness), 0.2, 0.1);
+    EXPECT_NEAR(std::sqrt(all / 4000.0) * static_cast<double>(kSnowSteepness), 0.09, 0.03);
 }
 
 TEST(GroundRelief, SpreadsOverItsRangeAndLeavesAThirdToWater)

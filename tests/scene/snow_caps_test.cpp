@@ -276,6 +276,46 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// Setts of 15 cm, 1.5 cm high at their crowns: a hand of snow lies even over them, a finger shows them.
+TEST(SnowShape, DeepSnowHidesTheStonesBelow)
+{
+    Scene scene = empty_scene();
+    constexpr int kSide = 60;
+    constexpr float kStep_m = 0.05f;
+    Primitive& p = scene.meshes[0].primitives[0];
+    for (int z = 0; z <= kSide; ++z) {
+        for (int x = 0; x <= kSide; ++x) {
+            const float up = 0.0075f * (std::sin(2.0943951f * static_cast<float>(x)) + std::sin(2.0943951f * static_cast<float>(z)));
+            p.positions.emplace_back(kStep_m * static_cast<float>(x), up, kStep_m * static_cast<float>(z));
+            p.normals.emplace_back(0, 1, 0);
+            p.uv0.emplace_back(0.0f);
+        }
+    }
+    for (std::uint32_t z = 0; z < kSide; ++z) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const std::uint32_t a = z * (kSide + 1) + x, b = a + kSide + 1;
+            for (const std::uint32_t v : {a, b, a + 1, a + 1, b, b + 1}) p.indices.push_back(v);
+        }
+    }
+    const SnowCaps caps = caps_of(scene);
+    const auto unevenness = [&](float depth) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        double rough = 0.0;
+        int count = 0;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const vec3& base = caps.points[i].base_m;
+            if (std::abs(base.x - 1.5f) > 0.8f || std::abs(base.z - 1.5f) > 0.8f) continue;
+            const double over = static_cast<double>(shape.positions[i].y - shape.thickness_m[i]);
+            rough += over * over;
+            ++count;
+        }
+        return std::sqrt(rough / std::max(count, 1));
+    };
+    EXPECT_GT(unevenness(0.015f), 0.006) << "thin snow follows them";
+    EXPECT_LT(unevenness(0.1f), 0.003);
+    EXPECT_GT(unevenness(0.1f), 0.0);
+}
+
 // A ball of 20 cm under half a metre of snow: it carries what lies at repose on its crown, little at its
 // sides, and nowhere is the snow steeper than it holds by itself.
 TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
