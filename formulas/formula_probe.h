@@ -41,7 +41,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 50;
+SHARED_CONST int kProbeKinds = 51;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -282,8 +282,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const float low = 4.0f * a.y;
         return vec4(rain_drops_per_m3(rate, low, low + 1.0f) * 1.0e-3f,
                     rain_extinction_per_m(rate, low, low + 1.0f) * 1.0e3f,
-                    snow_flakes_per_m3(20.0f * a.z, kDrySnow_kg_m2, low, low + 1.0f) * 1.0e-3f,
-                    snow_extinction_per_m(20.0f * a.z, kWetSnow_kg_m2, low, low + 1.0f) * 1.0e3f);
+                    snow_flakes_per_m3(20.0f * a.z, kDrySnow_kg_m2, 1.0f + a.y, low, low + 1.0f) *
+                        1.0e-3f,
+                    snow_extinction_per_m(20.0f * a.z, kWetSnow_kg_m2, snow_breakup(10.0f * a.x), low,
+                                          low + 1.0f) *
+                        1.0e3f);
     }
     if (kind == 28) {
         return vec4(drop_phase(2.0f * a.x - 1.0f), flake_phase(2.0f * a.y - 1.0f),
@@ -304,7 +307,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     flood_share(b.y), cover_of_share(b.z, 1.5f * b.w));
     }
     if (kind == 31) {
-        return vec4(ground_relief(vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f)),
+        const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
+        return vec4(ground_relief(xz) + drifted_share(3.0f * xz),
                     level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
@@ -389,6 +393,14 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 sum = over_sky_axes(probe_direction(a.x, a.y), vec3(a.z), vec3(a.w), vec3(b.x), vec3(b.y),
                                        vec3(b.z), vec3(b.w));
         return vec4(sum.x, sky_axis(int(min(c.x * 6.0f, 5.0f))));
+    }
+    if (kind == 50) {
+        const float radius = spot_radius_px(20.0f * a.x, 5.0f * a.y);
+        const float half_way = 40.0f * a.z * a.z * a.z;
+        return vec4(radius, spot_opacity(20.0f * a.x, radius),
+                    streak_cover((2.0f * b.x - 1.0f) * (half_way + radius), (2.0f * b.y - 1.0f) * radius,
+                                 half_way, radius),
+                    snow_breakup(15.0f * b.z));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

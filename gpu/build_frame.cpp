@@ -268,7 +268,7 @@ void look_from_lamps(FrameGraph& graph, const Frame& frame, shared::FrameConstan
 
 FallingPlan plan_of(const Frame& frame, const Sun& sun, const FrameResources& r)
 {
-    return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0)));
+    return plan_falling(frame, falling_view(frame_constants(frame, sun, r.scene->bounds(), 0), frame.lens));
 }
 
 FallingFacts falling_facts(const FallingPlan& plan, const Frame& frame)
@@ -292,7 +292,7 @@ void add_air(FrameGraph& graph, const Frame& frame, const Sun& sun, const Fallin
     const bool falls = plan.drawn_reach_m > 0.0f;
     facts = falling_facts(plan, frame);
     if (falls) {
-        const FallingView view = falling_view(c);
+        const FallingView view = falling_view(c, frame.lens);
         r.falling->fill(falling_drops(plan, frame, view, r.lights->brightest));
         r.splashes->fill(falling_splashes(plan, frame, view, r.lights->brightest));
         facts.drawn = r.falling->count();

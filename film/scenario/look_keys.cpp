@@ -19,7 +19,7 @@ const std::vector<LookKey>& look_keys()
         {LOOK(snow_tiling), 0.0, 100.0, "[0.35, 1.7, 0.09, 0.83]",
          "repeats per metre: relief of the snow, its detail, where it lies, detail of that",
          offsetof(WeatherLook, snow_tiling)},
-        {LOOK(snow_strength), 0.0, 10.0, "[1.0, 1.0]",
+        {LOOK(snow_strength), 0.0, 10.0, "[1.0, 0.25]",
          "bumpiness of the snow and of its detail, times the material's",
          offsetof(WeatherLook, snow_strength)},
         {LOOK(snow_scatter_color), 0.0, 4.0, "[0.0, 0.0, 0.0]",

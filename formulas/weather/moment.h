@@ -69,8 +69,8 @@ struct WeatherLook {
     vec3 snow_specular MOMENT_DEFAULT(vec3(0.02f));             // F0
     // Repeats per metre of the snow's relief, its detail, its mask and the mask's detail.
     vec4 snow_tiling MOMENT_DEFAULT(vec4(0.35f, 1.7f, 0.09f, 0.83f));
-    // Bumpiness of the snow and of its detail, times that of the material.
-    vec2 snow_strength MOMENT_DEFAULT(vec2(1.0f));
+    // Bumpiness of the snow and of its detail, times that of the material. Fresh snow has little of a hand's width.
+    vec2 snow_strength MOMENT_DEFAULT(vec2(1.0f, 0.25f));
     // Light that snow scatters at grazing angles: brightens its albedo. Black: none.
     vec3 snow_scatter_color MOMENT_DEFAULT(vec3(0.0f));
     float snow_scatter_bias MOMENT_DEFAULT(0.0f);

@@ -42,11 +42,18 @@ SHARED_FN vec4 rain_drops(vec2 uv, uint seed)
     return vec4(envelope, 0.5f + 0.5f * direction.x, 0.5f + 0.5f * direction.y, offset);
 }
 
-// Height of a snow cover, about 0..1.35, and the slope that a height of 1 has on the tile.
-SHARED_CONST float kSnowSteepness = 0.06f;
+// Height of a snow cover, 0..1.35 or so, and the slope that a height of 1 has on the tile. Fresh snow is
+// smooth: wide swells, and of what is a hand wide or less next to nothing (a natural surface's amplitudes
+// fall as its waves shorten; halved with them, all slopes are alike and it looks like crumpled paper).
+SHARED_CONST float kSnowSteepness = 0.05f;
 SHARED_FN float snow_relief(vec2 uv, uint seed)
 {
-    return tileable_fbm(uv, 6, 6, 11u + seed) + 0.35f * tileable_fbm(uv, 23, 4, 31u + seed);
+    // Bent, so that the lattice is not seen.
+    const vec2 bend = vec2(tileable_noise(uv * 3.0f, 3, 21u + seed), tileable_noise(uv * 3.0f, 3, 22u + seed)) - 0.5f;
+    const vec2 at = uv + 0.22f * bend;
+    return 0.7f * tileable_noise(at * 3.0f, 3, 11u + seed) + 0.42f * tileable_noise(at * 5.0f, 5, 12u + seed) +
+           0.16f * tileable_noise(at * 8.0f, 8, 13u + seed) + 0.05f * tileable_noise(at * 17.0f, 17, 14u + seed) +
+           0.015f * tileable_noise(uv * 41.0f, 41, 15u + seed) + 0.006f * tileable_noise(uv * 97.0f, 97, 16u + seed);
 }
 
 // Where snow lies first and longest, 0..1 around 0.5.

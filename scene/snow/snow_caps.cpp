@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <queue>
 #include <unordered_map>
 #include <utility>
 
@@ -33,6 +35,12 @@ constexpr float kAlong_m = 0.2f;
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
 constexpr float kBridge_m = 0.018f;   // caps reach so far into walls and over joints
 constexpr int kSpread = 12;           // edges that a support is told over
+constexpr float kRepose = 1.0f;       // tangent of 45 degrees: dry snow
+constexpr float kShoulder = 0.4f;     // height of what stands upright at a level edge, over the half width below
+constexpr float kRounded = 0.6f;      // what is left of a heap at repose that the wind has rounded
+constexpr int kSmoothed = 24;         // passes over the neighbours, by which snow forgets the stones below
+constexpr float kFill_m = 0.02f;      // of relief, up or down
+constexpr float kSticks_m = 0.012f;   // what holds on any slope
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
 {
@@ -326,6 +334,85 @@ void find_supports(SnowCaps& caps, const CutMesh& mesh)
     }
 }
 
+// Deep snow fills joints and hides the crowns of stones: the heights of points, smoothed among neighbours of one surface.
+void fill_relief(SnowCaps& caps, const CutMesh& mesh)
+{
+    const std::size_t count = caps.points.size();
+    std::vector<float> height(count);
+    for (std::size_t i = 0; i < count; ++i) height[i] = caps.points[i].base_m.y;
+    for (int pass = 0; pass < kSmoothed; ++pass) {
+        std::vector<float> sum(height), weight(count, 1.0f);
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const Primitive& p = mesh.primitives[i];
+            for (std::size_t k = 0; k < p.indices.size(); ++k) {
+                const std::uint32_t a = mesh.points[i][p.indices[k]];
+                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+                const float share = std::min(0.05f / std::max(glm::distance(caps.points[a].base_m,
+                                                                            caps.points[b].base_m), 0.02f), 1.0f);
+                sum[a] += share * height[b];
+                weight[a] += share;
+                sum[b] += share * height[a];
+                weight[b] += share;
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) height[i] = sum[i] / weight[i];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        SnowCaps::Point& point = caps.points[i];
+        const float inside = shared::smooth_edge(0.05f, 0.25f, point.edge_m) *
+                             (glm::length(point.bridge_m) > 0.0f ? 0.0f : 1.0f);
+        point.fill_m = inside * std::clamp(height[i] - point.base_m.y, -kFill_m, kFill_m);
+    }
+}
+
+// Snow slides off where its own surface would be steeper than repose, from the edges on: round things carry
+// what lies on their crown and little at their sides.
+void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals)
+{
+    const std::size_t count = caps.points.size();
+    std::vector<std::vector<std::pair<std::uint32_t, float>>> beside(count);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t k = 0; k < p.indices.size(); ++k) {
+            const std::uint32_t a = mesh.points[i][p.indices[k]];
+            const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
+            const vec3 way = caps.points[a].base_m - caps.points[b].base_m;
+            const float rise = kRepose * glm::length(vec2(way.x, way.z));
+            beside[a].emplace_back(b, rise);
+            beside[b].emplace_back(a, rise);
+        }
+    }
+    // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
+    std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
+    using Next = std::pair<float, std::uint32_t>;
+    std::priority_queue<Next, std::vector<Next>, std::greater<>> queue;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SnowCaps::Point& point = caps.points[i];
+        if (point.edge_m > 1.0e-3f || point.gap_m < 1.0f) continue;
+        const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
+        top[i] = point.base_m.y;
+        upright[i] = kSticks_m + level * kShoulder * point.support_m;
+        queue.emplace(top[i], i);
+    }
+    while (!queue.empty()) {
+        const auto [height, i] = queue.top();
+        queue.pop();
+        if (height > top[i]) continue;
+        for (const auto& [other, rise] : beside[i]) {
+            const float there = height + rise;
+            if (there - caps.points[other].base_m.y > kDeepestSnow_m + 1.0f || there >= top[other]) continue;
+            top[other] = there;
+            upright[other] = upright[i];
+            queue.emplace(there, other);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (top[i] >= 1.0e29f) continue;
+        const float room = std::max(top[i] - caps.points[i].base_m.y, 0.0f);
+        caps.points[i].most_m = upright[i] + kRounded * room;
+    }
+}
+
 }  // namespace
 
 bool holds_snow_body(const Material& m)
@@ -397,6 +484,8 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     }
     fill_points(caps, mesh, edges, closed, options);
     find_supports(caps, mesh);
+    hold_by_repose(caps, mesh, point_normals(mesh));
+    fill_relief(caps, mesh);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
         SnowCaps::Part part;

@@ -14,7 +14,7 @@ namespace petrichor::scene {
 
 struct SnowCapOptions {
     std::vector<glm::vec3> eyes_m;  ///< where cameras stand over the film; none: as if near everywhere
-    float finest_m = 0.035f;        ///< edges at the rim of a cap, near an eye
+    float finest_m = 0.006f;        ///< edges at the rim of a cap, near an eye
     float coarsest_m = 0.6f;
     float per_metre = 0.006f;       ///< edges are at least so long a metre from the nearest eye
     float reach_m = 50.0f;          ///< no caps beyond this from the nearest eye
@@ -31,6 +31,8 @@ struct SnowCaps {
         float edge_m = 1.0e9f;        ///< to the nearest edge where the snow ends in the open
         float support_m = 1.0e9f;     ///< how wide the ground below is: half a post's width
         glm::vec2 out{0.0f};          ///< towards that edge, world x and z
+        float most_m = 1.0e9f;        ///< of snow that holds here, by the angle of repose from the edges
+        float fill_m = 0.0f;          ///< up to the ground without its stones and joints: what deep snow lies on
         float uneven = 1.0f;          ///< times the depth
         glm::vec2 bridge_m{0.0f};     ///< at a border: into the wall, over the joint or the slot
         float gap_m = 1.0e9f;         ///< how wide the slot behind that edge is; 1e9: it is none
@@ -77,7 +79,7 @@ struct SnowShape {
 
 /// depth_m: of each point, of snow on open ground there. Snow rounds off towards open edges as a quarter of
 /// an ellipse, as wide as deep and at most as wide as what it lies on, and stands out over them a
-/// little. Where there is none the cap lies below the surface.
+/// little; it is nowhere deeper than what holds there. Where there is none the cap lies below the surface.
 SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m);
 
 }  // namespace petrichor::scene

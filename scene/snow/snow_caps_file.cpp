@@ -10,7 +10,7 @@ namespace petrichor::scene {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x73706163;  // "caps"
-static_assert(sizeof(SnowCaps::Point) == 12 * sizeof(float), "no padding: bytes are compared");
+static_assert(sizeof(SnowCaps::Point) == 14 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {
     std::vector<std::byte> bytes;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulas/weather/surface_weather.h"
 #include "scene/snow/snow_caps.h"
 
 namespace petrichor::scene {
@@ -11,7 +12,7 @@ using glm::vec3;
 constexpr float kSunk_m = 0.012f;       // of a cap without snow, below its surface
 constexpr float kOverhang = 0.22f;      // of the depth
 constexpr float kMostOverhang_m = 0.05f;
-constexpr float kMostOverWidth = 1.0f;  // height of what stays on a post, over its half width
+constexpr float kMostOverWidth = 0.7f;  // height of what stays on a post, over its half width
 constexpr float kClosed = 1.2f;         // depth over the width of a slot, from which on snow closes it
 
 // Height over that of open ground at a share of the way from the edge (Fearing 2000 has edges round
@@ -21,6 +22,14 @@ float rounded(float s)
     if (s >= 1.0f) return 1.0f;
     const float left = 1.0f - std::max(s, 0.0f);
     return std::sqrt(std::max(1.0f - left * left, 0.0f));
+}
+
+// The lesser of two depths, rounded where they meet.
+float lesser(float a, float b)
+{
+    if (!(a > 0.0f) || !(b > 0.0f)) return 0.0f;
+    const float r = std::min(a, b) / std::max(a, b);
+    return std::min(a, b) / std::sqrt(1.0f + r * r);
 }
 
 }  // namespace
@@ -42,8 +51,8 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     shape.thickness_m.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
-        const float deep =
-            std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m);
+        const float deep = lesser(
+            std::min(drawn_snow_m(depth_m[i]) * p.share * p.uneven, kMostOverWidth * p.support_m), p.most_m);
         const float width = std::max(std::min(deep, 0.95f * p.support_m), 1.0e-4f);
         const float s = p.edge_m / width;
         const float slot = std::clamp(2.0f * deep / (kClosed * p.gap_m) - 1.0f, 0.0f, 1.0f);
@@ -51,7 +60,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         const float thickness = deep * (round + slot * (1.0f - round));
         const float sunk = kSunk_m * std::exp(-thickness / 0.02f);
         vec3 at = p.base_m;
-        at.y += thickness - sunk;
+        at.y += thickness - sunk + p.fill_m * shared::smooth_edge(0.01f, 0.06f, thickness);
         const float bridged = p.gap_m < 1.0f ? slot : std::min(thickness / 0.03f, 1.0f);
         at.x += p.bridge_m.x * bridged;
         at.z += p.bridge_m.y * bridged;

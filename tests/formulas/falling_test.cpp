@@ -77,13 +77,31 @@ TEST(Snow, TakesLightAsMeasured)
     EXPECT_NEAR(snow_bulk_extinction_per_m(1.0f, kDrySnow_kg_m2, 1.0f), 4.90e-3f, 1e-5f);
     EXPECT_NEAR(snow_bulk_extinction_per_m(1.0f, kWetSnow_kg_m2, 1.5f), 7.7e-4f, 5e-6f);
     EXPECT_NEAR(3.912f / snow_bulk_extinction_per_m(2.5f, kDrySnow_kg_m2, 1.0f), 319.0f, 1.0f);
-    EXPECT_NEAR(snow_extinction_per_m(1.0f, kDrySnow_kg_m2, 0.0f, 100.0f), 5.04e-3f, 1e-5f);
-    EXPECT_NEAR(snow_flakes_per_m3(1.0f, kDrySnow_kg_m2, 0.0f, 200.0f), 1092.0f, 1.0f);
+    EXPECT_NEAR(snow_extinction_per_m(1.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 100.0f), 5.04e-3f, 1e-5f);
+    EXPECT_NEAR(snow_flakes_per_m3(1.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 200.0f), 1092.0f, 1.0f);
     EXPECT_NEAR(flake_speed_m_s(4.0f), 0.999f, 1e-3f);
-    EXPECT_EQ(snow_flakes_per_m3(0.0f, kDrySnow_kg_m2, 0.0f, 200.0f), 0.0f);
+    EXPECT_EQ(snow_flakes_per_m3(0.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 200.0f), 0.0f);
     // Beyond what was measured more of the same: light is taken in proportion.
-    EXPECT_NEAR(snow_extinction_per_m(50.0f, kDrySnow_kg_m2, 0.0f, 200.0f),
-                5.0f * snow_extinction_per_m(10.0f, kDrySnow_kg_m2, 0.0f, 200.0f), 1e-3f);
+    EXPECT_NEAR(snow_extinction_per_m(50.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 200.0f),
+                5.0f * snow_extinction_per_m(10.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 200.0f), 1e-3f);
+}
+
+// Wind makes more and smaller flakes of the same water: as much light is taken, by more of them.
+TEST(Snow, WindBreaksFlakesAndNoWaterIsLost)
+{
+    EXPECT_EQ(snow_breakup(0.0f), 1.0f);
+    EXPECT_EQ(snow_breakup(2.0f), 1.0f) << "those of a calm day stay";
+    EXPECT_NEAR(snow_breakup(9.0f), 2.8f, 1e-5f);
+    for (const float broken : {1.5f, 2.8f}) {
+        const float whole = snow_extinction_per_m(5.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 300.0f);
+        EXPECT_NEAR(snow_extinction_per_m(5.0f, kDrySnow_kg_m2, broken, 0.0f, 300.0f), whole, 1e-3f * whole);
+        const float count = snow_flakes_per_m3(5.0f, kDrySnow_kg_m2, 1.0f, 0.0f, 300.0f);
+        EXPECT_NEAR(snow_flakes_per_m3(5.0f, kDrySnow_kg_m2, broken, 0.0f, 300.0f),
+                    broken * broken * broken * count, 1e-3f * count * broken * broken * broken);
+        // Half of the light by flakes above 13 mm when whole, hardly any when broken.
+        EXPECT_LT(snow_extinction_per_m(5.0f, kDrySnow_kg_m2, 2.8f, 13.0f, 300.0f), 0.02f * whole);
+        EXPECT_GT(snow_extinction_per_m(5.0f, kDrySnow_kg_m2, 1.0f, 13.0f, 300.0f), 0.5f * whole);
+    }
 }
 
 TEST(Snow, FlakesWeighWhatTheyMeltTo)
@@ -106,6 +124,44 @@ TEST(Streaks, AreAsFaintAsShuttersMakeThem)
     EXPECT_EQ(streak_opacity(f, 0.004f, 0.5f, 0.0f, 0.02f), 1.0f);
     const float reach = streak_reach_m(f, 0.002f, 6.55f, 0.004f, 0.01f);
     EXPECT_NEAR(streak_opacity(f, 0.002f, reach, 6.55f, 0.004f), 0.01f, 1e-6f);
+}
+
+// Summed over the picture a streak hides as much as the section of what makes it, however fast it goes
+// and however the lens blurs it; nowhere more than all; the longer the fainter, soft at its ends.
+TEST(Streaks, HideTheirSectionHoweverFastTheyGo)
+{
+    for (const float seen : {0.3f, 2.0f, 9.0f}) {
+        for (const float blur : {0.0f, 3.0f}) {
+            const float radius = spot_radius_px(seen, blur);
+            const float opacity = spot_opacity(seen, radius);
+            EXPECT_LE(opacity, 1.0f);
+            float middle = 2.0f;
+            for (const float half_way : {0.0f, 0.01f, 0.5f, 6.0f, 60.0f}) {
+                double sum = 0.0;
+                const double step = 0.02 * static_cast<double>(radius);
+                const double end = static_cast<double>(half_way + radius);
+                for (double x = -end; x < end; x += step) {
+                    for (double y = -static_cast<double>(radius); y < static_cast<double>(radius); y += step) {
+                        sum += static_cast<double>(streak_cover(static_cast<float>(x + 0.5 * step),
+                                                                static_cast<float>(y + 0.5 * step), half_way,
+                                                                radius));
+                    }
+                }
+                sum *= step * step * static_cast<double>(opacity);
+                const double section = 0.78539816 * static_cast<double>(seen * seen);
+                EXPECT_NEAR(sum, section, 0.01 * section) << seen << " " << blur << " " << half_way;
+                const float here = streak_cover(0.0f, 0.0f, half_way, radius);
+                EXPECT_LE(here, middle);
+                middle = here;
+                EXPECT_NEAR(streak_cover(half_way + radius, 0.0f, half_way, radius), 0.0f, 1e-6f);
+                if (half_way < radius) continue;
+                EXPECT_NEAR(streak_cover(half_way, 0.0f, half_way, radius), 0.5f * here, 1e-5f);
+            }
+        }
+    }
+    // At rest it hides half where the flake itself ends, more within.
+    EXPECT_NEAR(spot_opacity(200.0f, spot_radius_px(200.0f, 0.0f)) *
+                    streak_cover(0.0f, 100.0f, 0.0f, spot_radius_px(200.0f, 0.0f)), 0.5f, 1e-3f);
 }
 
 // How many drops hide at least a hundredth of a pixel, beyond 0.3 m, in such a picture.

@@ -16,6 +16,7 @@
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/weather_maps.h"
 #include "formulas/weather/surface_weather.h"
 
 namespace petrichor::shared {
@@ -341,6 +342,48 @@ TEST(LevelGround, HoldsWaterAndSlopesShedIt)
     EXPECT_EQ(level_share(up(10.0f), 1.0f), 1.0f) << "a stone below the water does not tilt it";
     EXPECT_EQ(level_share(up(60.0f), 1.0f), 0.0f);
     EXPECT_EQ(level_share(1.0f, 0.0f), 0.0f);
+}
+
+// Wide ground has its snow shared out, none lost; where a model stands nothing changes.
+TEST(GroundRelief, WindSharesOutTheSnowOfWideGround)
+{
+    EXPECT_EQ(drifted_share(vec2(0.0f)), 1.0f);
+    EXPECT_EQ(drifted_share(vec2(20.0f, -15.0f)), 1.0f);
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (float x = -9000.0f; x < 9000.0f; x += 41.0f) {
+        for (float z = 200.0f; z < 9000.0f; z += 41.0f) {
+            const double share = static_cast<double>(drifted_share(vec2(x, z)));
+            ASSERT_GE(share, 0.149);
+            ASSERT_LE(share, 1.851);
+            sum += share;
+            squares += share * share;
+            ++count;
+        }
+    }
+    const double mean = sum / count;
+    EXPECT_NEAR(mean, 1.0, 0.02);
+    EXPECT_GT(std::sqrt(squares / count - mean * mean), 0.15);
+}
+
+// Fresh snow swells, and is smooth where a hand is wide: most of its slope is of waves of half a metre.
+TEST(SnowRelief, IsSmoothAtTheWidthOfAHand)
+{
+    double fine = 0.0, all = 0.0;
+    const float step = 1.0f / 512.0f, hand = 1.0f / 28.0f;  // of a tile of 2.9 m: 6 mm, 10 cm
+    for (int k = 0; k < 4000; ++k) {
+        const vec2 at(hash_f(static_cast<uint>(k)), hash_f(static_cast<uint>(k) + 77777u));
+        const auto slope = [&](float over) {
+            return static_cast<double>(snow_relief(at + vec2(0.5f * over, 0.0f), 0u) -
+                                       snow_relief(at - vec2(0.5f * over, 0.0f), 0u)) /
+                   static_cast<double>(over);
+        };
+        const double here = slope(step), wide = slope(hand);
+        all += here * here;
+        fine += (here - wide) * (here - wide);
+    }
+    EXPECT_LT(fine, 0.3 * all);
+    EXPECT_NEAR(std::sqrt(all / 4000.0) * static_cast<double>(kSnowSteepness), 0.09, 0.03);
 }
 
 TEST(GroundRelief, SpreadsOverItsRangeAndLeavesAThirdToWater)

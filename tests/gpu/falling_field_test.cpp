@@ -93,14 +93,13 @@ TEST(FallingField, CountsEveryDropOnce)
         EXPECT_NEAR(plan.extinction_per_m, all, 1e-3f * all);
         EXPECT_LE(plan.drawn_per_m, plan.extinction_per_m);
         EXPECT_EQ(plan.drawn_reach_m > 0.0f, budget > 0);
-        // Summed over the picture, drops hide what they no longer dim: their opacity times the
-        // outline that is drawn, over the picture's pixels, is the depth of what is left out.
+        // Summed over the picture, drops hide what they no longer dim: their spots, over the picture's
+        // pixels, are the depth of what is left out, which is half of their extinction.
+        EXPECT_LE(plan.drawn_per_m, 0.5f * plan.extinction_per_m);
         double hidden = 0.0;
         for (const auto& d : drops_of(frame, looking())) {
-            const double length = static_cast<double>(glm::length(d.to_px - d.from_px));
             const double half = static_cast<double>(d.half_px);
-            hidden += static_cast<double>(d.opacity) * half *
-                      (4.0 / 3.0 * length + 1.5707963 * half);
+            hidden += static_cast<double>(d.opacity) * 1.5707963 * half * half;
         }
         hidden /= 1280.0 * 720.0;
         const double left_out =
@@ -169,6 +168,82 @@ TEST(FallingField, MovesWithTheAirAndFalls)
         if (nearest < 0.004f) ++met;
     }
     EXPECT_GT(met, first.size() / 50 * 8 / 10);
+}
+
+// Flakes go with eddies: neighbours alike, strangers not; and without wind all go down.
+TEST(FallingField, EddiesTurnNeighboursAlike)
+{
+    Frame frame = snowy(3.0f);
+    frame.weather.wind_m_s = {14.0f, -4.0f};
+    const Drops drops = drops_of(frame, looking());
+    ASSERT_GT(drops.size(), 5000u);
+    const auto way = [](const shared::FallingDrop& d) {
+        const glm::vec2 v = (d.to_px - d.from_px) * d.view_m;
+        return v / std::max(glm::length(v), 1e-6f);
+    };
+    double near = 0.0, far = 0.0, nears = 0.0, fars = 0.0;
+    for (std::size_t i = 0; i < drops.size(); i += 7) {
+        for (std::size_t k = i + 1; k < std::min(i + 400, drops.size()); ++k) {
+            const float apart = glm::length(drops[i].position_m - drops[k].position_m);
+            const double turn = std::acos(std::min(1.0, static_cast<double>(glm::dot(way(drops[i]), way(drops[k])))));
+            if (apart < 0.12f) near += turn, nears += 1.0;
+            if (apart > 1.0f && apart < 3.0f) far += turn, fars += 1.0;
+        }
+    }
+    ASSERT_GT(nears, 100.0);
+    ASSERT_GT(fars, 1000.0);
+    EXPECT_LT(near / nears, 0.8 * far / fars);
+    EXPECT_GT(far / fars, 0.1) << "radians between ways";
+}
+
+// Gusts carry flakes in clouds: parts of the picture hold more than chance gives them, as many in all.
+TEST(FallingField, GustsCarryCloudsOfFlakes)
+{
+    const auto scatter = [](float wind_m_s, double& total) {
+        Frame frame = snowy(2.0f);
+        frame.weather.wind_m_s = {wind_m_s, 0.0f};
+        FallingPlan plan = plan_falling(frame, looking());
+        for (FallingClass& c : plan.classes) c.per_m3 = 40.0f, c.reach_m = 8.0f;
+        const Drops drops = falling_drops(plan, frame, looking(), {});
+        std::array<double, 144> counts{};
+        for (const auto& d : drops) {
+            const glm::vec2 at = 0.5f * (d.from_px + d.to_px);
+            if (at.x < 0.0f || at.y < 0.0f || at.x >= 1280.0f || at.y >= 720.0f) continue;
+            counts[static_cast<std::size_t>(static_cast<int>(at.y / 80.0f) * 16 + static_cast<int>(at.x / 80.0f))] += 1.0;
+        }
+        total = 0.0;
+        for (const double n : counts) total += n;
+        double variance = 0.0;
+        for (const double n : counts) variance += (n - total / 144.0) * (n - total / 144.0) / 143.0;
+        return variance / (total / 144.0);
+    };
+    double calm = 0.0, gale = 0.0;
+    EXPECT_NEAR(scatter(0.0f, calm), 1.0, 0.5);
+    EXPECT_GT(scatter(20.0f, gale), 2.0);
+    EXPECT_NEAR(gale / calm, 1.0, 0.25);
+}
+
+// What is out of focus is as large and as faint as the lens makes it; without an aperture, near drops are.
+TEST(FallingField, TheLensBlursWhatIsNear)
+{
+    FallingView view = looking();
+    view.lens = {.radius_m = 0.01f, .focus_m = 4.0f};
+    EXPECT_EQ(view.blur_px(4.0f), 0.0f);
+    EXPECT_NEAR(view.blur_px(1.0f), 1108.5f * 0.01f * 0.75f, 1e-3f);
+    EXPECT_NEAR(view.blur_px(1e6f), 1108.5f * 0.01f / 4.0f, 1e-2f);
+    const Frame frame = snowy(2.0f);
+    const auto widest = [&](const Drops& drops) {
+        float most = 0.0f;
+        for (const auto& d : drops) {
+            if (d.view_m > 0.9f && d.view_m < 1.1f) most = std::max(most, d.half_px);
+        }
+        return most;
+    };
+    const Drops blurred = drops_of(frame, view);
+    for (const auto& d : blurred) ASSERT_GE(d.half_px, view.blur_px(d.view_m));
+    EXPECT_GT(widest(blurred), widest(drops_of(frame, looking())) + 1.0f);
+    EXPECT_EQ(falling_view({}, Lens{}).lens.focus_m, 6.0f);
+    EXPECT_EQ(falling_view({}, view.lens).lens.focus_m, 4.0f);
 }
 
 // What falls in one place is not what falls a cell further: no two drops look alike from the side.

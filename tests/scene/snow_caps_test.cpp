@@ -276,6 +276,93 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// Setts of 15 cm, 1.5 cm high at their crowns: a hand of snow lies even over them, a finger shows them.
+TEST(SnowShape, DeepSnowHidesTheStonesBelow)
+{
+    Scene scene = empty_scene();
+    constexpr int kSide = 60;
+    constexpr float kStep_m = 0.05f;
+    Primitive& p = scene.meshes[0].primitives[0];
+    for (int z = 0; z <= kSide; ++z) {
+        for (int x = 0; x <= kSide; ++x) {
+            const float up = 0.0075f * (std::sin(2.0943951f * static_cast<float>(x)) + std::sin(2.0943951f * static_cast<float>(z)));
+            p.positions.emplace_back(kStep_m * static_cast<float>(x), up, kStep_m * static_cast<float>(z));
+            p.normals.emplace_back(0, 1, 0);
+            p.uv0.emplace_back(0.0f);
+        }
+    }
+    for (std::uint32_t z = 0; z < kSide; ++z) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const std::uint32_t a = z * (kSide + 1) + x, b = a + kSide + 1;
+            for (const std::uint32_t v : {a, b, a + 1, a + 1, b, b + 1}) p.indices.push_back(v);
+        }
+    }
+    const SnowCaps caps = caps_of(scene);
+    const auto unevenness = [&](float depth) {
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), depth));
+        double rough = 0.0;
+        int count = 0;
+        for (std::size_t i = 0; i < caps.points.size(); ++i) {
+            const vec3& base = caps.points[i].base_m;
+            if (std::abs(base.x - 1.5f) > 0.8f || std::abs(base.z - 1.5f) > 0.8f) continue;
+            const double over = static_cast<double>(shape.positions[i].y - shape.thickness_m[i]);
+            rough += over * over;
+            ++count;
+        }
+        return std::sqrt(rough / std::max(count, 1));
+    };
+    EXPECT_GT(unevenness(0.015f), 0.006) << "thin snow follows them";
+    EXPECT_LT(unevenness(0.1f), 0.003);
+    EXPECT_GT(unevenness(0.1f), 0.0);
+}
+
+// A ball of 20 cm under half a metre of snow: it carries what lies at repose on its crown, little at its
+// sides, and nowhere is the snow steeper than it holds by itself.
+TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    constexpr int kAround = 48, kUp = 14;
+    constexpr float kRadius = 0.1f;
+    const auto on_ball = [](int ring, int turn) {
+        const float up = 1.45f * static_cast<float>(ring) / kUp;  // from the crown down
+        const float way = 6.2831853f * static_cast<float>(turn) / kAround;
+        return kRadius * vec3(std::sin(up) * std::cos(way), std::cos(up), std::sin(up) * std::sin(way)) +
+               vec3(0.0f, 1.0f, 0.0f);
+    };
+    for (int ring = 0; ring < kUp; ++ring) {
+        for (int turn = 0; turn < kAround; ++turn) {
+            const vec3 a = on_ball(ring, turn), b = on_ball(ring, turn + 1), c = on_ball(ring + 1, turn);
+            const vec3 d = on_ball(ring + 1, turn + 1);
+            Primitive& p = scene.meshes[0].primitives[0];
+            const auto first = static_cast<std::uint32_t>(p.positions.size());
+            for (const vec3& v : {a, b, c, d}) {
+                p.positions.push_back(v);
+                p.normals.push_back(glm::normalize(v - vec3(0.0f, 1.0f, 0.0f)));
+                if (!p.uv0.empty()) p.uv0.emplace_back(0.0f);
+                if (!p.tangents.empty()) p.tangents.emplace_back(1, 0, 0, 1);
+            }
+            for (const std::uint32_t v : {0u, 1u, 2u, 1u, 3u, 2u}) p.indices.push_back(first + v);
+        }
+    }
+    SnowCapOptions options;
+    options.eyes_m = {{0.0f, 1.4f, 1.0f}};
+    const SnowCaps caps = caps_of(scene, options);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.5f));
+    float crown = 0.0f, side = 0.0f, ground = 0.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const vec3& base = caps.points[i].base_m;
+        const float out = glm::length(vec2(base.x, base.z));
+        if (base.y < 0.5f) ground = std::max(ground, shape.thickness_m[i]);
+        else if (out < 0.03f) crown = std::max(crown, shape.thickness_m[i]);
+        else if (out > 0.075f) side = std::max(side, shape.thickness_m[i]);
+    }
+    EXPECT_GT(ground, 0.25f);
+    EXPECT_GT(crown, 0.012f);
+    EXPECT_LT(crown, 0.7f * kRadius) << "no hat";
+    EXPECT_LT(side, 0.5f * crown + 0.012f);
+}
+
 TEST(SnowShape, WithoutSnowCapsAreBelowTheGround)
 {
     const SnowCaps caps = caps_of(yard());

@@ -2,6 +2,7 @@
 // How much of a pixel a streak or flake hides.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/weather/falling.h"
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/passes/falling/falling_io.h"
 
@@ -17,18 +18,19 @@ const float kSoft_m = 0.12;  // it fades into what is so close behind it
 
 void main()
 {
-    const vec2 from_way = vec2(max(abs(at_px.x) - shape.x, 0.0), at_px.y);
-    float r = length(from_way) / shape.y;
+    float radius = shape.y;
     if (shape.w > 0.5) {
+        const vec2 from_way = vec2(at_px.x - clamp(at_px.x, -shape.x, shape.x), at_px.y);
         const vec2 d = from_way / max(length(from_way), 1.0e-4);
         const float turn = 6.2831853 * shape.w;
         const float three = d.x * (4.0 * d.x * d.x - 3.0);
         const float two = 2.0 * d.x * d.y;
-        r *= 1.0 + flake_raggedness(shape.x, shape.y) * (three * cos(turn) + two * sin(turn));
+        radius /= 1.0 + flake_raggedness(shape.x, shape.y) * (three * cos(turn) + two * sin(turn));
     }
+    const float cover = streak_cover(at_px.x, at_px.y, shape.x, radius);
     const float depth = texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r;
     const float behind_m = linear_depth(frame, depth) - light.w;
-    const float alpha = clamp(shape.z * (1.0 - r * r), 0.0, 1.0) *
+    const float alpha = min(shape.z * cover, 1.0) *
                         clamp(behind_m / kSoft_m, 0.0, 1.0);
     color = vec4(light.rgb * (alpha * frame.samples), alpha);
 }

@@ -25,6 +25,11 @@ constexpr float kLongest_px = 200.0f;  // of a streak that begins outside of the
 constexpr float kSeenAt_m = 2.0f;
 constexpr float kRoughness_m = 0.5f;
 
+// A camera without an aperture shows all of the scene sharp, but the drop before its front glass is a
+// blur to anyone who has been out: 35 mm at f/13, focused on the street.
+constexpr float kUsualLens_m = 0.0013f;
+constexpr float kUsualFocus_m = 6.0f;
+
 constexpr float kDrops_m_s = 6.5f;  // of 2 mm
 constexpr float kFlakes_m_s = 1.1f;
 
@@ -77,6 +82,7 @@ void add_snow(FallingPlan& plan, float rate_mm_h, float snow_kg_m2)
 {
     if (rate_mm_h <= 0.0f) return;
     const bool wet = snow_kg_m2 > shared::kDrySnow_kg_m2;
+    const float broken = shared::snow_breakup(glm::length(plan.air_m_s));
     for (const Size& size : kFlakes) {
         FallingClass c;
         c.id = static_cast<std::uint32_t>(&size - kFlakes.data()) + (wet ? 64 : 32);
@@ -87,12 +93,12 @@ void add_snow(FallingPlan& plan, float rate_mm_h, float snow_kg_m2)
         // Wet flakes are denser and fall half as fast again.
         c.fall_m_s = shared::flake_speed_m_s(middle_mm(c)) *
                      (wet ? 1.5f : 1.0f);
-        c.per_m3 = shared::snow_flakes_per_m3(rate_mm_h, snow_kg_m2, c.low_mm, c.high_mm);
+        c.per_m3 = shared::snow_flakes_per_m3(rate_mm_h, snow_kg_m2, broken, c.low_mm, c.high_mm);
         c.extinction_per_m =
-            shared::snow_extinction_per_m(rate_mm_h, snow_kg_m2, c.low_mm, c.high_mm);
+            shared::snow_extinction_per_m(rate_mm_h, snow_kg_m2, broken, c.low_mm, c.high_mm);
         plan.classes.push_back(c);
     }
-    plan.extinction_per_m += shared::snow_extinction_per_m(rate_mm_h, snow_kg_m2, 0.0f, 60.0f);
+    plan.extinction_per_m += shared::snow_extinction_per_m(rate_mm_h, snow_kg_m2, broken, 0.0f, 60.0f);
 }
 
 // Volume of the view between two distances, over their cubes' difference.
@@ -205,6 +211,57 @@ Sway sway_of(Numbers& numbers, bool flake, float wind_m_s, double time_s)
     return sway;
 }
 
+// Eddies between houses, of sizes of arms to rooms, turn neighbours alike and strangers otherwise: waves across
+// the air that moves with the wind, each across its own way, so that nothing thickens or thins out. They turn
+// with the way of the wind, so all stands still without it. Speeds are a quarter of the wind's (Panofsky and Dutton
+// 1984: turbulence over rough ground).
+struct Eddy {
+    glm::vec3 wave_per_m;  // 2 pi over its length
+    glm::vec3 aside_m;     // how far, and where to
+    glm::vec2 turns_per_m; // of the wind's way
+};
+// Of 1.0, 1.9, 3.4 and 5.8 m; 0.08 of it aside.
+constexpr std::array<Eddy, 4> kEddies{{
+    {{4.7911f, 2.0442f, -3.5135f}, {-0.0011f, 0.0698f, 0.0391f}, {2.773f, 1.386f}},
+    {{-1.3958f, 1.7613f, 2.4260f}, {0.1343f, 0.0090f, 0.0707f}, {-0.760f, 1.521f}},
+    {{1.3678f, -0.4806f, 1.1460f}, {0.1121f, 0.2459f, -0.0307f}, {0.703f, 0.609f}},
+    {{0.4995f, 0.2280f, -0.9338f}, {0.3732f, 0.1444f, 0.2349f}, {-0.382f, 0.382f}},
+}};
+constexpr float kEddiesReach_m = 0.97f;  // all of them together
+// in_air_m: where without them, in coordinates that go with the wind; speed_m_s: of the wind and the fall.
+Sway eddies_at(const glm::dvec3& in_air_m, const glm::dvec2& way_m, const glm::vec3& speed_m_s)
+{
+    Sway sum{glm::vec3(0.0f), glm::vec3(0.0f)};
+    for (const Eddy& eddy : kEddies) {
+        const glm::dvec2 turns(eddy.turns_per_m);
+        const double phase = glm::dot(glm::dvec3(eddy.wave_per_m), in_air_m) + glm::dot(turns, way_m);
+        const double at = phase - 2.0 * kPi * std::floor(phase / (2.0 * kPi));
+        const float rate = glm::dot(eddy.turns_per_m, glm::vec2(speed_m_s.x, speed_m_s.z)) +
+                           eddy.wave_per_m.y * speed_m_s.y;
+        sum.offset_m += eddy.aside_m * static_cast<float>(std::sin(at));
+        sum.speed_m_s += eddy.aside_m * (rate * static_cast<float>(std::cos(at)));
+    }
+    return sum;
+}
+
+// Gusts carry flakes in clouds: how many of the mean there are at a place of the air, 1 in the mean.
+float thickness_of(const glm::dvec3& in_air_m, float wind_m_s, std::uint32_t seed)
+{
+    const float strength = 0.95f * std::min(wind_m_s / 8.0f, 1.0f);
+    const glm::dvec3 p = in_air_m / 2.6;
+    const glm::dvec3 cell = glm::floor(p);
+    const glm::vec3 f = glm::smoothstep(glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(p - cell));
+    float sum = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 c(i & 1, (i >> 1) & 1, i >> 2);
+        const auto number = [&](int axis) { return static_cast<std::int64_t>(cell[axis]) + c[axis]; };
+        const float value = Numbers(mixed(mixed(mixed(seed, number(0)), number(1)), number(2))).next();
+        const glm::vec3 w = glm::mix(1.0f - f, f, glm::vec3(c));
+        sum += w.x * w.y * w.z * value;
+    }
+    return 1.0f + strength * (2.0f * sum - 1.0f);
+}
+
 // One class as one view sees it.
 class ClassInView {
 public:
@@ -221,7 +278,8 @@ public:
           half_px_(glm::vec2(view.size) * 0.5f),
           eye_m_(view.eye_m),
           cell_m_(static_cast<double>(of.cell_m)),
-          seed_(mixed(shared::hash_u(frame.falling.seed), of.id))
+          seed_(mixed(shared::hash_u(frame.falling.seed), of.id)),
+          gust_seed_(mixed(shared::hash_u(frame.falling.seed), 4096))
     {
         const double share = static_cast<double>(shared::wind_share_at(kSeenAt_m, kRoughness_m));
         travelled_m_ = {frame.falling.air_m.x * share,
@@ -266,7 +324,10 @@ public:
     }
 
 private:
-    float sway_most_m() const { return 1.3f * sway_amplitude_m(flake_, wind_m_s_); }
+    float sway_most_m() const
+    {
+        return 1.3f * sway_amplitude_m(flake_, wind_m_s_) + (flake_ ? kEddiesReach_m : 0.0f);
+    }
     static std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
     std::int64_t cell_of(double x) const
     {
@@ -293,16 +354,19 @@ private:
                   std::vector<shared::FallingDrop>& drops) const
     {
         const std::uint32_t seed = mixed(mixed(mixed(seed_, cell[0]), cell[1]), cell[2]);
-        const int count = poisson(mean_, static_cast<double>(Numbers(seed).next()));
         const glm::dvec3 corner(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
                                 static_cast<double>(cell[2]));
+        double mean = mean_;
+        if (flake_)
+            mean *= static_cast<double>(thickness_of((corner + 0.5) * cell_m_, wind_m_s_, gust_seed_));
+        const int count = poisson(mean, static_cast<double>(Numbers(seed).next()));
         for (int n = 0; n < count; ++n) {
             Numbers numbers(mixed(seed, n + 1));
             const double x = static_cast<double>(numbers.next());
             const double y = static_cast<double>(numbers.next());
             const double z = static_cast<double>(numbers.next());
             const glm::dvec3 where = travelled_m_ + (corner + glm::dvec3(x, y, z)) * cell_m_;
-            add_drop(glm::vec3(where - eye_m_), numbers, drops);
+            add_drop(where, numbers, drops);
         }
     }
 
@@ -313,14 +377,35 @@ private:
                 half_px_.y - glm::dot(from_eye, view_->up) * scale};
     }
 
-    void add_drop(glm::vec3 from_eye, Numbers& numbers,
+    // Off the picture, with what may yet be added to a place.
+    bool far_aside(const glm::vec3& from_eye, float most) const
+    {
+        const float slack = most * (1.0f + half_px_.x / view_->focal_px);
+        const float z = glm::dot(from_eye, view_->forward);
+        const glm::vec2 reach = half_px_ * (std::max(z, 0.0f) / view_->focal_px) + slack;
+        return std::abs(glm::dot(from_eye, view_->right)) > reach.x ||
+               std::abs(glm::dot(from_eye, view_->up)) > reach.y;
+    }
+
+    void add_drop(const glm::dvec3& where, Numbers& numbers,
                   std::vector<shared::FallingDrop>& drops) const
     {
         const float reach = class_->reach_m;
         const float most = sway_most_m();
+        glm::vec3 from_eye(where - eye_m_);
         const float before = glm::dot(from_eye, view_->forward);
         if (before > reach + most || before < kNear_m - most) return;
-        const Sway sway = sway_of(numbers, flake_, wind_m_s_, time_s_);
+        if (flake_) {
+            if (far_aside(from_eye, most + 0.5f * glm::length(speed_m_s_) * shutter_s_ + 0.05f)) return;
+        }
+        Sway sway = sway_of(numbers, flake_, wind_m_s_, time_s_);
+        if (flake_) {
+            const glm::dvec2 way(travelled_m_.x, travelled_m_.z);
+            const Sway eddies =
+                eddies_at(where - glm::dvec3(way.x, 0.0, way.y), way, speed_m_s_);
+            sway.offset_m += eddies.offset_m;
+            sway.speed_m_s += eddies.speed_m_s;
+        }
         from_eye += sway.offset_m;
         const float z = glm::dot(from_eye, view_->forward);
         if (z <= kNear_m || z >= reach) return;
@@ -331,8 +416,13 @@ private:
         drop.to_px = on_screen(from_eye + half_way);
         drop.view_m = z;
         drop.diameter_m = glm::mix(class_->low_mm, class_->high_mm, numbers.next()) * 1e-3f;
-        const float seen_px = drop.diameter_m * view_->focal_px / z;
-        drop.half_px = 0.5f * seen_px + 0.5f;
+        float seen_px = drop.diameter_m * view_->focal_px / z;
+        if (flake_) {
+            // It tumbles: flat on, it hides three times as much as on edge.
+            drop.flake = 1.0f + numbers.next();
+            seen_px *= std::sqrt(0.5f + numbers.next());
+        }
+        drop.half_px = shared::spot_radius_px(seen_px, view_->blur_px(z));
         const glm::vec2 middle = on_screen(from_eye);
         const glm::vec2 low = glm::max(glm::min(drop.from_px, drop.to_px), middle - kLongest_px) -
                               drop.half_px;
@@ -342,17 +432,10 @@ private:
             low.y > 2.0f * half_px_.y) {
             return;
         }
-        // What is hidden, summed over pixels and the shutter's time, is twice the section of the
-        // drop, as extinction counts it (bent light and shadow); the divisor is the sum of the
-        // outline that the shader draws.
-        const float length = glm::length(drop.to_px - drop.from_px);
-        const float section = 1.5707963f * seen_px * seen_px;
-        const float outline = drop.half_px * (1.3333333f * length + 1.5707963f * drop.half_px);
         const float there = glm::smoothstep(kNear_m, kWhole_m, z) *
                             (1.0f - glm::smoothstep(kFadeFrom * reach, reach, z));
-        drop.opacity = section / outline * there;
+        drop.opacity = shared::spot_opacity(seen_px, drop.half_px) * there;
         if (drop.opacity <= 0.0f) return;
-        drop.flake = flake_ ? 1.0f + numbers.next() : 0.0f;
         drop.position_m = view_->eye_m + from_eye;
         drop.speed_m_s = glm::length(moves);
         drop.lamps = light_of(*lamps_, drop.position_m, view_->eye_m, flake_);
@@ -371,13 +454,19 @@ private:
     glm::dvec3 eye_m_;
     double cell_m_;
     std::uint32_t seed_;
+    std::uint32_t gust_seed_;
     glm::dvec3 travelled_m_{0.0};
     double mean_ = 0.0;
 };
 
 }  // namespace
 
-FallingView falling_view(const shared::FrameConstants& c)
+float FallingView::blur_px(float distance_m) const
+{
+    return focal_px * lens.radius_m * std::abs(1.0f / lens.focus_m - 1.0f / distance_m);
+}
+
+FallingView falling_view(const shared::FrameConstants& c, const Lens& lens)
 {
     FallingView view;
     view.eye_m = c.camera_m;
@@ -386,6 +475,7 @@ FallingView falling_view(const shared::FrameConstants& c)
     view.up = -glm::normalize(c.ray_dy);
     view.focal_px = 1.0f / std::max(glm::length(c.ray_dx), 1e-9f);
     view.size = c.size;
+    view.lens = lens.radius_m > 0.0f ? lens : Lens{.radius_m = kUsualLens_m, .focus_m = kUsualFocus_m};
     return view;
 }
 
@@ -429,8 +519,8 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view)
         const float whole =
             0.5f * (1.0f + kFadeFrom) * c.reach_m - 0.5f * (kNear_m + kWhole_m);
         if (whole <= 0.0f) continue;
-        plan.drawn_per_m += c.extinction_per_m;
-        weighted += c.extinction_per_m * whole;
+        plan.drawn_per_m += shared::kStopped * c.extinction_per_m;
+        weighted += shared::kStopped * c.extinction_per_m * whole;
     }
     if (plan.drawn_per_m <= 0.0f) return plan;
     plan.drawn_reach_m = weighted / plan.drawn_per_m;

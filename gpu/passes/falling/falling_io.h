@@ -27,8 +27,8 @@ struct FallingDrop {
     vec2 from_px;     // its way while the shutter is open
     vec2 to_px;
     float view_m;     // distance along the view axis
-    float half_px;    // half its width as drawn
-    float opacity;    // of the middle of its way; may pass 1
+    float half_px;    // of the spot that moves along its way
+    float opacity;    // of that spot's middle at rest
     float flake;      // 0 a drop; a flake: 1 + where its outline begins, 0..1
     vec3 position_m;  // world
     float speed_m_s;

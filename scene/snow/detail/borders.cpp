@@ -13,14 +13,17 @@ using glm::vec3;
 
 constexpr float kPiece_m = 0.25f;
 constexpr float kCell_m = EdgeGrid::kReach_m;
-constexpr float kStep_m = 0.05f;  // what is no lower goes on
+constexpr float kStep_m = 0.05f;  // what is no lower goes on, in a street; ..
+constexpr float kStepOfSize = 0.02f;  // .. of a small model, of its size: its steps are its shape
 
 constexpr float kWidestGap_m = 0.14f;
 
 // Ground at a place, or a step up.
 bool ground_at(const Tracer& tracer, const vec3& at)
 {
-    return tracer.blocked({at + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + kStep_m});
+    const vec3 size = tracer.triangles().high() - tracer.triangles().low();
+    const float step_m = std::min(kStep_m, kStepOfSize * std::max(size.x, std::max(size.y, size.z)));
+    return tracer.blocked({at + vec3(0.0f, 0.12f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.12f + step_m});
 }
 
 std::uint64_t cell_of(int x, int z)
