@@ -82,6 +82,8 @@ static void read_smet(std::string_view text, RowCollector& rows, const ReadOptio
         else if (key == "fields") {
             const auto names = words(value, 256);
             meaning.assign(names.size(), nullptr);
+            has_time = false;  // of two such lines the last counts
+            julian_at = 0;
             for (std::size_t i = 0; i < names.size(); ++i) {
                 const std::string name = lower(names[i]);
                 if (name == "timestamp") {
