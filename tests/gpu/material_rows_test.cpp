@@ -144,6 +144,10 @@ void make_visible(std::string_view row, Material& m)
         m.base_color.a = 0.4f;
     }
     if (row == "thickness_factor" || row.starts_with("attenuation")) m.transmission = 0.9f;
+    if (row == "thickness_factor") {  // it bends what lies behind, a smooth sky alone shows little of it
+        m.name = "before stripes";
+        m.roughness = 0.02f;
+    }
     if (row.starts_with("attenuation")) {
         m.thickness = 0.5f;
         m.attenuation_distance_m = 0.2f;
