@@ -16,7 +16,7 @@ foreach(room IN LISTS rooms)
     set_target_properties(petrichor_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS petrichor_${room} EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(DIRECTORY ${room} DESTINATION ${petrichor_headers}
-        FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*_lookup.inc" PATTERN "*_search.inc" PATTERN "detail" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*_lookup.inc" PATTERN "*_search.inc" PATTERN "air_radiance.inc" PATTERN "detail" EXCLUDE)
 endforeach()
 install(TARGETS petrichor_film_weather EXPORT petrichor ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT petrichor NAMESPACE petrichor:: DESTINATION ${petrichor_package}

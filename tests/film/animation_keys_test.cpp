@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "base/error.h"
 #include "film/jobs/scene_source.h"
@@ -21,7 +22,10 @@ class AnimationKeys : public testing::Test {
 protected:
     void SetUp() override
     {
-        folder_ = fs::path(testing::TempDir()) / "animation_keys";
+        // One for each: tests run beside each other, and each takes its own away.
+        folder_ = fs::path(testing::TempDir()) /
+                  (std::string("animation_keys_") +
+                   testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::create_directories(folder_);
         auto b = testing_gltf::turning_quad();
         b.document["cameras"] = {{{"name", "rider"},
