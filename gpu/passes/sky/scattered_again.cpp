@@ -45,6 +45,23 @@ glm::vec3 density_at(float height)
             std::max(0.0f, 1.0f - std::abs(h - 25000.0f) / 15000.0f)};
 }
 
+// Calls step(distance, length, height) for the parts of a ray, which grow with distance: the air is thin far
+// out.
+template <typename Step>
+void march(float height, float up, float reach, int steps, const Step& step)
+{
+    const float r = shared::kEarthRadius + height;
+    float before = 0.0f;
+    for (int i = 1; i <= steps; ++i) {
+        const float u = static_cast<float>(i) / static_cast<float>(steps);
+        const float after = reach * u * u;
+        const float middle = 0.5f * (before + after);
+        const float radius = std::sqrt(r * r + middle * middle + 2.0f * r * middle * up);
+        step(middle, after - before, radius - shared::kEarthRadius);
+        before = after;
+    }
+}
+
 // Optical depth to space from a height, for directions that miss the ground.
 class Depths {
 public:
@@ -83,18 +100,11 @@ private:
 
     static vec4 depth(float height, float up, float turbidity)
     {
-        const float reach = shared::distance_to_space(height, up);
-        const float r = shared::kEarthRadius + height;
         vec4 sum(0.0f);
-        float before = 0.0f;
-        for (int i = 1; i <= kDepthSteps; ++i) {
-            const float u = static_cast<float>(i) / kDepthSteps;
-            const float after = reach * u * u;
-            const float middle = 0.5f * (before + after);
-            const float h = std::sqrt(r * r + middle * middle + 2.0f * r * middle * up) - shared::kEarthRadius;
-            sum += shared::air_extinction(density_at(h), turbidity) * (after - before);
-            before = after;
-        }
+        march(height, up, shared::distance_to_space(height, up), kDepthSteps,
+              [&](float, float length, float h) {
+                  sum += shared::air_extinction(density_at(h), turbidity) * length;
+              });
         return sum;
     }
 
@@ -142,23 +152,17 @@ ScatteredAgain::ScatteredAgain(float turbidity) : turbidity_(turbidity), by_air_
             const float ground = shared::distance_to_ground(height, up);
             const float reach = ground > 0.0f ? ground : shared::distance_to_space(height, up);
             vec4 left(1.0f);
-            float before = 0.0f;
-            for (int i = 1; i <= kSteps; ++i) {
-                const float u = static_cast<float>(i) / kSteps;
-                const float after = reach * u * u;
-                const float middle = 0.5f * (before + after);
-                const float radius = std::sqrt(r * r + middle * middle + 2.0f * r * middle * up);
-                const glm::vec3 density = density_at(radius - shared::kEarthRadius);
+            march(height, up, reach, kSteps, [&](float distance, float length, float h) {
+                const glm::vec3 density = density_at(h);
                 const vec4 extinction = shared::air_extinction(density, turbidity);
-                const vec4 passed = kept(extinction * (after - before));
+                const vec4 passed = kept(extinction * length);
                 const vec4 scattered = left * shared::air_scattering(density, turbidity) *
                                        (1.0f - passed) / glm::max(extinction, vec4(1e-12f));
                 again += scattered * share;
-                add(middle, scattered * (0.25f / kPi), by_air,
-                    [&](float h, float sun_up) { return depths.transmittance(h, sun_up); });
+                add(distance, scattered * (0.25f / kPi), by_air,
+                    [&](float there, float sun_up) { return depths.transmittance(there, sun_up); });
                 left *= passed;
-                before = after;
-            }
+            });
             if (ground > 0.0f)
                 add(ground, left / kPi, by_ground, [&](float, float sun_up) {
                     return depths.transmittance(0.0f, sun_up) * std::max(sun_up, 0.0f);
