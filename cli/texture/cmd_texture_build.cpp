@@ -232,7 +232,7 @@ void add_texture_build(CLI::App& texture)
                     "outputs of this engine (see --list), in place of the recipe's");
     app->add_option("--rule", a->choice.rule, "prefilter: picture (default; once stored never worse than plain mips), overlap, "
                     "median, ..., or none");
-    app->add_option("--quality", a->choice.quality, "prefilter: full or quick")
+    app->add_option("--quality", a->choice.quality, "prefilter: full or quick (default: as the recipe says, else quick)")
         ->check(CLI::IsMember({"full", "quick"}));
     app->add_option("--format", a->choice.format, "of all outputs")
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
