@@ -23,6 +23,7 @@
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
+#include "formulas/light/shadow_plane.h"
 #include "formulas/light/skin.h"
 #include "formulas/light/translucent.h"
 #include "formulas/light/water_film.h"
@@ -41,7 +42,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 51;
+SHARED_CONST int kProbeKinds = 52;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -401,6 +402,17 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     streak_cover((2.0f * b.x - 1.0f) * (half_way + radius), (2.0f * b.y - 1.0f) * radius,
                                  half_way, radius),
                     snow_breakup(15.0f * b.z));
+    }
+    if (kind == 51) {
+        const vec3 n = probe_direction(a.x, a.y);
+        const vec3 u = (0.01f + a.z) * probe_direction(b.x, b.y);
+        const vec3 side = probe_direction(b.x + 0.25f, 0.5f);
+        const vec3 v = 0.05f * normalize(cross(u, side));
+        const vec3 depth = (0.001f + a.w) * normalize(cross(v, u));
+        const vec2 slope = shadow_plane_slope(n, u, v, depth) / (0.001f + a.w);
+        const vec2 lamp = lamp_plane_slope(n, vec3(b.z, b.w, 1.0f), vec2(n.x, n.y));
+        const float lit = four_texels_lit(vec4(0.5f), vec4(step(0.5f, c.x), 0.9f, 0.1f, step(0.3f, c.y)), four_texel_weights(vec2(c.z, c.w)));
+        return vec4(0.01f * slope.x, 0.01f * slope.y, 0.1f * (lamp.x + lamp.y), lit + 0.01f * shadow_lift_texels(n.y, 1.0f, 2.5f));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

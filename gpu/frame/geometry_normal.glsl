@@ -1,5 +1,4 @@
-// The normal of the mesh at a pixel, of the depths around it. Before the include: frame, depth_map and
-// normal_map, the base normals of the G-buffer.
+// The normal of the mesh at a pixel, of the depths around it. Before the include: frame and depth_map.
 #ifndef PETRICHOR_GEOMETRY_NORMAL_GLSL
 #define PETRICHOR_GEOMETRY_NORMAL_GLSL
 
@@ -24,11 +23,10 @@ vec3 along_surface(ivec2 texel, vec3 x, float depth, ivec2 step)
     return forth ? other - x : x - other;
 }
 
-// The normal of the geometry, by the depths around; that of the normal map where the surface is too
+// The normal of the geometry, by the depths around; `mapped`, that of the normal map, where the surface is too
 // small for them.
-vec3 geometry_normal(ivec2 texel, vec3 x, float depth)
+vec3 geometry_normal(ivec2 texel, vec3 x, float depth, vec3 mapped)
 {
-    const vec3 mapped = octahedral_decode(texelFetch(normal_map, texel, 0).xy);
     const vec3 across = cross(along_surface(texel, x, depth, ivec2(0, 1)),
                               along_surface(texel, x, depth, ivec2(1, 0)));
     const float size = dot(across, across);

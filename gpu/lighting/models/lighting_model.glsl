@@ -52,6 +52,7 @@ struct LitPoint {
     float sunlit;      // 0 in the shadow of the sun .. 1
     bool point_lamps;  // sizes of lamps are not seen
     ShapedLobes shaped;  // set where the picture has lamps that have a size
+    vec3 mesh_normal;    // of the triangle; set where shadows are asked
 };
 
 // What a white surface sends back of a light at that cosine (formulas/light/skin.h), from a table.

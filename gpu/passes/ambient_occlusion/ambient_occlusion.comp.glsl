@@ -62,7 +62,7 @@ void main()
     const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
     const float metres_per_pixel = pixel_width_m(frame, z);
-    const vec3 normal = geometry_normal(texel, mesh, depth);
+    const vec3 normal = geometry_normal(texel, mesh, depth, octahedral_decode(texelFetch(normal_map, texel, 0).xy));
     const vec3 to_eye = -pixel_view_direction(frame, vec2(texel) + 0.5);
     // Off the depths of the surface itself.
     const vec3 x = mesh + (normal + to_eye) * (0.0007 * z);

@@ -218,7 +218,9 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
            .layers = SKY_DIRECTIONS,
            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT})),
       compare(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true))
+                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true)),
+      plain(make_sampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, 0.0f, true))
 {
     for (std::uint32_t i = 0; i < SHADOW_CASCADES; ++i) {
         shadow_layers.push_back(layer_view(device, *shadow, i));

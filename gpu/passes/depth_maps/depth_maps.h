@@ -16,6 +16,7 @@ struct DepthMaps {
     std::unique_ptr<GpuImage> shelter;  ///< seen along the falling rain
     std::unique_ptr<GpuImage> sky;      ///< seen from directions over the upper hemisphere
     SamplerHandle compare;              ///< lit when at least as near as the map
+    SamplerHandle plain;                ///< the depths themselves
     std::vector<ImageViewHandle> shadow_layers;
     std::vector<ImageViewHandle> sky_layers;
     // What the maps hold now; equal views are not drawn again.

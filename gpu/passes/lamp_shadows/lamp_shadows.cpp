@@ -47,9 +47,7 @@ glm::mat4 lamp_face_view(const glm::vec3& position_m, int face)
 }
 
 LampShadows::LampShadows(const Device& device)
-    : device_(&device),
-      compare_(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                            VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true))
+    : device_(&device)
 {
     reserve(1);
 }

@@ -21,7 +21,6 @@ public:
     void forget() { drawn_.clear(); }  ///< the scene has changed
 
     GpuImage& map() { return *map_; }
-    const SamplerHandle& compare() const { return compare_; }
 
     // Draws the maps of these lamps, where they do not hold them already.
     //
@@ -41,7 +40,6 @@ private:
     std::unique_ptr<MemoryArena> arena_;
     std::unique_ptr<GpuImage> map_;
     std::vector<ImageViewHandle> layers_;
-    SamplerHandle compare_;
     std::vector<Drawn> drawn_;
 };
 

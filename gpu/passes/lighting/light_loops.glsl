@@ -15,10 +15,9 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     bool one_of_shape = shaped && !shadowed;  // all of that loop are, and end before
     if (LAMP_SHADOWS != 0u && shadowed) {
         const float number = light.across.w;
-        const vec3 faced = dot(p.normal, to_light) > 0.0 ? p.normal : -p.normal;
         vec3 from = sphere.xyz;
         if (SOFT_LAMPS != 0u) from += frame.lamp_offset_m[max(int(number), 0)].xyz;
-        if (number >= 0.0) visible = lamp_visibility(number, from, p.position, faced, texel);
+        if (number >= 0.0) visible = lamp_visibility(number, from, p.position, p.mesh_normal, texel);
         lit = lit && (visible > 0.0 || BLEEDS);
         if (SKIPS && !lit) return vec3(0.0);
     }

@@ -64,8 +64,8 @@ LIGHTING_MODELS(ROW)
 layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
-layout(binding = LIGHTING_SHADOW) uniform sampler2DArrayShadow shadow_map;
-layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArrayShadow lamp_shadow_map;
+layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
+layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
 layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
 layout(binding = LIGHTING_ENV_BRDF) uniform sampler2D env_brdf;
 layout(binding = LIGHTING_SKY) uniform samplerCube sky_map;
@@ -102,6 +102,7 @@ vec3 sky_irradiance(vec3 n)
     return max(e, vec3(0.0));
 }
 
+#include "gpu/frame/geometry_normal.glsl"
 #include "gpu/passes/lighting/sun_and_sky_shadow.glsl"
 
 // Scale and offset of F0 for GGX.
@@ -397,6 +398,8 @@ void main()
                            p.roughness * p.roughness);
 
         p.shaped = shaped_lobes(p);
+        if ((SUN != 0u && SHADOWS != 0u) || LAMP_SHADOWS != 0u)
+            p.mesh_normal = geometry_normal(texel, position, depth, g.base_normal);
 
         vec3 direct = vec3(0.0);
         const float sun_lit = dot(n, frame.sun_direction);
@@ -404,8 +407,8 @@ void main()
         vec3 sunlight = vec3(0.0);
         if (SUN != 0u && (sun_lit > 0.0 || p.layers.transmitted > 0.0 || BLEEDS) &&
             frame.sun_illuminance.g + frame.sun_illuminance.r > 0.0) {
-            const vec3 faced = sun_lit > 0.0 ? g.base_normal : -g.base_normal;
-            float visible = SHADOWS != 0u ? sun_visibility(position, faced, view_m, texel) : 1.0;
+            float visible = 1.0;
+            if (SHADOWS != 0u) visible = sun_visibility(position, p.mesh_normal, view_m, texel);
             if (BAKED != 0u) visible = mix(visible, g.baked_shadow.visible, g.baked_shadow.share);
             p.sunlit = visible;
             sunny = visible > 0.0 || BLEEDS;

@@ -2,27 +2,24 @@
 #ifndef PETRICHOR_SUN_AND_SKY_SHADOW_GLSL
 #define PETRICHOR_SUN_AND_SKY_SHADOW_GLSL
 
-// Share of the sun's disc that is not hidden: hardware 2 x 2 comparisons on a turning disc.
+#include "gpu/passes/lighting/shadow_disc.glsl"
+
+// Share of the sun's disc that is not hidden: four places on a turning disc, each between four texels. `normal` is that of
+// the mesh, on the sun's side.
 float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
 {
     int cascade = 0;
     while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
+    const mat4 from_world = frame.shadow_from_world[cascade];
     const float texel_m = frame.shadow_texel_m * frame.cascade_scale[cascade];
-    // Off the surface by a texel, more at grazing light: no acne, little peter-panning.
-    const float grazing = 1.0 - saturate(dot(normal, frame.sun_direction));
-    const vec3 lifted = position + normal * (texel_m * (1.0 + 2.0 * grazing)) +
-                        frame.sun_direction * (texel_m * 0.5);
-    const vec4 map = frame.shadow_from_world[cascade] * vec4(lifted, 1.0);
+    const vec3 lifted = position + frame.sun_direction * shadow_lift_m(normal, frame.sun_direction, texel_m);
+    const vec4 map = from_world * vec4(lifted, 1.0);
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
-    const vec2 step_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
+    const mat3 gradients = transpose(mat3(from_world));
+    const vec2 slope = shadow_plane_slope(normal, gradients[0], gradients[1], gradients[2]);
     const float turn = 6.2831853 * dither(texel, frame.sample_index);
-    const vec2 axis = vec2(cos(turn), sin(turn)) * 1.6;
-    float lit = 0.0;
-    lit += texture(shadow_map, vec4(map.xy + step_uv * axis, cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy - step_uv * axis, cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy + step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
-    lit += texture(shadow_map, vec4(map.xy - step_uv * 0.5 * vec2(-axis.y, axis.x), cascade, map.z));
-    return lit * 0.25;
+    const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
+    return disc_lit(shadow_map, map.xy, float(cascade), map.z, slope, axis);
 }
 
 // Of one of the pictures of the sun's cookie, from its corner, which is also that of the next one.

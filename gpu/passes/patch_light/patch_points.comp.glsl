@@ -73,7 +73,7 @@ void main()
     uint first = base;
     for (uint e = 0u; e < count; ++e) {
         const vec3 x = position_at(texel, depth);
-        const vec3 n = geometry_normal(texel, x, depth);
+        const vec3 n = geometry_normal(texel, x, depth, octahedral_decode(texelFetch(normal_map, texel, 0).xy));
         const float view_m = linear_depth(frame, depth);
         const ivec2 own = texel;
         const float own_depth = depth;
