@@ -81,6 +81,9 @@ TEST_F(Convert, TradesErrorForSizeWhereThereAreBlocks)
     EXPECT_EQ(plain.exit_code, 2);
     EXPECT_THAT(plain.err, testing::HasSubstr("--rdo is for formats of blocks"));
     EXPECT_EQ(convert({"in.png", "-o", "a.dds", "--format", "bc6h", "--rdo", "1"}).exit_code, 2);
+    const Outcome loss = convert({"in.png", "-o", "a.dds", "--format", "bc7", "--rdo-most", "1"});
+    EXPECT_EQ(loss.exit_code, 2);
+    EXPECT_THAT(loss.err, testing::HasSubstr("--rdo-most bounds what --rdo costs"));
 }
 
 TEST_F(Convert, LevelZeroKeepsItsCodes)
