@@ -215,6 +215,8 @@ constexpr const char* kFooter =
     "  channels = [\"porosity\", \"1 - roughness\"]\n"
     "  format = \"ktx2\"                  # png, tga, tif, exr, dds, ktx2\n"
     "  compression = \"bc5\"              # bc1, bc3, bc4, bc5, bc7, uastc, astc-4x4 .. astc-8x8 (ktx2)\n"
+    "  rdo = 1                          # blocks repeat others: smaller under zstd (uastc: the default)\n"
+    "  rdo_most = 1                  # codes that a block may get off by it\n"
     "  order = \"bgra\"                   # dds without compression: as Unreal reads it\n"
     "  import = \"unity\"                 # settings beside it: unity (.meta), godot (.import)\n"
     "  size = 1024";
@@ -238,6 +240,14 @@ void add_texture_build(CLI::App& texture)
         ->check(CLI::IsMember({"png", "tga", "tif", "exr", "dds", "ktx2"}));
     app->add_option("--size", a->choice.size, "longest side at most this")
         ->check(CLI::Range(1, 65536));
+    app->add_option("--rdo", a->choice.rdo,
+                    "blocks repeat bytes of others where that costs at most so much squared error a bit, for smaller "
+                    "files under zstd; default: as the recipe says, else 1 for uastc (which is stored so) "
+                    "but of normals, 0 for others")
+        ->check(CLI::Range(0.0, 1000.0));
+    app->add_option("--rdo-most", a->choice.rdo_most,
+                    "how far off a block may get by it, root mean square in codes of 255 (1: 48 dB)")
+        ->check(CLI::Range(0.01, 255.0));
     app->add_option("--wrap", a->choice.wrap,
                     "past the edges of the maps: wrap, clamp, mirror; default: as the recipe says")
         ->check(CLI::IsMember({"wrap", "clamp", "mirror"}));

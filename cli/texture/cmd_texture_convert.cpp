@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -34,6 +36,7 @@ struct Arguments {
     std::string size;
     double scale = 0.0;
     float rdo = 0.0f;
+    std::optional<float> rdo_most;
     int bits = 0, jpeg_quality = 95, zstd = 0, threads = 0;
     std::string quality = "normal";
     std::string filter = "box";
@@ -106,6 +109,10 @@ void check(const Arguments& a)
         throw Error("texture convert: --rdo is for formats of blocks, not '" +
                         (a.format.empty() ? extension : a.format) + "'",
                     "Add --format bc7, or leave it out.");
+    }
+    if (a.rdo_most && a.rdo == 0.0f) {
+        throw Error("texture convert: --rdo-most bounds what --rdo costs",
+                    "Add --rdo 1, or leave it out.");
     }
     if (a.zstd && extension != ".ktx2") {
         throw Error("texture convert: --zstd is for .ktx2, not '" + extension + "'",
@@ -260,6 +267,8 @@ void run(const Arguments& a)
                                                .dither = a.dither,
                                                .quality = kQualities.at(a.quality),
                                                .repeat = a.rdo,
+                                               .repeat_most = a.rdo_most.value_or(
+                                                   std::numeric_limits<float>::infinity()),
                                                .zstd = a.zstd,
                                                .threads = a.threads};
     // Integers stay as they are; a change of type goes through linear light when they are colour.
@@ -334,6 +343,9 @@ void add_texture_convert(CLI::App& texture)
                     "blocks repeat bytes of earlier ones where that costs at most so much squared "
                     "error a bit (0.25 is hardly seen; 1 shows as stripes on smooth maps): smaller files with --zstd")
         ->check(CLI::Range(0.0, 1000.0));
+    app->add_option("--rdo-most", a->rdo_most,
+                    "how far off a block may get by --rdo, root mean square in codes (1: 48 dB); default: any")
+        ->check(CLI::Range(0.01, 255.0));
     app->add_option("--jpeg-quality", a->jpeg_quality, "1 to 100")->check(CLI::Range(1, 100));
     app->add_option("--threads", a->threads, "0: all cores; the bytes do not depend on it");
     app->add_option("--max-pixels", a->reading.max_pixels, "refuse larger inputs")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "cli/texture/build/sha256.h"
 #include "tests/support/program.h"
+#include "texproc/codecs/files/texture.h"
 #include "texproc/generate/generate.h"
 #include "texproc/material/material_names.h"
 #include "texproc/material/pack.h"
@@ -216,6 +218,80 @@ size = 16
     EXPECT_THAT(dry.out, HasSubstr("baked       porosity, puddle"));
 }
 
+// Level 0 of an image beside what a file holds of it.
+double psnr_of(const fs::path& file, const texproc::RawImage& source)
+{
+    const texproc::RawImage read = texproc::decode_level(texproc::read_texture(file), 0);
+    double sum = 0.0;
+    const std::size_t texels = source.values() / 3;
+    for (std::size_t i = 0; i < texels; ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto code = [](const texproc::RawImage& of, std::size_t at) {
+                return std::to_integer<int>(of.bytes[at]);
+            };
+            sum += std::pow(code(read, 4 * i + c) - code(source, 3 * i + c), 2);
+        }
+    return 10.0 * std::log10(65025.0 * 3.0 * static_cast<double>(texels) / sum);
+}
+
+// What zstd packs repeats blocks by default; a recipe and the command line say how much.
+TEST(TextureBuild, BlocksRepeatForSmallerFilesWithinABound)
+{
+    const Workplace place("build_rdo");
+    Image soft(128, 128, 3, ColorSpace::Data);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x)
+            for (int c = 0; c < 3; ++c)
+                soft.at(x, y, c) =
+                    0.5f + 0.3f * std::sin(0.04f * static_cast<float>(x + y * (c + 1))) +
+                    0.004f * static_cast<float>((x * 7919 + y * 104729 + c * 31) % 3);
+    texproc::write_image(place / "in/Wall_albedo.png", soft);
+    const texproc::RawImage source = texproc::read_raw(place / "in/Wall_albedo.png");
+    const auto built = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"texture", "build"});
+        more.insert(more.end(), {"-o", "out", "--force"});
+        const Outcome done = run(more, place);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return place / "out/Wall_baseColor.ktx2";
+    };
+    const auto error_of = [](double db) { return 65025.0 * std::pow(10.0, -0.1 * db); };
+    std::uintmax_t size = 0;
+    double psnr = 0.0;
+    for (const char* rdo : {"0", "0.25", "1", "16"}) {  // each costs more and saves more
+        const fs::path file = built({"in", "--engine", "gltf", "--rdo", rdo, "--rdo-most", "255"});
+        if (size > 0) {
+            EXPECT_LT(fs::file_size(file), size) << rdo;
+            EXPECT_LT(psnr_of(file, source), psnr) << rdo;
+        }
+        size = fs::file_size(file);
+        psnr = psnr_of(file, source);
+    }
+    // No block gets farther off than one code, root mean square.
+    const double best = error_of(psnr_of(built({"in", "--engine", "gltf", "--rdo", "0"}), source));
+    const fs::path bounded = built({"in", "--engine", "gltf", "--rdo", "16"});
+    EXPECT_LE(error_of(psnr_of(bounded, source)), best + 1.0);
+    EXPECT_GT(error_of(psnr_of(bounded, source)), best);
+    const std::string most = read_file(bounded);
+    const std::string one = read_file(built({"in", "--engine", "gltf", "--rdo", "1"}));
+    EXPECT_EQ(read_file(built({"in", "--engine", "gltf"})), one) << "the default";
+    EXPECT_LT(one.size(), read_file(built({"in", "--engine", "gltf", "--rdo", "0"})).size());
+    EXPECT_LT(read_file(built({"in", "--engine", "gltf", "--rdo", "16", "--rdo-most", "4"})).size(), most.size());
+    const auto recipe = [&](const std::string& lines) {
+        write_file(place / "r.toml",
+                   "name = \"Wall\"\n[inputs]\nalbedo = \"in/Wall_albedo.png\"\n[[output]]\n"
+                   "file = \"{name}_baseColor\"\nchannels = [\"albedo.r\", \"albedo.g\", "
+                   "\"albedo.b\", \"1\"]\nsrgb = true\nformat = \"ktx2\"\ncompression = \"uastc\"\n" +
+                       lines);
+        return read_file(built({"r.toml"}));
+    };
+    EXPECT_EQ(recipe("rdo = 16\n"), most);
+    EXPECT_GT(recipe("rdo = 0\n").size(), one.size());
+    EXPECT_LT(recipe("rdo = 16\nrdo_most = 4\n").size(), most.size());
+    const Outcome none = run({"texture", "build", "in", "--engine", "unreal", "--rdo", "1", "-o", "out"}, place);
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.err, HasSubstr("no output is one for --rdo"));
+}
+
 TEST(TextureBuild, OneBadMaterialDoesNotStopTheOthers)
 {
     const Workplace place("build_bad");
@@ -318,6 +394,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "folder = \"in\"\n[[output]]\nfile = \"{name}\"\nchannels = "
                 "[\"normal\"]\ncompression = \"bc7\"\n",
                 "bc7 in a png"},
+        Mistake{"rdo",
+                "folder = \"in\"\n[[output]]\nfile = \"{name}\"\nchannels = "
+                "[\"normal\"]\nformat = \"ktx2\"\nrdo = 1\n",
+                "asks for rdo in ktx2"},
+        Mistake{"rdo_loss",
+                "folder = \"in\"\n[[output]]\nfile = \"{name}\"\nchannels = "
+                "[\"normal\"]\nformat = \"dds\"\ncompression = \"bc4\"\nrdo_most = 1\n",
+                "does not ask for"},
         Mistake{"syntax", "folder = in\n", "r.toml"},
         Mistake{"rule", "folder = \"in\"\nengines = [\"gltf\"]\n[prefilter]\nrule = \"best\"\n",
                 "best"},

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/program.h"
 #include "texproc/codecs/files/texture.h"
 
@@ -27,6 +29,17 @@ protected:
     }
     Workplace place;
 };
+
+// The same in every channel.
+Image waves(int channels)
+{
+    Image image(16, 8, channels, ColorSpace::Data);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int c = 0; c < channels; ++c)
+                image.at(x, y, c) = 0.5f + 0.4f * std::sin(0.8f * static_cast<float>(x + 2 * y));
+    return image;
+}
 
 TEST_F(Convert, PlainNumbersComeBackThroughEveryContainer)
 {
@@ -68,6 +81,9 @@ TEST_F(Convert, TradesErrorForSizeWhereThereAreBlocks)
     EXPECT_EQ(plain.exit_code, 2);
     EXPECT_THAT(plain.err, testing::HasSubstr("--rdo is for formats of blocks"));
     EXPECT_EQ(convert({"in.png", "-o", "a.dds", "--format", "bc6h", "--rdo", "1"}).exit_code, 2);
+    const Outcome loss = convert({"in.png", "-o", "a.dds", "--format", "bc7", "--rdo-most", "1"});
+    EXPECT_EQ(loss.exit_code, 2);
+    EXPECT_THAT(loss.err, testing::HasSubstr("--rdo-most bounds what --rdo costs"));
 }
 
 TEST_F(Convert, LevelZeroKeepsItsCodes)
@@ -151,6 +167,43 @@ TEST_F(Convert, MistakesExitWithTwoAndSayWhat)
         EXPECT_EQ(outcome.exit_code, 2) << mistake.said;
         EXPECT_THAT(outcome.err, testing::HasSubstr(mistake.said));
         EXPECT_FALSE(std::filesystem::exists(place / "a.dds")) << mistake.said;
+    }
+}
+
+// Slopes of bumps are floats of a height map: whatever else is asked for is refused, and nothing written.
+TEST_F(Convert, SlopesOfBumpsAreRefusedWhereTheyCannotBe)
+{
+    texproc::write_image(place / "height.png", waves(1));
+    texproc::write_image(place / "gray.png", waves(3));
+    const Mistake mistakes[] = {
+        {{"height.png", "-o", "a.dds", "--mips"}, "--bump-slopes is for .exr with --mips, not '.dds'"},
+        {{"height.png", "-o", "a.tif", "--mips"}, "'.tif' does not hold mip levels"},
+        {{"height.png", "-o", "a.png"}, "--bump-slopes is for .exr with --mips, not '.png'"},
+        {{"height.png", "-o", "a.exr"}, "--bump-slopes is for .exr with --mips"},
+        {{"height.png", "-o", "a.exr", "--mips", "--srgb"}, "six channels of 32-bit floats"},
+        {{"height.png", "-o", "a.exr", "--mips", "--format", "rgba16f"}, "six channels of 32-bit floats"},
+        {{"height.png", "-o", "a.exr", "--mips", "--bits", "8"}, "six channels of 32-bit floats"},
+        {{"height.png", "-o", "a.exr", "--mips", "--bits", "16"}, "six channels of 32-bit floats"},
+        {{"height.png", "-o", "a.exr", "--mips", "--bits", "32"}, "six channels of 32-bit floats"},
+        {{"height.png", "-o", "a.exr", "--mips", "--normals"}, "--normals needs 3 channels, 'height.png' has 1"},
+        {{"in.png", "-o", "a.exr", "--mips"}, "needs heights, 'in.png' is coloured"}};
+    for (const Mistake& mistake : mistakes) {
+        std::vector<std::string> arguments = mistake.arguments;
+        arguments.push_back("--bump-slopes");
+        const Outcome outcome = convert(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << mistake.said;
+        EXPECT_THAT(outcome.err, testing::HasSubstr(mistake.said));
+        EXPECT_THAT(outcome.err, testing::HasSubstr("\n  ")) << "says what to do";
+        EXPECT_FALSE(std::filesystem::exists(place / arguments[2])) << mistake.said;
+    }
+    // Gray in three channels is heights; a coloured map may be normals.
+    for (const std::vector<std::string>& right :
+         {std::vector<std::string>{"gray.png"}, {"height.png"}, {"in.png", "--normals"}}) {
+        std::vector<std::string> arguments = right;
+        arguments.insert(arguments.end(), {"-o", "a.exr", "--mips", "--bump-slopes"});
+        const Outcome outcome = convert(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_TRUE(std::filesystem::remove(place / "a.exr"));
     }
 }
 

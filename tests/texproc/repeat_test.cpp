@@ -92,6 +92,42 @@ TEST(Repeat, AHigherPriceMakesASmallerFile)
     }
 }
 
+// However much a bit is worth, no block gets farther off than it may.
+TEST(Repeat, ABoundHoldsForEveryBlock)
+{
+    constexpr float kMost = 3.0f;  // codes
+    constexpr double kMostSum = 16.0 * 3.0 * 3.0;
+    for (const Block block : kBlocks) {
+        RawImage image = soft(96, 64, channels_of(block));
+        for (std::size_t i = 3; block == Block::Bc1 && i < image.bytes.size(); i += 4)
+            image.bytes[i] = std::byte{255};  // it holds no other
+        const auto encoded = [&](float price, float most) {
+            return encode_blocks(image, block, {.repeat = price, .repeat_most = most});
+        };
+        const auto read = [&](const std::vector<std::byte>& bytes) {
+            return decode_blocks(bytes, block, 96, 64);
+        };
+        const RawImage best = read(encoded(0.0f, kMost));
+        double last = -1.0;
+        for (const float price : {0.0f, 1.0f, 64.0f}) {
+            const RawImage traded = read(encoded(price, kMost));
+            double sum = 0.0;
+            for (int by = 0; by < 16; ++by) {
+                for (int bx = 0; bx < 24; ++bx) {
+                    const double own = error_of(image, best, bx, by);
+                    const double now = error_of(image, traded, bx, by);
+                    EXPECT_LE(now, std::max(own, kMostSum) + 1e-3)
+                        << static_cast<int>(block) << " at " << bx << ", " << by;
+                    sum += now;
+                }
+            }
+            EXPECT_GT(sum, last) << static_cast<int>(block) << " at " << price;
+            last = sum;
+        }
+        EXPECT_NE(encoded(64.0f, kMost), encoded(64.0f, 100.0f));
+    }
+}
+
 // Three chunks.
 TEST(Repeat, SameBytesForAnyThreads)
 {
@@ -120,6 +156,8 @@ TEST(Repeat, FormatsThatCannotSaySo)
     EXPECT_THROW(encode_blocks(halves, Block::Bc6h, {.repeat = 1.0f}), Error);
     EXPECT_THROW(encode_blocks(soft(8, 8, 4), Block::Bc7, {.repeat = -1.0f}), Error);
     EXPECT_THROW(encode_blocks(soft(8, 8, 4), Block::Bc7, {.repeat = std::nanf("")}), Error);
+    EXPECT_THROW(encode_blocks(soft(8, 8, 4), Block::Bc7, {.repeat = 1.0f, .repeat_most = 0.0f}),
+                 Error);
 }
 
 }  // namespace

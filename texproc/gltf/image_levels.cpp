@@ -302,6 +302,9 @@ MipTexture ImageMaker::make(std::size_t number, bool plain) const
     return make_texture(raw, {.format = format,
                               .srgb = recipe.meaning == ImageMeaning::Color,
                               .quality = options_.quality,
+                              .repeat = options_.rdo.value_or(
+                                  recipe.meaning == ImageMeaning::Normal ? 0.0f : kRdo),
+                              .repeat_most = options_.rdo_most,
                               .threads = options_.threads});
 }
 

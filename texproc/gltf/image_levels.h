@@ -11,6 +11,7 @@
 #include "texproc/gltf/image_plan.h"
 #include "texproc/material/chains.h"
 #include "texproc/material/material.h"
+#include "texproc/material/recipe.h"
 #include "texproc/prefilter/stored_guard.h"
 
 namespace petrichor::texproc {
@@ -21,6 +22,8 @@ struct ImageMakingOptions {
         true;  ///< factors go into the images; else the images are divided by them
     std::string format = "uastc";  ///< or a name of texture_format(): "bc7"
     BlockQuality quality = BlockQuality::Normal;
+    std::optional<float> rdo;   ///< BlockOptions::repeat; none: kRdo, 0 of normals
+    float rdo_most = kRdoMost;  ///< repeat_most
     int size = 0;     ///< no side longer than this; 0: as the source
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };

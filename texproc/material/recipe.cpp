@@ -17,6 +17,9 @@ std::string options_text(const OutputRule& output)
     text += output.srgb() ? " srgb" : " linear";
     text += " " + std::to_string(output.bits) + " bits";
     if (output.compression != "none") text += " " + output.compression;
+    if (output.price_of_a_bit() > 0.0f)
+        text += " rdo " + number_text(static_cast<double>(output.price_of_a_bit())) + " up to " +
+                number_text(static_cast<double>(output.rdo_most)) + " codes";
     if (output.level_files) text += " level files";
     if (output.has_levels()) text += " mips";
     if (output.size > 0) text += " size " + std::to_string(output.size);

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_TEXPROC_MATERIAL_RECIPE_H
 #define PETRICHOR_TEXPROC_MATERIAL_RECIPE_H
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,6 +16,9 @@
 
 namespace petrichor::texproc {
 
+/// What a bit of a packed texture may cost, and how far off a block may get: BlockOptions::repeat.
+inline constexpr float kRdo = 1.0f, kRdoMost = 1.0f;
+
 /// One file that a recipe makes.
 struct OutputRule {
     std::string folder;           ///< below the output folder: the engine, where there are several
@@ -22,6 +26,10 @@ struct OutputRule {
     PackPreset channels;          ///< what goes where; srgb_channels: RGB is written as sRGB colour
     std::string format = "png";   ///< png, tga, tif, exr, dds, ktx2
     std::string compression = "none";  ///< dds, ktx2: none, bc1, bc3, bc4, bc5, bc7; ktx2: uastc, astc-4x4 ..
+    /// Blocks that repeat bytes of others, for smaller files: BlockOptions::repeat, 0 for none, and
+    /// repeat_most. By default of what is packed by zstd, normals left out.
+    std::optional<float> rdo;
+    float rdo_most = kRdoMost;
     int bits = 8;                      ///< 8 or 16; exr: 16 or 32
     bool mips = true;                  ///< dds, ktx2, exr: all levels
     bool level_files = false;          ///< the others: one file a level, {file}_0, {file}_1, ...
@@ -30,6 +38,21 @@ struct OutputRule {
     std::string import;  ///< whose settings files go beside it: unity, godot; empty: none
     bool prefilter = true;  ///< roughness, smoothness and normals from the prefiltered chain
 
+    /// It is stored under zstd, which its readers know.
+    bool is_packed() const { return format == "ktx2" && compression == "uastc"; }
+    /// BlockOptions::repeat. Normals that repeat would show in what they mirror: only when asked for.
+    float price_of_a_bit() const
+    {
+        return rdo.value_or(is_packed() && !holds_normals() ? kRdo : 0.0f);
+    }
+    bool holds_normals() const
+    {
+        return std::any_of(channels.channels.begin(), channels.channels.end(), [](const auto& text) {
+            return text.find("normal") != std::string::npos;
+        });
+    }
+    /// Blocks that can repeat bytes of others.
+    bool has_rdo() const { return compression.starts_with("bc") || compression == "uastc"; }
     /// There is no DDS of it.
     bool in_ktx2_alone() const { return compression == "uastc" || compression.starts_with("astc"); }
     bool srgb() const { return !channels.srgb_channels.empty(); }

@@ -39,9 +39,12 @@ std::vector<std::string> write_levels(const std::filesystem::path& folder, const
             if (levels.front().channels == 4) options.format = "uastca";
             options.zstd = 10;  // what its readers expect
         }
+        options.repeat = rule.has_rdo() ? rule.price_of_a_bit() : 0.0f;
+        options.repeat_most = rule.rdo_most;
         options.srgb = rule.srgb();
         options.threads = threads;
-        options.texel_weights = std::move(texel_weights);
+        // Whose blocks are to repeat others cannot aim between codes as well.
+        if (options.repeat == 0.0f) options.texel_weights = std::move(texel_weights);
         write_mip_chain(path, levels, options);
         return {file};
     }

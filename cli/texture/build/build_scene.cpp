@@ -145,6 +145,8 @@ bool build_scene(const SceneBuild& build)
     options.score = !build.choice.no_score;
     options.stop = [] { return interrupted(); };
     if (!build.choice.rule.empty()) options.images.prefilter.rule = build.choice.rule;
+    options.images.rdo = build.choice.rdo;
+    if (build.choice.rdo_most) options.images.rdo_most = *build.choice.rdo_most;
     if (!build.choice.quality.empty())
         options.images.prefilter.quick = build.choice.quality == "quick";
     if (options.images.prefilter.rule != "none") texproc::rule_named(options.images.prefilter.rule);

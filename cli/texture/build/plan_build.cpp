@@ -32,6 +32,23 @@ void keep_z(texproc::OutputRule& output)
         channels.push_back("normal.b");
 }
 
+void apply_rdo(const BuildChoice& choice, texproc::Recipe& recipe)
+{
+    if (!choice.rdo && !choice.rdo_most) return;
+    bool taken = false;
+    for (texproc::OutputRule& output : recipe.outputs) {
+        if (!output.has_rdo()) continue;
+        if (choice.rdo) output.rdo = choice.rdo;
+        if (choice.rdo_most) output.rdo_most = *choice.rdo_most;
+        taken = taken || choice.rdo || output.price_of_a_bit() > 0.0f;
+    }
+    if (taken) return;
+    throw Error(std::string("texture build: no output is one for ") +
+                    (choice.rdo ? "--rdo" : "--rdo-most"),
+                choice.rdo ? "Leave it out: it is for blocks (bc1 to bc7, uastc)."
+                           : "Add --rdo 1, or leave it out.");
+}
+
 void apply(const BuildChoice& choice, texproc::Recipe& recipe)
 {
     if (!choice.engines.empty()) {
@@ -59,6 +76,7 @@ void apply(const BuildChoice& choice, texproc::Recipe& recipe)
         if (choice.format == "exr") output.bits = std::max(output.bits, 16);
         if (choice.format == "tga") output.bits = 8;
     }
+    apply_rdo(choice, recipe);
 }
 
 std::vector<texproc::MaterialFiles> materials_of(const texproc::Recipe& recipe)

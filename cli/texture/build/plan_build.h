@@ -2,6 +2,7 @@
 #define PETRICHOR_CLI_TEXTURE_BUILD_PLAN_BUILD_H
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct BuildChoice {
     std::string wrap;                   ///< wrap, clamp, mirror; empty: as the recipe says
     std::string normal_green;           ///< up, down; empty: as the recipe says
     int size = 0;
+    std::optional<float> rdo, rdo_most;  ///< of all outputs in blocks; none: as the recipe says
     bool no_score = false;
 };
 

@@ -28,11 +28,12 @@ const std::vector<std::string> kEdges{"wrap", "clamp", "mirror"};
 texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
 {
     texproc::OutputRule out;
-    bool named = false;
+    bool named = false, bounded = false;
     std::optional<bool> srgb;
     const auto entries =
         table.entries({"file", "preset", "channels", "srgb", "format", "compression", "bits",
-                       "mips", "level_files", "size", "prefilter", "order", "import"});
+                       "mips", "level_files", "size", "prefilter", "order", "import", "rdo",
+                       "rdo_most"});
     for (const auto& [key, value] : entries) {
         if (key == "file") {
             out.file = value.text();
@@ -62,6 +63,11 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
         if (key == "level_files") out.level_files = value.boolean();
         if (key == "size") out.size = value.integer(0, 65536);
         if (key == "prefilter") out.prefilter = value.boolean();
+        if (key == "rdo") out.rdo = static_cast<float>(value.number(0.0, 1000.0));
+        if (key == "rdo_most") {
+            out.rdo_most = static_cast<float>(value.number(0.01, 255.0));
+            bounded = true;
+        }
         if (key == "order") out.blue_first = value.choice(kOrders) == 1;
         if (key == "import") {
             const int engine = value.choice(kImports);
@@ -89,6 +95,13 @@ texproc::OutputRule read_output(const TomlValue& table, const fs::path& folder)
     if (out.compression != "none" && out.bits != 8) {
         wrong("asks for " + out.compression + " with " + std::to_string(out.bits) + " bits",
               "Leave bits out: block compression holds 8.");
+    }
+    if ((out.rdo || bounded) && !out.has_rdo()) {
+        wrong("asks for rdo in " + (out.compression == "none" ? out.format : out.compression),
+              "Use compression = \"uastc\", \"bc7\" or another bc, or leave rdo out.");
+    }
+    if (bounded && out.price_of_a_bit() == 0.0f) {
+        wrong("bounds the loss of an rdo that it does not ask for", "Add rdo = 1.");
     }
     if (out.blue_first && (out.format != "dds" || out.compression != "none" || out.bits != 8)) {
         wrong("asks for bgra, which is plain texels of 8 bits in a dds file",

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,9 @@ struct BlockOptions {
     /// costs less than this (squared error of 16 texels, mean over the channels, a bit saved), so
     /// that zstd makes a smaller file. 0: none; 0.25 is hardly seen, 4 is.
     float repeat = 0.0f;
+    /// How far off a block may get by that, root mean square in codes, > 0; one that is farther off
+    /// already stays as it is. 0.5 is 54 dB.
+    float repeat_most = std::numeric_limits<float>::infinity();
     int threads = 0;             ///< 0: all cores; the bytes do not depend on it
 };
 

@@ -90,6 +90,11 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
                         std::to_string(options.repeat),
                     "Give a number from 0 (no bytes are repeated), or leave it out.");
     }
+    if (!(options.repeat_most > 0.0f)) {
+        throw Error("block texture: repeated bytes must be allowed an error of more than 0 codes, got " +
+                        std::to_string(options.repeat_most),
+                    "Give codes such as 1, or leave it out.");
+    }
     if (options.repeat > 0.0f && !format.encode) {
         throw Error(std::string("block texture: ") + format.title +
                         " cannot trade error for size",
@@ -116,8 +121,17 @@ std::vector<std::byte> encode_blocks(const RawImage& image, Block block,
         std::array<float, 4> weights = options.weights;
         if (image.channels < 4) weights[3] = std::max(weights[3], 1.0f);  // opaque stays so
         detail::repeat_blocks(
-            bytes, across, format, [&](int bx, int by) { return gather(image, bx, by); }, weights,
-            options.repeat, options.threads);
+            bytes, across, format,
+            [&](int bx, int by) {
+                detail::BlockTexels texels = gather(image, bx, by);
+                // An alpha that the blocks cannot hold is no error of theirs.
+                if (block == Block::Bc1 && !options.punch_through)
+                    std::fill(std::begin(texels.plane[3]), std::end(texels.plane[3]),
+                              std::uint8_t{255});
+                return texels;
+            },
+            weights,
+            options.repeat, options.repeat_most, options.threads);
     }
     return bytes;
 }

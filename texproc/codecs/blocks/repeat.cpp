@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "base/parallel.h"
@@ -21,6 +22,8 @@ constexpr int kChunkBlocks = 4096;  // at least so many blocks know of each othe
 // What a compressor spends (zstd, roughly): a byte as it is; a match at a new distance, with the
 // logarithm of the distance; at the distance of the match before; one that goes on.
 constexpr float kByteBits = 8.0f, kMatchBits = 12.0f, kAgainBits = 9.0f;
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 struct Run {
     int first, count;
@@ -64,13 +67,14 @@ class Chunk {
 public:
     Chunk(std::span<std::byte> blocks, int across, int first_row, const BlockRow& format,
           const std::function<BlockTexels(int, int)>& texels, const std::array<float, 4>& weights,
-          float price)
+          float price, float most)
         : blocks_(blocks),
           across_(across),
           first_row_(first_row),
           format_(format),
           texels_(texels),
-          price_(price)
+          price_(price),
+          most_(16.0f * most * most)
     {
         float sum = 0.0f;
         const int channels = std::min(format.channels, 4);
@@ -92,7 +96,8 @@ private:
         return blocks_.data() + static_cast<std::size_t>(block) * format_.bytes;
     }
 
-    float error_of(const std::byte* bytes, const BlockTexels& aim) const
+    // Infinite where it is above `most`.
+    float error_of(const std::byte* bytes, const BlockTexels& aim, float most) const
     {
         BlockBytes read;
         format_.decode(bytes, BlockSign::Unsigned, read);
@@ -105,6 +110,7 @@ private:
                 sum += off * off;
             }
             total += weight_[c] * static_cast<float>(sum);
+            if (total > most) return kNever;
         }
         return total;
     }
@@ -136,7 +142,11 @@ private:
     {
         const BlockTexels aim = texels_(i % across_, first_row_ + i / across_);
         std::byte* own = at(i);
-        const float least_error = error_of(own, aim);
+        const float least_error = error_of(own, aim, kNever);
+        if (least_error >= most_) {
+            ends_ = false;
+            return;
+        }
         gather(i);
         Bytes best{};
         std::memcpy(best.data(), own, format_.bytes);
@@ -152,9 +162,9 @@ private:
             Bytes trial = base;
             std::memcpy(trial.data() + run.first, at(j) + run.first,
                         static_cast<std::size_t>(run.count));
-            const float value = error_of(trial.data(), aim) + price_ * bits;
-            if (!(value < cost)) return;
-            cost = value;
+            const float error = error_of(trial.data(), aim, std::min(cost - price_ * bits, most_));
+            if (!(error + price_ * bits < cost)) return;
+            cost = error + price_ * bits;
             best = trial;
             taken = run;
             from = j;
@@ -190,7 +200,7 @@ private:
     int across_, first_row_;
     const BlockRow& format_;
     const std::function<BlockTexels(int, int)>& texels_;
-    float price_;
+    float price_, most_;  // squared error a block: of a bit, and at most
     std::array<float, 4> weight_{};
     std::vector<int> candidates_;
     int distance_ = 0;   // of the match before
@@ -201,7 +211,8 @@ private:
 
 void repeat_blocks(std::span<std::byte> blocks, int across, const BlockRow& format,
                    const std::function<BlockTexels(int, int)>& texels,
-                   const std::array<float, 4>& weights, float price, int threads)
+                   const std::array<float, 4>& weights, float price, float most,
+                   int threads)
 {
     const int rows = static_cast<int>(blocks.size() / format.bytes) / across;
     const int rows_a_chunk = std::max(1, (kChunkBlocks + across - 1) / across);
@@ -212,7 +223,7 @@ void repeat_blocks(std::span<std::byte> blocks, int across, const BlockRow& form
         const std::size_t row = static_cast<std::size_t>(across) * format.bytes;
         Chunk(blocks.subspan(static_cast<std::size_t>(first) * row,
                              static_cast<std::size_t>(last - first) * row),
-              across, first, format, texels, weights, price)
+              across, first, format, texels, weights, price, most)
             .run();
     });
 }

@@ -248,6 +248,7 @@ MipTexture make_texture(std::span<const RawImage> levels, const TextureWriteOpti
             .srgb = texture.srgb,
             .is_signed = format.is_signed,
             .repeat = options.repeat,
+            .repeat_most = options.repeat_most,
             .threads = options.threads};
         const int channels = std::min(level.channels, 4);
         const PixelType type = *format.block == Block::Bc6h ? PixelType::F16 : PixelType::U8;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,6 +62,7 @@ struct TextureWriteOptions {
     /// alike.
     std::vector<Image> texel_weights{};
     float repeat = 0.0f;  ///< BlockOptions::repeat
+    float repeat_most = std::numeric_limits<float>::infinity();
     int zstd = 0;     ///< KTX2: 0 stored plain, 1..22 compressed
     int threads = 0;  ///< 0: all cores; the bytes do not depend on it
 };

@@ -21,10 +21,12 @@ namespace petrichor::texproc::detail {
 ///   blocks    a whole level, `across` blocks a row; changed
 ///   texels    of a block as it was before encoding
 ///   weights   of the channels; 0 leaves one out
+///   most      root mean square error, in codes, up to which a block may get by that; > 0
 ///   price     mean squared error of a channel, summed over 16 texels, that a bit may cost; > 0
 void repeat_blocks(std::span<std::byte> blocks, int across, const BlockRow& format,
                    const std::function<BlockTexels(int bx, int by)>& texels,
-                   const std::array<float, 4>& weights, float price, int threads);
+                   const std::array<float, 4>& weights, float price, float most,
+                   int threads);
 
 }  // namespace petrichor::texproc::detail
 
