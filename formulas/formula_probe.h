@@ -33,15 +33,17 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/gusts.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
+#include "formulas/weather/snow_glints.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 51;
+SHARED_CONST int kProbeKinds = 53;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -401,6 +403,20 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
                     streak_cover((2.0f * b.x - 1.0f) * (half_way + radius), (2.0f * b.y - 1.0f) * radius,
                                  half_way, radius),
                     snow_breakup(15.0f * b.z));
+    }
+    if (kind == 51) {
+        const vec3 from = 60.0f * vec3(a.x, 0.1f * a.y, a.z);
+        const float veil = gust_veil(from, from + 40.0f * vec3(b.x - 0.5f, 0.1f * b.y, b.z - 0.5f),
+                                     kGustPeriod_m * vec2(c.x, c.y), a.w);
+        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), 0.0f, 0.0f);
+    }
+    if (kind == 52) {
+        // At the middles of cells and of what one serves: elsewhere the last bit chooses another.
+        const vec2 at = floor(20.0f * vec2(a.x, a.y)) + vec2(0.3f + 0.4f * a.z, 0.5f);
+        const vec2 lean = floor(20.0f * vec2(b.x, b.y)) + vec2(0.5f);
+        const uint level = uint(min(b.z * 7.0f, 6.0f));
+        return vec4(glints_of_level(at - vec2(0.37f * float(level)), lean, 10.0f * c.x * c.x, level),
+                    glint_hill(vec2(c.y, c.z)), 0.0f, 0.0f);
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);
