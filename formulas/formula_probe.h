@@ -408,7 +408,8 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 from = 60.0f * vec3(a.x, 0.1f * a.y, a.z);
         const float veil = gust_veil(from, from + 40.0f * vec3(b.x - 0.5f, 0.1f * b.y, b.z - 0.5f),
                                      kGustPeriod_m * vec2(c.x, c.y), a.w);
-        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), 0.0f, 0.0f);
+        const WaterCover pond = pond_cover(0.05f * b.w - 0.005f, 0.03f * a.y);
+        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere, pond.deep);
     }
     if (kind == 52) {
         // At the middles of cells and of what one serves: elsewhere the last bit chooses another.

@@ -17,14 +17,17 @@ SHARED_BEGIN
 SHARED_CONST float kGustPeriod_m = 192.0f;
 SHARED_CONST float kLeastVeil = 0.05f;
 
-// Mean of one wave along a way: waves is k of sin(2 pi (k . p) / period), whole numbers along the ground.
+// Mean of one wave along a way: waves is k of sin(2 pi (k . p) / period), whole numbers along the ground. A cloud of
+// drops is no wave without an end: along a way of several of its lengths what lies behind knows nothing of it, else
+// who looks along its crest would see stripes.
 SHARED_FN float gust_wave(vec3 waves, vec3 from_m, vec3 along_m)
 {
     const float turn = 6.28318531f / kGustPeriod_m;
     const float half_way = 0.5f * turn * dot(waves, along_m);
     const float middle = turn * dot(waves, from_m) + half_way;
     const float widened = max(abs(half_way), 1.0e-3f);
-    return sin(middle) * (sin(widened) / widened);
+    const float lengths = dot(along_m, along_m) * dot(waves, waves) / (kGustPeriod_m * kGustPeriod_m);
+    return sin(middle) * (sin(widened) / (widened * (1.0f + 0.04f * lengths)));
 }
 
 // Density of the veil between two points over its mean, about 1; strength 0: 1. way_m: of the wind since the start,
