@@ -34,15 +34,17 @@
 #include "formulas/weather/falling.h"
 #include "formulas/weather/falls_here.h"
 #include "formulas/weather/ground_relief.h"
+#include "formulas/weather/gusts.h"
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
+#include "formulas/weather/snow_glints.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 52;
+SHARED_CONST int kProbeKinds = 54;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -413,6 +415,21 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec2 lamp = lamp_plane_slope(n, vec3(b.z, b.w, 1.0f), vec2(n.x, n.y));
         const float lit = four_texels_lit(vec4(0.5f), vec4(step(0.5f, c.x), 0.9f, 0.1f, step(0.3f, c.y)), four_texel_weights(vec2(c.z, c.w)));
         return vec4(0.01f * slope.x, 0.01f * slope.y, 0.1f * (lamp.x + lamp.y), lit + 0.01f * shadow_lift_texels(n.y, 1.0f, 2.5f));
+    }
+    if (kind == 52) {
+        const vec3 from = 60.0f * vec3(a.x, 0.1f * a.y, a.z);
+        const float veil = gust_veil(from, from + 40.0f * vec3(b.x - 0.5f, 0.1f * b.y, b.z - 0.5f),
+                                     kGustPeriod_m * vec2(c.x, c.y), a.w);
+        const WaterCover pond = pond_cover(0.05f * b.w - 0.005f, 0.03f * a.y);
+        return vec4(veil, gust_strength(10.0f * c.z, 2.0f * c.w), pond.anywhere, pond.deep);
+    }
+    if (kind == 53) {
+        // At the middles of cells and of what one serves: elsewhere the last bit chooses another.
+        const vec2 at = floor(20.0f * vec2(a.x, a.y)) + vec2(0.3f + 0.4f * a.z, 0.5f);
+        const vec2 lean = floor(20.0f * vec2(b.x, b.y)) + vec2(0.5f);
+        const uint level = uint(min(b.z * 7.0f, 6.0f));
+        return vec4(glints_of_level(at - vec2(0.37f * float(level)), lean, 10.0f * c.x * c.x, level),
+                    glint_hill(vec2(c.y, c.z)), 0.0f, 0.0f);
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

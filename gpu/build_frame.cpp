@@ -404,6 +404,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     variant.rectangles = r.lights->rectangles;
     variant.ways = r.lights->ways | (r.scene->point_lamps() ? LIGHTS_BY_MATERIAL : 0u) | (frame.sun_cookie.first_texel >= 0 ? LIGHTS_SUN_COOKIE : 0u);
     variant.all_lights = settings.all_lights;
+    variant.sparkle = weather.snow && variant.sun && frame.look.snow_sparkle > 0.0f;
     variant.snow_scatter = weather.snow && frame.look.snow_scatter_color != glm::vec3(0.0f);
     if (r.resolve && r.scene->layer_shares()) variant.shares = r.resolve->shares.get();
     if (r.own_lighting) variant.shader = kOwnLightingShader;
@@ -418,6 +419,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         // Other modes of fog know nothing of what falls.
         c.drawn_per_m = frame.fog.mode == FogMode::Metres ? plan.drawn_per_m : 0.0f;
         c.drawn_reach_m = plan.drawn_reach_m;
+        if (frame.fog.mode == FogMode::Metres) c.gusts = plan.gusts;
         c.place = r.place->constants();
         if (soft_lamps) look_from_lamps(graph, frame, c, i, r);
         if (i == range.first) {

@@ -33,6 +33,9 @@ const std::vector<LookKey>& look_keys()
          "how far the snow line (snow_start_height_m) runs up and down the slope, times twice "
          "snow_height_blending_km; 0: level, as Lux 2.02",
          offsetof(WeatherLook, snow_line_ragged)},
+        {LOOK(snow_sparkle), 0.0, 1.0, "1.0",
+         "how much of what snow mirrors of the sun is gathered on single crystals; 0: an even sheet, as Lux 2.02",
+         offsetof(WeatherLook, snow_sparkle)},
         {LOOK(ripple_tiling), 0.0, 100.0, "0.8", "repeats of the rings of rain per metre",
          offsetof(WeatherLook, ripple_tiling)},
         {LOOK(ripple_speed), 0.0, 10.0, "1.0", "of the rings; 1 as photographed",

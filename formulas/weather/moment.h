@@ -77,6 +77,8 @@ struct WeatherLook {
     float snow_scatter_contraction MOMENT_DEFAULT(8.0f);
     // How far the snow line runs up and down the slope, times twice its blend range.
     float snow_line_ragged MOMENT_DEFAULT(1.0f);
+    // How much of what snow mirrors of the sun is gathered on single crystals: 0 none, an even sheet.
+    float snow_sparkle MOMENT_DEFAULT(1.0f);
     float ripple_tiling MOMENT_DEFAULT(0.8f);  // repeats per metre
     float ripple_speed MOMENT_DEFAULT(1.0f);   // 1 as photographed
     // How far a ring shifts what lies below, in texture coordinates a slope. Lux has 0.5, half a

@@ -49,6 +49,17 @@ SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, fl
     return cover;
 }
 
+// Water of a hollow of the ground, depth_m at a point of the mesh: the relief that the mesh does not have stands up
+// from it by stands_m. So the shore is as ragged as the ground, and damp where water is thin.
+SHARED_FN WaterCover pond_cover(float depth_m, float stands_m)
+{
+    const float over_m = depth_m > 0.0f ? depth_m - stands_m : 0.0f;
+    WaterCover cover;
+    cover.anywhere = smooth_edge(0.0f, 0.005f, over_m);
+    cover.deep = smooth_edge(0.001f, 0.009f, over_m);
+    return cover;
+}
+
 // Ground so level that water stays on it: up to 1.5 degrees, none from 6 degrees on.
 SHARED_FN float level_ground(float normal_up)
 {

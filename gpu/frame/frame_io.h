@@ -79,6 +79,7 @@ struct FrameConstants {
     float fog_base_m;     // world height
     float drawn_per_m;    // extinction of the drops and flakes that are drawn one by one ..
     float drawn_reach_m;  // .. and how far they are, in the mean
+    vec3 gusts;           // way of the wind that carries their clouds, x and z; strength (formulas/weather/gusts.h)
     vec3 white_gains;     // of the cones
     float bloom;
     float wet_lens;       // of this moment: 0 dry

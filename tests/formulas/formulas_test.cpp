@@ -182,6 +182,24 @@ TEST(WaterCover, FillsFromTheLowestPlaceUp)
     EXPECT_EQ(water_cover(glm::vec2(1.0f), 0.0f, 1.0f, 1.0f, 0.5f).anywhere, 1.0f);
 }
 
+TEST(WaterCover, APondHasAShoreAsRaggedAsItsGround)
+{
+    for (float stands = 0.0f; stands <= 0.03f; stands += 0.005f) {
+        EXPECT_EQ(pond_cover(0.0f, stands).anywhere, 0.0f);
+        EXPECT_EQ(pond_cover(-1.0f, -0.5f).anywhere, 0.0f) << "none above the water, however low the relief";
+        float before = 0.0f;
+        for (float depth = 0.0f; depth <= 0.06f; depth += 0.001f) {
+            const WaterCover c = pond_cover(depth, stands);
+            EXPECT_GE(c.anywhere, before);
+            EXPECT_LE(c.deep, c.anywhere + 1e-6f) << "what is deep stands";
+            EXPECT_LE(c.anywhere, pond_cover(depth, 0.0f).anywhere) << "hollows of the relief fill first";
+            if (depth <= stands) EXPECT_EQ(c.anywhere, 0.0f) << "stones stand out";
+            if (depth >= stands + 0.0095f) EXPECT_EQ(c.deep, 1.0f) << "and drown";
+            before = c.anywhere;
+        }
+    }
+}
+
 TEST(WaterCover, HandComputedValues)
 {
     // cracks 0.6 - 0.2 = 0.4; puddles (0.8 - 0.2) / 0.4 = 1 after clamping.

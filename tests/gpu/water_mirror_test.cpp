@@ -112,6 +112,36 @@ TEST_F(WaterMirror, ShallowWaterOnASlopeFollowsIt)
     EXPECT_NEAR(aov(result, "cover_normal", 16, 12, 1), aov(result, "normal", 16, 12, 1), 0.03f);
 }
 
+// A polished floor before posts, one sample: what it mirrors goes on from row to row, as the posts do.
+TEST_F(WaterMirror, APolishedFloorHasNoGrainAtOneSample)
+{
+    std::vector<Primitive> faces{quad({-6, 0, 3}, {12, 0, 0}, {0, 0, -12}, 0)};
+    for (int i = 0; i < 16; ++i) {
+        faces.push_back(quad({-4.0f + 0.5f * static_cast<float>(i), 0, -6}, {0.5f, 0, 0}, {0, 6, 0},
+                             1 + static_cast<std::uint32_t>(i % 2)));
+    }
+    renderer->load(scene_of(faces, {plain_material(glm::vec3(0.9f), 0.1f, 1.0f), plain_material(glm::vec3(0.03f)),
+                                    plain_material(glm::vec3(0.8f))}),
+                   {});
+    Frame frame;
+    frame.camera = look({0, 1.5f, 4.0f}, {0, 0, -2.0f}, 0.7f);
+    frame.settings.width = kWidth;
+    frame.settings.height = kHeight;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1.0f;
+    frame.fog.mode = FogMode::Off;
+    const RenderResult r = renderer->render(frame);
+    double steps = 0.0, sum = 0.0;
+    for (int y = kHeight / 2; y < kHeight * 3 / 4; ++y) {
+        for (int x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
+            steps += static_cast<double>(std::abs(luminance(pixel(r, x, y)) - luminance(pixel(r, x, y + 1))));
+            sum += static_cast<double>(luminance(pixel(r, x, y)));
+        }
+    }
+    RecordProperty("grain", std::to_string(steps / sum));
+    EXPECT_LT(steps / sum, 0.1) << "0.16 where pixels draw their facets";
+}
+
 // A chrome floor before a red wall under a blue sky: without the picture it mirrors the sky alone.
 TEST_F(WaterMirror, WithoutThePictureFloorsMirrorTheSky)
 {

@@ -397,6 +397,52 @@ TEST(PatchLookup, SnowHasTheLightOfTheGroundBelowIt)
     EXPECT_EQ(light_at(looked.lit, {-0.8f, 40.0f, 0.31f}, up, 0.5f).weight, 0.0f);
 }
 
+TEST(PatchLookup, GroundAroundAThingHasNoSquareOfOtherLight)
+{
+    // Cells are fine around it and coarse beyond: from fine to coarse the light goes on as it lies there.
+    Scene scene = empty_scene();
+    for (int i = 0; i < 25; ++i) {
+        const glm::vec3 at(0.45f * static_cast<float>(i % 5 - 2), 0.001f, 0.45f * static_cast<float>(i / 5 - 2));
+        add_box(scene, at - glm::vec3(0.1f, 0.0f, 0.1f), at + glm::vec3(0.1f, 0.4f, 0.1f), false);
+    }
+    Scene ground = empty_scene();
+    for (int i = 0; i < 256; ++i) {
+        const float x = static_cast<float>(i % 16) - 8.0f, z = static_cast<float>(i / 16) - 8.0f;
+        add_face(ground, {x, 0, z}, {0, 0, 1}, {1, 0, 0});
+    }
+    scene.meshes.push_back(ground.meshes[0]);
+    scene.instances.push_back({});
+    scene.instances.back().mesh = 1;
+    scene.instances.back().backdrop = true;
+    const Cut cut(scene, 32, 0.0f);
+    // Dark around the middle.
+    const auto there = [](glm::vec3 x) {
+        return 1.0f - 0.8f * std::exp(-glm::dot(glm::vec2(x.x, x.z), glm::vec2(x.x, x.z)) / 0.25f);
+    };
+    std::vector<glm::vec4> leaves;
+    int coarsest = 0;
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        leaves.emplace_back(there(cut.patches.position_m[i]));
+        coarsest = std::max(coarsest, level_of(cut.patches.key[i]));
+    }
+    ASSERT_GE(coarsest, 3);
+    PatchIrradiance light;
+    light.irradiance = with_interior(cut.patches, leaves);
+    light.gradient.assign(cut.patches.nodes(), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    const Looked looked(cut, light);
+    for (int turn = 0; turn < 8; ++turn) {
+        const float angle = 0.3f + 0.785398f * static_cast<float>(turn);
+        float before = 0.0f;
+        for (float r = 1.05f; r < 2.5f; r += 0.005f) {
+            const glm::vec3 x(r * std::cos(angle), 0.0f, r * std::sin(angle));
+            const float found = light_at(looked.lit, x, {0, 1, 0}).irradiance.x;
+            EXPECT_NEAR(found, there(x), 0.06f) << turn << " " << r;
+            if (before > 0.0f) EXPECT_NEAR(found, before, 0.02f) << turn << " " << r;
+            before = found;
+        }
+    }
+}
+
 TEST(PatchLookup, FarFromEverythingHasNoWeight)
 {
     const Cut cut(room(), 32);

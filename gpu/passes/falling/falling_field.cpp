@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "formulas/weather/falling.h"
+#include "formulas/weather/gusts.h"
 #include "formulas/weather/visibility.h"
 #include "gpu/passes/falling/falling_numbers.h"
 
@@ -506,6 +507,10 @@ FallingPlan plan_falling(const Frame& frame, const FallingView& view)
         plan.per_m3 += c.per_m3;
     }
     plan.extinction_per_m *= falling.density;
+    const double period = static_cast<double>(shared::kGustPeriod_m);
+    const glm::dvec2 way = frame.falling.air_m * static_cast<double>(share);
+    plan.gusts = glm::vec3(glm::vec2(way - period * glm::floor(way / period)),
+                           shared::gust_strength(glm::length(plan.air_m_s), plan.extinction_per_m / air_per_m));
     const double sight = static_cast<double>(w.visibility_m);
     plan.seen = static_cast<double>(plan.per_m3) * view_cone(view) * sight * sight * sight;
     const bool orthographic = frame.camera.orthographic_height_m > 0.0f;

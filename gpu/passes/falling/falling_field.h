@@ -47,6 +47,7 @@ struct FallingPlan {
     float extinction_per_m = 0.0f; ///< of all classes
     float drawn_per_m = 0.0f;      ///< of the classes that are drawn, not more than the air's own ..
     float drawn_reach_m = 0.0f;    ///< .. to this distance, in the mean
+    glm::vec3 gusts{0.0f};         ///< of what is not drawn: gust_veil()'s way_m and strength
     double seen = 0.0;             ///< how many lie between the camera and the visibility
 };
 

@@ -27,6 +27,8 @@
 #include "formulas/noise/noise.h"
 #include "formulas/weather/apply_weather.h"
 #include "formulas/weather/falling.h"
+#include "formulas/weather/gusts.h"
+#include "formulas/weather/snow_glints.h"
 
 layout(local_size_x = LIGHTING_TILE, local_size_y = LIGHTING_TILE) in;
 layout(constant_id = LIGHTING_SPEC_WEATHER) const uint WEATHER = 1u;
@@ -53,6 +55,7 @@ layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
 layout(constant_id = LIGHTING_SPEC_HORIZON) const uint HORIZON = 0u;
 layout(constant_id = LIGHTING_SPEC_GRAIN) const uint GRAIN = 0u;
 layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
+layout(constant_id = LIGHTING_SPEC_SPARKLE) const uint SPARKLE = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
 layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
@@ -230,6 +233,19 @@ Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, f
                        max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1.0e-6),
                    0.0, 1.0);
     return a;
+}
+
+// What crystals on snow mirror of the sun beyond the mean of its lobe, which is taken from the darker ones.
+vec3 sparkle(LitPoint p, float snow, float view_m)
+{
+    Lobe mirrors = p.lobe;
+    mirrors.diffuse = vec3(0.0);
+    const vec3 h = half_vector(p.view, frame.sun_direction);
+    const float seen_m = pixel_width_m(frame, view_m) * inversesqrt(max(p.lobe.nv, 0.05));
+    const vec2 lean = h.xz / max(abs(h.y), 0.2);
+    const float lobe = ggx_distribution(clamp(dot(p.normal, h), 0.0, 1.0), p.roughness * p.roughness);
+    const float over = snow_glints(p.position.xz, seen_m, lean, lobe) - 1.0;
+    return shade_lobe(mirrors, frame.sun_direction) * (over * snow * frame.look.snow_sparkle);
 }
 
 Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
@@ -415,6 +431,8 @@ void main()
             if (sunny) {
                 sunlight = frame.sun_illuminance * sun_cookie(position, view_m);
                 direct += shadowed_light(p, frame.sun_direction, visible) * sunlight;
+                if (SPARKLE != 0u && g.weather.z > 0.0)
+                    direct += sparkle(p, g.weather.z, view_m) * (sunlight * visible);
             }
         }
         // Lamps whose light the map holds are in it.

@@ -31,7 +31,8 @@
 #define LIGHTING_SPEC_FILM 23     // a film of water is a lobe of its own
 #define LIGHTING_SPEC_GRAIN 24    // anisotropic surfaces mirror along their grain, by chance
 #define LIGHTING_SPEC_PICTURE 25  // smooth surfaces mirror the picture itself
-#define LIGHTING_SPEC_MODEL 26    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_SPARKLE 26  // snow under the sun has single crystals
+#define LIGHTING_SPEC_MODEL 27    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1

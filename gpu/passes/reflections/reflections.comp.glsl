@@ -36,6 +36,8 @@ layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
 
 const int kSteps = 32;
 const int kRefinements = 5;
+const int kTaps = 6;
+const float kWidest_px = 24.0;
 
 struct Hit {
     vec2 pixel;
@@ -135,6 +137,43 @@ Hit trace(vec3 origin, vec3 direction)
     return hit;
 }
 
+// The picture where a ray met it; what glows is in part a lamp, whose highlight is there already.
+vec3 picture_at(ivec2 at, float roughness)
+{
+    vec3 seen = texelFetch(radiance_map, at, 0).rgb;
+    if (GLOWS != 0u) seen -= min(seen, texelFetch(emission_map, at, 0).rgb * glow_share(roughness));
+    return seen;
+}
+
+// How far the lobe of a smooth surface is spread on the picture where its ray met it, pixels: half of all facets
+// of GGX lean less than alpha.
+float spread_px(vec3 position, vec2 pixel, float alpha)
+{
+    const float hit_m = scene_depth_m(pixel);
+    const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
+    const vec3 met = pixel_position(frame, vec2(at) + 0.5, texelFetch(depth_map, at, 0).r);
+    return clamp(2.8 * alpha * length(met - position) / max(pixel_width_m(frame, hit_m), 1.0e-6), 0.0, kWidest_px);
+}
+
+// The mean of that disc, the same part of it for all pixels of a sample: no grain. What lies much nearer or farther
+// than what was met is not there in the mirror: `other` stands for it.
+vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 other)
+{
+    const float hit_m = scene_depth_m(pixel);
+    const float turn = 0.61803399 * float(frame.sample_index);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < kTaps; ++i) {
+        const float k = float(i) + fract(turn + 0.5);
+        const float way = radius * sqrt(k / float(kTaps));
+        const float angle = 2.39996323 * k + 6.2831853 * turn;
+        const vec2 at = pixel + way * vec2(cos(angle), sin(angle));
+        const bool there = abs(scene_depth_m(at) - hit_m) < 0.15 * hit_m + 0.05;
+        const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1), roughness);
+        sum += there ? seen : other;
+    }
+    return sum / float(kTaps);
+}
+
 // What most of the mirrored light comes from, and how much of it is mirrored.
 vec2 reflection_label(vec3 weight, Hit hit, float probed)
 {
@@ -176,7 +215,10 @@ void main()
         const float n_th = float(frame.sample_index);
         const float turn = 6.2831853 * fract(dither(texel, 11u) + 0.7548777 * n_th);
         const float u = 0.8 * fract(dither(texel.yx, 3u) + 0.5698403 * n_th);
-        const float slope = roughness * roughness * sqrt(u / (1.0 - u));
+        // Smooth ones send one ray, whose end is blurred: pixels that draw their facets are grain at few samples.
+        const float drawn = smoothstep(0.1, 0.18, roughness);
+        const float alpha = roughness * roughness;
+        const float slope = drawn * alpha * sqrt(u / (1.0 - u));
         const vec3 side = normalize(cross(n, abs(n.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
         const vec3 facet = normalize(n + (side * cos(turn) + cross(n, side) * sin(turn)) * slope);
         vec3 ray = reflect(view, facet);
@@ -206,11 +248,11 @@ void main()
         }
         hit.confidence *= 1.0 - smoothstep(kSharpRoughness, kWideRoughness, roughness);
         if (hit.confidence > 0.0) {
-            vec3 seen = texelFetch(radiance_map, ivec2(hit.pixel), 0).rgb;
-            if (GLOWS != 0u) {
-                const vec3 glow = texelFetch(emission_map, ivec2(hit.pixel), 0).rgb;
-                seen -= min(seen, glow) * glow_share(roughness);
-            }
+            vec3 seen = picture_at(ivec2(hit.pixel), roughness);
+            const float radius = spread_px(position, hit.pixel, (1.0 - drawn) * alpha);
+            // A loop that ends at once where one pixel is enough: a CPU takes both sides of a branch.
+            for (int k = 0; k < (radius > 0.7 ? 1 : 0); ++k)
+                seen = seen_around(hit.pixel, radius, roughness, mirrored);
             mirrored = mix(mirrored, seen, hit.confidence);
         }
         mirrored_light = weight * mirrored;

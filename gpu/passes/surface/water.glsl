@@ -12,6 +12,7 @@ struct StandingWater {
     float deep;
     float runs;  // 0..1: what falls on a slope and leaves it
     float depth_m;  // in the relief below a patch
+    float stands_m;  // how high the relief stands in the shallows of a hollow
 };
 
 // By the level of the weather here, in cracks and puddles, the material's influence on it, and its constant;
@@ -43,9 +44,10 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
     water.deep = cover.deep;
     water.runs = saturate(weather.y) * (1.0 - levelness);
     water.depth_m = 0.0;
+    const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
+    // Half of it: the mesh is the mean of its ground.
+    water.stands_m = 0.5 * unit_m * (mapped ? height : height - material.default_height);
     if (PLACE != 0u && here.volume) {
-        const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m
-                                                                     : kGroundReliefUnit_m;
         water.depth_m = max(here.level - height, 0.0) * unit_m * levelness;
     }
     return water;

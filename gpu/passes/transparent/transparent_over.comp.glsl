@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/fog.h"
 #include "formulas/weather/falling.h"
+#include "formulas/weather/gusts.h"
 #include "formulas/weather/surface_weather.h"
 #include "gpu/frame/gbuffer.glsl"
 #include "gpu/outputs/light_parts_io.h"
