@@ -21,16 +21,16 @@ namespace petrichor::gpu {
 
 static_assert(LAMP_SHADOWS_MOST == kMostLampShadows);
 
+bool uses_patches(const Frame& frame, const FrameResources& r)
+{
+    return frame.settings.patch_light && frame.settings.image_based_light && r.patches->loaded();
+}
+
 namespace {
 
 bool same_sky(const shared::SkyParams& a, const shared::SkyParams& b)
 {
     return std::memcmp(&a, &b, sizeof(a)) == 0;
-}
-
-bool uses_patches(const Frame& frame, const FrameResources& r)
-{
-    return frame.settings.patch_light && frame.settings.image_based_light && r.patches->loaded();
 }
 
 // The sun is no point where more than one sample looks.
@@ -76,8 +76,8 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
     }
 }
 
-// Draws the sky's maps when they would come out otherwise; true when it did.
-bool add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
+// Draws the sky's maps when they would come out otherwise.
+void add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
 {
     SkyMaps& sky = *r.sky;
     if (!sky.env_brdf_valid) {
@@ -93,7 +93,6 @@ bool add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
             sky.environment_scale = scale;
             sky.environment_rotation_rad = rotation;
             sky.drawn_valid = true;
-            return true;
         }
     } else {
         shared::SkyParams params = sky_params(frame, sky);
@@ -106,23 +105,19 @@ bool add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
             add_analytic_sky(graph, sky, params);
             sky.drawn = params;
             sky.drawn_valid = true;
-            return true;
         }
     }
-    return false;
 }
 
-void add_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
+void add_light_of_sky(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
 {
-    SkyMaps& sky = *r.sky;
-    add_sky_maps(graph, frame, r);
     Metering metering;
     metering.sun_illuminance = sun.illuminance;
     metering.sun_up = sun.direction.y;
     metering.exposure = frame.settings.exposure;
     metering.bias = std::exp2(frame.settings.exposure_bias_stops);
     metering.ambient_scale = frame.settings.image_based_light ? 1.0f : 0.0f;
-    add_sky_light(graph, sky, metering);
+    add_sky_light(graph, *r.sky, metering);
 }
 
 // The lighting models and layers of what may be seen; a pixel around the view counts, since samples are
@@ -348,12 +343,12 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
 
 }  // namespace
 
-FrameGraph build_sky(const Frame& frame, FrameResources& r)
+FrameGraph build_sky(const Frame& frame, const Sun& sun, FrameResources& r)
 {
     FrameGraph graph;
-    if (!uses_patches(frame, r)) return graph;
     add_sky_maps(graph, frame, r);
-    add_sky_bins(graph, *r.sky, *r.patches);
+    add_light_of_sky(graph, frame, sun, r);
+    if (uses_patches(frame, r)) add_sky_bins(graph, *r.sky, *r.patches);
     return graph;
 }
 
@@ -384,7 +379,6 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
     add_depth_maps(graph, frame, sun, r, weathered, plan);
     const bool soft_lamps = soft_shadows(frame, r);
     if (!soft_lamps) r.lamp_shadows->add(graph, *r.scene, *r.triangles, r.lights->shadowed);
-    add_sky(graph, frame, sun, r);
 
     LightingVariant variant;
     variant.weather = weathered;

@@ -50,9 +50,11 @@ struct FrameResources {
     bool own_lighting = false;  ///< the scene has lighting models that are not built in
 };
 
-/// What comes before light between surfaces can be solved: the sky and the means of its bins. Empty
-/// when the frame is lit without patches.
-FrameGraph build_sky(const Frame& frame, FrameResources& resources);
+/// Light between surfaces is that of the scene's patches.
+bool uses_patches(const Frame& frame, const FrameResources& resources);
+
+/// What comes before all else: the sky, its light and the exposure, and the means of its bins for patches.
+FrameGraph build_sky(const Frame& frame, const Sun& sun, FrameResources& resources);
 
 /// Samples of a frame that see the scene at the same moment.
 struct SampleRange {

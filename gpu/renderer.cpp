@@ -9,6 +9,7 @@
 #include "gpu/frame/metering.h"
 #include "gpu/snow/snow_body.h"
 #include "gpu/surface_path.h"
+#include "gpu/upload/draw.h"
 
 namespace petrichor::gpu {
 
@@ -159,7 +160,8 @@ struct Renderer::Impl {
                                          .host = true});
     }
 
-    void prepare_lights(const Frame& frame, const Light* sun)
+    // exposure: as of least_lux().
+    void prepare_lights(const Frame& frame, const Sun& by_day, const Light* sun, float exposure)
     {
         std::vector<Light> lights;
         for (const Light& light : scene->lights()) {
@@ -182,10 +184,31 @@ struct Renderer::Impl {
                           frame.settings.height);
         light_table = {};
         light_arena = std::make_unique<MemoryArena>(device);
-        light_table = make_light_table(device, *light_arena, lights,
-                                       frame.settings.shadows ? frame.settings.lamp_shadows : 0,
-                                       glm::vec3(frame.camera.to_world[3]),
-                                       frame.settings.area_lights);
+        LightTableParams params{.shadows = frame.settings.shadows ? frame.settings.lamp_shadows : 0,
+                                .eye_m = glm::vec3(frame.camera.to_world[3]),
+                                .area = frame.settings.area_lights,
+                                .least_lux = least_lux(frame.settings, exposure)};
+        // Other eyes of a lens or a shutter see more.
+        if (frame.lens.radius_m <= 0.0f && frame.shutter.empty()) {
+            const shared::FrameConstants c = frame_constants(frame, by_day, scene->bounds(), 0);
+            params.in_view = [frustum = Frustum(c.world_to_clip), eye_m = c.camera_m,
+                              angle = c.pixel_angle](const glm::vec3& centre_m, float radius_m) {
+                // Samples are moved by less than a pixel.
+                const float pixel_m = angle * std::max(1.0f, glm::length(centre_m - eye_m));
+                return frustum.touches(centre_m, radius_m + pixel_m);
+            };
+        }
+        light_table = make_light_table(device, *light_arena, lights, params);
+    }
+
+    // The linear scale of the frame's display; behind the sky's passes, where it is by the light that falls in.
+    float exposure_of(const Frame& frame) const
+    {
+        const FrameSettings& s = frame.settings;
+        if (s.exposure > 0.0f) return s.exposure * std::exp2(s.exposure_bias_stops);
+        shared::SkyLight light{};
+        std::memcpy(&light, sky.light->mapped, sizeof(light));
+        return light.exposure;
     }
 
     void prepare_targets(TargetSet& set, const FrameSettings& s,
@@ -414,9 +437,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         }
     }
     const Sun sun = sun_of(frame.sky, scene_sun, environment != nullptr);
-    prepare_lights(frame, scene_sun);
     place.update(device, frame.place.get());
-    prepare_targets(set, frame.settings, aov_groups);
     descriptors.reset();
 
     FrameResources resources;
@@ -437,6 +458,23 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
     resources.probes = &probes;
     resources.place = &place;
     resources.snow_lift_m = snow ? snow->lift_m() : 0.0f;
+    resources.environment = environment.get();
+    // The sky first: how far lamps reach, and what patches send each other, depend on it.
+    FrameGraph before = build_sky(frame, sun, resources);
+    RenderResult result;
+    result.passes = before.execute(device, pipelines, descriptors);
+    graph_text = before.describe();
+    if (uses_patches(frame, resources)) {
+        Sun through = sun;  // what a cookie lets through of it
+        if (frame.sun_cookie.first_texel >= 0) through.illuminance *= frame.sun_cookie.mean;
+        patches.relight(frame, through, scene_sun, scene->lights());
+        result.passes.push_back({"patch_light", patches.relight_ms()});
+        probes.relight(patches);
+        if (probes.count() > 0) result.passes.push_back({"probes", probes.relight_ms()});
+    }
+    const float exposure = exposure_of(frame);
+    prepare_lights(frame, sun, scene_sun, exposure);
+    prepare_targets(set, frame.settings, aov_groups);
     if (prepare_resolve(set, frame)) resources.resolve = &set.resolve;
     if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;
     if (prepare_transparent(set, frame.settings)) resources.transparent = &set.transparent;
@@ -445,25 +483,9 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
                   resources.adaptive != nullptr);
     resources.parts = &set.parts;
     resources.materials = std::any_of(aov_rows.begin(), aov_rows.end(), needs_materials);
-    resources.environment = environment.get();
     resources.constants = constants.get();
     resources.constants_stride = constants_stride;
     resources.own_lighting = own_lighting;
-    // The sky first: what patches send each other depends on it.
-    FrameGraph before = build_sky(frame, resources);
-    std::vector<PassTime> first_passes;
-    if (!before.empty()) {
-        first_passes = before.execute(device, pipelines, descriptors);
-        Sun through = sun;  // what a cookie lets through of it
-        if (frame.sun_cookie.first_texel >= 0) through.illuminance *= frame.sun_cookie.mean;
-        patches.relight(frame, through, scene_sun, scene->lights());
-        first_passes.push_back({"patch_light", patches.relight_ms()});
-        probes.relight(patches);
-        if (probes.count() > 0) first_passes.push_back({"probes", probes.relight_ms()});
-    }
-    RenderResult result;
-    graph_text = before.describe();
-    result.passes = std::move(first_passes);
     for (const SampleRange& range : sample_ranges(frame, *scene)) {
         if (range.first > 0) {  // what moves is elsewhere
             descriptors.reset();
@@ -474,7 +496,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
                          frame.settings.time_s + now.off_s});
             depth_maps.forget();
             lamp_shadows.forget();
-            prepare_lights(frame, scene_sun);
+            prepare_lights(frame, sun, scene_sun, exposure);
             prepare_resolve(set, frame);
         }
         triangles.reset(*scene);

@@ -16,6 +16,7 @@
 #include "cli/render/scenario_input.h"
 #include "cli/rooms.h"
 #include "film/jobs/camera.h"
+#include "film/jobs/exposure.h"
 #include "film/jobs/render_job.h"
 #include "film/jobs/scene_source.h"
 #include "film/jobs/sequence.h"
@@ -230,6 +231,8 @@ Workload scenario_workload(const RenderBenchOptions& options)
     }
     gpu::Renderer renderer = sequence_renderer(sequence, request, report);
     set_environment_of(renderer, sequence, job);
+    // As `render` exposes it: how far lamps reach depends on it.
+    Meter(sequence).expose(renderer, job, frame.frame);
     return {std::move(renderer), std::move(frame.frame)};
 }
 

@@ -135,6 +135,7 @@ void add_settings(Hasher& hasher, const gpu::FrameSettings& settings)
     hasher.add(settings.surface_path);
     hasher.add(settings.occlusion_direct);
     hasher.add(settings.area_lights);
+    hasher.add(settings.least_lux);
     hasher.add(settings.lazarov);
     for (const float value :
          {settings.horizon_fade, settings.specular_aa, settings.specular_aa_limit,
@@ -410,6 +411,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     static_cast<gpu::FrameSwitches&>(settings) = scenario.render;
     settings.occlusion_direct = narrow(scenario.render.occlusion_direct);
     settings.area_lights = here.lights.area;
+    settings.least_lux = narrow(here.lights.least_lux);
     settings.lazarov = scenario.render.lazarov;
     settings.horizon_fade = narrow(scenario.render.horizon_fade);
     settings.specular_aa = narrow(scenario.render.specular_aa);

@@ -397,6 +397,13 @@ const std::vector<Rule>& rules()
          }},
         {{"lights", "scale", "1.0", "multiplies the lamps, 0 to 1e6"},
          [](Scenario& s, const TomlValue& v) { s.lights.scale = v.number(0.0, 1e6); }},
+        {{"lights", "least_lux", "0.0",
+          "lamps end where they give so many lux, 0.0001 to 1000; 0: by the exposure, where white paper "
+          "would show a sixteenth of a code of them, never below 0.01"},
+         [](Scenario& s, const TomlValue& v) {
+             s.lights.least_lux = v.number(0.0, 1000.0);
+             if (s.lights.least_lux > 0.0 && s.lights.least_lux < 1e-4) v.refuse("0, or 0.0001 to 1000");
+         }},
 
         {{"ground", "patches", "true",
           "weather on every patch of the scene, with its own sun, sky, rain and wind; false: the "

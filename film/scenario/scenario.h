@@ -153,6 +153,7 @@ struct ScenarioLights {
     gpu::AreaLights area = gpu::AreaLights::Ltc;
     bool emissive = true;            ///< what glows lights its surroundings
     double scale = 1.0;
+    double least_lux = 0.0;          ///< where lamps without a range end; 0: by the exposure
 };
 
 /// Light that comes from other surfaces.

@@ -116,6 +116,7 @@ struct FrameSettings : FrameSwitches {
     float occlusion_direct = 0.0f;  ///< 0..1: how much occlusion maps darken sun and lamps too
     bool gamma = false;  ///< colours are lit as the codes that they are stored as, and shown so
     AreaLights area_lights = AreaLights::Ltc;
+    float least_lux = 0.0f;  ///< lamps without a range end where they give so little; 0: by the exposure
     bool lazarov = false;  ///< what is mirrored of the sky by Lazarov's fit, as Lux 2.02
     float horizon_fade = 0.0f;  ///< > 0: mirrors darken below the horizon of the mesh, so fast
     float specular_aa = 1.0f;   ///< times the variance of normals in a pixel; 0: off

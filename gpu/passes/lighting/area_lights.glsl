@@ -298,10 +298,12 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
     q.lobe = make_lobe(p.normal, p.view, p.diffuse * (1.0 - p.layers.transmitted), q.specular,
                        blurred);
     const vec3 radiance = model_light(q, l) * (kPi * seen / max(dot(p.normal, l), 1.0e-3));
-    if (FILM == 0u) return radiance * color.rgb;
+    const float q2 = dot(centre, centre) * light.inverse_reach2;
+    const vec3 shines = color.rgb * clamp(1.0 - light.size.y * q2 * q2, 0.0, 1.0);
+    if (FILM == 0u) return radiance * shines;
     const vec3 in_film = rectangle_irradiance(through(p.shaped.film, centre), through(p.shaped.film, half_u),
                                               through(p.shaped.film, half_v));
-    return film_over(p, in_film, l, radiance, glow_highlight(p.film.roughness)) * color.rgb;
+    return film_over(p, in_film, l, radiance, glow_highlight(p.film.roughness)) * shines;
 }
 
 // Place of the surface that a neighbour sees; the own one where it sees none.

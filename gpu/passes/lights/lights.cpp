@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "formulas/color/tone_map.h"
+#include "formulas/light/brdf.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/passes/lights/lights_io.h"
 #include "gpu/upload/morton.h"
@@ -11,7 +13,43 @@
 
 namespace petrichor::gpu {
 
-float light_radius_m(const Light& light)
+namespace {
+
+// Codes of the display for linear light behind the exposure.
+float codes_of(const FrameSettings& settings, float exposed)
+{
+    if (settings.gamma) return 255.0f * exposed;
+    return 255.0f * shared::srgb_encode(
+                        shared::display_light(static_cast<int>(settings.tone_map), glm::vec3(exposed)).g);
+}
+
+// The most codes by which so much exposed light of one more changes the picture, for small changes.
+float steepest(const FrameSettings& settings)
+{
+    float most = 0.0f;
+    float below = 0.0f;
+    float codes_below = codes_of(settings, 0.0f);
+    for (int i = -56; i <= 8; ++i) {  // quarters of a stop: 2^-14 to 4
+        const float above = std::exp2(0.25f * static_cast<float>(i));
+        const float codes = codes_of(settings, above);
+        most = std::max(most, (codes - codes_below) / (above - below));
+        below = above;
+        codes_below = codes;
+    }
+    return most;
+}
+
+}  // namespace
+
+float least_lux(const FrameSettings& settings, float exposure)
+{
+    if (settings.least_lux > 0.0f) return settings.least_lux;
+    if (!(exposure > 0.0f)) return kFaintestLux;
+    // White paper sends out a pi-th of what falls on it.
+    return std::max(kFaintestLux, shared::kPi * kUnseenCodes / (steepest(settings) * exposure));
+}
+
+float light_radius_m(const Light& light, float least_lux)
 {
     // Of a rectangle: as candela, straight on.
     const float area = light.kind == LightKind::Rectangle
@@ -19,15 +57,12 @@ float light_radius_m(const Light& light)
                            : 1.0f;
     const float strongest =
         area * light.intensity * std::max({light.color.r, light.color.g, light.color.b});
-    // Where it would give a hundredth of a lux.
-    const float faded = std::sqrt(std::max(strongest, 0.0f) / 0.01f);
-    float radius = light.range_m > 0.0f ? light.range_m : faded;
+    float radius = std::sqrt(std::max(strongest, 0.0f) / least_lux);
+    radius += light.shaped ? glm::length(light.half_u_m) + glm::length(light.half_v_m)
+                           : light.radius_m + 0.5f * light.length_m;
     if (light.range_m > 0.0f) {
-        radius = std::max(radius, 0.75f * light.length_m);
-    } else if (light.shaped) {
-        radius += glm::length(light.half_u_m) + glm::length(light.half_v_m);
-    } else {
-        radius += light.radius_m + 0.5f * light.length_m;
+        const float range = std::max(light.range_m, 0.75f * light.length_m);
+        radius = least_lux > kFaintestLux ? std::min(range, radius) : range;
     }
     return std::clamp(radius, 0.0f, 5000.0f);
 }
@@ -64,7 +99,7 @@ std::vector<std::size_t> brightest(const std::vector<const Light*>& lights, int 
         const Light& light = *lights[i];
         if (light.kind == LightKind::Directional) continue;
         const float reach = light_radius_m(light);
-        const float strength = light.range_m > 0.0f ? light.intensity : 0.01f * reach * reach;
+        const float strength = light.range_m > 0.0f ? light.intensity : kFaintestLux * reach * reach;
         const glm::vec3 away = light.position_m - eye_m;
         ranked.emplace_back(strength / std::max(glm::dot(away, away), 1.0f), i);
     }
@@ -118,9 +153,14 @@ float strength_of(const Light& light, bool sized)
 }  // namespace
 
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m,
-                            AreaLights area)
+                            const std::vector<Light>& lights, const LightTableParams& params)
 {
+    const AreaLights area = params.area;
+    const auto reach_m = [&](const Light& light) { return light_radius_m(light, params.least_lux); };
+    const auto is_seen = [&](const Light& light) {
+        return !params.in_view || light.kind == LightKind::Directional ||
+               params.in_view(light.position_m, reach_m(light));
+    };
     std::vector<const Light*> ordered;
     for (const Light& light : lights) ordered.push_back(&light);
     std::vector<int> shadow(lights.size(), -1);  // number of its shadow, by number of the light
@@ -128,11 +168,13 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     const auto number_of = [&](const Light* light) {
         return static_cast<std::size_t>(light - lights.data());
     };
-    for (const std::size_t i : brightest(ordered, shadows, eye_m)) {
+    // Who owns one does not depend on what is seen: it would come and go.
+    for (const std::size_t i : brightest(ordered, params.shadows, params.eye_m)) {
+        if (!is_seen(lights[i])) continue;
         shadow[i] = static_cast<int>(table.shadowed.size());
         table.shadowed.push_back(lights[i]);
     }
-    for (const std::size_t i : brightest(ordered, kBrightestLamps, eye_m))
+    for (const std::size_t i : brightest(ordered, kBrightestLamps, params.eye_m))
         table.brightest.push_back(lights[i]);
     const auto kind_of = [&](const Light* light) {
         if (light->kind == LightKind::Directional) return 0;
@@ -149,6 +191,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     std::stable_sort(ordered.begin(), ordered.end(), [&](const Light* x, const Light* y) {
         return place[number_of(x)] < place[number_of(y)];
     });
+    for (const Light& light : lights) table.glows = table.glows || light.glows;
+    std::erase_if(ordered, [&](const Light* light) { return !is_seen(*light); });
     const auto first_of = [&](int kind) {
         const auto first = std::find_if(ordered.begin(), ordered.end(), [&](const Light* light) {
             return kind_of(light) >= kind;
@@ -165,6 +209,8 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     else if (device.subgroup_size() == LIGHTS_AT_ONCE)
         table.ways |= LIGHTS_TOGETHER;
     if (table.count > LIGHTS_FEW) table.ways |= LIGHTS_MANY;
+    // Rectangles end without a window where that is too faint to be seen at night.
+    const float windowed = std::clamp(params.least_lux / kFaintestLux - 1.0f, 0.0f, 1.0f);
     std::vector<glm::vec4> texels;
     for (const Light* light : ordered) {
         const bool spot = light->kind == LightKind::Spot;
@@ -172,7 +218,6 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         const Shape shape = shape_of(*light, area);
         const bool sized = shape == Shape::Ltc || shape == Shape::Nearest;
         table.rectangles = table.rectangles || shape == Shape::Rectangle;
-        table.glows = table.glows || light->glows;
         if (shape == Shape::Ltc) table.ways |= LIGHTS_LTC;
         if (shape == Shape::Nearest) table.ways |= LIGHTS_NEAREST;
         if (light->specular != 1.0f && light->kind != LightKind::Directional)
@@ -183,7 +228,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                            : !rectangle        ? LIGHT_POINT
                            : light->both_sides ? LIGHT_BOTH_SIDES
                                                : LIGHT_ONE_SIDE;
-        texels.emplace_back(light->position_m, light_radius_m(*light));
+        texels.emplace_back(light->position_m, reach_m(*light));
         texels.emplace_back(light->color * strength_of(*light, shape == Shape::Ltc), kind);
         texels.emplace_back(rectangle ? light->half_u_m : light->direction,
                             std::cos(light->inner_cone_rad));
@@ -192,7 +237,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
                                                      : up_of(*light),
                             static_cast<float>(shadow[number_of(light)]));
         texels.emplace_back(!sized ? 0.0f : rectangle ? 1.0f : light->radius_m,
-                            0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
+                            rectangle ? windowed : 0.5f * light->length_m, light->glows ? static_cast<float>(LIGHT_GLOWS) : light->specular,
                             static_cast<float>(light->profile));
     }
     if (texels.empty()) texels.emplace_back(0.0f);

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_GPU_PASSES_LIGHTS_LIGHTS_H
 #define PETRICHOR_GPU_PASSES_LIGHTS_LIGHTS_H
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -33,8 +34,21 @@ struct LightTable {
 /// So many lamps light what floats in the air.
 inline constexpr int kBrightestLamps = 16;
 
-/// Distance at which a light of unlimited range is taken to have faded away, metres.
-float light_radius_m(const Light& light);
+/// Lamps of unlimited range end where they give so little, lux, or farther in, where the exposure shows less.
+inline constexpr float kFaintestLux = 0.01f;
+
+/// What a lamp may give where its light ends, lux, kFaintestLux at least: so much that white paper in the dark
+/// comes out brighter by kUnseenCodes, where the curve to the display is steepest. All that is left out within
+/// the reach, by its window, is less. Depends on this frame alone; falls as the exposure rises.
+///
+///   exposure  linear scale of radiance, with its bias; 0: not known, kFaintestLux
+///   settings  the curve; its least_lux, if given, is what is returned
+float least_lux(const FrameSettings& settings, float exposure);
+inline constexpr float kUnseenCodes = 1.0f / 16.0f;  // of 255
+
+/// Distance at which a light is taken to have faded to so many lux, metres. Ranges that a scene gives are kept,
+/// but not beyond where more than kFaintestLux is asked for.
+float light_radius_m(const Light& light, float least_lux = kFaintestLux);
 
 /// Most lights of a frame: CPU drivers cut the loops of one invocation at 65 535 turns, all
 /// together.
@@ -44,11 +58,18 @@ inline constexpr std::size_t kMostLights = 60000;
 void check_light_lists(const VkPhysicalDeviceLimits& limits, std::size_t lights, int width,
                        int height);
 
-/// `shadows`: so many lamps own a shadow: those that give most light at the eye, by intensity over
-/// squared distance (at least a metre), the earlier of equals. `area`: how their size is lit.
+struct LightTableParams {
+    int shadows = 0;  ///< so many lamps own a shadow: those that give most light at the eye, by intensity over
+                      ///< squared distance (at least a metre), the earlier of equals
+    glm::vec3 eye_m{0.0f};
+    AreaLights area = AreaLights::Ltc;  ///< how their size is lit
+    float least_lux = kFaintestLux;     ///< where they end
+    /// Whether anything in a ball may be seen: lamps whose reach is not are left out, with their shadows.
+    std::function<bool(const glm::vec3& centre_m, float radius_m)> in_view = {};
+};
+
 LightTable make_light_table(const Device& device, MemoryArena& arena,
-                            const std::vector<Light>& lights, int shadows, const glm::vec3& eye_m,
-                            AreaLights area = AreaLights::Ltc);
+                            const std::vector<Light>& lights, const LightTableParams& params);
 
 // Finds, for each tile of 16 x 16 pixels, the lights that can reach what is seen there.
 //

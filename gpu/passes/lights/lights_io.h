@@ -10,7 +10,7 @@
 //   3   of a rectangle: half of the other edge, so that cross(2, 3) is its front; else across the axis;
 //       the number of its shadow, or -1
 //   4   of lamps that have a size (with LIGHTS_... below): radius, 0 none, of a rectangle 1; half the
-//       length of a tube; share of highlights; the number of its profile, or -1
+//       length of a tube, of a rectangle 0..1 how far its window fades it towards its reach; share of highlights; the number of its profile, or -1
 #define LIGHT_TEXELS 5
 #define LIGHT_PROFILE_SIDE 128  // texels a side of a profile
 #define LIGHT_POINT -2.0f
