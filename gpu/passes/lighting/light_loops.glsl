@@ -106,7 +106,7 @@ void add_range(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, uin
 //   there   a surface is shown here
 void add_all_lights(inout vec3 radiance, LitPoint p, bool there, ivec2 texel)
 {
-    for (uint i = 0u; i < frame.directional_count; ++i) {
+    for (uint i = 0u; i < ((WAYS & LIGHTS_FAR) != 0u ? frame.directional_count : 0u); ++i) {
         const LightRow light = light_row(int(i));
         radiance += shadowed_light(p, -light.axis.xyz, 1.0) * light.color.rgb;
     }

@@ -8,15 +8,21 @@
 // the mesh, on the sun's side.
 float sun_visibility(vec3 position, vec3 normal, float view_m, ivec2 texel)
 {
-    int cascade = 0;
-    while (cascade < SHADOW_CASCADES - 1 && view_m > frame.cascade_end_m[cascade]) ++cascade;
-    const mat4 from_world = frame.shadow_from_world[cascade];
-    const float texel_m = frame.shadow_texel_m * frame.cascade_scale[cascade];
-    const vec3 lifted = position + frame.sun_direction * shadow_lift_m(normal, frame.sun_direction, texel_m);
-    const vec4 map = from_world * vec4(lifted, 1.0);
+    // Told out and chosen: a loop and reads by an address of each pixel cost a CPU more.
+    const bool beyond_first = view_m > frame.cascade_end_m.x;
+    const bool beyond_second = beyond_first && view_m > frame.cascade_end_m.y;
+    const int cascade = beyond_second ? 2 : beyond_first ? 1 : 0;
+    const float scale = beyond_second ? frame.cascade_scale.z : beyond_first ? frame.cascade_scale.y : frame.cascade_scale.x;
+    const float texel_m = frame.shadow_texel_m * scale;
+    const vec4 place = vec4(position + frame.sun_direction * shadow_lift_m(normal, frame.sun_direction, texel_m), 1.0);
+    const vec4 first_map = frame.shadow_from_world[0] * place;
+    const vec4 second_map = frame.shadow_from_world[1] * place;
+    const vec4 third_map = frame.shadow_from_world[2] * place;
+    const vec4 map = beyond_second ? third_map : beyond_first ? second_map : first_map;
     if (any(greaterThan(abs(map.xyz - 0.5), vec3(0.5)))) return 1.0;
-    const mat3 gradients = transpose(mat3(from_world));
-    const vec2 slope = shadow_plane_slope(normal, gradients[0], gradients[1], gradients[2]);
+    // The maps differ in their width alone.
+    const mat3 gradients = transpose(mat3(frame.shadow_from_world[2]));
+    const vec2 slope = shadow_plane_slope(normal, gradients[0], gradients[1], gradients[2]) * (scale / frame.cascade_scale.z);
     const float turn = 6.2831853 * dither(texel, frame.sample_index);
     const vec2 axis = vec2(cos(turn), sin(turn)) * SHADOW_DISC_TEXELS;
     return disc_lit(shadow_map, map.xy, float(cascade), map.z, slope, axis);

@@ -203,6 +203,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     table.directional = first_of(1);
     table.plain = first_of(2);
     table.shaped = first_of(3);
+    if (table.directional > 0) table.ways |= LIGHTS_FAR;
     if (table.shaped > table.plain) table.ways |= LIGHTS_PLAIN;
     if (table.count > table.shaped) table.ways |= LIGHTS_SHAPED;
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;

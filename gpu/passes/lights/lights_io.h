@@ -32,6 +32,7 @@
 #define LIGHTS_BY_MATERIAL 1024u  // of the scene: some materials see lamps as points
 #define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
 #define LIGHTS_MANY 2048u  // of the table: more than LIGHTS_FEW
+#define LIGHTS_FAR 4096u  // of the table: directional ones
 
 #define LIGHTS_FEW 128u
 
