@@ -190,6 +190,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     c.light_count = r.lights->count;
     c.light_words = r.lights->words();
     c.directional_count = r.lights->directional;
+    c.shaped_shadows = r.lights->shaped_shadows;
     c.plain_lights = r.lights->plain;
     c.shaped_lights = r.lights->shaped;
     if (uses_patches(frame, r)) {

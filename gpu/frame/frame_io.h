@@ -64,6 +64,7 @@ struct FrameConstants {
     uint light_count;
     uint light_words;        // 32 lights a word
     uint directional_count;  // first lights of the table; not in lists; behind them those with a shadow,
+    uint shaped_shadows;     // .. of them, from here on what is lit by its shape,
     uint plain_lights;       // .. from here on points and spots without one,
     uint shaped_lights;      // .. from here on what is lit by its shape, without one
 

@@ -12,7 +12,7 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     bool lit = d2 < sphere.w * sphere.w;
     if (SKIPS && !lit) return vec3(0.0);
     float visible = 1.0;
-    bool one_of_shape = shaped && !shadowed;  // all of that loop are, and end before
+    bool one_of_shape = shaped;  // all of that loop are, and end before
     if (LAMP_SHADOWS != 0u && shadowed) {
         const float number = light.across.w;
         vec3 from = sphere.xyz;
@@ -60,8 +60,8 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
     return lit ? radiance : vec3(0.0);
 }
 
-const bool ONE_RANGE = (LAMP_SHADOWS != 0u ? 1u : 0u) + ((WAYS & LIGHTS_PLAIN) != 0u ? 1u : 0u) +
-                           ((WAYS & LIGHTS_SHAPED) != 0u ? 1u : 0u) == 1u;
+const bool ONE_RANGE = ((WAYS & LIGHTS_SHADOWED) != 0u ? 1u : 0u) + ((WAYS & LIGHTS_SHADOWED_SHAPED) != 0u ? 1u : 0u) +
+                           ((WAYS & LIGHTS_PLAIN) != 0u ? 1u : 0u) + ((WAYS & LIGHTS_SHAPED) != 0u ? 1u : 0u) == 1u;
 
 // The lowest so many bits of 32.
 uint low_bits(uint count)
@@ -112,8 +112,10 @@ void add_all_lights(inout vec3 radiance, LitPoint p, bool there, ivec2 texel)
     }
     LitGroup group;
     if (SIFTED) group = group_of(p.position, p.normal, there);
-    if (LAMP_SHADOWS != 0u)
-        add_range(radiance, p, group, texel, frame.directional_count, frame.plain_lights, true, true);
+    if ((WAYS & LIGHTS_SHADOWED) != 0u)
+        add_range(radiance, p, group, texel, frame.directional_count, frame.shaped_shadows, true, false);
+    if ((WAYS & LIGHTS_SHADOWED_SHAPED) != 0u)
+        add_range(radiance, p, group, texel, frame.shaped_shadows, frame.plain_lights, true, true);
     if ((WAYS & LIGHTS_PLAIN) != 0u)
         add_range(radiance, p, group, texel, frame.plain_lights, frame.shaped_lights, false, false);
     if ((WAYS & LIGHTS_SHAPED) != 0u)

@@ -178,8 +178,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
         table.brightest.push_back(lights[i]);
     const auto kind_of = [&](const Light* light) {
         if (light->kind == LightKind::Directional) return 0;
-        if (shadow[number_of(light)] >= 0) return 1;
-        return shape_of(*light, area) == Shape::None ? 2 : 3;
+        return (shadow[number_of(light)] >= 0 ? 1 : 3) + (shape_of(*light, area) == Shape::None ? 0 : 1);
     };
     // Neighbours share the words of a tile's list.
     const Bounds box = cube_of(lights);
@@ -201,9 +200,12 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     };
     table.count = static_cast<std::uint32_t>(ordered.size());
     table.directional = first_of(1);
-    table.plain = first_of(2);
-    table.shaped = first_of(3);
+    table.shaped_shadows = first_of(2);
+    table.plain = first_of(3);
+    table.shaped = first_of(4);
     if (table.directional > 0) table.ways |= LIGHTS_FAR;
+    if (table.shaped_shadows > table.directional) table.ways |= LIGHTS_SHADOWED;
+    if (table.plain > table.shaped_shadows) table.ways |= LIGHTS_SHADOWED_SHAPED;
     if (table.shaped > table.plain) table.ways |= LIGHTS_PLAIN;
     if (table.count > table.shaped) table.ways |= LIGHTS_SHAPED;
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
@@ -254,6 +256,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
 void add_light_lists(FrameGraph& graph, FrameTargets& targets, LightTable& lights,
                      const ConstantsRange& constants)
 {
+    if (lights.count == lights.directional) return;  // no loop reads them
     if (lights.words() > 0) {
         const std::uint32_t groups = (lights.words() + LIGHT_COARSE_GROUP - 1) / LIGHT_COARSE_GROUP;
         const int tiles = targets.coarse_x() * targets.coarse_y();

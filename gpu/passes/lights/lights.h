@@ -14,12 +14,13 @@
 namespace petrichor::gpu {
 
 /// Lights as the shaders read them: LIGHT_TEXELS texels each (lights_io.h). Directional lights come
-/// first, then those with a shadow, points and spots, what is lit by its shape: a device without branches
-/// of its own does for all lights of a loop what any of them needs, so each kind has a loop.
+/// first, then with a shadow points and spots, what is lit by its shape, then both without one: a device without
+/// branches of its own does for all lights of a loop what any of them needs, so each kind has a loop.
 struct LightTable {
     std::unique_ptr<GpuBuffer> texels;
     std::uint32_t count = 0;
     std::uint32_t directional = 0;
+    std::uint32_t shaped_shadows = 0;  ///< number of the first with a shadow that is lit by its shape
     std::uint32_t plain = 0;   ///< number of the first point or spot without a shadow
     std::uint32_t shaped = 0;  ///< number of the first of what is left
     bool rectangles = false;         ///< some are surfaces that glow, without the lobes of those with a size

@@ -33,6 +33,8 @@
 #define LIGHTS_SUN_COOKIE 256u  // a picture before the sun
 #define LIGHTS_MANY 2048u  // of the table: more than LIGHTS_FEW
 #define LIGHTS_FAR 4096u  // of the table: directional ones
+#define LIGHTS_SHADOWED 8192u  // of the table: a shadow and no shape
+#define LIGHTS_SHADOWED_SHAPED 16384u  // of the table: a shadow and a shape
 
 #define LIGHTS_FEW 128u
 
