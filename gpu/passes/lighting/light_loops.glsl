@@ -63,6 +63,8 @@ vec3 punctual_light(LitPoint p, LightRow light, ivec2 texel, const bool shadowed
 const bool ONE_RANGE = ((WAYS & LIGHTS_SHADOWED) != 0u ? 1u : 0u) + ((WAYS & LIGHTS_SHADOWED_SHAPED) != 0u ? 1u : 0u) +
                            ((WAYS & LIGHTS_PLAIN) != 0u ? 1u : 0u) + ((WAYS & LIGHTS_SHAPED) != 0u ? 1u : 0u) == 1u;
 
+const bool ONE_WORD = (WAYS & LIGHTS_ONE_WORD) != 0u;
+
 // The lowest so many bits of 32.
 uint low_bits(uint count)
 {
@@ -80,8 +82,10 @@ void add_range(inout vec3 radiance, LitPoint p, LitGroup group, ivec2 texel, uin
     const ivec2 tile = texel / LIGHT_TILE;
     const int list = (tile.y * frame.light_tiles.x + tile.x) * int(frame.light_words + 1u);
     const int words = int(texelFetch(light_lists, list).r);
-    for (int i = 1; i <= words; ++i) {
-        const uvec2 word = texelFetch(light_lists, list + i).rg;
+    // A loop in a loop costs a CPU more than what is in it.
+    for (int i = 1; i <= (ONE_WORD ? 1 : words); ++i) {
+        uvec2 word = texelFetch(light_lists, list + i).rg;
+        if (ONE_WORD) word = words > 0 ? word : uvec2(0u);
         const uint low = word.r * 32u;
         const uint own = ONE_RANGE ? ~0u : low_bits(max(end, low) - low) & ~low_bits(max(first, low) - low);
         uint bits = word.g & own;

@@ -211,6 +211,7 @@ LightTable make_light_table(const Device& device, MemoryArena& arena,
     if (device.info().kind != "cpu") table.ways |= LIGHTS_SKIP;
     else if (device.subgroup_size() == LIGHTS_AT_ONCE)
         table.ways |= LIGHTS_TOGETHER;
+    if (table.words() == 1) table.ways |= LIGHTS_ONE_WORD;
     if (table.count > LIGHTS_FEW) table.ways |= LIGHTS_MANY;
     // Rectangles end without a window where that is too faint to be seen at night.
     const float windowed = std::clamp(params.least_lux / kFaintestLux - 1.0f, 0.0f, 1.0f);

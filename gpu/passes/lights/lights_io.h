@@ -35,6 +35,7 @@
 #define LIGHTS_FAR 4096u  // of the table: directional ones
 #define LIGHTS_SHADOWED 8192u  // of the table: a shadow and no shape
 #define LIGHTS_SHADOWED_SHAPED 16384u  // of the table: a shadow and a shape
+#define LIGHTS_ONE_WORD 32768u  // of the table: at most 32, a list has one word at most
 
 #define LIGHTS_FEW 128u
 
