@@ -77,17 +77,20 @@ void check_chain_name(const std::string& name)
 void write_chain(const ChainOutput& output, const texproc::RawImage& level0, const fs::path& source,
                  const std::vector<Image>& levels)
 {
+    const texproc::Rounding rounding =
+        output.dither ? texproc::Rounding::Ordered : texproc::Rounding::Nearest;
     if (!one_file(output.name)) {
         write_level0(output, level0, source);
         for (std::size_t k = 1; k < levels.size(); ++k) {
-            texproc::write_image(level_name(output.name, static_cast<int>(k)), levels[k],
-                                 {.bits = output.bits, .threads = output.threads});
+            texproc::write_image(
+                level_name(output.name, static_cast<int>(k)), levels[k],
+                {.bits = output.bits, .threads = output.threads, .rounding = rounding});
         }
         return;
     }
     std::vector<texproc::RawImage> all{recoded(level0, output.bits)};
     for (std::size_t k = 1; k < levels.size(); ++k) {
-        all.push_back(texproc::to_raw(levels[k], type_of(output.bits)));
+        all.push_back(texproc::to_raw(levels[k], type_of(output.bits), rounding));
     }
     texproc::TextureWriteOptions writing;
     writing.format = output.format;

@@ -16,6 +16,7 @@ struct ChainOutput {
     int bits = 16;
     int threads = 0;
     std::vector<Image> texel_weights{};  ///< TextureWriteOptions::texel_weights
+    bool dither = false;  ///< levels of 8 bits: by an ordered pattern in place of rounding
 };
 
 /// Throws Error when the name can hold no levels: neither a %d nor a texture file.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -33,12 +34,21 @@ struct Arguments {
 
 // Numbers as they are stored; floats are taken as linear light and encoded, so that FLIP and PSNR
 // of an EXR speak of what is seen.
-Image codes_of(const RawImage& raw)
+Image codes_of(const RawImage& raw, const std::string& name)
 {
     const bool floats = raw.type == texproc::PixelType::F16 || raw.type == texproc::PixelType::F32;
     Image image = texproc::to_image(raw, ColorSpace::Data);
     if (floats) {
-        for (float& v : image.pixels) v = texproc::linear_to_srgb(std::clamp(v, 0.0f, 1.0f));
+        std::size_t beyond = 0;
+        for (float& v : image.pixels) {
+            beyond += v < 0.0f || v > 1.0f;
+            v = texproc::linear_to_srgb(std::clamp(v, 0.0f, 1.0f));
+        }
+        // Two pictures that are brighter than that everywhere would be equal.
+        if (beyond > 0) {
+            std::cerr << "note: " << name << ": " << beyond << " of " << image.pixels.size()
+                      << " numbers lie beyond 0..1 and are compared as 0 or 1\n";
+        }
     }
     return image;
 }
@@ -127,8 +137,8 @@ void run(const Arguments& a)
                     "Compare images of one size; FILE:r compares one channel.");
     }
     const bool normals = a.kind == "normal" || (a.kind == "auto" && looks_normal(raw_a));
-    const Image ia = normals ? texproc::to_image(raw_a, ColorSpace::Data) : codes_of(raw_a);
-    const Image ib = normals ? texproc::to_image(raw_b, ColorSpace::Data) : codes_of(raw_b);
+    const Image ia = normals ? texproc::to_image(raw_a, ColorSpace::Data) : codes_of(raw_a, a.a);
+    const Image ib = normals ? texproc::to_image(raw_b, ColorSpace::Data) : codes_of(raw_b, a.b);
     const std::vector<double> db = texproc::psnr(ia, ib);
     const auto psnr_json =
         std::isinf(db.back()) ? nlohmann::ordered_json() : nlohmann::ordered_json(db.back());

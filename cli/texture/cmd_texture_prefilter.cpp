@@ -95,7 +95,8 @@ void write_chains(const Arguments& a, const PrefilterMaps& maps, const BlockFit&
         if (xyz && texproc::drops_z(a.normal_format)) {
             unit = texproc::unit_normals(maps.normal, texproc::PixelType::U16);
         }
-        write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights},
+        write_chain({a.normal_out, a.normal_format, a.bits, o.threads, fit.normal_weights,
+                     a.bits == 8 && !block_of(a.normal_format)},
                     unit.bytes.empty() ? maps.normal : unit, a.input.normal, chains.normal);
     }
     if (!a.base_share_out.empty()) {

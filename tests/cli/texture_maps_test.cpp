@@ -294,6 +294,25 @@ TEST(TextureTools, PsnrAloneIsThatOfTheWholeComparison)
         2);
 }
 
+// Light beyond 1 is cut off before it is compared: "equal" is not to be taken for more than that.
+TEST(TextureTools, CompareSaysWhereItCutsLightOff)
+{
+    const Workplace place("texture_bright");
+    const auto write = [&](const char* name, float value) {
+        texproc::write_image(place / name, Image(16, 16, 3, ColorSpace::Linear, value));
+    };
+    write("bright.exr", 107.5f);
+    write("brighter.exr", 119.5f);
+    write("dim.exr", 0.25f);
+    const Outcome cut = run({"texture", "compare", "bright.exr", "brighter.exr"}, place);
+    EXPECT_EQ(cut.exit_code, 0) << cut.err;
+    for (const char* name : {"bright.exr", "brighter.exr"})
+        EXPECT_THAT(cut.err, HasSubstr(std::string("note: ") + name +
+                                       ": 768 of 768 numbers lie beyond 0..1"));
+    EXPECT_THAT(run({"texture", "compare", "dim.exr", "dim.exr"}, place).err,
+                testing::Not(HasSubstr("beyond")));
+}
+
 double largest_angle(const std::string& a, const std::string& b, const Workplace& place)
 {
     const Outcome made = run({"texture", "compare", a, b, "--kind", "normal", "--json"}, place);

@@ -440,6 +440,60 @@ TEST(Noise, BordersOfCellsAreAsFarAsTheySay)
     }
 }
 
+// What is on one side of a border knows it by the same place as what is on the other.
+TEST(Noise, BothSidesOfABorderHaveOneMiddle)
+{
+    int crossed = 0, same = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const float x = 0.0137f * static_cast<float>(k), y = 0.0091f * static_cast<float>(k);
+        const CellBorder here = cell_border(x, y, 64, 64, 5), there = cell_border(x + 0.01f, y, 64, 64, 5);
+        if (here.id == there.id) continue;
+        ++crossed;
+        same += std::abs(here.middle_x - there.middle_x) + std::abs(here.middle_y - there.middle_y) < 1e-4f;
+        // It lies within reach of both cells.
+        EXPECT_LT(std::abs(here.middle_x - x) + std::abs(here.middle_y - y), 3.0f);
+    }
+    EXPECT_GT(crossed, 40);
+    EXPECT_GE(same, crossed * 9 / 10) << "but where three cells meet";
+}
+
+// A tile that repeats may not have one blotch that is seen from afar.
+TEST(Generate, RustLiesAllOverTheTile)
+{
+    constexpr int kSquares = 4, kSide = 256;
+    for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
+        const MaterialMaps sheet = generate_material({MaterialKind::MetalPlate, kSide, seed, 2, {{"rust", 0.55f}}, {}});
+        std::array<double, kSquares * kSquares> share{};
+        double mean = 0.0;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const double rusty = sheet.metallic.at(x, y, 0) < 0.5f ? 1.0 : 0.0;
+                share[static_cast<std::size_t>(y * kSquares / kSide * kSquares + x * kSquares / kSide)] += rusty;
+                mean += rusty / (kSquares * kSquares);
+            }
+        EXPECT_GT(mean, 0.2 * kSide * kSide / (kSquares * kSquares));
+        for (const double rusty : share) {
+            EXPECT_LT(rusty, 1.75 * mean) << seed;
+            EXPECT_GT(rusty, 0.5 * mean) << seed;
+        }
+    }
+}
+
+TEST(Generate, WearTakesThePaintOff)
+{
+    const auto red = [](float wear) {  // primer and rust
+        const MaterialMaps iron = generate_material({MaterialKind::PaintedIron, 256, 1, 2, {{"wear", wear}}, {}});
+        int count = 0;
+        for (std::size_t k = 0; k < iron.albedo.pixels.size(); k += 3)
+            count += iron.albedo.pixels[k] > 1.6f * iron.albedo.pixels[k + 2] ? 1 : 0;
+        return static_cast<double>(count) / (256.0 * 256.0);
+    };
+    const double little = red(0.0f), some = red(0.5f), much = red(1.0f);
+    EXPECT_LT(little, 0.01);
+    EXPECT_GT(some, little + 0.01);
+    EXPECT_GT(much, 2.0 * some);
+}
+
 TEST(Generate, TakesAnySizeInRange)
 {
     EXPECT_EQ(generate_material(MaterialKind::Brick, 16, 1, 1).height.width, 16);

@@ -240,9 +240,15 @@ void make_metal_plate(MaterialSurface& surface)
     const Rust rust(surface, 3);
     // Where the zinc is gone, and the stain that rain washes down from there.
     std::vector<float> level(dull.size()), stain(dull.size());
-    for (std::size_t k = 0; k < level.size(); ++k)
-        level[k] = rusty > 0.0f ? 0.62f * dull[k] + 0.16f * run[k] + 0.14f * warp_x[k] + 2.1f * rusty - 1.30f : -2.0f;
     if (rusty > 0.0f) {
+        // No part of the tile is much worse off than another: a blotch that stands out would be seen in every repeat.
+        const auto eaten = noise_layer(surface, {0.085f, 0.085f, 5, 0.62f, 8});
+        for (std::size_t k = 0; k < level.size(); ++k) level[k] = 0.30f * dull[k] + 0.55f * eaten[k];
+        const int quarter = std::min(static_cast<int>(0.10f / surface.texel_m()), surface.size / 4);
+        std::vector<float> broad = level;
+        for (int pass = 0; pass < 2; ++pass) broad = box_blur(broad, surface.size, quarter, surface.threads);
+        for (std::size_t k = 0; k < level.size(); ++k)
+            level[k] += 0.16f * run[k] + 0.14f * warp_x[k] + 2.1f * rusty - 1.30f - broad[k];
         for (std::size_t k = 0; k < level.size(); ++k) stain[k] = smooth_step(-0.25f, 0.25f, level[k]);
         stain = run_down(surface, stain, run, 0.16f);
         stain = box_blur(stain, surface.size, static_cast<int>(0.0015f / surface.texel_m()), surface.threads);
@@ -322,11 +328,20 @@ void make_painted_iron(MaterialSurface& surface)
     const auto run = noise_layer(surface, {0.012f, 0.30f, 4, 0.6f, 5});
     const Colonies chips(surface, 0.040f, 6);
     const Rust rust(surface, 7);
-    std::vector<float> depth(wear.size()), stain(wear.size());  // how deep in a chip: > 0 where the paint is off
+    // Old paint breaks into plates, and comes off plate by plate: the upper coats first, then the primer.
+    const int plates = surface.cells(0.0075f);
+    const float to_plates = static_cast<float>(plates) / surface.tile_m;
+    const std::uint32_t seed = hash_u32(surface.seed + 61u);
+    const auto plate_at = [&](float x, float y, std::size_t k) {
+        return cell_border((x + 0.0016f * cast[k]) * to_plates, (y + 0.0016f * fine[k]) * to_plates, plates, plates, seed, 0.95f).id;
+    };
+    // How deep in a chip: > -0.3 where the upper coats are off, > 0 where the primer is.
+    std::vector<float> depth(wear.size()), stain(wear.size());
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         const ColonyAt chip = chips.at(x, y, saturate(0.7f * chipped * smooth_step(0.2f, 1.2f, wear[k] + 0.7f * chipped)));
         const float lost = wear[k] + 0.10f * cast[k] - 1.18f + 0.75f * (chipped - 0.5f);
         depth[k] = std::max(1.6f * lost, chip.inside > -1.0f ? 0.7f * (chip.inside - 0.25f) + 0.34f * cast[k] + 0.30f * wear[k] : -1.0f);
+        if (depth[k] > -0.9f) depth[k] += 0.24f * hash_signed(plate_at(x, y, k), 1);
         stain[k] = smooth_step(0.05f, 0.35f, depth[k]);
         return MaterialTexel{};
     });
@@ -334,19 +349,27 @@ void make_painted_iron(MaterialSurface& surface)
     stain = box_blur(stain, surface.size, static_cast<int>(0.0022f / surface.texel_m()), surface.threads);
     shade_texels(surface, [&](float x, float y, std::size_t k) {
         const float bare = smooth_step(0.0f, 0.10f, depth[k]);
-        const float lifted = smooth_step(-0.35f, 0.0f, depth[k]) * (1.0f - bare);
+        const float primer = smooth_step(-0.32f, -0.28f, depth[k] + 0.03f * fine[k]) * (1.0f - bare);
+        const float lifted = smooth_step(-0.70f, -0.30f, depth[k]) * (1.0f - bare) * (1.0f - primer);
         const float chalk = smooth_step(-0.5f, 0.9f, waves[k] - 0.3f * wear[k]);
         MaterialTexel texel;
-        texel.height_m = 0.00022f * cast[k] + 0.0004f * waves[k] + 0.00012f * lifted - 0.00030f * bare;
+        texel.height_m = 0.00022f * cast[k] + 0.0004f * waves[k] + 0.00012f * lifted - 0.00016f * primer - 0.00030f * bare;
         vec3 color = vec3(0.0165f, 0.0205f, 0.0195f) * (1.0f + 0.25f * waves[k] + 0.06f * fine[k]);
         color = mix(color, vec3(0.040f, 0.044f, 0.042f), 0.28f * chalk);
-        color = mix(color, vec3(0.062f, 0.036f, 0.022f), 0.55f * lifted);
+        color = mix(color, vec3(0.062f, 0.036f, 0.022f), 0.30f * lifted);
+        // Red oxide, dull and dirty.
+        color = mix(color, vec3(0.088f, 0.034f, 0.024f) * (1.0f + 0.18f * fine[k] + 0.12f * waves[k]), 0.92f * primer);
         color = mix(color, vec3(0.100f, 0.052f, 0.027f), 0.38f * stain[k] * (1.0f - bare));
         texel.roughness = 0.38f + 0.05f * waves[k] + 0.04f * fine[k] + 0.16f * chalk + 0.12f * lifted + 0.14f * stain[k];
+        texel.roughness = mix(texel.roughness, 0.78f + 0.04f * fine[k], primer);
         if (bare > 0.0f) {
-            const RustAt red = rust.at(x, y, k, 0.35f + 0.7f * depth[k]);
-            color = mix(color, red.color, bare);
-            texel.roughness = mix(texel.roughness, red.roughness, bare);
+            // What came off last shows the dark skin of the casting, with the first spots of rust.
+            const std::uint32_t plate = plate_at(x, y, k);
+            const float age = 0.9f * (hash_unit(plate, 2) - 0.45f) + 0.9f * depth[k];
+            const RustAt red = rust.at(x, y, k, age);
+            const vec3 skin = vec3(0.030f, 0.027f, 0.026f) * (1.0f + 0.3f * cast[k] + 0.2f * fine[k]);
+            color = mix(color, mix(skin, red.color, red.cover), bare);
+            texel.roughness = mix(texel.roughness, mix(0.66f, red.roughness, red.cover), bare);
             texel.height_m += 0.6f * red.height_m * bare;
         }
         texel.albedo = color;

@@ -152,6 +152,7 @@ inline CellPoint cell_noise(float x, float y, int period_x, int period_y, std::u
 struct CellBorder {
     float distance = 8.0f;  ///< in cells
     std::uint32_t id = 0;   ///< hash of the cell's point
+    float middle_x = 0.0f, middle_y = 0.0f;  ///< of the points on both sides, in cells: one for each border
 };
 
 inline CellBorder cell_border(float x, float y, int period_x, int period_y, std::uint32_t seed,
@@ -183,7 +184,11 @@ inline CellBorder cell_border(float x, float y, int period_x, int period_y, std:
         const float apart = dx * dx + dy * dy;
         if (k == nearest || apart < 1e-8f) continue;
         const float along = 0.5f * ((to_x[k] + to_x[nearest]) * dx + (to_y[k] + to_y[nearest]) * dy);
-        border.distance = std::min(border.distance, along / std::sqrt(apart));
+        const float distance = along / std::sqrt(apart);
+        if (distance >= border.distance) continue;
+        border.distance = distance;
+        border.middle_x = x + 0.5f * (to_x[k] + to_x[nearest]);
+        border.middle_y = y + 0.5f * (to_y[k] + to_y[nearest]);
     }
     return border;
 }

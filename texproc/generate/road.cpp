@@ -117,10 +117,20 @@ void make_asphalt(MaterialSurface& surface)
         return Grid{cells, static_cast<float>(cells) / tile_m};
     };
     const Grid slabs = grid(0.85f), scales = grid(0.15f);
-    const auto seam_m = [&](const Grid& g, float x, float y, float wander_m, std::uint32_t salt, std::size_t k) {
+    // A seam is open, or not, along its whole side of a cell: how weak the ground is in its middle decides, or nets
+    // would end in forks of which nothing goes on.
+    struct Seam {
+        float distance_m, weak;
+    };
+    const auto seam = [&](const Grid& g, float x, float y, float wander_m, std::uint32_t salt, std::size_t k) {
         const CellBorder c = cell_border((x + wander_m * warp_x[k]) * g.to_cells, (y + wander_m * warp_y[k]) * g.to_cells,
                                        g.cells, g.cells, seed + salt, 0.95f);
-        return c.distance / g.to_cells;
+        const auto texel = [&](float cells) {
+            const int at = static_cast<int>(std::floor(cells / g.to_cells / surface.texel_m()));
+            return static_cast<std::size_t>(wrap_index(at, surface.size));
+        };
+        const std::size_t middle = texel(c.middle_y) * static_cast<std::size_t>(surface.size) + texel(c.middle_x);
+        return Seam{c.distance / g.to_cells, zone[middle] + 0.25f * worn[middle]};
     };
 
     shade_texels(surface, [&](float x, float y, std::size_t k) {
@@ -170,18 +180,17 @@ void make_asphalt(MaterialSurface& surface)
 
         // Cracks: long ones between slabs that move, a net of scales where the ground below is weak.
         float crack_m = 1.0f, gape_m = 0.001f;
-        float weak_net = 0.0f;
         if (cracked > 0.0f) {
-            const float weak = zone[k] + 0.25f * worn[k];
-            const float long_m = seam_m(slabs, x, y, 0.055f, 11u, k);
-            const float open = smooth_step(0.75f - 1.5f * cracked, 1.2f - 1.5f * cracked, weak + 0.2f);
+            const Seam slab = seam(slabs, x, y, 0.055f, 11u, k);
+            const float open = smooth_step(0.75f - 1.5f * cracked, 1.2f - 1.5f * cracked, slab.weak + 0.2f);
             gape_m = 0.0060f * cracked * open;
-            crack_m = long_m;
-            weak_net = smooth_step(1.15f - 1.3f * cracked, 1.55f - 1.3f * cracked, weak);
-            if (weak_net > 0.0f) {
-                const float scale_m = seam_m(scales, x, y, 0.040f, 12u, k);
-                if (scale_m - 0.0036f * weak_net * cracked < crack_m - gape_m) {
-                    crack_m = scale_m;
+            crack_m = slab.distance_m;
+            // The ground half a scale away may be weaker than here.
+            if (zone[k] + 0.25f * worn[k] > 0.75f - 1.3f * cracked) {
+                const Seam scale = seam(scales, x, y, 0.040f, 12u, k);
+                const float weak_net = smooth_step(1.15f - 1.3f * cracked, 1.55f - 1.3f * cracked, scale.weak);
+                if (scale.distance_m - 0.0036f * weak_net * cracked < crack_m - gape_m) {
+                    crack_m = scale.distance_m;
                     gape_m = 0.0036f * weak_net * cracked;
                 }
             }

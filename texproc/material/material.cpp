@@ -174,8 +174,11 @@ std::vector<RawImage> Maker::levels(std::size_t number, const std::string& role,
         if (role == "albedo") darken_small_levels(plain);
         chain = &plain;
     }
+    // No code of 8 bits is straight up; of several texels the mean is, where they are dithered. (Blocks have errors
+    // of their own, and codes that were chosen with the roughness stay.)
+    const bool dither = role == "normal" && type == PixelType::U8 && rule.compression == "none";
     for (std::size_t k = std::max<std::size_t>(first, 1); k <= last; ++k)
-        levels.push_back(to_raw((*chain)[k], type));
+        levels.push_back(to_raw((*chain)[k], type, dither ? Rounding::Ordered : Rounding::Nearest));
     return levels;
 }
 

@@ -252,6 +252,10 @@ Score score(const RawImage& normal, const RawImage& roughness, const Prefiltered
 void quantize(Prefiltered& chain, int bits)
 {
     const float top = bits == 8 ? 255.0f : 65535.0f;
+    for (Image& image : chain.normal) {
+        if (bits == 8 && !image.empty())
+            image = to_image(to_raw(image, PixelType::U8, Rounding::Ordered), ColorSpace::Data);
+    }
     for (auto* images : {&chain.normal, &chain.roughness, &chain.anisotropy}) {
         for (Image& image : *images) {
             for (float& v : image.pixels) {
