@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -40,6 +41,8 @@ constexpr float kShoulder = 0.4f;     // height of what stands upright at a leve
 constexpr float kRounded = 0.6f;      // what is left of a heap at repose that the wind has rounded
 constexpr int kSmoothed = 24;         // passes over the neighbours, by which snow forgets the stones below
 constexpr float kFill_m = 0.02f;      // of relief, up or down
+constexpr float kJoined_m = 0.35f;    // between vertices of two surfaces, along and across their joint
+constexpr float kJoinedStep_m = 0.05f;
 constexpr float kSticks_m = 0.012f;   // what holds on any slope
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
@@ -365,6 +368,37 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh)
     }
 }
 
+// Points of neighbouring surfaces that snow lies over as one, though no vertex is shared: a kerb and the bed behind it.
+void join_over_joints(const SnowCaps& caps, std::vector<std::vector<std::pair<std::uint32_t, float>>>& beside)
+{
+    const auto cell_of = [](const vec3& at) {
+        return std::pair(static_cast<int>(std::floor(at.x / kJoined_m)), static_cast<int>(std::floor(at.z / kJoined_m)));
+    };
+    std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells;
+    const auto count = static_cast<std::uint32_t>(caps.points.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SnowCaps::Point& point = caps.points[i];
+        // At a border that is closed.
+        if (glm::length(point.bridge_m) > 0.0f && point.gap_m > 1.0f) cells[cell_of(point.base_m)].push_back(i);
+    }
+    for (const auto& [cell, points] : cells) {
+        for (int k = 0; k < 9; ++k) {
+            const auto near = cells.find({cell.first + k % 3 - 1, cell.second + k / 3 - 1});
+            if (near == cells.end()) continue;
+            for (const std::uint32_t i : points) {
+                for (const std::uint32_t other : near->second) {
+                    const vec3 way = caps.points[other].base_m - caps.points[i].base_m;
+                    const float apart = glm::length(vec2(way.x, way.z));
+                    if (other == i || apart > kJoined_m || std::abs(way.y) > kJoinedStep_m) continue;
+                    // Those across the joint: the border of the other surface looks back.
+                    if (glm::dot(caps.points[i].bridge_m, caps.points[other].bridge_m) >= 0.0f) continue;
+                    beside[i].emplace_back(other, kRepose * apart);
+                }
+            }
+        }
+    }
+}
+
 // Snow slides off where its own surface would be steeper than repose, from the edges on: round things carry
 // what lies on their crown and little at their sides.
 void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals)
@@ -382,6 +416,7 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
             beside[b].emplace_back(a, rise);
         }
     }
+    join_over_joints(caps, beside);
     // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
     std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
     using Next = std::pair<float, std::uint32_t>;

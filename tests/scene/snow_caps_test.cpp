@@ -276,6 +276,30 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// Snow slides off a kerb towards the road; the bed behind it, which shares no vertex with it, has no more there.
+TEST(SnowShape, IsOneSheetOverAKerbAndWhatLiesBehindIt)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-3, -0.15f, -2}, {0, 0, 4}, {3, 0, 0});    // road
+    add_face(scene, {0, -0.15f, -2}, {0, 0, 4}, {0, 0.15f, 0});  // face of the kerb
+    add_face(scene, {0, 0, -2}, {0, 0, 4}, {0.14f, 0, 0});       // its top
+    add_face(scene, {0.14f, -0.02f, -2}, {0, 0, 4}, {2, 0, 0});  // bed
+    add_face(scene, {0.14f, -0.02f, -2}, {0, 0.02f, 0}, {0, 0, 4});
+    const SnowCaps caps = caps_of(scene);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.14f));
+    float kerb = 0.0f, bed = 0.0f, deep = 0.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (std::abs(p.base_m.z) > 1.0f) continue;
+        const float top = shape.positions[i].y;
+        if (std::abs(p.base_m.x - 0.14f) < 1e-3f) (p.base_m.y > -0.01f ? kerb : bed) = top;
+        if (p.base_m.x > 1.0f) deep = std::max(deep, top);
+    }
+    EXPECT_GT(kerb, 0.03f);
+    EXPECT_NEAR(kerb, bed, 0.01f) << "no step to look under";
+    EXPECT_GT(deep, 0.1f) << "and all of it farther in";
+}
+
 // Setts of 15 cm, 1.5 cm high at their crowns: a hand of snow lies even over them, a finger shows them.
 TEST(SnowShape, DeepSnowHidesTheStonesBelow)
 {
