@@ -266,10 +266,34 @@ bool lies(const SnowCaps& caps, const std::array<std::uint32_t, 3>& t)
            caps.points[t[2]].share > 0.02f;
 }
 
+// The longest edge at each point.
+std::vector<float> longest_edges_m(const CutMesh& mesh, std::size_t count)
+{
+    std::vector<float> longest(count, 0.0f);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t k = 0; k < p.indices.size(); ++k) {
+            const std::uint32_t a = p.indices[k];
+            const std::uint32_t b = p.indices[k % 3 == 2 ? k - 2 : k + 1];
+            const float length = glm::distance(p.positions[a], p.positions[b]);
+            for (const std::uint32_t at : {mesh.points[i][a], mesh.points[i][b]}) longest[at] = std::max(longest[at], length);
+        }
+    }
+    return longest;
+}
+
+// Swells of a size, as far as edges can carry them: narrower ones would be creases along the triangles.
+float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
+{
+    const float carried = 1.0f - shared::smooth_edge(0.35f * size_m, 0.9f * size_m, edge_m);
+    return 0.5f + carried * (smooth_noise(at, size_m, seed) - 0.5f);
+}
+
 void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, const EdgeGrid& closed,
                  const SnowCapOptions& options)
 {
     const std::vector<vec3> normals = point_normals(mesh);
+    const std::vector<float> longest = longest_edges_m(mesh, normals.size());
     caps.points.resize(normals.size());
     std::vector<bool> done(normals.size(), false);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -300,8 +324,8 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, con
             const float pressed = options.pressed ? options.pressed(at) : 0.0f;
             point.share =
                 open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
-            point.uneven = 0.78f + 0.3f * smooth_noise(at, 1.7f, 11u) +
-                           0.14f * smooth_noise(at, 0.43f, 12u);
+            point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
+                           0.14f * swell(at, 0.43f, 12u, longest[number]);
         }
     }
 }
