@@ -1,7 +1,7 @@
 // Gusts carry snow and rain in clouds that drift with the wind: how dense the veil is along a way through the air,
 // over that of air in which all is spread evenly.
 //
-// The density is 1 and a sum of waves, so that its mean along a way is closed: nothing is sampled, and a long way
+// The density is 1 and a sum of waves, so that its mean along a way is found without samples of it, and a long way
 // sees air that is even. The waves are frozen into the air that carries them (Taylor 1938); their lengths and
 // strengths are those of turbulence, amplitudes as the cube root of the length (Kolmogorov 1941).
 //
@@ -17,17 +17,15 @@ SHARED_BEGIN
 SHARED_CONST float kGustPeriod_m = 192.0f;
 SHARED_CONST float kLeastVeil = 0.05f;
 
-// Mean of one wave along a way: waves is k of sin(2 pi (k . p) / period), whole numbers along the ground. A cloud of
-// drops is no wave without an end: along a way of several of its lengths what lies behind knows nothing of it, else
-// who looks along its crest would see stripes.
+// About the mean of one wave along a way: waves is k of sin(2 pi (k . p) / period), whole numbers along the ground.
+// The wave at the middle, less the more of it the way goes through (sin(x) / x is 1 - x^2 / 6). A cloud of drops is no
+// wave without an end, so less, too, the more of its lengths the way has along its crest: else there would be stripes.
 SHARED_FN float gust_wave(vec3 waves, vec3 from_m, vec3 along_m)
 {
     const float turn = 6.28318531f / kGustPeriod_m;
     const float half_way = 0.5f * turn * dot(waves, along_m);
-    const float middle = turn * dot(waves, from_m) + half_way;
-    const float widened = max(abs(half_way), 1.0e-3f);
     const float lengths = dot(along_m, along_m) * dot(waves, waves) / (kGustPeriod_m * kGustPeriod_m);
-    return sin(middle) * (sin(widened) / (widened * (1.0f + 0.04f * lengths)));
+    return sin(turn * dot(waves, from_m) + half_way) / (1.0f + half_way * half_way / 6.0f + 0.04f * lengths);
 }
 
 // Density of the veil between two points over its mean, about 1; strength 0: 1. way_m: of the wind since the start,
@@ -37,16 +35,12 @@ SHARED_FN float gust_veil(vec3 from_m, vec3 to_m, vec2 way_m, float strength)
     if (strength <= 0.0f) return 1.0f;
     const vec3 from = from_m - vec3(way_m.x, 0.0f, way_m.y);
     const vec3 along = to_m - from_m;
-    float sum = 0.424f * gust_wave(vec3(6.0f, 1.8f, 2.0f), from, along);
-    sum += 0.396f * gust_wave(vec3(-5.0f, 2.9f, 6.0f), from, along);
-    sum += 0.376f * gust_wave(vec3(2.0f, -3.6f, -9.0f), from, along);
-    sum += 0.335f * gust_wave(vec3(12.0f, 4.0f, 5.0f), from, along);
-    sum += 0.312f * gust_wave(vec3(-15.0f, 4.6f, -6.0f), from, along);
-    sum += 0.283f * gust_wave(vec3(5.0f, 7.5f, 21.0f), from, along);
-    sum += 0.260f * gust_wave(vec3(26.0f, -9.0f, -10.0f), from, along);
-    sum += 0.238f * gust_wave(vec3(-20.0f, 13.0f, 30.0f), from, along);
-    sum += 0.220f * gust_wave(vec3(-45.0f, -15.0f, 7.0f), from, along);
-    sum += 0.200f * gust_wave(vec3(33.0f, 21.0f, 50.0f), from, along);
+    float sum = 0.546f * gust_wave(vec3(6.0f, 1.8f, 2.0f), from, along);
+    sum += 0.475f * gust_wave(vec3(2.0f, -3.6f, -9.0f), from, along);
+    sum += 0.401f * gust_wave(vec3(-15.0f, 4.6f, -6.0f), from, along);
+    sum += 0.364f * gust_wave(vec3(5.0f, 7.5f, 21.0f), from, along);
+    sum += 0.306f * gust_wave(vec3(-20.0f, 13.0f, 30.0f), from, along);
+    sum += 0.259f * gust_wave(vec3(33.0f, 21.0f, 50.0f), from, along);
     return max(1.0f + strength * sum, kLeastVeil);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -40,6 +41,8 @@ constexpr float kShoulder = 0.4f;     // height of what stands upright at a leve
 constexpr float kRounded = 0.6f;      // what is left of a heap at repose that the wind has rounded
 constexpr int kSmoothed = 24;         // passes over the neighbours, by which snow forgets the stones below
 constexpr float kFill_m = 0.02f;      // of relief, up or down
+constexpr float kJoined_m = 0.35f;    // between vertices of two surfaces, along and across their joint
+constexpr float kJoinedStep_m = 0.05f;
 constexpr float kSticks_m = 0.012f;   // what holds on any slope
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
@@ -263,10 +266,34 @@ bool lies(const SnowCaps& caps, const std::array<std::uint32_t, 3>& t)
            caps.points[t[2]].share > 0.02f;
 }
 
+// The longest edge at each point.
+std::vector<float> longest_edges_m(const CutMesh& mesh, std::size_t count)
+{
+    std::vector<float> longest(count, 0.0f);
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const Primitive& p = mesh.primitives[i];
+        for (std::size_t k = 0; k < p.indices.size(); ++k) {
+            const std::uint32_t a = p.indices[k];
+            const std::uint32_t b = p.indices[k % 3 == 2 ? k - 2 : k + 1];
+            const float length = glm::distance(p.positions[a], p.positions[b]);
+            for (const std::uint32_t at : {mesh.points[i][a], mesh.points[i][b]}) longest[at] = std::max(longest[at], length);
+        }
+    }
+    return longest;
+}
+
+// Swells of a size, as far as edges can carry them: narrower ones would be creases along the triangles.
+float swell(const vec3& at, float size_m, std::uint32_t seed, float edge_m)
+{
+    const float carried = 1.0f - shared::smooth_edge(0.35f * size_m, 0.9f * size_m, edge_m);
+    return 0.5f + carried * (smooth_noise(at, size_m, seed) - 0.5f);
+}
+
 void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, const EdgeGrid& closed,
                  const SnowCapOptions& options)
 {
     const std::vector<vec3> normals = point_normals(mesh);
+    const std::vector<float> longest = longest_edges_m(mesh, normals.size());
     caps.points.resize(normals.size());
     std::vector<bool> done(normals.size(), false);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -297,8 +324,8 @@ void fill_points(SnowCaps& caps, const CutMesh& mesh, const EdgeGrid& edges, con
             const float pressed = options.pressed ? options.pressed(at) : 0.0f;
             point.share =
                 open * slope * (1.0f - pressed) * (1.0f - shared::smooth_edge(0.7f, 0.97f, far));
-            point.uneven = 0.78f + 0.3f * smooth_noise(at, 1.7f, 11u) +
-                           0.14f * smooth_noise(at, 0.43f, 12u);
+            point.uneven = 0.78f + 0.3f * swell(at, 1.7f, 11u, longest[number]) +
+                           0.14f * swell(at, 0.43f, 12u, longest[number]);
         }
     }
 }
@@ -365,6 +392,37 @@ void fill_relief(SnowCaps& caps, const CutMesh& mesh)
     }
 }
 
+// Points of neighbouring surfaces that snow lies over as one, though no vertex is shared: a kerb and the bed behind it.
+void join_over_joints(const SnowCaps& caps, std::vector<std::vector<std::pair<std::uint32_t, float>>>& beside)
+{
+    const auto cell_of = [](const vec3& at) {
+        return std::pair(static_cast<int>(std::floor(at.x / kJoined_m)), static_cast<int>(std::floor(at.z / kJoined_m)));
+    };
+    std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells;
+    const auto count = static_cast<std::uint32_t>(caps.points.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SnowCaps::Point& point = caps.points[i];
+        // At a border that is closed.
+        if (glm::length(point.bridge_m) > 0.0f && point.gap_m > 1.0f) cells[cell_of(point.base_m)].push_back(i);
+    }
+    for (const auto& [cell, points] : cells) {
+        for (int k = 0; k < 9; ++k) {
+            const auto near = cells.find({cell.first + k % 3 - 1, cell.second + k / 3 - 1});
+            if (near == cells.end()) continue;
+            for (const std::uint32_t i : points) {
+                for (const std::uint32_t other : near->second) {
+                    const vec3 way = caps.points[other].base_m - caps.points[i].base_m;
+                    const float apart = glm::length(vec2(way.x, way.z));
+                    if (other == i || apart > kJoined_m || std::abs(way.y) > kJoinedStep_m) continue;
+                    // Those across the joint: the border of the other surface looks back.
+                    if (glm::dot(caps.points[i].bridge_m, caps.points[other].bridge_m) >= 0.0f) continue;
+                    beside[i].emplace_back(other, kRepose * apart);
+                }
+            }
+        }
+    }
+}
+
 // Snow slides off where its own surface would be steeper than repose, from the edges on: round things carry
 // what lies on their crown and little at their sides.
 void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals)
@@ -382,6 +440,7 @@ void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>
             beside[b].emplace_back(a, rise);
         }
     }
+    join_over_joints(caps, beside);
     // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
     std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
     using Next = std::pair<float, std::uint32_t>;

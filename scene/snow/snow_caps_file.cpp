@@ -9,7 +9,7 @@
 namespace petrichor::scene {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x73706163;  // "caps"
+constexpr std::uint32_t kMagic = 0x33706163;  // "cap3"
 static_assert(sizeof(SnowCaps::Point) == 14 * sizeof(float), "no padding: bytes are compared");
 
 struct Writer {

@@ -276,6 +276,63 @@ TEST(SnowShape, APostRisesByTheDepthAndItsShouldersAreRound)
     EXPECT_LT(deep.thickest_m, 1.3f * kDeepestSnow_m);
 }
 
+// Snow slides off a kerb towards the road; the bed behind it, which shares no vertex with it, has no more there.
+TEST(SnowShape, IsOneSheetOverAKerbAndWhatLiesBehindIt)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-3, -0.15f, -2}, {0, 0, 4}, {3, 0, 0});    // road
+    add_face(scene, {0, -0.15f, -2}, {0, 0, 4}, {0, 0.15f, 0});  // face of the kerb
+    add_face(scene, {0, 0, -2}, {0, 0, 4}, {0.14f, 0, 0});       // its top
+    add_face(scene, {0.14f, -0.02f, -2}, {0, 0, 4}, {2, 0, 0});  // bed
+    add_face(scene, {0.14f, -0.02f, -2}, {0, 0.02f, 0}, {0, 0, 4});
+    const SnowCaps caps = caps_of(scene);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.14f));
+    float kerb = 0.0f, bed = 0.0f, deep = 0.0f;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        if (std::abs(p.base_m.z) > 1.0f) continue;
+        const float top = shape.positions[i].y;
+        if (std::abs(p.base_m.x - 0.14f) < 1e-3f) (p.base_m.y > -0.01f ? kerb : bed) = top;
+        if (p.base_m.x > 1.0f) deep = std::max(deep, top);
+    }
+    EXPECT_GT(kerb, 0.03f);
+    EXPECT_NEAR(kerb, bed, 0.01f) << "no step to look under";
+    EXPECT_GT(deep, 0.1f) << "and all of it farther in";
+}
+
+// Far from an eye triangles are long: the swells that they cannot carry are left out, or a low sun would show them.
+TEST(SnowShape, LongTrianglesHaveNoCreases)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0});
+    const Triangles triangles(scene, {});
+    const Tracer tracer(triangles);
+    const auto bend_of = [&](float edge_m) {
+        SnowCapOptions options;
+        options.eyes_m = {{0, 1.7f, 0}};
+        options.coarsest_m = edge_m;
+        options.most_triangles = 400'000;
+        const SnowCaps caps = build_snow_caps(tracer, options);
+        const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.2f));
+        double sum = 0.0;
+        int count = 0;
+        for (std::size_t k = 0; k < caps.indices.size(); ++k) {
+            const std::uint32_t a = caps.corner_points[caps.indices[k]];
+            const std::uint32_t b = caps.corner_points[caps.indices[k % 3 == 2 ? k - 2 : k + 1]];
+            if (glm::length(caps.points[a].base_m) > 8.0f || caps.points[a].edge_m < 1.0f) continue;
+            const float apart = glm::distance(shape.positions[a], shape.positions[b]);
+            sum += static_cast<double>(glm::distance(shape.normals[a], shape.normals[b]) / std::max(apart, 1e-4f));
+            ++count;
+        }
+        EXPECT_GT(count, 100);
+        return sum / std::max(count, 1);
+    };
+    const double fine = bend_of(0.1f), coarse = bend_of(0.6f);
+    RecordProperty("fine", std::to_string(fine));
+    RecordProperty("coarse", std::to_string(coarse));
+    EXPECT_LT(coarse, 0.4 * fine) << "edges of triangles do not stand in for what lies between them";
+}
+
 // Setts of 15 cm, 1.5 cm high at their crowns: a hand of snow lies even over them, a finger shows them.
 TEST(SnowShape, DeepSnowHidesTheStonesBelow)
 {

@@ -36,7 +36,7 @@ layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
 
 const int kSteps = 32;
 const int kRefinements = 5;
-const int kTaps = 6;
+const int kTaps = 4;  // at one sample
 const float kWidest_px = 24.0;
 
 struct Hit {
@@ -161,17 +161,18 @@ vec3 seen_around(vec2 pixel, float radius, float roughness, vec3 other)
 {
     const float hit_m = scene_depth_m(pixel);
     const float turn = 0.61803399 * float(frame.sample_index);
+    const int taps = max(kTaps / int(frame.samples), 1);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < kTaps; ++i) {
+    for (int i = 0; i < taps; ++i) {
         const float k = float(i) + fract(turn + 0.5);
-        const float way = radius * sqrt(k / float(kTaps));
+        const float way = radius * sqrt(k / float(taps));
         const float angle = 2.39996323 * k + 6.2831853 * turn;
         const vec2 at = pixel + way * vec2(cos(angle), sin(angle));
         const bool there = abs(scene_depth_m(at) - hit_m) < 0.15 * hit_m + 0.05;
         const vec3 seen = picture_at(clamp(ivec2(floor(at)), ivec2(0), frame.size - 1), roughness);
         sum += there ? seen : other;
     }
-    return sum / float(kTaps);
+    return sum / float(taps);
 }
 
 // What most of the mirrored light comes from, and how much of it is mirrored.
