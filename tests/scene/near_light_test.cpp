@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "formulas/light/near_light.h"
+#include "scene/patches/detail/sampling.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/radiosity.h"
 #include "tests/scene/patch_scenes.h"
@@ -42,12 +43,86 @@ TEST(NearFormFactor, OfASquareAboveIsTheClosedForm)
         const float right = (std::atan(b / c) - c / r * std::atan(b / r)) / kPi;
         EXPECT_NEAR(
             shared::near_form_factor({c, 0, -b}, {c, 0, b}, {c, a, b}, {c, a, -b}, {0, 1, 0}),
-            right, 1e-3f)
+            right, 5e-4f)
             << c;
     }
     // A corner at the point itself is a number.
     EXPECT_TRUE(std::isfinite(
         shared::near_form_factor({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 0, 1})));
+}
+
+// What a point of this normal sees of a convex polygon's front, by rays over its hemisphere.
+double seen_by_rays(const std::array<glm::vec3, 4>& c, glm::vec3 n, int rays)
+{
+    const auto part = [](glm::vec3 a, glm::vec3 b, glm::vec3 d, glm::vec3 way) {
+        // Within all three planes through the point and an edge; the front is where they turn right.
+        return glm::dot(glm::cross(b, a), way) >= 0.0f && glm::dot(glm::cross(d, b), way) >= 0.0f &&
+               glm::dot(glm::cross(a, d), way) >= 0.0f;
+    };
+    int met = 0;
+    for (int r = 0; r < rays; ++r) {
+        const glm::vec3 way = row_direction(n, r, rays, 11);
+        met += part(c[0], c[1], c[2], way) || part(c[0], c[2], c[3], way) ? 1 : 0;
+    }
+    return static_cast<double>(met) / static_cast<double>(rays);
+}
+
+// Anywhere: over the horizon, across it, below, from the front and from behind.
+TEST(NearFormFactor, IsWhatRaysSeeWhereverThePolygonStands)
+{
+    int across = 0, behind = 0, below = 0, large = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const auto number = [&](std::uint64_t k) { return unit_float(mixed(i, k)); };
+        const glm::vec3 n = cosine_direction({0, 1, 0}, number(0), number(1));
+        const glm::vec3 u = cosine_direction({1, 0, 0}, number(2), number(3)) * (0.1f + 3.0f * number(4));
+        const glm::vec3 v = cosine_direction({0, 0, 1}, number(5), number(6)) * (0.1f + 3.0f * number(7));
+        const glm::vec3 corner = glm::vec3(number(8), number(9), number(10)) - 0.5f;
+        std::array<glm::vec3, 4> c{corner, corner + u, corner + u + v, corner + v};
+        if (i % 2 == 0) std::swap(c[1], c[3]);
+        if (i % 5 == 0) c[3] = c[2];  // a triangle
+        int up = 0;
+        for (const glm::vec3& x : c) up += glm::dot(x, n) > 0.0f ? 1 : 0;
+        const bool front = glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), c[0]) < 0.0f;
+        const float found = shared::near_form_factor(c[0], c[1], c[2], c[3], n);
+        if (!front || up == 0) {
+            EXPECT_EQ(found, 0.0f) << i;
+        } else {
+            EXPECT_NEAR(static_cast<double>(found), seen_by_rays(c, n, 8192), 4e-3) << i << ", corners up: " << up;
+        }
+        across += front && up > 0 && up < 4 ? 1 : 0;
+        behind += front ? 0 : 1;
+        below += front && up == 0 ? 1 : 0;
+        large += found > 0.3f ? 1 : 0;
+    }
+    EXPECT_GT(across, 40);
+    EXPECT_GT(behind, 50);
+    EXPECT_GT(below, 10);
+    EXPECT_GT(large, 10);
+}
+
+// A wall that goes on below a point's plane is the wall above it.
+TEST(NearFormFactor, OfAWallCutByTheHorizonIsThatOfTheUpperPart)
+{
+    const float a = 1.0f, b = 0.5f;
+    for (const float c : {1e-4f, 0.001f, 0.02f, 0.3f}) {
+        const float r = std::sqrt(a * a + c * c);
+        const float right = (std::atan(b / c) - c / r * std::atan(b / r)) / kPi;
+        for (const float deep : {0.0f, 0.01f, 1.0f, 30.0f}) {
+            EXPECT_NEAR(shared::near_form_factor({c, -deep, -b}, {c, -deep, b}, {c, a, b}, {c, a, -b}, {0, 1, 0}),
+                        right, 5e-4f)
+                << c << " " << deep;
+        }
+        EXPECT_EQ(shared::near_form_factor({c, -1.0f, -b}, {c, -1.0f, b}, {c, 0, b}, {c, 0, -b}, {0, 1, 0}),
+                  0.0f)
+            << "below";
+    }
+    // A strip of 1 cm along the foot of a pane, a tenth of a millimetre to 1 cm from the point: half of 1 - h / sqrt(h^2 + w^2).
+    const float w = 0.01f;
+    for (const float h : {1e-4f, 1e-3f, 5e-3f, 0.01f}) {
+        EXPECT_NEAR(shared::near_form_factor({h, 0, -9}, {h, 0, 9}, {h, w, 9}, {h, w, -9}, {0, 1, 0}),
+                    0.5f * (1.0f - h / std::sqrt(h * h + w * w)), 1e-3f)
+            << h;
+    }
 }
 
 struct Cut {

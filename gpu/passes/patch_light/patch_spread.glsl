@@ -7,8 +7,14 @@
 
 #include "gpu/passes/patch_light/patch_plane.glsl"
 
-// Irradiance over pi for the normal `bent`, and the share of open directions; w < 0: no patch is near.
-vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec2 texel)
+struct SpreadLight {
+    vec3 irradiance;    // over pi, for the normal `bent`
+    float open;         // share of open directions; < 0: no patch is near
+    float close;        // PatchLight::close
+    float close_light;  // PatchLight::close_light
+};
+
+SpreadLight patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec2 texel)
 {
     const ivec2 blocks = (frame.size + PATCH_BLOCK - 1) / PATCH_BLOCK;
     const vec2 at = (vec2(texel) - float(PATCH_BLOCK / 2)) / float(PATCH_BLOCK);
@@ -21,6 +27,8 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
     vec4 sent = vec4(0.0);
     vec4 turn = vec4(0.0);
     float total = 0.0;
+    float close = 0.0;
+    float close_light = 0.0;  // times luminance
     float without = 0.0;  // of points that no patch is near
     for (int k = 0; k < 4; ++k) {
         const ivec2 step = ivec2(k & 1, k >> 1);
@@ -33,8 +41,8 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
             const uvec4 a = texelFetch(patch_point_texels, slot);
             const uvec4 b = texelFetch(patch_point_texels, slot + 1);
             slot += PATCH_POINT_TEXELS;
-            left = b.w;
-            if (b.w == 0u) continue;
+            left = b.w & 255u;
+            if (left == 0u) continue;
             const vec3 n = plane_normal(a.z);
             const float away =
                 abs(dot(n, from_camera) - uintBitsToFloat(a.w)) * off_plane;
@@ -53,15 +61,19 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
                 continue;
             }
             sent += found * weight;
+            close += float(b.w >> 8 & 4095u) * weight;
+            close_light += float(b.w >> 20) * weight * dot(found.rgb, vec3(0.2126, 0.7152, 0.0722));
             turn += vec4(unpackHalf2x16(b.x), unpackHalf2x16(b.y)) * weight;
             total += weight;
         }
     }
     // Far ground behind a near thing is lit by the sky, not as that thing is.
-    if (total <= without) return vec4(0.0, 0.0, 0.0, -1.0);
+    if (total <= without) return SpreadLight(vec3(0.0), -1.0, 0.0, 0.0);
+    close_light /= 4095.0 * max(dot(sent.rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0e-20);
     sent /= total;
     const float turned = clamp(dot(turn.xyz / total, bent) + turn.w / total, 0.2, 2.0);
-    return vec4(min(sent.rgb * turned, vec3(60000.0)), sent.a);
+    return SpreadLight(min(sent.rgb * turned, vec3(60000.0)), sent.a, close / (4095.0 * total),
+                       min(close_light, 1.0));
 }
 
 #endif
