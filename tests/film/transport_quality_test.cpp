@@ -381,7 +381,11 @@ PatchWorld::PatchWorld(const World& world)
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
         scene::add_lamp(p, street.scene.lights[l], street.patches->lamp_reach[l], direct);
     const scene::NearLinks& near = street.patches->near;
-    std::vector<glm::vec3> near_direct(near.sender.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> near_direct(near.entries(), glm::vec3(0.0f)), near_albedo;
+    for (std::size_t e = 0; e < near.entries(); ++e) {
+        const bool white = c.snow && scene::near_normal(near, e).y > 0.5f;
+        near_albedo.push_back(white ? glm::vec3(0.9f) : street.patches->near_surfaces[e].base_color);
+    }
     scene::add_sun(near, c.towards_sun, c.sun, near_direct);
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
         scene::add_lamp(near, street.scene.lights[l], street.patches->near_reach[l], near_direct);
@@ -397,6 +401,13 @@ PatchWorld::PatchWorld(const World& world)
     }
     input.near = &near;
     input.near_direct = near_direct;
+    input.near_albedo = near_albedo;
+    std::vector<glm::vec3> near_emission;
+    if (c.windows) {
+        for (const scene::PatchSurface& surface : street.patches->near_surfaces)
+            near_emission.push_back(kPi * surface.emission);
+        input.near_emission = near_emission;
+    }
     input.sky = sky;
     input.bounces = c.snow ? 4 : 3;
     light = scene::relight(p, input);
