@@ -21,13 +21,15 @@ namespace {
 
 constexpr std::size_t kPatchesAJob = 64;
 constexpr std::size_t kKept = NearLinks::kMostAPatch;
-constexpr std::size_t kTried = 16;      // candidates whose sight is traced
+constexpr std::size_t kJudged = 24;     // candidates whose light is guessed
+constexpr std::size_t kTried = 16;      // and whose sight is traced
 constexpr std::size_t kSightPoints = 8;
 constexpr std::size_t kSightRays = 24;  // of all of them
 constexpr int kHintRays = 8;            // of each, for the light that it may send
 constexpr float kHintAlbedo = 0.5f;     // whatever it is made of
 constexpr std::size_t kFewReceivers = 4;
 constexpr float kStripWidth = 0.05f;  // over its length
+constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
 constexpr float kLeastMerit = 2e-3f;    // square of light, over that which arrives
 constexpr std::size_t kReceivers = 48;  // points of a patch that are asked, at most
@@ -200,6 +202,7 @@ private:
     struct Meets {
         std::uint32_t id;           // as Patches::links
         std::uint32_t triangle = RayHit::kNothing;
+        float distance_m = 0.0f;
     };
     Meets met_by(const std::array<glm::vec3, 4>& corners, int r, int rays, std::uint64_t hash) const;
     float glow_of(std::uint32_t triangle) const;
@@ -257,6 +260,7 @@ std::optional<Finder::Candidate> Finder::candidate(std::uint32_t number, bool ba
         const float beside =
             std::max(std::sqrt(std::max(whole * whole - height * height, 0.0f)) - around.spacing, 0.0f);
         nearest2 = std::min(nearest2, height * height + beside * beside);
+        if (area < kFarFactor * whole * whole) continue;  // too small from here
         const float factor = form_factor(corners, p.position_m, p.normal);
         found.square += factor * factor / static_cast<float>(around.points.size());
     }
@@ -286,7 +290,10 @@ void Finder::judge(std::vector<Candidate>& found, std::uint32_t patch) const
     float glows = 0.0f;
     for (std::size_t i = 0; i < found.size(); ++i) {
         float arrives = 0.0f;
-        for (const Meets& m : met[i]) arrives += m.triangle != RayHit::kNothing ? glow_of(m.triangle) : 0.0f;
+        for (const Meets& m : met[i]) {
+            const bool near = m.triangle != RayHit::kNothing && m.distance_m < kGlowNear_m;
+            arrives += near ? glow_of(m.triangle) : 0.0f;
+        }
         const float sent = glow_of(faces_.faces[found[i].face].triangles[0]) +
                            kHintAlbedo * arrives / static_cast<float>(kHintRays);
         sent2[i] = found[i].square * sent * sent;
@@ -322,6 +329,9 @@ std::vector<Finder::Candidate> Finder::candidates(std::uint32_t patch, const Sur
             if (const auto one = candidate(face, back, around)) found.push_back(*one);
         }
     }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.square > b.square; });
+    if (found.size() > kJudged) found.resize(kJudged);
     judge(found, patch);
     const auto by_merit = [](const Candidate& a, const Candidate& b) { return a.merit > b.merit; };
     std::stable_sort(found.begin(), found.end(), by_merit);
@@ -388,28 +398,37 @@ float Finder::seen_share(const Candidate& candidate, const Surroundings& around,
     return all > 0.0f ? seen / all : 0.0f;
 }
 
-// As trace_visibility has it; where no ray of its row leaves (`up`), a fourth of the directions is tried first.
+// As trace_visibility has it; a fourth of the directions is tried first, and where none of them and no ray of its row
+// (`up`) leaves, or all do, the others are alike.
 std::array<std::uint32_t, 8> Finder::sky_seen(const Entry& entry, std::uint64_t hash, bool up) const
 {
     std::array<std::uint32_t, 8> visible{};
     const glm::vec3 n = front_of(entry.corners);
-    bool any = up;
-    const auto look = [&](std::size_t bit) {
+    bool any = up, all = true;
+    const auto look = [&](std::size_t bit, bool known) {
         const glm::vec3 raw = shared::visibility_raw_direction(static_cast<int>(bit));
         const glm::vec3 d = raw / std::sqrt(glm::dot(raw, raw));
         if (!(glm::dot(n, d) > 0.0f)) return;
+        if (known) {
+            visible[bit >> 5] |= 1u << (bit & 31);
+            return;
+        }
         const std::uint64_t at = mixed(hash, bit);
         const glm::vec3 x = point_in(entry.corners, unit_float(at), unit_float(mixed(at, 3)));
-        if (tracer_.blocked({x + n * ray_lift_m(x, patches_.level_cell_m(1)), d})) return;
+        if (tracer_.blocked({x + n * ray_lift_m(x, patches_.level_cell_m(1)), d})) {
+            all = false;
+            return;
+        }
         visible[bit >> 5] |= 1u << (bit & 31);
         any = true;
     };
     // Every other one of every other row of 16.
     const auto first = [](std::size_t bit) { return (bit & 1u) == 0 && (bit >> 4 & 1u) == 0; };
     for (std::size_t bit = 0; bit < 256; ++bit)
-        if (first(bit)) look(bit);
+        if (first(bit)) look(bit, false);
+    const bool open = all;
     for (std::size_t bit = 0; bit < 256 && any; ++bit)
-        if (!first(bit)) look(bit);
+        if (!first(bit)) look(bit, open);
     return visible;
 }
 
@@ -431,7 +450,7 @@ Finder::Meets Finder::met_by(const std::array<glm::vec3, 4>& corners, int r, int
         const RayHit hit = tracer_.nearest(ray);
         if (!hit.hit()) return {patches_.count + static_cast<std::uint32_t>(shared::sky_bin_left(ray.direction))};
         if (hit.back && !triangles_.double_sided(hit.triangle)) continue;
-        return {patch_of_hit(patches_, triangles_, ray, hit), hit.triangle};
+        return {patch_of_hit(patches_, triangles_, ray, hit), hit.triangle, hit.distance_m};
     }
     return {patches_.black()};
 }
