@@ -56,6 +56,7 @@ struct Entry {
     std::array<PatchSample, NearLinks::kSamples> samples{};
     std::array<std::uint32_t, 8> visible{};
     std::array<std::uint16_t, NearLinks::kLinks> links{};
+    std::array<std::uint32_t, NearLinks::kLinks> met{};  // triangles
     std::vector<std::pair<std::uint32_t, float>> glow;
 };
 
@@ -465,8 +466,10 @@ void Finder::light(Entry& entry, std::uint64_t hash) const
     std::size_t lost = 0;
     bool up = false;
     for (int r = 0; r < kRays; ++r) {
-        const std::uint32_t id = met_by(entry.corners, r, kRays, hash).id;
+        const Meets meets = met_by(entry.corners, r, kRays, hash);
+        const std::uint32_t id = meets.id;
         entry.links[static_cast<std::size_t>(r)] = static_cast<std::uint16_t>(id);
+        entry.met[static_cast<std::size_t>(r)] = meets.triangle;
         lost += id == patches_.black() ? 1 : 0;
         up = up || (id >= patches_.count && id != patches_.black());
     }
@@ -477,6 +480,7 @@ void Finder::light(Entry& entry, std::uint64_t hash) const
         other = (other + 1) % rows.size();
         while (rows[other] == patches_.black()) other = (other + 1) % rows.size();
         entry.links[r] = rows[other];
+        entry.met[r] = entry.met[other];
     }
     entry.visible = sky_seen(entry, mixed(hash, 1), up);
 }
@@ -501,9 +505,16 @@ void Finder::near_glow(Entry& entry) const
         const std::uint32_t glowing = glow_->senders[glow_->sender[g]];
         if (is_near(glowing)) add(glowing, -glow_->factor[g]);
     }
-    for (const std::uint16_t id : entry.links) {
-        if (std::binary_search(glow_->senders.begin(), glow_->senders.end(), std::uint32_t{id}) && is_near(id))
-            add(id, 1.0f / static_cast<float>(NearLinks::kLinks));
+    // The light of a patch is the mean of what glows of it and what does not: a ray that meets the pane has all of it,
+    // one that meets its frame nothing.
+    for (std::size_t r = 0; r < entry.links.size(); ++r) {
+        const std::uint32_t id = entry.links[r];
+        if (!std::binary_search(glow_->senders.begin(), glow_->senders.end(), id) || !is_near(id)) continue;
+        int glowing = 0;
+        for (std::size_t k = 0; k < kPatchSamples; ++k)
+            glowing += glow_of(patches_.samples[std::size_t{id} * kPatchSamples + k].triangle) > 0.0f ? 1 : 0;
+        if (glowing == 0 || entry.met[r] == RayHit::kNothing || !(glow_of(entry.met[r]) > 0.0f)) continue;
+        add(id, static_cast<float>(kPatchSamples) / static_cast<float>(glowing) / static_cast<float>(NearLinks::kLinks));
     }
 }
 
