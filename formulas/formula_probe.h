@@ -20,6 +20,7 @@
 #include "formulas/light/layers.h"
 #include "formulas/light/light_map.h"
 #include "formulas/light/ltc.h"
+#include "formulas/light/near_light.h"
 #include "formulas/light/other_lobes.h"
 #include "formulas/light/patch_cells.h"
 #include "formulas/light/reflection_probe.h"
@@ -44,7 +45,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 54;
+SHARED_CONST int kProbeKinds = 55;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -430,6 +431,17 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const uint level = uint(min(b.z * 7.0f, 6.0f));
         return vec4(glints_of_level(at - vec2(0.37f * float(level)), lean, 10.0f * c.x * c.x, level),
                     glint_hill(vec2(c.y, c.z)), 0.0f, 0.0f);
+    }
+    if (kind == 54) {
+        // A parallelogram near the point, above the horizon, across it or below; from its front and from behind.
+        const vec3 corner = 2.0f * vec3(a.x, a.y, a.z) - vec3(1.0f);
+        const vec3 u = probe_direction(b.x, b.y);
+        const vec3 v = probe_direction(b.z, b.w);
+        const vec3 n = probe_direction(c.x, c.y);
+        const float open = open_beyond(c.z, c.w);
+        return vec4(near_form_factor(corner, corner + u, corner + u + v, corner + v, n),
+                    near_form_factor(corner, corner + v, corner + u + v, corner + u, n), open,
+                    with_close_light(open, a.w));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

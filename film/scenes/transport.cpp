@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/patch_file.h"
 #include "texproc/codecs/files/io.h"
 
@@ -205,6 +206,16 @@ namespace {
 constexpr const char* kLampKind = "patch_lamps";
 constexpr float kLantern_m = 0.5f;
 
+// A lantern's glass and the lamp in it are the same light.
+bool in_a_lantern(const scene::Scene& scene, const glm::vec3& position_m)
+{
+    for (const scene::Light& light : scene.lights) {
+        if (light.kind != scene::LightKind::Directional && glm::distance(light.position_m, position_m) < kLantern_m)
+            return true;
+    }
+    return false;
+}
+
 // Rays are only needed for what is not kept.
 struct LazyTracer {
     const scene::Scene& scene;
@@ -256,12 +267,14 @@ struct FromBytes {
 };
 
 // Whether numbers of a patch, of entries and of rays are there.
-bool near_fits(const scene::NearLinks& near, std::uint32_t count, int rays)
+bool near_fits(const scene::NearLinks& near, const scene::GlowLinks& glow, std::uint32_t count, int rays)
 {
-    const std::size_t entries = near.sender.size();
+    const std::size_t entries = near.entries();
     bool good = near.first.size() == std::size_t{count} + 1 &&
                 near.ray_first.size() == std::size_t{count} + 1 && near.corners.size() == entries &&
-                near.seen.size() == entries && near.visible.size() == entries && near.ray_entry.size() == near.rays.size() &&
+                near.seen.size() == entries && near.visible.size() == entries &&
+                near.material.size() == entries &&
+                near.links.size() == entries * scene::NearLinks::kLinks &&
                 near.first.front() == 0 && near.first.back() == entries &&
                 near.ray_first.front() == 0 && near.ray_first.back() == near.rays.size();
     for (std::uint32_t i = 0; good && i < count; ++i) {
@@ -270,7 +283,16 @@ bool near_fits(const scene::NearLinks& near, std::uint32_t count, int rays)
                near.ray_first[i + 1] >= near.ray_first[i];
     }
     for (const std::uint32_t s : near.sender) good = good && s < count;
+    const bool glows = !glow.empty();
+    good = good && near.glow_taken.size() == (glows ? glow.factor.size() : 0) &&
+           near.glow_first.size() == (glows ? entries + 1 : 0) && near.glow_more.size() == near.glow_patch.size() &&
+           (!glows || (near.glow_first.front() == 0 && near.glow_first.back() == near.glow_patch.size()));
+    for (std::size_t e = 1; e < near.glow_first.size(); ++e)
+        good = good && near.glow_first[e] >= near.glow_first[e - 1];
+    for (const std::uint32_t g : near.glow_patch) good = good && g < count;
     for (const std::uint16_t r : near.rays) good = good && r < rays;
+    for (const std::uint16_t l : near.links)
+        good = good && l <= count + static_cast<std::uint32_t>(shared::kSkyBins);
     return good;
 }
 
@@ -288,10 +310,16 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     near.corners = from.take<std::array<glm::vec3, 4>>();
     near.seen = from.take<float>();
     near.sender = from.take<std::uint32_t>();
+    near.material = from.take<std::uint32_t>();
     near.visible = from.take<std::array<std::uint32_t, 8>>();
+    near.links = from.take<std::uint16_t>();
+    near.glow_first = from.take<std::uint32_t>();
+    near.glow_patch = from.take<std::uint32_t>();
+    near.glow_more = from.take<float>();
+    near.glow_taken = from.take<std::uint8_t>();
     near.ray_first = from.take<std::uint32_t>();
     near.rays = from.take<std::uint16_t>();
-    near.ray_entry = from.take<std::uint8_t>();
+    auto near_surfaces = from.take<scene::PatchSurface>();
     std::vector<std::vector<std::uint8_t>> reach;
     for (std::size_t i = 0; i < lights && from.good; ++i)
         reach.push_back(from.take<std::uint8_t>());
@@ -306,11 +334,14 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     for (const std::uint32_t s : glow.sender) good = good && s < glow.senders.size();
     for (std::size_t i = 1; i < glow.first.size(); ++i)
         good = good && glow.first[i] >= glow.first[i - 1];
-    good = good && near_fits(near, count, made.patches.rays);
+    good = good && near_fits(near, glow, count, made.patches.rays);
     for (const auto& list : reach) good = good && (list.empty() || list.size() == count);
     for (const auto& list : near_reach)
-        good = good && (list.empty() || list.size() == near.sender.size());
+        good = good && (list.empty() || list.size() == near.entries());
+    good = good && near_surfaces.size() == near.entries();
+    for (const std::uint32_t m : near.material) good = good && m < made.materials.size();
     if (!good) return false;
+    made.near_surfaces = std::move(near_surfaces);
     made.near_reach = std::move(near_reach);
     made.glow = std::move(glow);
     made.near = std::move(near);
@@ -318,13 +349,49 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     return true;
 }
 
-std::string lights_key(const std::string& transport_key, const gpu::PatchScene& made,
+// Dry, under the open sky and by its lamps.
+std::vector<scene::NearHint> near_hints(const gpu::PatchScene& made, const std::vector<scene::Light>& lights,
+                                        int threads)
+{
+    const scene::Patches& p = made.patches;
+    std::vector<glm::vec3> albedo;
+    bool lamps = false;
+    for (const scene::PatchSurface& surface : made.surfaces) albedo.push_back(surface.base_color);
+    std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].kind == scene::LightKind::Directional) continue;
+        lamps = true;
+        scene::add_lamp(p, lights[i], made.lamp_reach[i], direct);
+    }
+    const std::vector<glm::vec3> none(p.count, glm::vec3(0.0f));
+    const auto under = [&](const std::vector<glm::vec3>& falls, float sky_light) {
+        const std::vector<glm::vec3> sky(static_cast<std::size_t>(shared::kSkyBins), glm::vec3(sky_light));
+        scene::Relight input;
+        input.albedo = albedo;
+        input.direct = falls;
+        input.sky = sky;
+        input.threads = threads;
+        const scene::PatchIrradiance lit = scene::relight(p, input);
+        scene::NearHint hint;
+        const glm::vec3 luminous(0.2126f, 0.7152f, 0.0722f);
+        for (std::uint32_t i = 0; i < p.count; ++i) {
+            hint.radiosity.push_back(glm::dot(lit.radiosity[i], luminous));
+            hint.irradiance.push_back(glm::dot(glm::vec3(lit.irradiance[i]), luminous));
+        }
+        return hint;
+    };
+    std::vector<scene::NearHint> hints{under(none, 1.0f)};
+    if (lamps) hints.push_back(under(direct, 0.0f));
+    return hints;
+}
+
+std::string lights_key(const std::string& surfaces, const gpu::PatchScene& made,
                        const std::vector<scene::Light>& lights,
                        const std::vector<std::uint32_t>& senders)
 {
     Hasher hasher;
     hasher.add(source_fingerprint());
-    hasher.add(transport_key);
+    hasher.add(surfaces);
     hasher.add_bytes(scene::patches_to_bytes(made.patches));
     hasher.add_bytes(std::as_bytes(std::span(senders)));
     for (const scene::Light& light : lights) {
@@ -350,14 +417,10 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
     made->materials = scene.materials;
     notes.insert(notes.end(), transport.notes.begin(), transport.notes.end());
     for (std::uint32_t i = 0; i < made->patches.count; ++i) {
-        for (const scene::Light& light : scene.lights) {
-            if (light.kind == scene::LightKind::Directional) continue;
-            if (glm::distance(light.position_m, made->patches.position_m[i]) < kLantern_m)
-                made->surfaces[i].emission = glm::vec3(0.0f);
-        }
+        if (in_a_lantern(scene, made->patches.position_m[i])) made->surfaces[i].emission = glm::vec3(0.0f);
     }
     const auto senders = scene::glowing_patches(made->patches, made->surfaces);
-    const std::string key = lights_key(transport.key, *made, scene.lights, senders);
+    const std::string key = lights_key(surfaces_key(scene, transport.key), *made, scene.lights, senders);
     bool kept = false;
     if (const auto bytes = options.cache.find(kLampKind, key))
         kept = take_lights(*bytes, scene.lights.size(), *made);
@@ -366,14 +429,26 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         const int threads = options.patches.threads;
         if (!senders.empty())
             made->glow = scene::trace_glow(made->patches, rays.get(), senders, threads);
-        made->near = scene::trace_near(made->patches, rays.get(), threads);
         for (const scene::Light& light : scene.lights) {
             made->lamp_reach.emplace_back();
-            made->near_reach.emplace_back();
             if (light.kind == scene::LightKind::Directional) continue;
             const float range = light.range_m > 0.0f ? light.range_m : 5000.0f;
             made->lamp_reach.back() = scene::trace_lamp(made->patches, rays.get(),
                                                         light.position_m, range, threads);
+        }
+        const std::vector<scene::NearHint> hints = near_hints(*made, scene.lights, threads);
+        made->near = scene::trace_near(made->patches, rays.get(), &made->glow, hints, threads);
+        made->near_surfaces = scene::near_surfaces(made->near, rays.get().triangles(),
+                                                   color_images(scene, threads, notes));
+        made->near.samples = {};  // it is coloured
+        for (std::size_t e = 0; e < made->near.entries(); ++e) {
+            if (in_a_lantern(scene, scene::near_middle(made->near, e)))
+                made->near_surfaces[e].emission = glm::vec3(0.0f);
+        }
+        for (const scene::Light& light : scene.lights) {
+            made->near_reach.emplace_back();
+            if (light.kind == scene::LightKind::Directional) continue;
+            const float range = light.range_m > 0.0f ? light.range_m : 5000.0f;
             made->near_reach.back() =
                 scene::trace_near_lamp(made->near, rays.get(), made->patches.level_cell_m(1),
                                        light.position_m, range, threads);
@@ -387,10 +462,16 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         bytes.add(made->near.corners);
         bytes.add(made->near.seen);
         bytes.add(made->near.sender);
+        bytes.add(made->near.material);
         bytes.add(made->near.visible);
+        bytes.add(made->near.links);
+        bytes.add(made->near.glow_first);
+        bytes.add(made->near.glow_patch);
+        bytes.add(made->near.glow_more);
+        bytes.add(made->near.glow_taken);
         bytes.add(made->near.ray_first);
         bytes.add(made->near.rays);
-        bytes.add(made->near.ray_entry);
+        bytes.add(made->near_surfaces);
         for (const auto& reach : made->lamp_reach) bytes.add(reach);
         for (const auto& reach : made->near_reach) bytes.add(reach);
         if (options.cache.on()) keep(options.cache, kLampKind, key, bytes.all, notes);

@@ -182,6 +182,8 @@ struct PatchLight {
     vec3 gradient;    // how irradiance changes when the normal turns: irradiance_towards
     float weight;     // 0: no patch is near
     vec3 normal;      // mean of the patches, about unit
+    float close;        // share of the hemisphere that polygons close by fill (near_light.h)
+    float close_light;  // share of the irradiance, by luminance, that they send
 };
 
 // Irradiance for a bent normal over that for the mean normal: radiance as a constant and a gradient
@@ -195,10 +197,18 @@ SHARED_FN float irradiance_towards(vec3 gradient, vec3 normal, vec3 bent)
     return clamp(ratio, 0.2f, 2.0f);
 }
 
-// Relief that is smaller than a patch: the pixel's own occlusion over what the patch has of it.
-SHARED_FN float occlusion_ratio(float occlusion, float open)
+// Share of open directions among those that no polygon close by fills: they stand within the radius that counts as
+// closed.
+SHARED_FN float open_beyond(float open, float close)
 {
-    return min(occlusion / max(open, 0.05f), 2.0f);
+    return min(open / max(1.0f - close, 1.0e-3f), 1.0f);
+}
+
+// What occlusion leaves of a point's light: what close polygons send is known as it is, the ratio of the point's own
+// occlusion to its patch's, both of what is beyond them, is for the rest.
+SHARED_FN float with_close_light(float ratio, float close_light)
+{
+    return close_light + (1.0f - close_light) * ratio;
 }
 
 SHARED_END

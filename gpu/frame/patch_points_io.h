@@ -8,7 +8,8 @@
 // Texels (RGBA32UI) of a point:
 //   0  irradiance over pi and share of open directions (4 halves), plane: normal (3 of 10 bits), distance
 //      from the camera's plane parallel to it
-//   1  ratio for a bent normal, vec3 . normal + constant (4 halves), view depth, points of the block
+//   1  ratio for a bent normal, vec3 . normal + constant (4 halves), view depth, points of the block (bits 0..7), PatchLight::close
+//      (8..19) and close_light (20..31), of 4095
 #define PATCH_POINT_TEXELS 2
 
 #define PATCH_POINTS_TILE 8

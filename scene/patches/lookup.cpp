@@ -139,6 +139,21 @@ shared::PatchGrid table_grid(const Patches& patches)
             patches.count, static_cast<std::uint32_t>(patches.table.size() - 1), 0};
 }
 
+LeafFinder::LeafFinder(const Patches& patches)
+    : ways_(lookup_ways(patches)), planes_(lookup_planes(patches)), none_(patches.nodes(), glm::vec4(0.0f))
+{
+    for (const float size : lookup_sizes(patches)) sizes_.emplace_back(0.0f, 0.0f, 0.0f, size);
+}
+
+std::uint32_t LeafFinder::leaf_at(glm::vec3 position, glm::vec3 normal) const
+{
+    if (ways_.grid.levels == 0) return shared::kNoPatch;
+    const LitPatches lit{ways_.table, ways_.ways, planes_, none_, sizes_, ways_.grid};
+    shared::Lookup lookup{lit};
+    const auto found = lookup.patch_sum(ways_.grid, lookup.patch_lifted(ways_.grid, position, normal), normal, 0.0f);
+    return found.light.weight < 1.0e-5f ? shared::kNoPatch : found.own.leaf;
+}
+
 shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal, float lift_m)
 {
     return shared::Lookup{lit}.patch_lookup(lit.grid, position, normal, lift_m);

@@ -47,6 +47,19 @@ struct LitPatches {
 /// patch is near. The same text as the renderer's.
 shared::PatchLight light_at(const LitPatches& lit, glm::vec3 position, glm::vec3 normal, float lift_m = 0.0f);
 
+/// Which leaf a lookup at a point asks for what is close to it: the one that counts most there; shared::kNoPatch where
+/// no patch is connected to the point.
+class LeafFinder {
+public:
+    /// The patches must outlive it.
+    explicit LeafFinder(const Patches& patches);
+    std::uint32_t leaf_at(glm::vec3 position, glm::vec3 normal) const;
+
+private:
+    LookupWays ways_;
+    std::vector<glm::vec4> planes_, none_, sizes_;
+};
+
 }  // namespace petrichor::scene
 
 #endif

@@ -19,6 +19,7 @@ constexpr float kMostAlbedo = 0.98f;
 constexpr std::size_t kRowsAJob = 512;
 constexpr float kLeastFactor = 1e-4f;
 constexpr int kPairs = 4;
+constexpr float kSameWay = 0.7f;  // cosine
 
 // Four floats that one instruction adds: the compiler's own vectors, on any machine.
 using Four = float __attribute__((vector_size(16)));
@@ -121,22 +122,16 @@ SkyShares sky_shares(const Patches& patches, const Relight& input)
 }
 
 // Of the light of glowing patches what does not come from those that patch i knows as near.
-Four glow_beyond(const Relight& input, std::uint32_t i, int rays, Four all)
+Four glow_beyond(const Relight& input, std::uint32_t i)
 {
-    const NearLinks& near = *input.near;
     const GlowLinks& glow = *input.glow;
-    const float share = 1.0f / static_cast<float>(rays);
-    for (std::uint32_t e = near.first[i]; e < near.first[i + 1]; ++e) {
-        float met = 0.0f;
-        for (std::uint32_t k = near.ray_first[i]; k < near.ray_first[i + 1]; ++k)
-            met += near.first[i] + near.ray_entry[k] == e ? share : 0.0f;
-        for (std::uint32_t g = glow.first[i]; g < glow.first[i + 1]; ++g) {
-            if (glow.senders[glow.sender[g]] != near.sender[e]) continue;
-            const float taken = std::min(glow.factor[g], met);
-            all -= four(input.emission[near.sender[e]]) * Four{taken, taken, taken, taken};
-        }
+    Four sum{};
+    for (std::uint32_t g = glow.first[i]; g < glow.first[i + 1]; ++g) {
+        const float taken = static_cast<float>(input.near->glow_taken[g]) * (1.0f / 255.0f);
+        const float f = glow.factor[g] * (1.0f - taken);
+        sum += four(input.emission[glow.senders[glow.sender[g]]]) * Four{f, f, f, f};
     }
-    return all;
+    return sum;
 }
 
 }  // namespace
@@ -244,7 +239,9 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
 {
     assert(input.albedo.size() == patches.count && input.direct.size() == patches.count);
     assert(input.emission.empty() || input.emission.size() == patches.count);
-    assert(input.near == nullptr || input.near_direct.size() == input.near->sender.size());
+    assert(input.near == nullptr || (input.near_direct.size() == input.near->entries() &&
+                                     input.near_albedo.size() == input.near->entries()));
+    assert(input.near_emission.empty() || input.near_emission.size() == input.near->entries());
     assert(input.sky.size() == static_cast<std::size_t>(shared::kSkyBins));
     const std::uint32_t count = patches.count;
     const bool glows = input.glow != nullptr && !input.glow->empty();
@@ -312,7 +309,6 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
         sent[i] = four(rgb);
     }
     PatchIrradiance result;
-    std::vector<Four> falls(count);
     const bool close = input.near != nullptr && !input.near->empty();
     std::vector<glm::vec4> irradiance(count), gradient(count);
     result.radiosity.resize(count);
@@ -343,7 +339,6 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
                                       f.b * (moment[0] * s + moment[1] * c) + n * moment[2];
             g = gradient_of((by_rays + sky.moment[i] * from_above) / all, n);
         }
-        falls[i] = sum * shares + glow_light[i];
         float open = patches.open[i];
         Four glow_far = glow_light[i];
         const std::uint32_t met = close ? input.near->rays_of(i) : 0;
@@ -358,9 +353,8 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
             sum = (sum - nearby) * Four{over, over, over, over};
             open = std::min(1.0f, open * static_cast<float>(patches.rays) * over);
             const float rest = static_cast<float>(patches.rays) * over;
-            if (glows)
-                glow_far = glow_beyond(input, i, patches.rays, glow_light[i]) *
-                           Four{rest, rest, rest, rest};
+            if (glows && !near.glow_taken.empty())
+                glow_far = glow_beyond(input, i) * Four{rest, rest, rest, rest};
             for (int c = 0; c < 3; ++c) sum[c] = std::max(sum[c], 0.0f);  // rounding
         } else {
             sum = sum * shares;
@@ -373,15 +367,48 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     result.irradiance = with_interior(patches, irradiance);
     result.gradient = with_interior(patches, gradient);
     for (std::uint32_t i = 0; i < patches.nodes(); ++i) result.gradient[i].w = sizes[i];
-    for (std::size_t e = 0; close && e < input.near->sender.size(); ++e) {
-        const std::uint32_t j = input.near->sender[e];
-        Four light = albedo[j] * (four(input.near_direct[e]) + falls[j]);
-        if (!input.emission.empty()) light += four(input.emission[j]);
-        const auto& corner = input.near->corners[e];
-        result.near.emplace_back(corner[0], input.near->seen[e]);
-        for (int c = 0; c < 3; ++c)
-            result.near.emplace_back(corner[static_cast<std::size_t>(c) + 1], light[c]);
-    }
+    if (!close) return result;
+    const NearLinks& near = *input.near;
+    const auto entries = static_cast<std::uint32_t>(near.entries());
+    result.near.resize(std::size_t{entries} * 4);
+    std::vector<float> leaves_up(static_cast<std::size_t>(shared::kSkyBins) + 1, 0.0f);
+    for (int s = 0; s < shared::kSkyBins; ++s)
+        leaves_up[static_cast<std::size_t>(s)] = shared::sky_bin_above(s) ? 1.0f : 0.0f;
+    over_rows(entries, input.threads, [&](std::uint32_t e) {
+        const std::uint16_t* row = near.links.data() + std::size_t{e} * NearLinks::kLinks;
+        constexpr float kShare = 1.0f / static_cast<float>(NearLinks::kLinks);
+        const std::uint32_t j = near.sender[e];
+        Four light{}, above{};
+        float up = 0.0f;
+        for (std::size_t r = 0; r < NearLinks::kLinks; ++r) {
+            light += sent[row[r]];
+            if (row[r] < count || leaves_up[row[r] - count] == 0.0f) continue;
+            up += 1.0f;
+            above += four(input.sky[row[r] - count]);
+        }
+        // Of the sky above it has what its patch has, which is known to more than a few rays, unless it faces
+        // another way.
+        if (up > 0.0f) {
+            const bool along = sky.share[j] > 0.0f && glm::dot(near_normal(near, e), patches.normal[j]) > kSameWay;
+            light += along ? sky.light[j] * Four{up, up, up, up} : above;
+        }
+        light = light * Four{kShare, kShare, kShare, kShare};
+        if (glows && !near.glow_first.empty()) {
+            Four glow = glow_light[j];
+            for (std::uint32_t g = near.glow_first[e]; g < near.glow_first[e + 1]; ++g) {
+                const float more = near.glow_more[g];
+                glow += four(input.emission[near.glow_patch[g]]) * Four{more, more, more, more};
+            }
+            for (int c = 0; c < 3; ++c) light[c] += std::max(glow[c], 0.0f);
+        }
+        const glm::vec3 falls = glm::vec3(light[0], light[1], light[2]) + input.near_direct[e];
+        glm::vec3 sends = glm::clamp(input.near_albedo[e], 0.0f, kMostAlbedo) * falls;
+        if (!input.near_emission.empty()) sends += input.near_emission[e];
+        const auto& corner = near.corners[e];
+        glm::vec4* texel = &result.near[std::size_t{e} * 4];
+        texel[0] = glm::vec4(corner[0], near.seen[e]);
+        for (int c = 0; c < 3; ++c) texel[c + 1] = glm::vec4(corner[static_cast<std::size_t>(c) + 1], sends[c]);
+    });
     return result;
 }
 

@@ -89,33 +89,48 @@ glm::vec3 surface_emission(const Triangles& triangles, std::uint32_t triangle, B
            texel(triangles, PatchSample{triangle, at}, m.emissive_texture, images);
 }
 
-std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
-                                         std::span<const ColorImage> images)
+namespace {
+
+// Of every `each` samples one.
+std::vector<PatchSurface> means_over(std::span<const PatchSample> samples, std::size_t each,
+                                     const Triangles& triangles, std::span<const ColorImage> images)
 {
     std::vector<PatchSurface> surfaces;
-    surfaces.reserve(patches.count);
-    constexpr float kShare = 1.0f / static_cast<float>(kPatchSamples);
-    for (std::uint32_t i = 0; i < patches.count; ++i) {
+    surfaces.reserve(samples.size() / each);
+    const float share = 1.0f / static_cast<float>(each);
+    for (std::size_t first = 0; first + each <= samples.size(); first += each) {
         PatchSurface mean;
         mean.base_color = glm::vec3(0.0f);
         mean.roughness = 0.0f;
-        for (std::size_t k = 0; k < kPatchSamples; ++k) {
-            const PatchSample& sample = patches.samples[std::size_t{i} * kPatchSamples + k];
+        for (const PatchSample& sample : samples.subspan(first, each)) {
             const Material& m =
                 triangles.scene().materials[triangles.material(sample.triangle)];
             // Glossy, metallic: glTF's green and blue.
             const glm::vec3 gloss =
                 texel(triangles, sample, m.metallic_roughness_texture, images);
-            mean.base_color +=
-                surface_color(triangles, sample.triangle, sample.at, images) * kShare;
-            mean.metallic += (m.specular_workflow ? 0.0f : m.metallic * gloss.z) * kShare;
-            mean.roughness += m.roughness * gloss.y * kShare;
+            mean.base_color += surface_color(triangles, sample.triangle, sample.at, images) * share;
+            mean.metallic += (m.specular_workflow ? 0.0f : m.metallic * gloss.z) * share;
+            mean.roughness += m.roughness * gloss.y * share;
             mean.emission +=
-                surface_emission(triangles, sample.triangle, sample.at, images) * kShare;
+                surface_emission(triangles, sample.triangle, sample.at, images) * share;
         }
         surfaces.push_back(mean);
     }
     return surfaces;
+}
+
+}  // namespace
+
+std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
+                                         std::span<const ColorImage> images)
+{
+    return means_over(patches.samples, kPatchSamples, triangles, images);
+}
+
+std::vector<PatchSurface> near_surfaces(const NearLinks& near, const Triangles& triangles,
+                                        std::span<const ColorImage> images)
+{
+    return means_over(near.samples, NearLinks::kSamples, triangles, images);
 }
 
 std::vector<std::uint32_t> glowing_patches(const Patches& patches,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/patches/near_light.h"
 #include "scene/patches/patches.h"
 
 namespace petrichor::scene {
@@ -31,6 +32,10 @@ struct PatchSurface {
 ///           roughness (green, blue); may be shorter (white). A few texels a metre are enough.
 std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
                                          std::span<const ColorImage> images);
+
+/// One entry of NearLinks each.
+std::vector<PatchSurface> near_surfaces(const NearLinks& near, const Triangles& triangles,
+                                        std::span<const ColorImage> images);
 
 /// Base colour at a point of a triangle, 0..1, textures and vertex colours included.
 glm::vec3 surface_color(const Triangles& triangles, std::uint32_t triangle, Barycentric at,

@@ -462,6 +462,41 @@ bool Tracer::blocked(const Ray& ray) const
     return trace<true>(ray).hit();
 }
 
+std::vector<std::uint32_t> Tracer::within(glm::vec3 low, glm::vec3 high) const
+{
+    std::vector<std::uint32_t> found;
+    if (nodes_.empty()) return found;
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+        const Node& node = nodes_[stack.back()];
+        stack.pop_back();
+        for (int lane = 0; lane < 4; ++lane) {
+            bool meets = true;
+            for (int k = 0; k < 3; ++k)
+                meets = meets && node.low[k][lane] <= high[k] && node.high[k][lane] >= low[k];
+            if (!meets) continue;
+            if (node.count[lane] == 0) {
+                stack.push_back(node.child[lane]);
+                continue;
+            }
+            for (std::uint32_t i = node.child[lane]; i < node.child[lane] + node.count[lane]; ++i) {
+                const Packet& faces = packets_[i];
+                for (int f = 0; f < 4; ++f) {
+                    bool in = false, apart = false;
+                    for (int k = 0; k < 3; ++k) {
+                        const float a = faces.corner[k][f], b = a + faces.edge1[k][f], c = a + faces.edge2[k][f];
+                        in = in || a != b || a != c;  // what fills up a packet has no area
+                        apart = apart || std::min({a, b, c}) > high[k] || std::max({a, b, c}) < low[k];
+                    }
+                    if (in && !apart) found.push_back(faces.triangle[f]);
+                }
+            }
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 bool Tracer::blocked_between(glm::vec3 from, glm::vec3 to, float margin_m) const
 {
     const glm::vec3 way = to - from;

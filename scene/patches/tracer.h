@@ -43,6 +43,9 @@ public:
     /// Whether anything lies between two points, `margin_m` before each left out.
     bool blocked_between(glm::vec3 from, glm::vec3 to, float margin_m = 1e-4f) const;
 
+    /// Triangles whose boxes meet a box, by number.
+    std::vector<std::uint32_t> within(glm::vec3 low, glm::vec3 high) const;
+
     const Triangles& triangles() const { return *triangles_; }
 
 private:

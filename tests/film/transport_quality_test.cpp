@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -215,11 +216,40 @@ float bounced(float albedo, float open)
 }
 
 // What lighting multiplies the light of patches with, for an occlusion without error.
-float occlusion_factor(const World& world, const Point& at, float open)
+float occlusion_factor(const World& world, const Point& at, const shared::PatchLight& light)
 {
     const float rho = world.c.snow && at.n.y > 0.5f ? 0.9f : 0.2f;
-    const float own = world.open(at, 0.5f, 128);
-    return std::min(bounced(rho, own) / std::max(bounced(rho, open), 0.05f), 2.0f);
+    const float own = bounced(rho, shared::open_beyond(world.open(at, 0.5f, 128), light.close));
+    const float mean = bounced(rho, shared::open_beyond(light.open, light.close));
+    return shared::with_close_light(std::min(own / std::max(mean, 0.05f), 2.0f), light.close_light);
+}
+
+// What the path tracer found is kept where PETRICHOR_QUALITY_REFERENCE names a folder: it takes nearly all
+// of a run, and what is changed is the other side.
+std::string reference_file(const Street& street, const Conditions& c, int paths, std::size_t points)
+{
+    const char* folder = std::getenv("PETRICHOR_QUALITY_REFERENCE");
+    if (!folder || !*folder) return {};
+    return std::string(folder) + "/" + street.triangles.fingerprint() + " " + c.name + " " + std::to_string(points) +
+           " " + std::to_string(paths);
+}
+
+bool kept_reference(const Street& street, const Conditions& c, int paths, std::vector<double>& wanted)
+{
+    const std::string name = reference_file(street, c, paths, wanted.size());
+    if (name.empty()) return false;
+    std::ifstream file(name, std::ios::binary);
+    file.read(reinterpret_cast<char*>(wanted.data()), static_cast<std::streamsize>(wanted.size() * sizeof(double)));
+    return file.good();
+}
+
+void keep_reference(const Street& street, const Conditions& c, int paths, const std::vector<double>& wanted)
+{
+    const std::string name = reference_file(street, c, paths, wanted.size());
+    if (name.empty()) return;
+    std::ofstream file(name, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(wanted.data()),
+               static_cast<std::streamsize>(wanted.size() * sizeof(double)));
 }
 
 struct Errors {
@@ -351,7 +381,11 @@ PatchWorld::PatchWorld(const World& world)
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
         scene::add_lamp(p, street.scene.lights[l], street.patches->lamp_reach[l], direct);
     const scene::NearLinks& near = street.patches->near;
-    std::vector<glm::vec3> near_direct(near.sender.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> near_direct(near.entries(), glm::vec3(0.0f)), near_albedo;
+    for (std::size_t e = 0; e < near.entries(); ++e) {
+        const bool white = c.snow && scene::near_normal(near, e).y > 0.5f;
+        near_albedo.push_back(white ? glm::vec3(0.9f) : street.patches->near_surfaces[e].base_color);
+    }
     scene::add_sun(near, c.towards_sun, c.sun, near_direct);
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
         scene::add_lamp(near, street.scene.lights[l], street.patches->near_reach[l], near_direct);
@@ -367,6 +401,13 @@ PatchWorld::PatchWorld(const World& world)
     }
     input.near = &near;
     input.near_direct = near_direct;
+    input.near_albedo = near_albedo;
+    std::vector<glm::vec3> near_emission;
+    if (c.windows) {
+        for (const scene::PatchSurface& surface : street.patches->near_surfaces)
+            near_emission.push_back(kPi * surface.emission);
+        input.near_emission = near_emission;
+    }
     input.sky = sky;
     input.bounces = c.snow ? 4 : 3;
     light = scene::relight(p, input);
@@ -388,10 +429,12 @@ TEST(TransportQuality, PatchesComeNearAPathTracer)
         const World world{street, c};
         std::vector<double> wanted(points.size()), plain(points.size()), ratio(points.size()),
             today(points.size());
-        parallel_for(points.size(), 0, [&](std::size_t i) {
+        const bool known = kept_reference(street, c, paths, wanted);
+        parallel_for(known ? 0 : points.size(), 0, [&](std::size_t i) {
             wanted[i] = static_cast<double>(
                 luminance(world.irradiance(points[i], static_cast<std::uint64_t>(i), paths)));
         });
+        if (!known) keep_reference(street, c, paths, wanted);
         const PatchWorld on_patches(world);
         const scene::LitPatches& lit = on_patches.lit;
         // What there was before: the sky's irradiance times 16 exact rays and a constant.
@@ -401,7 +444,7 @@ TEST(TransportQuality, PatchesComeNearAPathTracer)
             EXPECT_GT(found.weight, 0.0f);
             plain[i] = static_cast<double>(luminance(found.irradiance));
             const float rho = c.snow && at.n.y > 0.5f ? 0.9f : 0.2f;
-            ratio[i] = plain[i] * static_cast<double>(occlusion_factor(world, at, found.open));
+            ratio[i] = plain[i] * static_cast<double>(occlusion_factor(world, at, found));
             float open_sky = 0.0f;
             int seen = 0, asked = 0;
             for (int r = 0; r < 256; ++r) {
@@ -493,7 +536,7 @@ TEST(TransportQuality, PicturesComeNearAPathTracers)
             const glm::vec3 direct = world.direct(at.x, n);
             const glm::vec3 glow = world.glow(hit.triangle, hit.at, at.x);
             const auto found = scene::light_at(on_patches.lit, at.x, n);
-            const glm::vec3 light = found.irradiance * occlusion_factor(world, at, found.open);
+            const glm::vec3 light = found.irradiance * occlusion_factor(world, at, found);
             glm::vec3 open_sky(0.0f);
             for (int r = 0; r < 64; ++r)
                 open_sky += glm::vec3(kPi * world.sky(scene::row_direction(n, r, 64, 5)) / 64.0f);

@@ -47,7 +47,8 @@ std::shared_ptr<PatchScene> traced(const Scene& scene, float cell_m = 0.3f)
             scene::trace_lamp(made->patches, tracer, light.position_m, 5000.0f));
     made->glow = scene::trace_glow(made->patches, tracer,
                                    scene::glowing_patches(made->patches, made->surfaces));
-    made->near = scene::trace_near(made->patches, tracer);
+    made->near = scene::trace_near(made->patches, tracer, &made->glow);
+    made->near_surfaces = scene::near_surfaces(made->near, triangles, {});
     for (const Light& light : scene.lights)
         made->near_reach.push_back(
             scene::trace_near_lamp(made->near, tracer, cell_m, light.position_m, 5000.0f));
@@ -185,6 +186,7 @@ TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
     const std::vector<glm::vec3> near_direct(patches->near.sender.size(), glm::vec3(0.0f));
     ASSERT_GT(near_direct.size(), 50u);
     input.near = &patches->near;
+    input.near_albedo = seen.near_albedo;
     input.near_direct = near_direct;
     const auto light = scene::relight(p, input);
     const auto planes = scene::lookup_planes(p);
@@ -310,6 +312,56 @@ TEST_F(PatchLightTest, AMaterialThatChangesChangesItsLight)
         ASSERT_NEAR(after.albedo[i].x, 0.8f, 1e-4f);
         ASSERT_NEAR(after.albedo[i].y, 0.4f, 1e-4f);
     }
+}
+
+// A white sill on a dark wall is white to the patches it is close to, though the patch below both is the mean of the two;
+// snow that lies on it makes what it sends white, rain that a porous stone drinks makes it darker.
+TEST_F(PatchLightTest, WhatIsCloseHasItsOwnMaterialUnderItsOwnWeather)
+{
+    Material stone = lambert(glm::vec3(0.6f, 0.5f, 0.4f));
+    stone.weather.porosity = 1.0f;
+    std::vector<Primitive> p{quad({-8, 0, 8}, {16, 0, 0}, {0, 0, -16})};
+    add_box(p, {-3, 0, -3}, {3, 3, -2}, false, 0);
+    add_box(p, {-1, 1, -2}, {1, 1.1f, -1.94f}, false, 1);
+    const Scene scene = scene_of(std::move(p), {lambert(glm::vec3(0.1f)), stone});
+    const auto patches = traced(scene);
+    const scene::NearLinks& near = patches->near;
+    const PatchLook dry = patch_look(*patches, {}, {}, true);
+    shared::WeatherMoment weather{};
+    weather.snow_amount = 1.0f;
+    weather.water_to_snow = 1.0f;
+    const PatchLook snowy = patch_look(*patches, weather, {}, true);
+    weather = {};
+    weather.film_albedo = 1.0f;
+    const PatchLook wet = patch_look(*patches, weather, {}, true);
+    ASSERT_EQ(dry.near_albedo.size(), near.entries());
+    int tops = 0, sides = 0;
+    for (std::size_t e = 0; e < near.entries(); ++e) {
+        const bool sill = near.material[e] == 1;
+        EXPECT_NEAR(dry.near_albedo[e].x, sill ? 0.6f : 0.1f, 1e-4f);
+        EXPECT_NEAR(dry.near_albedo[e].z, sill ? 0.4f : 0.1f, 1e-4f);
+        if (!sill) continue;
+        const bool top = scene::near_normal(near, e).y > 0.9f;
+        (top ? tops : sides) += 1;
+        if (top) {
+            EXPECT_GT(snowy.near_albedo[e].z, 0.6f);
+            EXPECT_LT(wet.near_albedo[e].x, 0.55f);
+        } else if (scene::near_normal(near, e).y < -0.9f) {
+            EXPECT_NEAR(snowy.near_albedo[e].z, 0.4f, 0.02f) << "no snow lies on what faces down";
+        }
+    }
+    EXPECT_GT(tops, 1);
+    EXPECT_GT(sides, 3);
+
+    // And sends it: a finger's breadth above the snowy sill there is more light than above the dry one.
+    renderer->load(scene, {});
+    renderer->set_patches(patches);
+    renderer->set_environment(constant_environment(1.0f));
+    Frame frame = frame_from(look({0, 1.4f, 0}, {0, 1.13f, -2}, 0.05f));
+    const float before = luminance(pixel(renderer->render(frame), 48, 32));
+    frame.weather.snow_amount = 1.0f;
+    frame.weather.water_to_snow = 1.0f;
+    EXPECT_GT(luminance(pixel(renderer->render(frame), 48, 32)), 1.03f * before);
 }
 
 // Snow that lies on some patches alone brightens those, whatever the frame says of the open.

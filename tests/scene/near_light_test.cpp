@@ -7,8 +7,12 @@
 #include <numbers>
 
 #include "formulas/light/near_light.h"
+#include "scene/patches/detail/near_faces.h"
+#include "scene/patches/detail/sampling.h"
+#include "scene/patches/lamps.h"
 #include "scene/patches/lookup.h"
 #include "scene/patches/radiosity.h"
+#include "scene/patches/surfaces.h"
 #include "tests/scene/patch_scenes.h"
 
 namespace petrichor::scene {
@@ -42,12 +46,86 @@ TEST(NearFormFactor, OfASquareAboveIsTheClosedForm)
         const float right = (std::atan(b / c) - c / r * std::atan(b / r)) / kPi;
         EXPECT_NEAR(
             shared::near_form_factor({c, 0, -b}, {c, 0, b}, {c, a, b}, {c, a, -b}, {0, 1, 0}),
-            right, 1e-3f)
+            right, 5e-4f)
             << c;
     }
     // A corner at the point itself is a number.
     EXPECT_TRUE(std::isfinite(
         shared::near_form_factor({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {0, 0, 1})));
+}
+
+// What a point of this normal sees of a convex polygon's front, by rays over its hemisphere.
+double seen_by_rays(const std::array<glm::vec3, 4>& c, glm::vec3 n, int rays)
+{
+    const auto part = [](glm::vec3 a, glm::vec3 b, glm::vec3 d, glm::vec3 way) {
+        // Within all three planes through the point and an edge; the front is where they turn right.
+        return glm::dot(glm::cross(b, a), way) >= 0.0f && glm::dot(glm::cross(d, b), way) >= 0.0f &&
+               glm::dot(glm::cross(a, d), way) >= 0.0f;
+    };
+    int met = 0;
+    for (int r = 0; r < rays; ++r) {
+        const glm::vec3 way = row_direction(n, r, rays, 11);
+        met += part(c[0], c[1], c[2], way) || part(c[0], c[2], c[3], way) ? 1 : 0;
+    }
+    return static_cast<double>(met) / static_cast<double>(rays);
+}
+
+// Anywhere: over the horizon, across it, below, from the front and from behind.
+TEST(NearFormFactor, IsWhatRaysSeeWhereverThePolygonStands)
+{
+    int across = 0, behind = 0, below = 0, large = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const auto number = [&](std::uint64_t k) { return unit_float(mixed(i, k)); };
+        const glm::vec3 n = cosine_direction({0, 1, 0}, number(0), number(1));
+        const glm::vec3 u = cosine_direction({1, 0, 0}, number(2), number(3)) * (0.1f + 3.0f * number(4));
+        const glm::vec3 v = cosine_direction({0, 0, 1}, number(5), number(6)) * (0.1f + 3.0f * number(7));
+        const glm::vec3 corner = glm::vec3(number(8), number(9), number(10)) - 0.5f;
+        std::array<glm::vec3, 4> c{corner, corner + u, corner + u + v, corner + v};
+        if (i % 2 == 0) std::swap(c[1], c[3]);
+        if (i % 5 == 0) c[3] = c[2];  // a triangle
+        int up = 0;
+        for (const glm::vec3& x : c) up += glm::dot(x, n) > 0.0f ? 1 : 0;
+        const bool front = glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), c[0]) < 0.0f;
+        const float found = shared::near_form_factor(c[0], c[1], c[2], c[3], n);
+        if (!front || up == 0) {
+            EXPECT_EQ(found, 0.0f) << i;
+        } else {
+            EXPECT_NEAR(static_cast<double>(found), seen_by_rays(c, n, 8192), 4e-3) << i << ", corners up: " << up;
+        }
+        across += front && up > 0 && up < 4 ? 1 : 0;
+        behind += front ? 0 : 1;
+        below += front && up == 0 ? 1 : 0;
+        large += found > 0.3f ? 1 : 0;
+    }
+    EXPECT_GT(across, 40);
+    EXPECT_GT(behind, 50);
+    EXPECT_GT(below, 10);
+    EXPECT_GT(large, 10);
+}
+
+// A wall that goes on below a point's plane is the wall above it.
+TEST(NearFormFactor, OfAWallCutByTheHorizonIsThatOfTheUpperPart)
+{
+    const float a = 1.0f, b = 0.5f;
+    for (const float c : {1e-4f, 0.001f, 0.02f, 0.3f}) {
+        const float r = std::sqrt(a * a + c * c);
+        const float right = (std::atan(b / c) - c / r * std::atan(b / r)) / kPi;
+        for (const float deep : {0.0f, 0.01f, 1.0f, 30.0f}) {
+            EXPECT_NEAR(shared::near_form_factor({c, -deep, -b}, {c, -deep, b}, {c, a, b}, {c, a, -b}, {0, 1, 0}),
+                        right, 5e-4f)
+                << c << " " << deep;
+        }
+        EXPECT_EQ(shared::near_form_factor({c, -1.0f, -b}, {c, -1.0f, b}, {c, 0, b}, {c, 0, -b}, {0, 1, 0}),
+                  0.0f)
+            << "below";
+    }
+    // A strip of 1 cm along the foot of a pane, a tenth of a millimetre to 1 cm from the point: half of 1 - h / sqrt(h^2 + w^2).
+    const float w = 0.01f;
+    for (const float h : {1e-4f, 1e-3f, 5e-3f, 0.01f}) {
+        EXPECT_NEAR(shared::near_form_factor({h, 0, -9}, {h, 0, 9}, {h, w, 9}, {h, w, -9}, {0, 1, 0}),
+                    0.5f * (1.0f - h / std::sqrt(h * h + w * w)), 1e-3f)
+            << h;
+    }
 }
 
 struct Cut {
@@ -57,12 +135,14 @@ struct Cut {
         PatchOptions options;
         options.cell_m = cell_m;
         patches = build_patches(tracer, options);
-        near = trace_near(patches, tracer);
+        glow = trace_glow(patches, tracer, glowing_patches(patches, patch_surfaces(patches, triangles, {})));
+        near = trace_near(patches, tracer, &glow);
     }
     Scene scene;
     Triangles triangles;
     Tracer tracer;
     Patches patches;
+    GlowLinks glow;
     NearLinks near;
 };
 
@@ -91,7 +171,8 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.8f)),
         direct(cut.patches.count, glm::vec3(0.0f)), emission(cut.patches.count, glm::vec3(1.0f)),
         sky(shared::kSkyBins, glm::vec3(0.0f)),
-        near_direct(cut.near.sender.size(), glm::vec3(0.0f));
+        near_direct(cut.near.entries(), glm::vec3(0.0f)),
+        near_albedo(cut.near.entries(), glm::vec3(0.8f)), near_emission(cut.near.entries(), glm::vec3(1.0f));
     Relight input;
     input.albedo = albedo;
     input.direct = direct;
@@ -99,7 +180,9 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     input.sky = sky;
     input.bounces = 100;
     input.near = &cut.near;
+    input.near_albedo = near_albedo;
     input.near_direct = near_direct;
+    input.near_emission = near_emission;
     const Lit lit(cut, input);
     int close = 0;
     for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
@@ -132,7 +215,8 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.5f)),
         sky(shared::kSkyBins, glm::vec3(0.0f));
     std::vector<glm::vec3> direct(cut.patches.count, glm::vec3(0.0f)),
-        near_direct(cut.near.sender.size(), glm::vec3(0.0f));
+        near_direct(cut.near.entries(), glm::vec3(0.0f));
+    const std::vector<glm::vec3> near_albedo(cut.near.entries(), glm::vec3(0.5f));
     add_sun(cut.patches, sun, glm::vec3(1.0f), direct);
     add_sun(cut.near, sun, glm::vec3(1.0f), near_direct);
     Relight input;
@@ -141,6 +225,7 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     input.sky = sky;
     input.bounces = 2;
     input.near = &cut.near;
+    input.near_albedo = near_albedo;
     input.near_direct = near_direct;
     const Lit lit(cut, input);
     // Of a strip of width w that meets the wall, h below the point: half of 1 - h / sqrt(h^2 + w^2).
@@ -160,19 +245,110 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     EXPECT_LT(light_at(lit.lit, {0, 0.98f, 0}, {1, 0, 0}).irradiance.x, 0.02f) << "below it";
 }
 
+// A plate hides a lamp from one half of a sill: each of a polygon's four points knows for itself.
+TEST(NearLight, ALampIsSeenPointByPoint)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 0, 2}, {0, 0, -4}, {0, 3, 0});        // a wall, facing +x
+    add_face(scene, {0, 1.0f, 2}, {0.3f, 0, 0}, {0, 0, -4});  // the sill, facing up
+    add_face(scene, {-1, 1.5f, 3}, {3, 0, 0}, {0, 0, -3});    // over z of 0 to 3
+    const Cut cut(scene, 0.35f);
+    Light lamp;
+    lamp.kind = LightKind::Point;
+    lamp.position_m = {1.0f, 3.0f, 0.0f};
+    lamp.intensity = 100.0f;
+    lamp.range_m = 20.0f;
+    const auto reach = trace_near_lamp(cut.near, cut.tracer, 0.35f, lamp.position_m, lamp.range_m);
+    std::vector<glm::vec3> direct(cut.near.entries(), glm::vec3(0.0f));
+    add_lamp(cut.near, lamp, reach, direct);
+    int whole = 0, half = 0, none = 0;
+    for (std::size_t e = 0; e < cut.near.entries(); ++e) {
+        const glm::vec3 n = near_normal(cut.near, e), middle = near_middle(cut.near, e);
+        if (n.y < 0.9f || middle.y > 1.2f) continue;
+        glm::vec3 expected(0.0f);
+        for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
+            const PatchSample& at = cut.near.samples[e * NearLinks::kSamples + k];
+            const glm::vec3 x = cut.triangles.point(at.triangle, at.at);
+            if (std::abs(x.z) < 0.005f) continue;
+            const bool lit = x.z < 0.0f;
+            EXPECT_EQ((reach[e] >> k & 1) != 0, lit) << x.x << " " << x.z;
+            if (lit) expected += 0.25f * lamp_irradiance(lamp, x, n);
+        }
+        EXPECT_NEAR(direct[e].x, expected.x, 1e-3f * expected.x + 1e-6f);
+        whole += reach[e] == NearLinks::kAllLit ? 1 : 0;
+        none += reach[e] == 0 ? 1 : 0;
+        half += reach[e] != 0 && reach[e] != NearLinks::kAllLit ? 1 : 0;
+    }
+    EXPECT_GT(whole, 1);
+    EXPECT_GT(none, 1);
+    EXPECT_GT(half, 0);
+}
+
+// A strip of 1 cm that stands on a wall is met by one ray in a hundred of a patch of 35 cm, or by none: it is known all the same,
+// and a hair beside it half of the light is its.
+TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 0, 2}, {0, 0, -4}, {0, 3, 0});         // the wall, facing +x
+    add_face(scene, {0, 1.0f, 2}, {0.01f, 0, 0}, {0, 0, -4});  // the strip, facing up
+    const Cut cut(scene, 0.35f);
+    const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.0f)), sky(shared::kSkyBins, glm::vec3(0.0f)),
+        direct(cut.patches.count, glm::vec3(0.0f)), near_direct(cut.near.entries(), glm::vec3(1.0f));
+    std::vector<glm::vec3> near_albedo;
+    for (std::size_t e = 0; e < cut.near.entries(); ++e)
+        near_albedo.push_back(glm::vec3(near_normal(cut.near, e).y > 0.9f ? 0.5f : 0.0f));
+    Relight input;
+    input.albedo = albedo;
+    input.direct = direct;
+    input.sky = sky;
+    input.near = &cut.near;
+    input.near_albedo = near_albedo;
+    input.near_direct = near_direct;
+    const Lit lit(cut, input);
+    for (int k = -30; k <= 30; ++k) {
+        const float z = 0.06f * static_cast<float>(k);
+        for (const float h : {0.001f, 0.005f, 0.02f}) {
+            const float right = 0.5f * 0.5f * (1.0f - h / std::sqrt(h * h + 1e-4f));
+            EXPECT_NEAR(light_at(lit.lit, {0, 1.0f + h, z}, {1, 0, 0}).irradiance.x, right, 0.05f * right) << z << " " << h;
+        }
+    }
+}
+
+// Two triangles of a face are one polygon.
+TEST(NearLight, AFaceOfABoxIsOnePolygon)
+{
+    Scene scene = room();
+    add_box(scene, {1, 0, 1}, {1.7f, 1.3f, 1.9f}, false);
+    const Triangles triangles(scene, {});
+    const NearFaces faces = near_faces(triangles);
+    EXPECT_EQ(triangles.size(), 24u);
+    ASSERT_EQ(faces.faces.size(), 12u);
+    for (const NearFace& face : faces.faces) {
+        ASSERT_EQ(face.polygon.count, 4);
+        EXPECT_NEAR(area_m2(face.polygon), triangles.area_m2(face.triangles[0]) + triangles.area_m2(face.triangles[1]), 1e-4f);
+        EXPECT_NE(face.triangles[0], face.triangles[1]);
+        const auto& c = face.polygon.corner;
+        EXPECT_GT(glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), face.normal), 0.0f);
+    }
+}
+
 TEST(NearLight, IsTheSameForAnyNumberOfThreads)
 {
     Scene scene = room();
     add_box(scene, {1, 0, 1}, {1.7f, 1.3f, 1.9f}, false);
     const Cut cut(scene);
     for (const int threads : {1, 3}) {
-        const NearLinks again = trace_near(cut.patches, cut.tracer, threads);
+        const NearLinks again = trace_near(cut.patches, cut.tracer, &cut.glow, {}, threads);
         EXPECT_EQ(again.first, cut.near.first);
         EXPECT_EQ(again.corners, cut.near.corners);
         EXPECT_EQ(again.seen, cut.near.seen);
         EXPECT_EQ(again.sender, cut.near.sender);
         EXPECT_EQ(again.visible, cut.near.visible);
         EXPECT_EQ(again.rays, cut.near.rays);
+        EXPECT_EQ(again.links, cut.near.links);
+        EXPECT_EQ(again.material, cut.near.material);
+        EXPECT_EQ(again.glow_more, cut.near.glow_more);
+        EXPECT_EQ(again.glow_taken, cut.near.glow_taken);
     }
     for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
         EXPECT_LE(cut.near.first[i + 1] - cut.near.first[i], NearLinks::kMostAPatch);

@@ -216,15 +216,19 @@ Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, f
                       ivec2 texel)
 {
     Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
-    const vec4 light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
-    if (light.w < 0.0) return a;
-    a.irradiance = light.rgb;
+    const SpreadLight light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
+    if (light.open < 0.0) return a;
+    a.irradiance = light.irradiance;
     if (AMBIENT_OCCLUSION != 0u) {
         // Relief smaller than a patch: what the pixel sees over what its patch does, both with the
-        // light that crevices send back. The picture does not show all that is near: it takes away only.
-        const vec3 own = bounced_occlusion(p.albedo, screen);
-        const vec3 mean = bounced_occlusion(p.albedo, light.w);
-        a.irradiance *= min(own / max(mean, vec3(0.05)), vec3(1.0));
+        // light that crevices send back, both beyond what the point knows as close. The picture does not show
+        // all that is near: it takes away only.
+        const vec3 own = bounced_occlusion(p.albedo, open_beyond(screen, light.close));
+        const vec3 mean = bounced_occlusion(p.albedo, open_beyond(light.open, light.close));
+        const vec3 ratio = min(own / max(mean, vec3(0.05)), vec3(1.0));
+        a.irradiance *= vec3(with_close_light(ratio.r, light.close_light),
+                             with_close_light(ratio.g, light.close_light),
+                             with_close_light(ratio.b, light.close_light));
     }
     // A mirror sees about as much more or less than sky as a matt surface does.
     const vec3 sky = sky_irradiance(p.normal);

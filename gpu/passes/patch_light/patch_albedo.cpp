@@ -161,38 +161,48 @@ std::vector<Material> changed(std::vector<Material> materials,
     return materials;
 }
 
-}  // namespace
+// What decides a surface's look besides the weather of the frame.
+struct Surface {
+    std::uint32_t material;
+    const scene::PatchSurface& dry;
+    glm::vec3 position_m, normal;
+    const std::array<std::uint32_t, 8>& visible;
+    std::uint32_t patch;  // whose place it is
+};
 
-PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weather,
-                     const shared::WeatherLook& look, bool shelter,
-                     const std::vector<scene::MaterialChange>& changes, const PlaceWeather* place)
-{
-    const PlaceWeather* const hollows = place;
-    if (!belongs(place, scene.patches)) place = nullptr;
-    const shared::WeatherMoment closed = with_closed_film(weather);
-    const std::vector<Material> materials = changed(scene.materials, changes);
-    const scene::Patches& p = scene.patches;
-    PatchLook result;
-    result.albedo.reserve(p.count);
-    result.emission.reserve(p.count);
-    const glm::vec3 rain = against_rain(weather.wind_m_s);
-    for (std::uint32_t i = 0; i < p.count; ++i) {
-        const Material& material = materials[p.material[i]];
-        const Material& before = scene.materials[p.material[i]];
+struct Look {
+    glm::vec3 albedo, emission;
+};
+
+struct Looks {
+    const PatchScene& scene;
+    const shared::WeatherMoment& weather;
+    shared::WeatherMoment closed;
+    const shared::WeatherLook& look;
+    bool shelter;
+    std::vector<Material> materials;
+    const PlaceWeather* place;    // null: not of these patches
+    const PlaceWeather* hollows;
+    glm::vec3 rain;
+
+    Look of(const Surface& surface) const
+    {
+        const scene::Patches& p = scene.patches;
+        const Material& material = materials[surface.material];
+        const Material& before = scene.materials[surface.material];
         const MaterialWeather& m = material.weather;
-        const scene::PatchSurface& surface = scene.surfaces[i];
         shared::DryMaterial dry{};
         dry.base_color = glm::clamp(
-            surface.base_color *
+            surface.dry.base_color *
                 over(glm::vec3(material.base_color), glm::vec3(before.base_color)),
             0.0f, 1.0f);
-        dry.metallic =
-            std::clamp(surface.metallic * over(material.metallic, before.metallic), 0.0f, 1.0f);
+        dry.metallic = std::clamp(surface.dry.metallic * over(material.metallic, before.metallic),
+                                  0.0f, 1.0f);
         const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
         dry.f0 = glm::min(root * root * material.specular_color, glm::vec3(1.0f)) * material.specular;
         if (material.specular_workflow) dry.f0 = material.workflow_specular;
-        dry.roughness =
-            std::clamp(surface.roughness * over(material.roughness, before.roughness), 0.0f, 1.0f);
+        dry.roughness = std::clamp(
+            surface.dry.roughness * over(material.roughness, before.roughness), 0.0f, 1.0f);
         dry.occlusion = 1.0f;
         dry.porosity = m.porosity >= 0.0f
                            ? m.porosity
@@ -201,26 +211,61 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         dry.snow_opacity = m.snow_opacity;
         shared::WeatheredMaterial now = shared::dry_material(dry);
         const float snow_line =
-            shared::snow_line_factor(p.position_m[i], weather.snow_start_height_m,
+            shared::snow_line_factor(surface.position_m, weather.snow_start_height_m,
                                      weather.snow_height_blend_m, look.snow_line_ragged);
         if (!m.sheltered && place) {
-            const glm::vec4* texels = &place->states[std::size_t{i} * PLACE_STATE_TEXELS];
+            const glm::vec4* texels = &place->states[std::size_t{surface.patch} * PLACE_STATE_TEXELS];
             now = shared::apply_weather(
-                dry, state_of_place(m, weather, snow_line, texels, pond_over(place, p, i)),
+                dry,
+                state_of_place(m, weather, snow_line, texels, pond_over(place, p, surface.patch)),
                 closed, look);
         } else if (!m.sheltered && any_weather(weather, m)) {
-            const float open = shelter ? scene::visible_share(p, i, rain) : 1.0f;
-            shared::SurfaceState state = state_of(m, weather, snow_line, p.normal[i].y, open);
-            if (m.wetness != Wetness::None) state.water = std::max(state.water, pond_over(hollows, p, i));
+            const float open = shelter ? scene::visible_share(surface.visible, rain) : 1.0f;
+            shared::SurfaceState state = state_of(m, weather, snow_line, surface.normal.y, open);
+            if (m.wetness != Wetness::None)
+                state.water = std::max(state.water, pond_over(hollows, p, surface.patch));
             now = shared::apply_weather(dry, state, weather, look);
         }
         const float mirrored = std::max({now.specular.x, now.specular.y, now.specular.z});
-        result.albedo.push_back(
-            glm::clamp(now.albedo * (1.0f - mirrored) + now.specular, 0.0f, 1.0f));
         const glm::vec3 glow =
-            surface.emission * over(material.emissive * material.emissive_strength,
-                                    before.emissive * before.emissive_strength);
-        result.emission.push_back(glow * now.emission_scale);
+            surface.dry.emission * over(material.emissive * material.emissive_strength,
+                                        before.emissive * before.emissive_strength);
+        return {glm::clamp(now.albedo * (1.0f - mirrored) + now.specular, 0.0f, 1.0f),
+                glow * now.emission_scale};
+    }
+};
+
+}  // namespace
+
+PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weather,
+                     const shared::WeatherLook& look, bool shelter,
+                     const std::vector<scene::MaterialChange>& changes, const PlaceWeather* place)
+{
+    const scene::Patches& p = scene.patches;
+    const Looks looks{scene,   weather,
+                      with_closed_film(weather),
+                      look,    shelter,
+                      changed(scene.materials, changes),
+                      belongs(place, p) ? place : nullptr,
+                      place,   against_rain(weather.wind_m_s)};
+    PatchLook result;
+    result.albedo.reserve(p.count);
+    result.emission.reserve(p.count);
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const Look now = looks.of(
+            {p.material[i], scene.surfaces[i], p.position_m[i], p.normal[i], p.visible[i], i});
+        result.albedo.push_back(now.albedo);
+        result.emission.push_back(now.emission);
+    }
+    const scene::NearLinks& near = scene.near;
+    const std::size_t entries = std::min(near.entries(), scene.near_surfaces.size());
+    result.near_albedo.reserve(entries);
+    result.near_emission.reserve(entries);
+    for (std::size_t e = 0; e < entries; ++e) {
+        const Look now = looks.of({near.material[e], scene.near_surfaces[e], scene::near_middle(near, e),
+                                   scene::near_normal(near, e), near.visible[e], near.sender[e]});
+        result.near_albedo.push_back(now.albedo);
+        result.near_emission.push_back(now.emission);
     }
     return result;
 }

@@ -143,9 +143,13 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
 
     PatchLook look = patch_look(*scene_, frame.weather, frame.look, frame.settings.shelter,
                                 frame.materials, frame.place.get());
-    if (frame.patch_albedo.size() == p.count) look.albedo = frame.patch_albedo;
+    if (frame.patch_albedo.size() == p.count) {
+        look.albedo = frame.patch_albedo;
+        for (std::size_t e = 0; e < look.near_albedo.size(); ++e)
+            look.near_albedo[e] = look.albedo[scene_->near.sender[e]];
+    }
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
-    std::vector<glm::vec3> near_direct(scene_->near.sender.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> near_direct(scene_->near.entries(), glm::vec3(0.0f));
     scene::add_sun(p, sun.direction, sun.illuminance, direct);
     scene::add_sun(scene_->near, sun.direction, sun.illuminance, near_direct);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -171,6 +175,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
         bright += p.area_m2[i] * (a.x + a.y + a.z) / 3.0f;
         area += p.area_m2[i];
     }
+    for (glm::vec3& radiance : look.near_emission) radiance *= shared::kPi * frame.emissive_scale;
     scene::Relight input;
     input.albedo = look.albedo;
     input.direct = direct;
@@ -179,7 +184,9 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     input.sky_above = sky_above;
     input.glow = &scene_->glow;
     input.near = &scene_->near;
+    input.near_albedo = look.near_albedo;
     input.near_direct = near_direct;
+    input.near_emission = look.near_emission;
     input.bounces = bright > kBright * area ? kBouncesBright : kBounces;
     const scene::PatchIrradiance lit = scene::relight(p, input);
     std::memcpy(irradiance_->mapped, lit.irradiance.data(),

@@ -96,6 +96,8 @@ void main()
         const PatchLight light = patch_lookup(frame.patches, x, n, frame.snow_lift_m);
         vec4 sent = vec4(0.0, 0.0, 0.0, -1.0);
         vec4 turn = vec4(0.0, 0.0, 0.0, 1.0);
+        const uint close = uint(clamp(light.close, 0.0, 1.0) * 4095.0 + 0.5);
+        const uint close_light = uint(clamp(light.close_light, 0.0, 1.0) * 4095.0 + 0.5);
         if (light.weight > 0.0) {
             sent = vec4(min(light.irradiance * 0.31830989, vec3(60000.0)), light.open);
             // irradiance_towards is linear in the bent normal.
@@ -107,7 +109,8 @@ void main()
         points[base] = uvec4(packHalf2x16(sent.xy), packHalf2x16(sent.zw),
                              code, floatBitsToUint(dot(plane_normal(code), x - frame.camera_m)));
         points[base + 1u] = uvec4(packHalf2x16(turn.xy), packHalf2x16(turn.zw),
-                                  floatBitsToUint(view_m), count);
+                                  floatBitsToUint(view_m),
+                                  count | close << 8 | close_light << 20);
         base += uint(PATCH_POINT_TEXELS);
     }
     if (count == 0u) points[first + 1u] = uvec4(0u);

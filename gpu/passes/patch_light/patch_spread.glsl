@@ -21,7 +21,9 @@ struct SpreadSum {
     vec4 sent;
     vec4 turn;
     float total;
-    float without;  // of points that no patch is near
+    float close;
+    float close_light;  // times luminance
+    float without;      // of points that no patch is near
 };
 
 // One point of a block; it counts if `there`.
@@ -38,10 +40,14 @@ void add_point(inout SpreadSum sum, Pixel p, uvec4 a, uvec4 b, float near, bool 
     const float weight = near * (fits * fits + 1.0e-4 * (0.1 + facing) / (1.0 + away + apart));
     const vec4 found = vec4(unpackHalf2x16(a.x), unpackHalf2x16(a.y));
     const vec4 turn = vec4(unpackHalf2x16(b.x), unpackHalf2x16(b.y));
+    const float close = float(b.w >> 8 & 4095u);
+    const float close_light = float(b.w >> 20) * dot(found.rgb, vec3(0.2126, 0.7152, 0.0722));
     // Chosen, not multiplied: what is not there may be no number.
     const bool lit = there && found.w >= 0.0;
     sum.sent = lit ? sum.sent + found * weight : sum.sent;
     sum.turn = lit ? sum.turn + turn * weight : sum.turn;
+    sum.close = lit ? sum.close + close * weight : sum.close;
+    sum.close_light = lit ? sum.close_light + close_light * weight : sum.close_light;
     sum.total = lit ? sum.total + weight : sum.total;
     sum.without = there && !lit ? sum.without + weight : sum.without;
 }
@@ -51,13 +57,19 @@ void add_block(inout SpreadSum sum, Pixel p, ivec2 block, int across, float near
 {
     const int slot = (block.y * across + block.x) * (PATCH_POINTS * PATCH_POINT_TEXELS);
     const uvec4 b = texelFetch(patch_point_texels, slot + 1);
-    add_point(sum, p, texelFetch(patch_point_texels, slot), b, near, b.w > 0u);
+    add_point(sum, p, texelFetch(patch_point_texels, slot), b, near, (b.w & 255u) > 0u);
     add_point(sum, p, texelFetch(patch_point_texels, slot + PATCH_POINT_TEXELS),
-              texelFetch(patch_point_texels, slot + PATCH_POINT_TEXELS + 1), near, b.w > 1u);
+              texelFetch(patch_point_texels, slot + PATCH_POINT_TEXELS + 1), near, (b.w & 255u) > 1u);
 }
 
-// Irradiance over pi for the normal `bent`, and the share of open directions; w < 0: no patch is near.
-vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec2 texel)
+struct SpreadLight {
+    vec3 irradiance;    // over pi, for the normal `bent`
+    float open;         // share of open directions; < 0: no patch is near
+    float close;        // PatchLight::close
+    float close_light;  // PatchLight::close_light
+};
+
+SpreadLight patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec2 texel)
 {
     const ivec2 blocks = (frame.size + PATCH_BLOCK - 1) / PATCH_BLOCK;
     const vec2 at = (vec2(texel) - float(PATCH_BLOCK / 2)) / float(PATCH_BLOCK);
@@ -70,7 +82,7 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
     const Pixel p = Pixel(from_camera, geometry, v, view_m, off_plane,
                           4.0 * float(PATCH_BLOCK) * pixel_m + 0.1 * frame.patches.cell_m);
     // Told out: a CPU's driver leaves loops in loops as they are, which costs more than what is in them.
-    SpreadSum sum = SpreadSum(vec4(0.0), vec4(0.0), 0.0, 0.0);
+    SpreadSum sum = SpreadSum(vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0, 0.0);
     const ivec2 last = blocks - 1;
     add_block(sum, p, clamp(ivec2(low), ivec2(0), last), blocks.x, (1.0 - part.x) * (1.0 - part.y));
     add_block(sum, p, clamp(ivec2(low) + ivec2(1, 0), ivec2(0), last), blocks.x, part.x * (1.0 - part.y));
@@ -80,11 +92,15 @@ vec4 patch_light_at(vec3 x, vec3 geometry, vec3 bent, vec3 v, float view_m, ivec
     const vec4 turn = sum.turn;
     const float total = sum.total;
     const float without = sum.without;
+    const float close = sum.close;
+    float close_light = sum.close_light;
     // Far ground behind a near thing is lit by the sky, not as that thing is.
-    if (total <= without) return vec4(0.0, 0.0, 0.0, -1.0);
+    if (total <= without) return SpreadLight(vec3(0.0), -1.0, 0.0, 0.0);
+    close_light /= 4095.0 * max(dot(sent.rgb, vec3(0.2126, 0.7152, 0.0722)), 1.0e-20);
     sent /= total;
     const float turned = clamp(dot(turn.xyz / total, bent) + turn.w / total, 0.2, 2.0);
-    return vec4(min(sent.rgb * turned, vec3(60000.0)), sent.a);
+    return SpreadLight(min(sent.rgb * turned, vec3(60000.0)), sent.a, close / (4095.0 * total),
+                       min(close_light, 1.0));
 }
 
 #endif

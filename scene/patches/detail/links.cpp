@@ -47,16 +47,6 @@ SamplePoint point_of(const Patches& patches, const Triangles& triangles, std::ui
                                                    k % static_cast<std::uint64_t>(kPatchSamples)]);
 }
 
-// Where the light of a hit comes from; black when the ray started inside a body.
-std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray,
-                           const RayHit& hit)
-{
-    glm::vec3 n = triangles.normal(hit.triangle);
-    if (hit.back) n = -n;
-    const auto found = patch_at(patches, ray.origin + ray.direction * hit.distance_m, n);
-    return found ? *found : patches.black();
-}
-
 // The radius of the screen's ambient occlusion in a scene of that size.
 float open_radius_m(const Triangles& triangles)
 {
@@ -65,6 +55,15 @@ float open_radius_m(const Triangles& triangles)
 }
 
 }  // namespace
+
+std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray,
+                           const RayHit& hit)
+{
+    glm::vec3 n = triangles.normal(hit.triangle);
+    if (hit.back) n = -n;
+    const auto found = patch_at(patches, ray.origin + ray.direction * hit.distance_m, n);
+    return found ? *found : patches.black();
+}
 
 LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r)
 {

@@ -14,6 +14,9 @@ struct LinkRay {
 /// Ray r of a patch's row: drawn again, up to three times, where it starts inside a body.
 LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r);
 
+/// Where the light of a hit comes from; black where no patch is near.
+std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray, const RayHit& hit);
+
 /// Fills links, sky_view and open.
 void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& options);
 /// Fills connected.
