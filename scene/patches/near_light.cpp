@@ -28,24 +28,17 @@ constexpr std::size_t kSightRays = 24;  // of all of them
 constexpr int kHintRays = 8;            // of each, for the light that it may send
 constexpr float kHintAlbedo = 0.5f;     // whatever it is made of
 constexpr std::size_t kFewReceivers = 4;
-constexpr float kStripWidth = 0.05f;  // over its length
+constexpr float kStripWidth = 0.05f;    // over its length
 constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
 constexpr float kLeastMerit = 2e-3f;    // square of light, over that which arrives
 constexpr std::size_t kReceivers = 48;  // points of a patch that are asked, at most
 // Integral of a square of form factors over the plane on which a long strip stands, over the strip's area: of
-// (1 - h / sqrt(h^2 + 1))^2 / 4 over h.
-constexpr float kStripSquare = 0.0566f;
+// (1 - h / sqrt(h^2 + 1))^2 / 4 over h, (1 - pi / 4) / 2.
+constexpr float kStripSquare = 0.1073f;
 constexpr float kSmallest_m2 = 1e-8f;
 constexpr int kRedraws = 3;            // of a ray that starts inside something
 constexpr float kGlowNear_m = 1.0f;    // so near an entry what glows is met by its own rays
-
-struct Met {
-    std::uint32_t face;
-    bool back;
-    int ray;
-    glm::vec3 at;
-};
 
 struct Entry {
     std::array<glm::vec3, 4> corners;
