@@ -4,7 +4,7 @@
 
 #include "formulas/noise/noise.h"
 #include "gpu/passes/lamp_shadows/lamp_shadows_io.h"
-#include "gpu/passes/lighting/shadow_disc.glsl"
+#include "gpu/passes/depth_maps/shadow_disc.glsl"
 
 // Of a way d, whose longest part is `longest`: the face of the cube that it meets.
 float lamp_face(vec3 d, float longest)

@@ -2,7 +2,7 @@
 #ifndef PETRICHOR_SUN_AND_SKY_SHADOW_GLSL
 #define PETRICHOR_SUN_AND_SKY_SHADOW_GLSL
 
-#include "gpu/passes/lighting/shadow_disc.glsl"
+#include "gpu/passes/depth_maps/shadow_disc.glsl"
 
 // Share of the sun's disc that is not hidden: four places on a turning disc, each between four texels. `normal` is that of
 // the mesh, on the sun's side.
