@@ -1,13 +1,15 @@
 // Clear air: scattering by molecules and haze, absorption by ozone, in four narrow bands of light.
 //
-// One text for C++ and GLSL. Bands at 630, 560, 490 and 430 nm: three at the primaries of sRGB miss the red
-// that ozone takes, and twilight comes out purple. air_rgb() makes linear sRGB of them, in which the sun above
-// the air is white; its matrix is the least-squares fit to 252 spectra of sun and sky (paths through 0 to 30
-// airs and 0 to 20 ozone layers; CIE 1931 after Wyman et al. 2013), RMS 2 % of luminance, where bands at 680, 550
-// and 440 nm taken as they are have 24 % in red.
+// One text for C++ and GLSL. Bands at 620, 550, 480 and 430 nm. air_rgb() makes linear sRGB of them, in which the
+// sun above the air is white; bands and matrix are the least-squares fit, by relative luminance, to spectra of 5 nm
+// of sun, level ground, zenith and both horizons, for suns of 60 to -7 degrees, turbidities 1, 3 and 6 and lands
+// of albedo 0.2 and 0.8. What four bands say of other suns is within 0.003 of the spectrum in CIE xy
+// (ClearAir.HasTheColoursOfManyBands). Ozone decides the colour of twilight: 10 % more of it in green and 8 %
+// less in red make snow violet.
 //
-//   source   molecules Bucholtz 1995, 1.24062e-6 / um^4; ozone as a tent from 10 to 40 km (Bruneton and Neyret
-//            2008) of the strength in Hillaire 2020, by the cross-sections of Bogumil et al. 2003
+//   source   molecules 1.24062e-6 / um^4 (after Bucholtz 1995); ozone as a tent from 10 to 40 km (Bruneton and
+//            Neyret 2008), 300 Dobson units, cross-sections of Serdyuchenko et al. 2014 at 233 K; the sun's
+//            spectrum above the air ASTM G-173; CIE 1931 after Wyman et al. 2013
 #ifndef PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 #define PETRICHOR_FORMULAS_LIGHT_ATMOSPHERE_H
 
@@ -21,9 +23,9 @@ SHARED_CONST float kAirHeight = 80000.0f;
 // Linear sRGB of light in the four bands, each as a share of what the sun sends above the air.
 SHARED_FN vec3 air_rgb(vec4 bands)
 {
-    return vec3(dot(bands, vec4(0.8269f, 0.4895f, -0.4148f, 0.0984f)),
-                dot(bands, vec4(-0.0325f, 0.7671f, 0.3616f, -0.0962f)),
-                dot(bands, vec4(-0.0165f, -0.1701f, 0.5848f, 0.6018f)));
+    return vec3(dot(bands, vec4(1.1136f, 0.1150f, -0.3847f, 0.1561f)),
+                dot(bands, vec4(-0.0535f, 0.9594f, 0.1617f, -0.0676f)),
+                dot(bands, vec4(-0.0159f, -0.1473f, 0.5960f, 0.5672f)));
 }
 
 // Distance along a ray from `height` above the ground to the top of the air; `up` is the cosine
@@ -56,7 +58,7 @@ SHARED_FN vec3 air_density(float height)
 
 SHARED_FN vec4 molecule_scattering()
 {
-    return vec4(7.8755e-6f, 12.615e-6f, 21.521e-6f, 36.288e-6f);
+    return vec4(8.3960e-6f, 13.558e-6f, 23.371e-6f, 36.288e-6f);
 }
 
 SHARED_FN float haze_scattering(float turbidity)
@@ -72,7 +74,7 @@ SHARED_FN vec4 air_scattering(vec3 density, float turbidity)
 SHARED_FN vec4 air_extinction(vec3 density, float turbidity)
 {
     return molecule_scattering() * density.x + vec4(1.1f * haze_scattering(turbidity) * density.y) +
-           vec4(1.7278e-6f, 2.2927e-6f, 0.4846e-6f, 0.0454e-6f) * density.z;
+           vec4(2.1617e-6f, 1.7710e-6f, 0.3406e-6f, 0.0375e-6f) * density.z;
 }
 
 SHARED_FN vec4 air_kept(vec4 depth)
