@@ -36,7 +36,7 @@ layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
 
 const int kSteps = 32;
 const int kStepsAtOnce = 4;
-const int kRefinements = 5;
+const int kRefinements = 2;  // of two halvings, and one more
 const int kTaps = 4;  // at one sample
 const float kWidest_px = 24.0;
 
@@ -105,6 +105,12 @@ bool meets(WalkStep here, float before_m)
     return here.ray_m > here.seen_m && here.seen_m > low_m;
 }
 
+bool is_behind(ScreenRay ray, float s)
+{
+    const WalkStep here = walk_step(ray, s);
+    return here.ray_m > here.seen_m;
+}
+
 // Walks the ray through the depth of the picture. Steps are a few pixels, so that nothing wider is
 // missed; what the ray passes behind is let be.
 Hit trace(vec3 origin, vec3 direction)
@@ -142,13 +148,19 @@ Hit trace(vec3 origin, vec3 direction)
     if (met >= 0.0) {
         float low = before;
         float high = met;
+        // Two halvings a turn, with both places that the second may ask.
         for (int k = 0; k < kRefinements; ++k) {
             const float middle = 0.5 * (low + high);
-            const vec3 m = mix(ray.from, ray.to, middle);
-            const bool behind = 1.0 / max(m.z, 1.0e-7) > scene_depth_m(m.xy);
-            high = behind ? middle : high;
-            low = behind ? low : middle;
+            const float nearer = 0.5 * (low + middle);
+            const float farther = 0.5 * (middle + high);
+            const bool behind = is_behind(ray, middle);
+            const bool behind_nearer = is_behind(ray, nearer);
+            const bool behind_farther = is_behind(ray, farther);
+            high = behind ? (behind_nearer ? nearer : middle) : (behind_farther ? farther : high);
+            low = behind ? (behind_nearer ? low : nearer) : (behind_farther ? middle : farther);
         }
+        const float last = 0.5 * (low + high);
+        if (is_behind(ray, last)) high = last;
         hit.pixel = mix(ray.from, ray.to, high).xy;
         const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
         hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
