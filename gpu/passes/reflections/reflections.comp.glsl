@@ -35,7 +35,8 @@ layout(constant_id = REFLECTIONS_SPEC_GLOWS) const uint GLOWS = 0;
 #include "gpu/passes/reflections/probes.glsl"
 
 const int kSteps = 32;
-const int kRefinements = 5;
+const int kStepsAtOnce = 4;
+const int kRefinements = 2;  // of two halvings, and one more
 const int kTaps = 4;  // at one sample
 const float kWidest_px = 24.0;
 
@@ -84,6 +85,32 @@ ScreenRay screen_ray(vec3 origin, vec3 direction)
     return ray;
 }
 
+struct WalkStep {
+    float s;      // share of the way
+    float ray_m;  // view depths of the ray and of the picture there
+    float seen_m;
+};
+
+WalkStep walk_step(ScreenRay ray, float s)
+{
+    const vec3 at = mix(ray.from, ray.to, s);
+    return WalkStep(s, 1.0 / max(at.z, 1.0e-7), scene_depth_m(at.xy));
+}
+
+// Between the step before and this one the ray went into what is seen. Thicker than a step goes deep, nothing is
+// known to be.
+bool meets(WalkStep here, float before_m)
+{
+    const float low_m = min(before_m, here.ray_m) * 0.985 - 0.03;
+    return here.ray_m > here.seen_m && here.seen_m > low_m;
+}
+
+bool is_behind(ScreenRay ray, float s)
+{
+    const WalkStep here = walk_step(ray, s);
+    return here.ray_m > here.seen_m;
+}
+
 // Walks the ray through the depth of the picture. Steps are a few pixels, so that nothing wider is
 // missed; what the ray passes behind is let be.
 Hit trace(vec3 origin, vec3 direction)
@@ -100,32 +127,40 @@ Hit trace(vec3 origin, vec3 direction)
     float hidden = -1.0;  // where the ray went behind what is seen
     // Off the pixel that it starts from.
     const float first = min(1.5 / pixels, 0.5);
-    for (int i = 1; i <= steps; ++i) {
-        const float s = mix(first, 1.0, float(i) / float(steps));
-        const vec3 at = mix(ray.from, ray.to, s);
-        const float ray_m = 1.0 / max(at.z, 1.0e-7);
-        const float seen_m = scene_depth_m(at.xy);
-        // Thicker than a step goes deep, nothing is known to be.
-        const float low_m = min(before_m, ray_m) * 0.985 - 0.03;
-        if (ray_m > seen_m && seen_m > low_m) {
-            met = s;
-            break;
+    // Steps read at once wait for memory together; they are judged in order.
+    for (int i = 1; i <= steps && met < 0.0; i += kStepsAtOnce) {
+        WalkStep walk[kStepsAtOnce];
+        for (int j = 0; j < kStepsAtOnce; ++j)
+            walk[j] = walk_step(ray, mix(first, 1.0, float(i + j) / float(steps)));
+        for (int j = 0; j < kStepsAtOnce; ++j) {
+            const WalkStep here = walk[j];
+            const bool goes = met < 0.0 && i + j <= steps;
+            const bool meets_it = goes && meets(here, before_m);
+            const bool passes = goes && !meets_it;
+            const bool in_front = here.ray_m <= here.seen_m;
+            met = meets_it ? here.s : met;
+            hidden = passes ? (in_front ? -1.0 : (hidden < 0.0 ? here.s : hidden)) : hidden;
+            before = passes ? here.s : before;
+            before_m = passes ? here.ray_m : before_m;
         }
-        hidden = ray_m <= seen_m ? -1.0 : (hidden < 0.0 ? s : hidden);
-        before = s;
-        before_m = ray_m;
     }
     // After the walk, so that a CPU's lanes, which meet things at different steps, refine together.
     if (met >= 0.0) {
         float low = before;
         float high = met;
+        // Two halvings a turn, with both places that the second may ask.
         for (int k = 0; k < kRefinements; ++k) {
             const float middle = 0.5 * (low + high);
-            const vec3 m = mix(ray.from, ray.to, middle);
-            const bool behind = 1.0 / max(m.z, 1.0e-7) > scene_depth_m(m.xy);
-            high = behind ? middle : high;
-            low = behind ? low : middle;
+            const float nearer = 0.5 * (low + middle);
+            const float farther = 0.5 * (middle + high);
+            const bool behind = is_behind(ray, middle);
+            const bool behind_nearer = is_behind(ray, nearer);
+            const bool behind_farther = is_behind(ray, farther);
+            high = behind ? (behind_nearer ? nearer : middle) : (behind_farther ? farther : high);
+            low = behind ? (behind_nearer ? low : nearer) : (behind_farther ? middle : farther);
         }
+        const float last = 0.5 * (low + high);
+        if (is_behind(ray, last)) high = last;
         hit.pixel = mix(ray.from, ray.to, high).xy;
         const vec2 edge = min(hit.pixel, vec2(frame.size) - hit.pixel) / vec2(frame.size);
         hit.confidence = clamp(min(edge.x, edge.y) * 30.0, 0.0, 1.0);
