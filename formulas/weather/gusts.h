@@ -45,10 +45,10 @@ SHARED_FN float gust_veil(vec3 from_m, vec3 to_m, vec2 way_m, float strength)
 }
 
 // How strong the gusts are in which snow and rain go: by the wind where they are seen, and by their share of what
-// weakens light in the air.
+// weakens light in the air. A share far above 1 is air that was told to be clear though it rains: no veil to thicken.
 SHARED_FN float gust_strength(float wind_m_s, float share)
 {
-    return clamp(wind_m_s / 8.0f, 0.0f, 1.0f) * clamp(share, 0.0f, 1.0f);
+    return clamp(wind_m_s / 8.0f, 0.0f, 1.0f) * clamp(share, 0.0f, 1.0f) * clamp(2.0f - 0.25f * share, 0.0f, 1.0f);
 }
 
 SHARED_END

@@ -57,6 +57,7 @@ TEST(Gusts, AreGoneFromAfarAndWithoutWind)
     EXPECT_EQ(gust_strength(0.0f, 1.0f), 0.0f);
     EXPECT_EQ(gust_strength(12.0f, 0.0f), 0.0f) << "fog is no snow";
     EXPECT_EQ(gust_strength(12.0f, 3.0f), 1.0f);
+    EXPECT_EQ(gust_strength(12.0f, 9.0f), 0.0f) << "clear air, whatever falls";
 }
 
 TEST(Gusts, GoWithTheWind)
