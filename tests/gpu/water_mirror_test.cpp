@@ -41,6 +41,19 @@ Scene court()
     return scene;
 }
 
+// Down on a floor, one sample, no fog.
+Frame over_the_floor()
+{
+    Frame frame;
+    frame.camera = look({0, 1.5f, 4.0f}, {0, 0, -2.0f}, 0.7f);
+    frame.settings.width = kWidth;
+    frame.settings.height = kHeight;
+    frame.settings.samples = 1;
+    frame.settings.exposure = 1.0f;
+    frame.fog.mode = FogMode::Off;
+    return frame;
+}
+
 TEST_F(WaterMirror, APuddleShowsWhatACameraBelowItsSurfaceSees)
 {
     renderer->load(court(), {});
@@ -123,13 +136,7 @@ TEST_F(WaterMirror, APolishedFloorHasNoGrainAtOneSample)
     renderer->load(scene_of(faces, {plain_material(glm::vec3(0.9f), 0.1f, 1.0f), plain_material(glm::vec3(0.03f)),
                                     plain_material(glm::vec3(0.8f))}),
                    {});
-    Frame frame;
-    frame.camera = look({0, 1.5f, 4.0f}, {0, 0, -2.0f}, 0.7f);
-    frame.settings.width = kWidth;
-    frame.settings.height = kHeight;
-    frame.settings.samples = 1;
-    frame.settings.exposure = 1.0f;
-    frame.fog.mode = FogMode::Off;
+    Frame frame = over_the_floor();
     const RenderResult r = renderer->render(frame);
     double steps = 0.0, sum = 0.0;
     for (int y = kHeight / 2; y < kHeight * 3 / 4; ++y) {
@@ -149,13 +156,7 @@ TEST_F(WaterMirror, WithoutThePictureFloorsMirrorTheSky)
                              quad({-6, 0, -4}, {12, 0, 0}, {0, 6, 0}, 1)},
                             {plain_material(glm::vec3(0.9f), 0.05f, 1.0f), plain_material({0.8f, 0.02f, 0.02f})}),
                    {});
-    Frame frame;
-    frame.camera = look({0, 1.5f, 4.0f}, {0, 0, -2.0f}, 0.7f);
-    frame.settings.width = kWidth;
-    frame.settings.height = kHeight;
-    frame.settings.samples = 1;
-    frame.settings.exposure = 1.0f;
-    frame.fog.mode = FogMode::Off;
+    Frame frame = over_the_floor();
     const RenderResult on = renderer->render(frame);
     frame.settings.reflections = false;
     const RenderResult off = renderer->render(frame);

@@ -129,6 +129,24 @@ float distance_m(const NearPolygon& p, glm::vec3 n, glm::vec3 x)
     return length_of(x - nearest_in(p, n, x));
 }
 
+glm::vec3 front_of(const std::array<glm::vec3, 4>& c)
+{
+    const glm::vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]) + glm::cross(c[2] - c[0], c[3] - c[0]);
+    const float length = std::sqrt(glm::dot(n, n));
+    return length > 0.0f ? n / length : glm::vec3(0.0f, 1.0f, 0.0f);
+}
+
+glm::vec3 point_in(const std::array<glm::vec3, 4>& c, float u, float v)
+{
+    const glm::vec3 low = c[0] + (c[1] - c[0]) * u, high = c[3] + (c[2] - c[3]) * u;
+    return low + (high - low) * v;
+}
+
+glm::vec3 lamp_point(const std::array<glm::vec3, 4>& c, std::size_t k)
+{
+    return point_in(c, k % 2 == 0 ? 0.25f : 0.75f, k / 2 == 0 ? 0.25f : 0.75f);
+}
+
 NearFaces near_faces(const Triangles& triangles)
 {
     NearFaces made;

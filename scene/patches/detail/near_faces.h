@@ -3,6 +3,7 @@
 #define PETRICHOR_SCENE_PATCHES_DETAIL_NEAR_FACES_H
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -28,6 +29,13 @@ glm::vec3 nearest_in(const NearPolygon& polygon, glm::vec3 n, glm::vec3 x);
 float distance_m(const NearPolygon& polygon, glm::vec3 n, glm::vec3 x);
 /// Whether a point of its plane lies in it, to a margin in metres.
 bool holds(const NearPolygon& polygon, glm::vec3 n, glm::vec3 x, float margin_m);
+
+/// Unit normal of a quad on its front, from which its corners are in turn; up where it has no area.
+glm::vec3 front_of(const std::array<glm::vec3, 4>& corners);
+/// A point within a quad, by two numbers of 0..1.
+glm::vec3 point_in(const std::array<glm::vec3, 4>& corners, float u, float v);
+/// The middle of quarter k of a quad, 0..3, where lamps are asked.
+glm::vec3 lamp_point(const std::array<glm::vec3, 4>& corners, std::size_t k);
 
 /// A triangle, or two that make a convex quad of one material: a face of a box is one polygon then, not two.
 struct NearFace {
