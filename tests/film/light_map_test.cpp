@@ -68,7 +68,19 @@ private:
         const float area = e1.x * e2.y - e1.y * e2.x;
         if (std::abs(area) < 1e-6f) return;
         for (int y = static_cast<int>(std::floor(low.y)); y <= static_cast<int>(high.y); ++y) {
-            for (int x = static_cast<int>(std::floor(low.x)); x <= static_cast<int>(high.x); ++x) {
+            // Where the row enters and leaves the triangle, a texel wider: some are long and thin.
+            float from = low.x, to = high.x;
+            const auto keep_positive = [&](float at_zero, float slope) {
+                if (slope > 0.0f) from = std::max(from, -at_zero / slope);
+                if (slope < 0.0f) to = std::min(to, -at_zero / slope);
+            };
+            const float dx = 0.5f - uv[0].x, dy = static_cast<float>(y) + 0.5f - uv[0].y;
+            const float b0 = (dx * e2.y - dy * e2.x) / area, b1 = e2.y / area;
+            const float c0 = (e1.x * dy - e1.y * dx) / area, c1 = -e1.y / area;
+            keep_positive(b0, b1);
+            keep_positive(c0, c1);
+            keep_positive(1.0f - b0 - c0, -b1 - c1);
+            for (int x = static_cast<int>(std::floor(from)) - 1; x <= static_cast<int>(to) + 1; ++x) {
                 const glm::vec2 d = glm::vec2(x, y) + 0.5f - uv[0];
                 const float b = (d.x * e2.y - d.y * e2.x) / area;
                 const float c = (e1.x * d.y - e1.y * d.x) / area;
