@@ -46,19 +46,19 @@ void Progress::update(int done)
     last_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
     const double left_s = done > 0 ? elapsed_s / done * (total_ - done) : 0.0;
-    const std::string time = last       ? "in " + duration_text(elapsed_s)
-                             : done > 0 ? duration_text(left_s) + " left"
+    const std::string time = last       ? ", in " + duration_text(elapsed_s)
+                             : done > 0 ? ", " + duration_text(left_s) + " left"
                                         : "";
     const std::string count = std::to_string(done) + "/" + std::to_string(total_);
     if (!terminal_) {
-        std::cerr << "info " << what_ << ": " << count << ", " << time << std::endl;
+        std::cerr << "info " << what_ << ": " << count << time << std::endl;
         return;
     }
     constexpr int kWidth = 30;
     const int filled = total_ > 0 ? kWidth * done / total_ : kWidth;
     std::cerr << "\r" << what_ << " [" << std::string(static_cast<std::size_t>(filled), '#')
               << std::string(static_cast<std::size_t>(kWidth - filled), '.') << "] " << count
-              << ", " << time << "\x1b[K" << std::flush;
+              << time << "\x1b[K" << std::flush;
     drawn_ = true;
 }
 

@@ -12,6 +12,30 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostNeighbours = 48;  // on each side
 constexpr double kMetered_s = 0.125;   // about so far apart are the frames that are metered
+// A few frames of a long time are pictures of their own, no film: each is exposed for itself.
+constexpr int kShareOfFilm = 8;
+constexpr double kMostClock_s = 1800.0;
+
+// How far apart a frame and the next are on the clock of a weather file, seconds; 0 without one.
+double clock_step_s(const Sequence& sequence, const Job& job)
+{
+    for (const SequenceVariant& variant : sequence.variants) {
+        if (variant.name != job.variant || !variant.weather.utc_us) continue;
+        const auto at = [&](int frame) { return variant.weather.utc_us(frame_time_s(sequence, frame)); };
+        return std::abs(static_cast<double>(at(job.frame + 1) - at(job.frame))) * 1e-6;
+    }
+    return 0.0;
+}
+
+// The frames on each side that have a say.
+int neighbours(const Sequence& sequence, const Job& job)
+{
+    const ScenarioOutput& output = sequence.scenario.output;
+    double most = std::min<double>(kMostNeighbours, output.frames / kShareOfFilm);
+    const double step_s = clock_step_s(sequence, job);
+    if (step_s > 0.0) most = std::min(most, std::floor(kMostClock_s / step_s));
+    return static_cast<int>(std::min(std::round(camera_of(sequence, job).exposure_smoothing_s * output.fps), most));
+}
 
 }  // namespace
 
@@ -28,8 +52,7 @@ std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job)
     const ScenarioCamera& camera = camera_of(sequence, job);
     if (camera.exposure_mode != Exposure::Auto) return {};
     const ScenarioOutput& output = sequence.scenario.output;
-    const double frames = std::round(camera.exposure_smoothing_s * output.fps);
-    const int n = static_cast<int>(std::min<double>(frames, kMostNeighbours));
+    const int n = neighbours(sequence, job);
     const int step = std::clamp(static_cast<int>(std::lround(kMetered_s * output.fps)), 1,
                                 std::max(n, 1));
     std::vector<MeteredJob> jobs;

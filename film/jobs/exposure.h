@@ -22,8 +22,9 @@ struct MeteredJob {
 };
 
 /// The frames that are metered for a job whose camera has exposure = "auto", in order; none for the
-/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48): those of
-/// the n before and after it, within the sequence, that lie on a grid of about an eighth of a second
+/// others. With n = exposure_smoothing_s times the frames a second (rounded, at most 48, an eighth of
+/// the sequence, and half an hour on the clock of a weather file): those of the n before and after it,
+/// within the sequence, that lie on a grid of about an eighth of a second
 /// (every frame where n is less), weighted by cos^2(pi k / (2 (n + 1))). A step of brightness so
 /// spreads over 2 n + 1 frames, and no frame depends on how it was reached.
 std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job);

@@ -159,8 +159,7 @@ const std::vector<Rule>& rules()
          }},
         {{"camera", "exposure_smoothing_s", "0.25",
           "with exposure = \"auto\": frames up to this far before and after are metered too, "
-          "seconds "
-          "of the film, 0 to 4"},
+          "seconds of the film, 0 to 4; at most an eighth of the frames, and half an hour of a weather file"},
          [](Scenario& s, const TomlValue& v) {
              s.camera.exposure_smoothing_s = v.number(0.0, 4.0);
          }},

@@ -76,6 +76,28 @@ TEST(MeteredJobs, AreTheFramesAroundWithWeightsOfOne)
     }
 }
 
+TEST(MeteredJobs, AFewPicturesOfALongTimeAreExposedEachForItself)
+{
+    for (const int frames : {1, 2, 7}) {
+        const Sequence few = sequence_of("[output]\nfps = 24\nframes = " + std::to_string(frames) + "\n");
+        for (int frame = 0; frame < frames; ++frame)
+            EXPECT_EQ(metered_jobs(few, {frame}).size(), 1u) << frame << " of " << frames;
+    }
+    const Sequence film = sequence_of("[output]\nfps = 24\nframes = 48\n");
+    EXPECT_GT(metered_jobs(film, {20}).size(), 2u);
+    // By the clock of a weather file: twenty minutes a frame leave one neighbour, an hour none.
+    Sequence timed = film;
+    for (const double minutes : {1.0, 20.0, 60.0}) {
+        const double us_a_frame = minutes * 60e6;
+        timed.variants[0].weather.utc_us = [&, us_a_frame](double time_s) {
+            return static_cast<std::int64_t>(time_s / (frame_time_s(timed, 1) - frame_time_s(timed, 0)) * us_a_frame);
+        };
+        const auto jobs = metered_jobs(timed, {20});
+        for (const MeteredJob& one : jobs) EXPECT_LE(std::abs(one.job.frame - 20) * minutes, 30.0);
+        EXPECT_EQ(jobs.size() == 1, minutes == 60.0) << minutes;
+    }
+}
+
 TEST(MeteredJobs, SpreadAStepOfLightOverManyFrames)
 {
     const Sequence sequence = sequence_of("[output]\nframes = 40\nfps = 12\n");
