@@ -39,13 +39,14 @@
 #include "formulas/weather/mix_sets.h"
 #include "formulas/weather/parallax.h"
 #include "formulas/weather/ripple.h"
+#include "formulas/weather/snow_body.h"
 #include "formulas/weather/snow_glints.h"
 #include "formulas/weather/surface_weather.h"
 #include "formulas/weather/weather_maps.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 55;
+SHARED_CONST int kProbeKinds = 56;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -442,6 +443,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         return vec4(near_form_factor(corner, corner + u, corner + u + v, corner + v, n),
                     near_form_factor(corner, corner + v, corner + u + v, corner + u, n), open,
                     with_close_light(open, a.w));
+    }
+    if (kind == 55) {
+        // Within cells: at their borders the last bit chooses another.
+        const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + vec2(0.5f));
+        return vec4(snow_body_share(0.07f * a.z, at, a.w), snow_body_code(0.07f * b.x), 0.0f, 0.0f);
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

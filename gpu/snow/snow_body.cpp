@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formulas/light/patch_cells.h"
+#include "formulas/weather/snow_body.h"
 #include "formulas/weather/surface_weather.h"
 
 namespace petrichor::gpu {
@@ -13,8 +14,13 @@ namespace {
 using glm::vec3;
 
 constexpr float kThin_m = 0.012f;  // less than this everywhere is drawn as a cover alone
-constexpr float kAround = 0.45f;   // of a patch's cell: how far its depth is blended
+constexpr float kApart = 0.4f;     // of a patch's cell, between the places whose depths are blended
+// By binomial weights: patches are squares, and what lies on them is not.
+constexpr int kSide = SnowBody::kAround;
+constexpr std::array<float, kSide> kShare{1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f / 16, 1.0f / 16};
 constexpr float kTallest_m = scene::kDeepestSnow_m * 1.4f;
+
+constexpr int kMiddle = kSide * kSide / 2;
 
 // The leaf that lies at a point and faces up; as place_leaf() of gpu/frame/place.glsl. Its number and
 // level, kNoPatch where there is none.
@@ -78,12 +84,12 @@ void SnowBody::find_patches(const PlaceShape& shape)
     for (const scene::SnowCaps::Point& point : caps_->points) {
         const Leaf own = leaf_at(shape, point.base_m);
         const float step =
-            kAround * shape.grid.cell_m * static_cast<float>(std::uint32_t{1} << own.level);
-        std::array<std::uint32_t, 9> around;
-        for (int k = 0; k < 9; ++k) {
-            const vec3 way(step * static_cast<float>(k % 3 - 1), 0.0f,
-                           step * static_cast<float>(k / 3 - 1));
-            const std::uint32_t there = own.number == shared::kNoPatch || k == 4
+            kApart * shape.grid.cell_m * static_cast<float>(std::uint32_t{1} << own.level);
+        Around around;
+        for (int k = 0; k < kSide * kSide; ++k) {
+            const vec3 way(step * static_cast<float>(k % kSide - kSide / 2), 0.0f,
+                           step * static_cast<float>(k / kSide - kSide / 2));
+            const std::uint32_t there = own.number == shared::kNoPatch || k == kMiddle
                                             ? own.number
                                             : leaf_at(shape, point.base_m + way).number;
             around[static_cast<std::size_t>(k)] = there == shared::kNoPatch ? own.number : there;
@@ -104,11 +110,12 @@ std::vector<float> SnowBody::depths(const Frame& frame)
     }
     for (std::size_t i = 0; i < caps_->points.size(); ++i) {
         float depth = w.snow_depth_m;
-        if (placed && patches_[i][4] != shared::kNoPatch) {
+        if (placed && patches_[i][kMiddle] != shared::kNoPatch) {
             depth = 0.0f;
-            for (const std::uint32_t patch : patches_[i])
-                depth += frame.place->states[std::size_t{patch} * PLACE_STATE_TEXELS + 2].z;
-            depth /= 9.0f;
+            for (std::size_t k = 0; k < patches_[i].size(); ++k) {
+                depth += kShare[k % kSide] * kShare[k / kSide] *
+                         frame.place->states[std::size_t{patches_[i][k]} * PLACE_STATE_TEXELS + 2].z;
+            }
         }
         depths.push_back(depth * shared::snow_line_factor(caps_->points[i].base_m, w.snow_start_height_m,
                                                           w.snow_height_blend_m, frame.look.snow_line_ragged));
@@ -149,8 +156,7 @@ bool SnowBody::lay(const Frame& frame)
         lift_m_ = std::max(lift_m_, lift);
         const vec3 unit = length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
         v.tangent = glm::vec4(unit * (1.0f + lift), v.tangent.w);
-        v.weather[3] =
-            std::min<std::uint8_t>(code(1.0f - shared::smooth_edge(0.0f, 0.02f, shape.thickness_m[point])), 254);
+        v.weather[3] = std::min<std::uint8_t>(code(shared::snow_body_code(shape.deep_m[point])), 254);
     }
     return true;
 }

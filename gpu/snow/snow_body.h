@@ -21,6 +21,8 @@ namespace petrichor::gpu {
 /// ground; alpha of its weather is what is not snow of its own (gpu/passes/surface/snow_body.glsl).
 class SnowBody {
 public:
+    static constexpr int kAround = 5;  ///< places along each side of the square whose depths are blended
+
     explicit SnowBody(std::shared_ptr<const scene::SnowCaps> caps);
 
     /// What the scene is made with: the caps without snow.
@@ -34,6 +36,7 @@ public:
     float lift_m() const { return lies_ ? lift_m_ : 0.0f; }
 
 private:
+    using Around = std::array<std::uint32_t, kAround * kAround>;  // patches around a point, by rows
     struct Key {
         float depth_m = 0.0f, start_m = 0.0f, blend_m = 0.0f, ragged = 0.0f;
         bool wanted = false;
@@ -49,7 +52,7 @@ private:
     bool lies_ = false;
     float lift_m_ = 0.0f;
     std::shared_ptr<const PlaceShape> shape_;          // that patches_ belong to
-    std::vector<std::array<std::uint32_t, 9>> patches_;  // around each point
+    std::vector<Around> patches_;
 };
 
 }  // namespace petrichor::gpu

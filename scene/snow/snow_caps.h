@@ -74,6 +74,7 @@ struct SnowShape {
     std::vector<glm::vec3> positions;  ///< of each point
     std::vector<glm::vec3> normals;
     std::vector<float> thickness_m;    ///< of each point, 0 or more
+    std::vector<float> deep_m;         ///< of each point: before its edges are rounded off, thickness_m or more
     float thickest_m = 0.0f;
 };
 

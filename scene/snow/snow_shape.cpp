@@ -49,6 +49,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
     const std::size_t count = caps.points.size();
     shape.positions.reserve(count);
     shape.thickness_m.reserve(count);
+    shape.deep_m.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const SnowCaps::Point& p = caps.points[i];
         const float deep = lesser(
@@ -72,6 +73,7 @@ SnowShape snow_shape(const SnowCaps& caps, std::span<const float> depth_m)
         }
         shape.positions.push_back(at);
         shape.thickness_m.push_back(thickness);
+        shape.deep_m.push_back(deep);
         shape.thickest_m = std::max(shape.thickest_m, thickness);
     }
     shape.normals.assign(count, vec3(0.0f));

@@ -2,13 +2,15 @@
 #ifndef PETRICHOR_SURFACE_SNOW_BODY_GLSL
 #define PETRICHOR_SURFACE_SNOW_BODY_GLSL
 
+#include "formulas/weather/snow_body.h"
 #include "gpu/passes/surface/surface_bindings.glsl"
 #include "gpu/passes/surface/surface_data.glsl"
 
 // Share of snow of its own at a point; 0 on all that is not snow.
 float snow_body(SurfaceInput at)
 {
-    return (SNOW & SNOW_BODY) != 0u && at.weather.a < 0.999 ? 1.0 - at.weather.a : 0.0;
+    if ((SNOW & SNOW_BODY) == 0u || at.weather.a >= 0.999) return 0.0;
+    return snow_body_share((1.0 - at.weather.a) * SNOW_BODIED_M, at.position.xz, frame.weather.melt_exp);
 }
 
 // The point of the ground below: there the maps, the patches and the masks of the world lie.

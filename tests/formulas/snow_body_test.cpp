@@ -1,0 +1,67 @@
+#include "formulas/weather/snow_body.h"
+
+#include <gtest/gtest.h>
+
+#include "formulas/noise/noise.h"
+
+namespace petrichor::shared {
+namespace {
+
+vec2 somewhere(std::uint32_t i) { return {300.0f * hash_f(2 * i) - 150.0f, 300.0f * hash_f(2 * i + 1) - 150.0f}; }
+
+// Of many places.
+double mean_share(float deep_m, float melt_exp)
+{
+    double sum = 0.0;
+    constexpr std::uint32_t kPlaces = 4000;
+    for (std::uint32_t i = 0; i < kPlaces; ++i)
+        sum += static_cast<double>(snow_body_share(deep_m, somewhere(i), melt_exp));
+    return sum / kPlaces;
+}
+
+TEST(SnowBodyShare, RisesWithTheDepthAndFallsWithTheThawAtEveryPlace)
+{
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        const vec2 at = somewhere(i);
+        for (const float melt : {0.0f, 0.2f, 1.0f}) {
+            EXPECT_EQ(snow_body_share(0.0f, at, melt), 0.0f);
+            EXPECT_EQ(snow_body_share(SNOW_BODIED_M, at, melt), 1.0f);
+            float before = 0.0f;
+            for (int k = 1; k <= 60; ++k) {
+                const float share = snow_body_share(0.001f * static_cast<float>(k), at, melt);
+                EXPECT_GE(share, before);
+                before = share;
+            }
+        }
+        for (const float deep : {0.01f, 0.02f, 0.04f})
+            EXPECT_GE(snow_body_share(deep, at, 0.0f), snow_body_share(deep, at, 0.25f));
+    }
+}
+
+TEST(SnowBodyShare, FreshSnowLiesEvenlyAndMeltingSnowInPatches)
+{
+    EXPECT_EQ(mean_share(0.021f, 0.0f), 1.0) << "three fingers of fresh snow have no hole";
+    const double patches = mean_share(0.021f, 1.0f);
+    EXPECT_GT(patches, 0.15);
+    EXPECT_LT(patches, 0.6);
+    // Patches, no dots: a hand's width on, it is mostly the same.
+    int same = 0;
+    constexpr std::uint32_t kPlaces = 1000;
+    for (std::uint32_t i = 0; i < kPlaces; ++i) {
+        const vec2 at = somewhere(i);
+        const bool here = snow_body_share(0.021f, at, 1.0f) > 0.5f;
+        same += here == (snow_body_share(0.021f, at + vec2(0.03f, 0.0f), 1.0f) > 0.5f) ? 1 : 0;
+    }
+    EXPECT_GT(same, 850);
+}
+
+TEST(SnowBodyShare, ACodeTellsTheDepth)
+{
+    for (const float deep : {0.0f, 0.01f, 0.03f, 0.06f})
+        EXPECT_NEAR((1.0f - snow_body_code(deep)) * SNOW_BODIED_M, deep, 1e-7f);
+    EXPECT_EQ(snow_body_code(2.0f), 0.0f);
+    EXPECT_EQ(snow_body_code(-1.0f), 1.0f);
+}
+
+}  // namespace
+}  // namespace petrichor::shared
