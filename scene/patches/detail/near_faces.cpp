@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace petrichor::scene {
 namespace {
@@ -129,6 +130,23 @@ float distance_m(const NearPolygon& p, glm::vec3 n, glm::vec3 x)
     return length_of(x - nearest_in(p, n, x));
 }
 
+std::array<glm::vec3, 4> corners_of(const NearPolygon& polygon)
+{
+    std::array<glm::vec3, 4> corners;
+    for (int k = 0; k < 4; ++k)
+        corners[static_cast<std::size_t>(k)] =
+            polygon.corner[static_cast<std::size_t>(std::min(k, polygon.count - 1))];
+    return corners;
+}
+
+NearPolygon polygon_of(const std::array<glm::vec3, 4>& c)
+{
+    NearPolygon polygon;
+    polygon.count = 4;
+    std::copy(c.begin(), c.end(), polygon.corner.begin());
+    return polygon;
+}
+
 glm::vec3 front_of(const std::array<glm::vec3, 4>& c)
 {
     const glm::vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]) + glm::cross(c[2] - c[0], c[3] - c[0]);
@@ -171,6 +189,24 @@ NearFaces near_faces(const Triangles& triangles)
         made.faces.push_back(face);
     }
     return made;
+}
+
+PatchSample place_on(const Triangles& triangles, const NearFace& face, bool back, glm::vec3 x)
+{
+    PatchSample best;
+    float least = -std::numeric_limits<float>::max();
+    for (const std::uint32_t t : face.triangles) {
+        const glm::vec3 e1 = triangles.edge1(t), e2 = triangles.edge2(t), d = x - triangles.corner(t);
+        const glm::vec3 n = glm::cross(e1, e2);
+        const float over = 1.0f / glm::dot(n, n);
+        const float b1 = glm::dot(glm::cross(d, e2), n) * over, b2 = glm::dot(glm::cross(e1, d), n) * over;
+        const float inside = std::min({b1, b2, 1.0f - b1 - b2});
+        if (inside <= least) continue;
+        least = inside;
+        const float c1 = std::clamp(b1, 0.0f, 1.0f);
+        best = {t, {c1, std::clamp(b2, 0.0f, 1.0f - c1)}, back};
+    }
+    return best;
 }
 
 }  // namespace petrichor::scene

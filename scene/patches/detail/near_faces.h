@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "scene/patches/patches.h"
 #include "scene/patches/triangles.h"
 
 namespace petrichor::scene {
@@ -30,6 +31,10 @@ float distance_m(const NearPolygon& polygon, glm::vec3 n, glm::vec3 x);
 /// Whether a point of its plane lies in it, to a margin in metres.
 bool holds(const NearPolygon& polygon, glm::vec3 n, glm::vec3 x, float margin_m);
 
+/// Four corners, of a triangle the last one twice; and back. At most four corners.
+std::array<glm::vec3, 4> corners_of(const NearPolygon& polygon);
+NearPolygon polygon_of(const std::array<glm::vec3, 4>& corners);
+
 /// Unit normal of a quad on its front, from which its corners are in turn; up where it has no area.
 glm::vec3 front_of(const std::array<glm::vec3, 4>& corners);
 /// A point within a quad, by two numbers of 0..1.
@@ -50,6 +55,9 @@ struct NearFaces {
     std::vector<std::uint32_t> of_triangle;
 };
 NearFaces near_faces(const Triangles& triangles);
+
+/// The place of a point of a face on that of its triangles that is nearest to hold it.
+PatchSample place_on(const Triangles& triangles, const NearFace& face, bool back, glm::vec3 x);
 
 }  // namespace petrichor::scene
 

@@ -1,0 +1,29 @@
+// Rays from polygons that are close to patches.
+#ifndef PETRICHOR_SCENE_PATCHES_DETAIL_NEAR_RAYS_H
+#define PETRICHOR_SCENE_PATCHES_DETAIL_NEAR_RAYS_H
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "scene/patches/patches.h"
+
+namespace petrichor::scene {
+
+inline constexpr float kGlowNear_m = 1.0f;  // so near a polygon what glows is met by its own rays
+
+struct NearMeets {
+    std::uint32_t id;  ///< as Patches::links
+    std::uint32_t triangle = RayHit::kNothing;
+    float distance_m = 0.0f;
+};
+/// What ray r of a polygon's meets; black where it starts inside a body, whatever is drawn.
+NearMeets near_meets(const Patches& patches, const Tracer& tracer, const std::array<glm::vec3, 4>& corners, int r,
+                     int rays, std::uint64_t hash);
+
+/// Luminance of what a material sends out by itself, its texture apart.
+float glow_of(const Triangles& triangles, std::uint32_t triangle);
+
+}  // namespace petrichor::scene
+
+#endif
