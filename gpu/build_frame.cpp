@@ -328,6 +328,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
     };
     const auto light = [&] {
+        add_gbuffer_rows(graph, layer, {true, true, true});
         add_light_lists(graph, layer, *r.lights, constants);
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
@@ -464,8 +465,9 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             add_decals(graph, *r.targets, *r.decals, *r.scene, *r.surface_maps, *r.depth_maps,
                        *r.place, constants, c.world_to_clip, weather);
         }
+        const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
+        add_gbuffer_rows(graph, *r.targets, parts);
         if (i == 0) {
-            const GBufferParts parts = gbuffer_parts(*r.scene, weather.any);
             for (std::size_t g = 0; g < aov_groups.size(); ++g) {
                 add_aovs(graph, *r.targets, *r.place, constants, aov_groups[g], g, parts,
                          !weathered);

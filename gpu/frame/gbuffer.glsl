@@ -98,6 +98,12 @@ GBufferTexel decode_gbuffer(GBufferCode code, uint flags)
     return texel;
 }
 
+// Where a pixel is in rows of the picture (targets.h, GBufferRows).
+int row_texel(ivec2 texel, ivec2 size)
+{
+    return texel.y * size.x + texel.x;
+}
+
 // Direction from the eye through a pixel centre; perspective: its forward part is 1 long.
 vec3 pixel_ray(FrameConstants frame, vec2 pixel)
 {

@@ -1,10 +1,10 @@
-// The normal of the mesh at a pixel, of the depths around it. Before the include: frame and depth_map.
+// The normal of the mesh at a pixel, of the depths around it. Before the include: frame and depth_rows.
 #ifndef PETRICHOR_GEOMETRY_NORMAL_GLSL
 #define PETRICHOR_GEOMETRY_NORMAL_GLSL
 
 float depth_at(ivec2 texel)
 {
-    return texelFetch(depth_map, clamp(texel, ivec2(0), frame.size - 1), 0).r;
+    return texelFetch(depth_rows, row_texel(clamp(texel, ivec2(0), frame.size - 1), frame.size)).r;
 }
 
 vec3 position_at(ivec2 texel, float depth)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/patch_points_io.h"
@@ -25,6 +26,13 @@ constexpr bool locations_count_up()
 }
 static_assert(locations_count_up() && std::size(kLocations) <= 8);
 static_assert(std::size(kLocations) + 1 == GBUFFER_BINDINGS);
+
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+VkDeviceSize texel_bytes(VkFormat format)
+{
+    return format == VK_FORMAT_R16G16B16A16_SNORM || format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
+}
 
 int divide_up(int value, int by)
 {
@@ -69,14 +77,47 @@ std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts
     return attachments;
 }
 
-void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
-                  const SamplerHandle& nearest)
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows)
 {
-    bindings.push_back({first, sampled(*gbuffer.depth, nearest)});
+    bindings.push_back({first, texels(*rows.depth)});
 #define ROW(name, location, format, when, meaning) \
-    bindings.push_back({first + 1 + location, sampled(*gbuffer.name, nearest)});
+    bindings.push_back({first + 1 + location, texels(*rows.name)});
     GBUFFER_TABLE(ROW)
 #undef ROW
+}
+
+void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts)
+{
+    [[maybe_unused]] const bool ALWAYS = true;
+    const bool WEATHER = parts.weather;
+    const bool EMISSION = parts.emission;
+    const bool BAKED = parts.baked;
+    std::vector<std::pair<GpuImage*, GpuBuffer*>> copies{
+        {targets.gbuffer.depth.get(), targets.rows.depth.get()}};
+#define ROW(name, location, format, when, meaning) \
+    if (when) copies.emplace_back(targets.gbuffer.name.get(), targets.rows.name.get());
+    GBUFFER_TABLE(ROW)
+#undef ROW
+    std::vector<Transfer> transfers;
+    for (const auto& [image, buffer] : copies) {
+        transfers.push_back({.image = image, .use = Use::TransferSource});
+        transfers.push_back({.buffer = buffer, .use = Use::TransferTarget});
+    }
+    graph.add(TransferPass{
+        "gbuffer_rows", std::move(transfers), [copies](VkCommandBuffer commands) {
+            for (const auto& [image, buffer] : copies) {
+                const bool depth = image->format == kDepthFormat;
+                VkBufferImageCopy region{};
+                region.imageSubresource = {
+                    depth ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT} : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT},
+                    0, 0, 1};
+                region.imageExtent = {static_cast<std::uint32_t>(image->width),
+                                      static_cast<std::uint32_t>(image->height), 1};
+                vkCmdCopyImageToBuffer(commands, image->image.get(),
+                                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer->buffer.get(), 1,
+                                       &region);
+            }
+        }});
 }
 
 VkDeviceSize light_lists_bytes(int width, int height, int light_words)
@@ -102,11 +143,11 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                             .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
     };
     // Drawn into, or written by the resolve of a visibility buffer.
-    const VkImageUsageFlags color =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+    const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     targets.gbuffer.depth =
-        target("depth", VK_FORMAT_D32_SFLOAT,
+        target("depth", kDepthFormat,
                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 #define ROW(name, location, format, when, meaning) \
     targets.gbuffer.name = target(#name, VK_FORMAT_##format, color);
@@ -116,12 +157,19 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
     targets.radiance = target("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_weight = target("mirror_weight", VK_FORMAT_R16G16B16A16_SFLOAT, storage);
     targets.mirror_shape = target("mirror_shape", VK_FORMAT_R16G16B16A16_SNORM, storage);
-    targets.depth_rows = arena.buffer({.name = "depth_rows",
-                                       .size = static_cast<VkDeviceSize>(width) *
-                                               static_cast<VkDeviceSize>(height) * sizeof(float),
-                                       .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                                VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                       .texel_format = VK_FORMAT_R32_SFLOAT});
+    const auto rows = [&](const char* name, VkFormat format) {
+        return arena.buffer({.name = name,
+                             .size = static_cast<VkDeviceSize>(width) *
+                                     static_cast<VkDeviceSize>(height) * texel_bytes(format),
+                             .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                             .texel_format = format});
+    };
+    targets.rows.depth = rows("depth_rows", VK_FORMAT_R32_SFLOAT);
+#define ROW(name, location, format, when, meaning) \
+    targets.rows.name = rows(#name "_rows", VK_FORMAT_##format);
+    GBUFFER_TABLE(ROW)
+#undef ROW
     targets.accumulated = target("accumulated", VK_FORMAT_R32G32B32A32_SFLOAT, color);
 
     const int block = GLOW_BLOCK;

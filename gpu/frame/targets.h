@@ -17,6 +17,14 @@ struct GBuffer {
 #undef ROW
 };
 
+/// The same as texels of buffers, row by row: a CPU reads those several times as fast as images.
+struct GBufferRows {
+    std::unique_ptr<GpuBuffer> depth;
+#define ROW(name, location, format, when, meaning) std::unique_ptr<GpuBuffer> name;
+    GBUFFER_TABLE(ROW)
+#undef ROW
+};
+
 /// Parts that a frame may leave out; what belongs to them is neither written nor read then.
 struct GBufferParts {
     bool weather = true;
@@ -29,15 +37,15 @@ GBufferParts gbuffer_parts(const GpuScene& scene, bool weather);
 /// The targets as attachments, by location; those of parts left out are empty.
 std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts& parts);
 
-/// Adds the depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
-void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
-                  const SamplerHandle& nearest);
+/// Adds the rows of depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
+void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows);
 
 /// Images and buffers of one frame size.
 struct FrameTargets {
     int width = 0;
     int height = 0;
     GBuffer gbuffer;
+    GBufferRows rows;                     ///< filled by add_gbuffer_rows
     SamplerHandle nearest;                ///< for texelFetch
     std::unique_ptr<GpuImage> occlusion;  ///< screen-space ambient occlusion, 1 open
     std::unique_ptr<GpuImage>
@@ -45,7 +53,6 @@ struct FrameTargets {
     std::unique_ptr<GpuImage>
         mirror_weight;                       ///< what a smooth surface reflects of its surroundings
     std::unique_ptr<GpuImage> mirror_shape;  ///< its normal (octahedral), roughness, sky visibility
-    std::unique_ptr<GpuBuffer> depth_rows;   ///< the depth again: a CPU reads buffers many times as fast
     std::unique_ptr<GpuImage> accumulated;   ///< sum over samples; alpha counts surfaces
     std::unique_ptr<GpuImage> lamp_glow;  ///< of blocks of pixels; alpha: how far they are
     std::vector<std::unique_ptr<GpuImage>> glare;  ///< levels of half the picture's size and less
@@ -63,6 +70,12 @@ struct FrameTargets {
     int coarse_x() const;
     int coarse_y() const;
 };
+
+// Copies what surfaces (and decals) have written from the images into the rows.
+//
+//   reads    the G-buffer
+//   writes   its rows
+void add_gbuffer_rows(FrameGraph& graph, FrameTargets& targets, const GBufferParts& parts);
 
 /// light_words: 32-bit words for one bit a light.
 VkDeviceSize light_lists_bytes(int width, int height, int light_words);

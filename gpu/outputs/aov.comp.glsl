@@ -67,11 +67,11 @@ void main()
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, frame.size))) return;
     AovPoint p;
-    p.depth = texelFetch(depth_map, texel, 0).r;
+    p.depth = texelFetch(depth_rows, row_texel(texel, frame.size)).r;
     const bool surface = p.depth > 0.0;
     p.position = pixel_position(frame, vec2(texel) + 0.5, max(p.depth, 1.0e-9));
     p.g = decode_gbuffer(
-        fetch_gbuffer(texel, HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u), frame.flags);
+        fetch_gbuffer(row_texel(texel, frame.size), HAS_WEATHER != 0u, HAS_EMISSION != 0u, HAS_BAKED != 0u), frame.flags);
     if (MATERIALS != 0u) p.g.weather = vec4(0.0);
     set_si(p);
 

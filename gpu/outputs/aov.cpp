@@ -42,7 +42,7 @@ void add_aovs(FrameGraph& graph, FrameTargets& targets, GpuPlace& place,
         .push = {},
         .groups = groups_over(targets.width, targets.height, AOV_TILE)};
     bind_place(pass.bindings, AOV_PLACE_TABLE, place);
-    bind_gbuffer(pass.bindings, AOV_GBUFFER, targets.gbuffer, targets.nearest);
+    bind_gbuffer(pass.bindings, AOV_GBUFFER, targets.rows);
     graph.add(std::move(pass));
     graph.read_back({targets.aovs[buffer].get()});
 }

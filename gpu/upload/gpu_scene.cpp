@@ -84,6 +84,15 @@ std::uint32_t layers_of(const Material& m)
            (scatters(m) ? LAYERS_SCATTER : 0u);
 }
 
+// Occlusion, roughness and metal in channels of one texture, at one place of it: read once.
+bool one_read(const Material& m, const shared::MaterialConstants& c)
+{
+    const shared::TextureSlot& a = c.slots[TEXTURE_METALLIC_ROUGHNESS];
+    const shared::TextureSlot& b = c.slots[TEXTURE_OCCLUSION];
+    return m.metallic_roughness_texture.texture == m.occlusion_texture.texture && a.present != 0 &&
+           b.present != 0 && a.row0 == b.row0 && a.row1 == b.row1 && a.texcoord == b.texcoord;
+}
+
 // Skin whose diffuse light has a normal of its own.
 bool softens(const Material& m)
 {
@@ -472,7 +481,8 @@ void GpuScene::set_material(std::size_t index, const Material& source)
     material.besides = (source.specular_workflow ? BESIDES_SPECULAR_WORKFLOW : 0u) |
                        (source.iridescence > 0.0f ? BESIDES_IRIDESCENT : 0u) |
                        (softens(source) ? BESIDES_SOFT_NORMAL : 0u) |
-                       (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u);
+                       (c.anisotropy_strength > 0.0f ? BESIDES_ALONG : 0u) |
+                       (one_read(source, c) ? BESIDES_ONE_READ : 0u);
     material.water &= ~WATER_BEADS;
     if (material.water != 0 && source.weather.beads > 0.0f) material.water |= WATER_BEADS;
     if (material.layers != 0) c.lighting_model = set_layers(material, source);

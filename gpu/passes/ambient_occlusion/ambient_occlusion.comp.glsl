@@ -14,8 +14,8 @@
 
 layout(local_size_x = AMBIENT_OCCLUSION_TILE, local_size_y = AMBIENT_OCCLUSION_TILE) in;
 layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform sampler2D depth_map;
-layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform sampler2D normal_map;
+layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform samplerBuffer depth_rows;
+layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform samplerBuffer normal_rows;
 layout(binding = AMBIENT_OCCLUSION_TARGET, r8) uniform writeonly image2D target;
 #include "gpu/frame/geometry_normal.glsl"
 
@@ -75,7 +75,8 @@ void main()
 {
     ivec2 texel;
     if (!this_pixel(frame.size, texel)) return;
-    const float depth = texelFetch(depth_map, texel, 0).r;
+    const int at = row_texel(texel, frame.size);
+    const float depth = texelFetch(depth_rows, at).r;
     if (depth <= 0.0) {
         imageStore(target, texel, vec4(1.0));
         return;
@@ -83,7 +84,7 @@ void main()
     const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
     const float metres_per_pixel = pixel_width_m(frame, z);
-    const vec3 normal = geometry_normal(texel, mesh, depth, octahedral_decode(texelFetch(normal_map, texel, 0).xy));
+    const vec3 normal = geometry_normal(texel, mesh, depth, octahedral_decode(texelFetch(normal_rows, at).xy));
     const vec3 to_eye = -pixel_view_direction(frame, vec2(texel) + 0.5);
     // Off the depths of the surface itself.
     const vec3 x = mesh + (normal + to_eye) * (0.0007 * z);

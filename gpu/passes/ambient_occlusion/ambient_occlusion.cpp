@@ -7,15 +7,14 @@ namespace petrichor::gpu {
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants, Pixels pixels)
 {
-    GBuffer& g = targets.gbuffer;
     add_over_pixels(
         graph, targets,
         ComputePass{.name = "ambient_occlusion",
                     .shader = "ambient_occlusion.comp",
                     .constants = {},
                     .bindings = {{AMBIENT_OCCLUSION_FRAME, frame_binding(constants)},
-                                 {AMBIENT_OCCLUSION_DEPTH, sampled(*g.depth, targets.nearest)},
-                                 {AMBIENT_OCCLUSION_NORMALS, sampled(*g.normals, targets.nearest)},
+                                 {AMBIENT_OCCLUSION_DEPTH, texels(*targets.rows.depth)},
+                                 {AMBIENT_OCCLUSION_NORMALS, texels(*targets.rows.normals)},
                                  {AMBIENT_OCCLUSION_TARGET, storage(*targets.occlusion)},
                                  {AMBIENT_OCCLUSION_PIXELS, texels(*targets.pixel_list)}},
                     .push = {},

@@ -310,7 +310,7 @@ vec3 rectangle_light(LitPoint p, LightRow light, vec3 centre, vec4 color)
 vec3 place_beside(ivec2 texel, ivec2 offset, vec3 own)
 {
     const ivec2 at = clamp(texel + offset, ivec2(0), frame.size - 1);
-    const float depth = texelFetch(depth_map, at, 0).r;
+    const float depth = texelFetch(depth_rows, row_texel(at, frame.size)).r;
     return depth > 0.0 ? pixel_position(frame, vec2(at) + 0.5, depth) : own;
 }
 
@@ -322,7 +322,7 @@ float seen_curvature(ivec2 texel, vec3 position, vec3 normal)
         const ivec2 offset = k == 0 ? ivec2(1, 0) : ivec2(0, 1);
         const ivec2 at = clamp(texel + offset, ivec2(0), frame.size - 1);
         const vec3 way = place_beside(texel, offset, position) - position;
-        const vec3 other = octahedral_decode(texelFetch(gbuffer_normals, at, 0).xy);
+        const vec3 other = octahedral_decode(texelFetch(gbuffer_normals, row_texel(at, frame.size)).xy);
         const float apart = length(way);
         // Not over an edge.
         if (apart > 0.0 && apart < 0.05) bends = max(bends, length(other - normal) / apart);

@@ -279,7 +279,7 @@ void main()
         return;
     }
     const vec2 pixel = vec2(texel) + 0.5;
-    const float depth = texelFetch(depth_map, texel, 0).r;
+    const float depth = texelFetch(depth_rows, row_texel(texel, frame.size)).r;
     const bool there = inside && depth > 0.0;
     vec3 radiance;
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief
@@ -288,7 +288,7 @@ void main()
     if (PARTS != 0u) parts = no_parts();
     if (TOGETHER || depth > 0.0) {
         const GBufferTexel g =
-            decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
+            decode_gbuffer(fetch_gbuffer(row_texel(texel, frame.size), WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 v = -pixel_view_direction(frame, pixel);
         const float view_m = linear_depth(frame, depth);

@@ -71,7 +71,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         const auto id = static_cast<std::uint32_t>(LIGHTING_SPEC_MODEL + i);
         pass.constants.push_back({id, variant.models[i]});
     }
-    bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
+    bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.rows);
     add_over_pixels(graph, targets, std::move(pass), variant.pixels);
 }
 

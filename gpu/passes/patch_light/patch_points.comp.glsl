@@ -10,8 +10,8 @@
 
 layout(local_size_x = PATCH_POINTS_TILE, local_size_y = PATCH_POINTS_TILE) in;
 layout(binding = PATCH_POINTS_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = PATCH_POINTS_DEPTH) uniform sampler2D depth_map;
-layout(binding = PATCH_POINTS_NORMALS) uniform sampler2D normal_map;
+layout(binding = PATCH_POINTS_DEPTH) uniform samplerBuffer depth_rows;
+layout(binding = PATCH_POINTS_NORMALS) uniform samplerBuffer normal_rows;
 layout(binding = PATCH_POINTS_TABLE) uniform usamplerBuffer patch_table_texels;
 layout(binding = PATCH_POINTS_WAYS) uniform usamplerBuffer patch_way_texels;
 layout(binding = PATCH_POINTS_PLANES) uniform samplerBuffer patch_plane_texels;
@@ -73,7 +73,7 @@ void main()
     uint first = base;
     for (uint e = 0u; e < count; ++e) {
         const vec3 x = position_at(texel, depth);
-        const vec3 n = geometry_normal(texel, x, depth, octahedral_decode(texelFetch(normal_map, texel, 0).xy));
+        const vec3 n = geometry_normal(texel, x, depth, octahedral_decode(texelFetch(normal_rows, row_texel(texel, frame.size)).xy));
         const float view_m = linear_depth(frame, depth);
         const ivec2 own = texel;
         const float own_depth = depth;

@@ -7,15 +7,14 @@ namespace petrichor::gpu {
 void add_patch_points(FrameGraph& graph, FrameTargets& targets, const PatchLights& patches,
                       const ConstantsRange& constants)
 {
-    GBuffer& g = targets.gbuffer;
     const auto blocks = [](int pixels) { return (pixels + PATCH_BLOCK - 1) / PATCH_BLOCK; };
     graph.add(ComputePass{
         .name = "patch_points",
         .shader = "patch_points.comp",
         .constants = {},
         .bindings = {{PATCH_POINTS_FRAME, frame_binding(constants)},
-                     {PATCH_POINTS_DEPTH, sampled(*g.depth, targets.nearest)},
-                     {PATCH_POINTS_NORMALS, sampled(*g.normals, targets.nearest)},
+                     {PATCH_POINTS_DEPTH, texels(*targets.rows.depth)},
+                     {PATCH_POINTS_NORMALS, texels(*targets.rows.normals)},
                      {PATCH_POINTS_TABLE, texels(patches.table())},
                      {PATCH_POINTS_WAYS, texels(patches.ways())},
                      {PATCH_POINTS_PLANES, texels(patches.planes())},

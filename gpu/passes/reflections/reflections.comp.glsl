@@ -13,7 +13,6 @@
 
 layout(local_size_x = REFLECTIONS_TILE, local_size_y = REFLECTIONS_TILE) in;
 layout(binding = REFLECTIONS_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = REFLECTIONS_DEPTH) uniform sampler2D depth_map;
 layout(binding = REFLECTIONS_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = REFLECTIONS_RADIANCE) uniform sampler2D radiance_map;
 layout(binding = REFLECTIONS_MIRROR_WEIGHT) uniform sampler2D mirror_weight;
@@ -22,8 +21,8 @@ layout(binding = REFLECTIONS_SPECULAR) uniform samplerCube specular_map;
 layout(binding = REFLECTIONS_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = REFLECTIONS_PROBES) uniform samplerBuffer probe_rows;
 layout(binding = REFLECTIONS_PROBE_LIGHT) uniform samplerBuffer probe_light;
-layout(binding = REFLECTIONS_EMISSION) uniform sampler2D emission_map;
-layout(binding = REFLECTIONS_IDENTITY) uniform sampler2D identity_map;
+layout(binding = REFLECTIONS_EMISSION) uniform samplerBuffer emission_rows;
+layout(binding = REFLECTIONS_IDENTITY) uniform samplerBuffer identity_rows;
 layout(binding = REFLECTIONS_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = REFLECTIONS_LABEL, rgba32f) uniform writeonly image2DArray label_image;
 layout(constant_id = REFLECTIONS_SPEC_PROBES) const uint PROBES = 0;
@@ -48,7 +47,7 @@ struct Hit {
 float scene_depth_m(vec2 pixel)
 {
     const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
-    const float d = texelFetch(depth_rows, at.y * frame.size.x + at.x).r;
+    const float d = texelFetch(depth_rows, row_texel(at, frame.size)).r;
     return d > 0.0 ? linear_depth(frame, d) : 1.0e9;
 }
 
@@ -176,7 +175,7 @@ Hit trace(vec3 origin, vec3 direction)
 vec3 picture_at(ivec2 at, float roughness)
 {
     vec3 seen = texelFetch(radiance_map, at, 0).rgb;
-    if (GLOWS != 0u) seen -= min(seen, texelFetch(emission_map, at, 0).rgb * glow_share(roughness));
+    if (GLOWS != 0u) seen -= min(seen, texelFetch(emission_rows, row_texel(at, frame.size)).rgb * glow_share(roughness));
     return seen;
 }
 
@@ -186,7 +185,7 @@ float spread_px(vec3 position, vec2 pixel, float alpha)
 {
     const float hit_m = scene_depth_m(pixel);
     const ivec2 at = clamp(ivec2(pixel), ivec2(0), frame.size - 1);
-    const vec3 met = pixel_position(frame, vec2(at) + 0.5, texelFetch(depth_map, at, 0).r);
+    const vec3 met = pixel_position(frame, vec2(at) + 0.5, texelFetch(depth_rows, row_texel(at, frame.size)).r);
     return clamp(2.8 * alpha * length(met - position) / max(pixel_width_m(frame, hit_m), 1.0e-6), 0.0, kWidest_px);
 }
 
@@ -217,8 +216,8 @@ vec2 reflection_label(vec3 weight, Hit hit, float probed)
     const float strength = (weight.r + weight.g + weight.b) / 3.0;
     if (shares.x >= max(shares.y, shares.z)) {
         const ivec2 at = clamp(ivec2(hit.pixel), ivec2(0), frame.size - 1);
-        if (texelFetch(depth_map, at, 0).r > 0.0) {
-            return vec2(floor(texelFetch(identity_map, at, 0).x * 65535.0 + 0.5), strength * shares.x);
+        if (texelFetch(depth_rows, row_texel(at, frame.size)).r > 0.0) {
+            return vec2(floor(texelFetch(identity_rows, row_texel(at, frame.size)).x * 65535.0 + 0.5), strength * shares.x);
         }
         return vec2(REFLECTS_SKY, strength * (shares.x + shares.z));
     }
@@ -237,7 +236,7 @@ void main()
     vec2 label = vec2(REFLECTS_NOTHING, 0.0);
     if (weight.r + weight.g + weight.b > 0.0) {
         const vec4 shape = texelFetch(mirror_shape, texel, 0);
-        const float depth = texelFetch(depth_map, texel, 0).r;
+        const float depth = texelFetch(depth_rows, row_texel(texel, frame.size)).r;
         const vec2 pixel = vec2(texel) + 0.5;
         const vec3 position = pixel_position(frame, pixel, depth);
         const vec3 view = pixel_view_direction(frame, pixel);

@@ -14,7 +14,7 @@ SHARED_CONST float kWideRoughness = 0.3f;
 SHARED_END
 
 #define REFLECTIONS_FRAME 0
-#define REFLECTIONS_DEPTH 1
+#define REFLECTIONS_DEPTH_ROWS 1  // of the G-buffer, as identity and emission
 #define REFLECTIONS_RADIANCE 2
 #define REFLECTIONS_MIRROR_WEIGHT 3
 #define REFLECTIONS_MIRROR_SHAPE 4
@@ -28,8 +28,7 @@ SHARED_END
 #define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 
-#define REFLECTIONS_EMISSION 14     // of the G-buffer
-#define REFLECTIONS_DEPTH_ROWS 13   // the depth map again, row by row: buffers are read faster
+#define REFLECTIONS_EMISSION 13
 
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too

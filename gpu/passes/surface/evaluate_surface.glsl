@@ -90,17 +90,18 @@ SurfaceData evaluate_surface(SurfaceInput at)
 
     float roughness = factors.roughness;
     float metallic = factors.metallic;
+    vec4 packed = vec4(1.0);
     if (has(TEXTURE_METALLIC_ROUGHNESS)) {
-        const vec4 packed =
-            texel(metallic_roughness_texture, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
+        packed = texel(metallic_roughness_texture, coordinates(TEXTURE_METALLIC_ROUGHNESS, at, shift));
         roughness *= packed.g;
         metallic *= packed.b;
     }
     float occlusion = 1.0;
     if (has(TEXTURE_OCCLUSION)) {
-        occlusion = mix(1.0, dot(texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift)),
-                                 material.slots[TEXTURE_OCCLUSION].channel),
-                        material.occlusion_strength);
+        if ((BESIDES & BESIDES_ONE_READ) == 0u) {
+            packed = texel(occlusion_texture, coordinates(TEXTURE_OCCLUSION, at, shift));
+        }
+        occlusion = mix(1.0, dot(packed, material.slots[TEXTURE_OCCLUSION].channel), material.occlusion_strength);
     }
     if (MIXED) {
         vec3 other =

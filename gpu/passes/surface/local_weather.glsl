@@ -32,7 +32,10 @@ LocalWeather weather_everywhere(SurfaceInput at, bool asked)
     if (PLACE != 0u && frame.place.grid.levels > 0u) here.film *= wetness_of_film(frame.weather.film_mm);
     here.flood = vec2(frame.weather.flood_cracks, frame.weather.flood_puddles) *
                  flood_share(open.rain);
-    here.snow = cover_of_share(frame.weather.snow_amount, open.snow * drifted_share(at.position.xz));
+    here.snow = 0.0;
+    if (SNOW != 0u) {
+        here.snow = cover_of_share(frame.weather.snow_amount, open.snow * drifted_share(at.position.xz));
+    }
     // Hoar is of the air: it grows where heat is lost to the sky, most of which is overhead.
     here.frost = frame.weather.frost * min(open.sky, 1.0);
     here.frozen = frame.weather.water_to_snow;
