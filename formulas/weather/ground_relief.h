@@ -26,7 +26,7 @@ SHARED_FN float ground_relief(vec2 xz)
     return 0.55f * wide + 0.32f * near + 0.13f * fine;
 }
 
-// How wind and the lie of the land share out the snow of wide ground: 1 in the mean, 0.15 to 1.85, in places 95, 31
+// How wind and the lie of the land share out the snow of wide ground: 1 in the mean, 0.4 to 1.6, in places 95, 31
 // and 12 m wide (ours). Around the origin, where what is no land stands, all is as the weather says: from 25 m
 // on it varies, from 120 m on all it can. xz: world, metres.
 SHARED_FN float drifted_share(vec2 xz)
@@ -35,7 +35,7 @@ SHARED_FN float drifted_share(vec2 xz)
     const float near = tileable_noise(xz / 31.0f + 5.7f, kGroundPeriod, 157u);
     const float fine = tileable_noise(xz / 12.0f + 2.9f, kGroundPeriod, 163u);
     const float far = clamp((length(xz) - 25.0f) / 95.0f, 0.0f, 1.0f);
-    return 1.0f + 1.7f * far * (0.5f * wide + 0.32f * near + 0.18f * fine - 0.5f);
+    return 1.0f + 1.2f * far * (0.5f * wide + 0.32f * near + 0.18f * fine - 0.5f);
 }
 
 SHARED_END
