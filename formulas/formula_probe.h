@@ -90,7 +90,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     m.metallic = c.z;
     if (kind == 0) {
         const WaterCover w =
-            water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
+            water_cover_of_mean(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y, 0.3f * b.z);
         return vec4(w.anywhere, w.deep, 0.0f, 0.0f);
     }
     if (kind == 1) {
@@ -313,7 +313,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 31) {
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
-        return vec4(ground_relief(xz) + drifted_share(3.0f * xz),
+        return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_share(3.0f * xz),
                     level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }

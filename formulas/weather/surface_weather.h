@@ -35,18 +35,28 @@ struct WaterCover {
 // puddle_mask    1 puddles may stand, 0 never
 // normal_up      y of the geometric normal
 // slope_damp     0 water stays on any slope .. 1 the less the steeper, none on walls
-SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, float normal_up,
-                                 float slope_damp)
+// blurred        standard deviation that the height has lost to minification: a wide pixel has as much water as
+//                its places, whose hollows stand full while their mean is dry
+SHARED_FN WaterCover water_cover_of_mean(vec2 flood, float height, float puddle_mask, float normal_up,
+                                         float slope_damp, float blurred)
 {
     const float slope = saturate(normal_up + 1.0f - slope_damp);
     const float cracks = flood.x - height;
-    const float puddles = saturate((flood.y * slope - (1.0f - puddle_mask) - height) / 0.4f);
+    const float wider = 1.5f * blurred;
+    const float filled = saturate((flood.y * slope - (1.0f - puddle_mask) - height + wider) / (0.4f + 2.0f * wider));
+    const float puddles = mix(filled, filled * filled * (3.0f - 2.0f * filled), min(5.0f * wider, 1.0f));
     const float x = slope * max(cracks, puddles);
     const float y = slope * max(cracks, 2.0f * puddles) * 0.5f;
     WaterCover cover;
     cover.anywhere = saturate(x);
     cover.deep = saturate(y * y);
     return cover;
+}
+
+SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, float normal_up,
+                                 float slope_damp)
+{
+    return water_cover_of_mean(flood, height, puddle_mask, normal_up, slope_damp, 0.0f);
 }
 
 // Water of a hollow of the ground, depth_m at a point of the mesh: the relief that the mesh does not have stands up
@@ -121,14 +131,6 @@ SHARED_FN float snow_rests(float normal_up)
 {
     const float up = max(normal_up, 0.0f);
     return min(up / 0.76604444f, 1.0f) - up;
-}
-
-// Share of the variance of noise that a pixel's mean has lost. width: of the pixel; half_at: at which half of it
-// is lost. The form is that of a low pass of first order, which value noise of some octaves meets to a few hundredths.
-SHARED_FN float variance_lost(float width, float half_at)
-{
-    const float q = width / half_at;
-    return q * q / (1.0f + q * q);
 }
 
 // `blurred` of snow_cover for the masks of weather_maps.h: their mean 0.7067 and deviation 0.135 are those of

@@ -214,6 +214,37 @@ TEST(WaterCover, HandComputedValues)
     EXPECT_EQ(water_cover(glm::vec2(1.0f), 0.0f, 1.0f, 0.0f, 1.0f).anywhere, 0.0f);
 }
 
+// From afar the hollows of the ground are no wider than a pixel, whose mean is dry: it has their water all the same.
+TEST(WaterCover, OfAWidePixelIsThatOfItsPlaces)
+{
+    double worst = 0.0, worst_by_mean = 0.0;
+    for (float flood = 0.2f; flood <= 2.0f; flood += 0.2f) {
+        double places = 0.0, parts = 0.0;
+        const int count = 20000;
+        for (int i = 0; i < count; ++i) {
+            const vec2 at(4000.0f * hash_f(static_cast<uint>(i)), 4000.0f * hash_f(static_cast<uint>(i) + 55555u));
+            const auto water = [&](float relief, float blurred) {
+                return static_cast<double>(water_cover_of_mean(vec2(0.0f, flood), 0.25f + kGroundRelief * relief, 1.0f, 1.0f,
+                                                               0.5f, kGroundRelief * blurred).anywhere);
+            };
+            places += water(ground_relief(at), 0.0f);
+            parts += water(ground_relief_seen(at, 2.2f), ground_relief_blurred(2.2f));
+        }
+        const auto wide = [&](float blurred) {
+            return static_cast<double>(water_cover_of_mean(vec2(0.0f, flood), 0.25f + kGroundRelief * 0.498f, 1.0f, 1.0f, 0.5f,
+                                                           kGroundRelief * blurred).anywhere);
+        };
+        places /= count;
+        EXPECT_NEAR(wide(ground_relief_blurred(100.0f)), places, 0.04) << flood;
+        EXPECT_NEAR(parts / count, places, 0.04) << flood;
+        worst = std::max(worst, std::abs(wide(ground_relief_blurred(100.0f)) - places));
+        worst_by_mean = std::max(worst_by_mean, std::abs(wide(0.0f) - places));
+    }
+    EXPECT_LT(worst, 0.3 * worst_by_mean);
+    EXPECT_EQ(ground_relief_seen(vec2(3.0f, 7.0f), 0.0f), 0.498f + (ground_relief(vec2(3.0f, 7.0f)) - 0.498f));
+    EXPECT_EQ(ground_relief_blurred(0.0f), 0.0f);
+}
+
 TEST(SnowCover, NothingWithoutSnowEverythingWithMuch)
 {
     for (float noise = 0.0f; noise <= 1.0f; noise += 0.1f) {
