@@ -91,12 +91,13 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     m.metallic = c.z;
     if (kind == 0) {
         const WaterCover w =
-            water_cover(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y);
+            water_cover_of_mean(vec2(1.5f * a.x, 1.5f * a.y), a.z, a.w, 2.0f * b.x - 1.0f, b.y, 0.3f * b.z);
         return vec4(w.anywhere, w.deep, 0.0f, 0.0f);
     }
     if (kind == 1) {
-        const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w);
-        return vec4(s.snow, s.melt, 0.0f, 0.0f);
+        const SnowCover s = snow_cover(a.x, a.y, 2.0f * a.z - 1.0f, 2.0f * a.w, b.x, b.y, b.z, b.w, 0.3f * c.x);
+        return vec4(s.snow, s.melt, snow_rests(2.0f * a.z - 1.0f),
+                    snow_mask_blurred(20.0f * c.y, vec2(0.1f + c.z, 2.0f * c.w)));
     }
     if (kind == 2) {
         return vec4(melt_wetness(a.x, a.y, a.z), snow_height_factor(20.0f * a.w, 5.0f, 10.0f * b.x) +
@@ -313,7 +314,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 31) {
         const vec2 xz = vec2(200.0f * a.x - 100.0f, 200.0f * a.y - 100.0f);
-        return vec4(ground_relief(xz) + drifted_share(3.0f * xz),
+        return vec4(ground_relief_seen(xz, 3.0f * c.x) + ground_relief_blurred(3.0f * c.x) + drifted_share(3.0f * xz),
                     level_ground(0.99f + 0.01f * a.z), level_share(a.w, b.x),
                     frost_cover(b.y, b.z, b.w) + probe_material(apply_ice(m, c.x)).x);
     }
@@ -333,7 +334,7 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
     }
     if (kind == 39) {
         const SnowCover s =
-            snow_cover_of_vertices(a.x, 2.0f * a.y - 1.0f, 2.0f * a.z, a.w, b.x, b.y);
+            snow_cover_of_vertices(a.x, 2.0f * a.y - 1.0f, 2.0f * a.z, a.w, b.x, b.y, 0.2f * b.z);
         WeatherLook look;
         look.snow_scatter_color = vec3(b.z);
         look.snow_scatter_bias = 0.5f * b.w;

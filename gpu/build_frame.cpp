@@ -195,6 +195,7 @@ void fill_views(shared::FrameConstants& c, const Frame& frame, const VisibleWeat
     c.shaped_lights = r.lights->shaped;
     if (uses_patches(frame, r)) {
         c.patches = r.patches->grid();
+        if (frame.sky.land_as_ground && r.patches->rim()) c.land = glm::vec4(*r.patches->rim(), 1.0f);
         c.snow_lift_m = r.snow_lift_m;
         // The same radius as PatchScene's `open`.
         c.ao_radius_m = std::min(c.ao_radius_m, 0.5f);

@@ -84,6 +84,7 @@ void add_sky(Hasher& hasher, const gpu::Sky& sky)
         hasher.add(value);
     }
     hasher.add(sky.analytic_sun);
+    hasher.add(sky.land_as_ground);
 }
 
 void add_cookie(Hasher& hasher, const gpu::SunCookie& cookie)
@@ -366,6 +367,7 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     result.moment.values = out.weather;
     out.sky.turbidity = narrow(value_at(here.sky.turbidity, time_s, 2.5));
     out.sky.ground_albedo = narrow(here.sky.ground_albedo);
+    out.sky.land_as_ground = here.sky.land_as_ground;
     out.sky.environment_scale = narrow(here.sky.environment_scale);
     out.sky.environment_rotation_rad = narrow(here.sky.environment_rotation_degrees * kPi / 180.0);
     out.sky.analytic_sun = !here.sun.from_scene;

@@ -260,8 +260,13 @@ const std::vector<Rule>& rules()
          [](Scenario& s, const TomlValue& v) {
              s.sky.environment_rotation_degrees = v.number(-3600.0, 3600.0);
          }},
-        {{"sky", "ground_albedo", "0.2", "of the land beyond the scene, 0 to 1"},
-         [](Scenario& s, const TomlValue& v) { s.sky.ground_albedo = v.number(0.0, 1.0); }},
+        {{"sky", "ground_albedo", "0.2",
+          "of the land beyond the scene, 0 to 1; without it land that is seen beyond the scene's own ground "
+          "looks as that ground does at its rim"},
+         [](Scenario& s, const TomlValue& v) {
+             s.sky.ground_albedo = v.number(0.0, 1.0);
+             s.sky.land_as_ground = false;
+         }},
 
         {{"moon", "elevation_degrees", "40.0",
           "height above the horizon, -90 to 90; without it where a weather file's place and clock "

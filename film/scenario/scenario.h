@@ -103,6 +103,7 @@ struct ScenarioSky {
     double environment_scale = 1.0;
     double environment_rotation_degrees = 0.0;
     double ground_albedo = 0.2;
+    bool land_as_ground = true;  ///< where ground_albedo is not given
 };
 
 /// [moon]: keys win over what place and clock say.

@@ -92,6 +92,14 @@ SHARED_FN float tileable_fbm(vec2 uv, int period, int octaves, uint seed)
     return sum / total;
 }
 
+// Share of the variance of noise that a pixel's mean has lost. width: of the pixel; half_at: at which half of it
+// is lost. The form is that of a low pass of first order, which value noise of some octaves meets to a few hundredths.
+SHARED_FN float variance_lost(float width, float half_at)
+{
+    const float q = width / half_at;
+    return q * q / (1.0f + q * q);
+}
+
 SHARED_END
 
 #endif

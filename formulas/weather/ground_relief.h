@@ -26,7 +26,18 @@ SHARED_FN float ground_relief(vec2 xz)
     return 0.55f * wide + 0.32f * near + 0.13f * fine;
 }
 
-// How wind and the lie of the land share out the snow of wide ground: 1 in the mean, 0.15 to 1.85, in places 95, 31
+// Its mean over a pixel of a width, as far as one place can tell: the rest of its deviation, 0.15 in all, is what
+// ground_relief_blurred says. Half of the variance is lost at 2.2 m.
+SHARED_FN float ground_relief_seen(vec2 xz, float width_m)
+{
+    return 0.498f + (ground_relief(xz) - 0.498f) * sqrt(1.0f - variance_lost(width_m, 2.2f));
+}
+SHARED_FN float ground_relief_blurred(float width_m)
+{
+    return 0.15f * sqrt(variance_lost(width_m, 2.2f));
+}
+
+// How wind and the lie of the land share out the snow of wide ground: 1 in the mean, 0.4 to 1.6, in places 95, 31
 // and 12 m wide (ours). Around the origin, where what is no land stands, all is as the weather says: from 25 m
 // on it varies, from 120 m on all it can. xz: world, metres.
 SHARED_FN float drifted_share(vec2 xz)
@@ -35,7 +46,7 @@ SHARED_FN float drifted_share(vec2 xz)
     const float near = tileable_noise(xz / 31.0f + 5.7f, kGroundPeriod, 157u);
     const float fine = tileable_noise(xz / 12.0f + 2.9f, kGroundPeriod, 163u);
     const float far = clamp((length(xz) - 25.0f) / 95.0f, 0.0f, 1.0f);
-    return 1.0f + 1.7f * far * (0.5f * wide + 0.32f * near + 0.18f * fine - 0.5f);
+    return 1.0f + 1.2f * far * (0.5f * wide + 0.32f * near + 0.18f * fine - 0.5f);
 }
 
 SHARED_END

@@ -35,18 +35,28 @@ struct WaterCover {
 // puddle_mask    1 puddles may stand, 0 never
 // normal_up      y of the geometric normal
 // slope_damp     0 water stays on any slope .. 1 the less the steeper, none on walls
-SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, float normal_up,
-                                 float slope_damp)
+// blurred        standard deviation that the height has lost to minification: a wide pixel has as much water as
+//                its places, whose hollows stand full while their mean is dry
+SHARED_FN WaterCover water_cover_of_mean(vec2 flood, float height, float puddle_mask, float normal_up,
+                                         float slope_damp, float blurred)
 {
     const float slope = saturate(normal_up + 1.0f - slope_damp);
     const float cracks = flood.x - height;
-    const float puddles = saturate((flood.y * slope - (1.0f - puddle_mask) - height) / 0.4f);
+    const float wider = 1.5f * blurred;
+    const float filled = saturate((flood.y * slope - (1.0f - puddle_mask) - height + wider) / (0.4f + 2.0f * wider));
+    const float puddles = mix(filled, filled * filled * (3.0f - 2.0f * filled), min(5.0f * wider, 1.0f));
     const float x = slope * max(cracks, puddles);
     const float y = slope * max(cracks, 2.0f * puddles) * 0.5f;
     WaterCover cover;
     cover.anywhere = saturate(x);
     cover.deep = saturate(y * y);
     return cover;
+}
+
+SHARED_FN WaterCover water_cover(vec2 flood, float height, float puddle_mask, float normal_up,
+                                 float slope_damp)
+{
+    return water_cover_of_mean(flood, height, puddle_mask, normal_up, slope_damp, 0.0f);
 }
 
 // Water of a hollow of the ground, depth_m at a point of the mesh: the relief that the mesh does not have stands up
@@ -87,16 +97,19 @@ struct SnowCover {
 // unique_mask     1 snow may lie, 0 never (footprints, wind-swept places)
 // mask, detail    the two-frequency mask, each 0..1
 // melt_influence  published melt * snow influence
+// blurred         standard deviation that mask * detail has lost to minification: the cover of a wide pixel is
+//                 the mean of that of its places, which have steep edges where their mean may have none
 SHARED_FN SnowCover snow_cover_of_slope(float slope, float height_factor, float unique_mask, float mask,
-                                        float detail, float melt_influence)
+                                        float detail, float melt_influence, float blurred)
 {
     const float base = slope * height_factor;
     const float sharpened = saturate(4.0f * slope * unique_mask * (2.0f - base));
     const float noise = mask * detail;
-    const float inside =
-        smooth_edge(1.0f - base - base * (1.0f - base), 1.0f - base + 0.01f, noise);
-    const float around = smooth_edge(1.0f - base - base * (4.0f - base), 1.0f - base + 0.1f,
-                                     noise * (1.0f + melt_influence));
+    const float wider = 1.5f * blurred;
+    const float inside = smooth_edge(1.0f - base - base * (1.0f - base) - wider, 1.0f - base + 0.01f + wider, noise);
+    const float wider_around = wider * (1.0f + melt_influence);
+    const float around = smooth_edge(1.0f - base - base * (4.0f - base) - wider_around,
+                                     1.0f - base + 0.1f + wider_around, noise * (1.0f + melt_influence));
     const float depth = sharpened * mix(detail, 1.0f, base);
     SnowCover cover;
     cover.snow = inside * depth;
@@ -105,20 +118,36 @@ SHARED_FN SnowCover snow_cover_of_slope(float slope, float height_factor, float 
 }
 
 SHARED_FN SnowCover snow_cover(float amount, float height_factor, float normal_up, float slope_damp,
-                               float unique_mask, float mask, float detail, float melt_influence)
+                               float unique_mask, float mask, float detail, float melt_influence, float blurred)
 {
     return snow_cover_of_slope(
         saturate(amount - slope_damp * saturate(1.0f - normal_up - amount * 0.25f)), height_factor,
-        unique_mask, mask, detail, melt_influence);
+        unique_mask, mask, detail, melt_influence, blurred);
+}
+
+// What snow_cover adds to normal_up: what lies on a slope of up to 40 degrees lies as on level ground, for that is
+// less than the angle of repose. normal_up: of the geometry, since the bumps on it tell where thin snow lies.
+SHARED_FN float snow_rests(float normal_up)
+{
+    const float up = max(normal_up, 0.0f);
+    return min(up / 0.76604444f, 1.0f) - up;
+}
+
+// `blurred` of snow_cover for the masks of weather_maps.h: their mean 0.7067 and deviation 0.135 are those of
+// snow_texel, of which half the variance is lost at 0.106 of a tile. width_m: of the pixel on the ground; tiling:
+// repeats per metre of the mask and its detail.
+SHARED_FN float snow_mask_blurred(float width_m, vec2 tiling)
+{
+    return 0.7067f * 0.135f * sqrt(variance_lost(width_m * tiling.x, 0.106f) + variance_lost(width_m * tiling.y, 0.106f));
 }
 
 // Lux's other mask, of vertices: the slope counts the less the more snow lies, and nothing else does.
 // normal_up: of the geometry.
 SHARED_FN SnowCover snow_cover_of_vertices(float amount, float normal_up, float slope_damp, float mask,
-                                           float detail, float melt_influence)
+                                           float detail, float melt_influence, float blurred)
 {
     return snow_cover_of_slope(saturate(amount - slope_damp * (1.0f - normal_up - 0.75f * amount)), 1.0f,
-                               1.0f, mask, detail, melt_influence);
+                               1.0f, mask, detail, melt_influence, blurred);
 }
 
 // Snow on a blade of grass. tint: red of the vertex colour, dark at the root; mask: at the blade.

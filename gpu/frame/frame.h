@@ -36,6 +36,7 @@ struct Sky {
     float environment_scale = 1.0f;  ///< multiplies the environment map
     float environment_rotation_rad = 0.0f;
     bool analytic_sun = true;  ///< false: the scene's own directional lights replace the sun
+    bool land_as_ground = true;  ///< the land that is seen goes on from the ground at the scene's rim, where patches light it
     float moon_elevation_rad = -1.0f;
     float moon_azimuth_rad = 0.0f;  ///< as the sun's
     float moon_lux = 0.0f;          ///< above the air, on a plane that faces it; 0: there is none

@@ -72,6 +72,7 @@ struct FrameConstants {
     float ao_strength;
     float ambient_scale;  // of the environment
     float sky_scale;      // of what is seen behind the scene
+    vec4 land;            // radiance of the ground at the scene's rim, which the land beyond goes on from; w 0: not known
     float fog_per_m;      // extinction; 0: no fog
     int fog_mode;
     float fog_start_m;

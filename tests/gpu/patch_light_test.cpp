@@ -80,6 +80,35 @@ Scene yard(const Material& material)
 
 class PatchLightTest : public GpuTest {};
 
+// Where the scene's ground ends before the horizon the land beyond goes on from it, of one colour and one brightness,
+// unless something else is asked for.
+TEST_F(PatchLightTest, LandBeyondGoesOnFromTheGroundAtTheRim)
+{
+    const Scene scene = scene_of({quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40})}, {lambert({0.1f, 0.4f, 0.05f})});
+    renderer->load(scene, {});
+    renderer->set_patches(traced(scene, 2.0f));
+    Frame frame = frame_from(look({0, 12, 10}, {0, 0, -20}, 0.6f));
+    frame.sky.sun_illuminance = 100000.0f;
+    frame.sky.cloud_cover = 1.0f;
+    const auto beside_the_rim = [&](bool land_as_ground) {
+        frame.sky.land_as_ground = land_as_ground;
+        const RenderResult r = renderer->render(frame);
+        const int x = r.width / 2;
+        int rim = 0;  // first row of ground
+        while (rim < r.height && !std::isfinite(aov(r, "depth", x, rim, 0))) ++rim;
+        EXPECT_GT(rim, 3);
+        EXPECT_LT(rim, r.height - 3);
+        return std::pair(glm::vec3(pixel(r, x, rim - 3)), glm::vec3(pixel(r, x, rim + 2)));
+    };
+    const auto [land, ground] = beside_the_rim(true);
+    const auto [asked, same] = beside_the_rim(false);
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(land[k], ground[k], 0.08f * ground[k]) << k;
+        EXPECT_NEAR(same[k], ground[k], 1e-3f * ground[k]) << k;
+    }
+    EXPECT_GT(asked.x, 1.5f * ground.x) << "of an albedo of 0.2";
+}
+
 // Low light at the horizon, of 4 degrees: level ground gets a fourteenth of what a wall has that faces it. With patches
 // and without, every pixel alike: rays of a patch meet it by chance, three bands of harmonics let half as much again in.
 TEST_F(PatchLightTest, AGlowAtTheHorizonFallsOnLevelGroundAsItsCosineSays)

@@ -94,8 +94,8 @@ TEST_F(SnowRules, OfVerticesKnowNoMaskAndNoHeight)
     m.weather.snow_rule = scene::SnowRule::Vertex;
     EXPECT_GT(mean(shot(scene_of({ground()}, {m}), frame, none), "snow"), 0.95f);
     // The steeper the less, by Lux's other law of the slope.
-    EXPECT_FLOAT_EQ(shared::snow_cover_of_vertices(0.5f, 0.2f, 1.0f, 1.0f, 1.0f, 0.0f).snow,
-              shared::snow_cover_of_slope(0.075f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f).snow);
+    EXPECT_FLOAT_EQ(shared::snow_cover_of_vertices(0.5f, 0.2f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f).snow,
+              shared::snow_cover_of_slope(0.075f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f).snow);
 }
 
 // Local maps move with the texture coordinates and not with the world; those of the world the other

@@ -373,6 +373,37 @@ TEST(SnowShape, DeepSnowHidesTheStonesBelow)
     EXPECT_GT(unevenness(0.1f), 0.0);
 }
 
+// A lid that lies on ground which goes on below it, a finger higher: under deep snow its rim is under the snow of the
+// ground, which it does not disturb; its middle is level with it.
+TEST(SnowShape, OverALidOnTheGroundThereIsOneSheet)
+{
+    Scene scene = empty_scene();
+    add_ground(scene);
+    add_box(scene, {-0.3f, -0.03f, -0.3f}, {0.3f, 0.008f, 0.3f}, false);
+    const SnowCaps caps = caps_of(scene);
+    const SnowShape shape = snow_shape(caps, std::vector<float>(caps.points.size(), 0.14f));
+    int rim = 0, middle = 0, ground = 0;
+    for (std::size_t i = 0; i < caps.points.size(); ++i) {
+        const auto& p = caps.points[i];
+        const float out = std::max(std::abs(p.base_m.x), std::abs(p.base_m.z));
+        const float over = shape.positions[i].y - shape.thickness_m[i];  // of the ground's own height
+        if (p.base_m.y < 0.004f) {
+            if (out > 0.8f) continue;
+            EXPECT_NEAR(over, 0.0f, 0.003f) << p.base_m.x << " " << p.base_m.z;
+            ++ground;
+        } else if (out > 0.299f) {
+            EXPECT_LT(over, -0.015f);
+            ++rim;
+        } else if (out < 0.1f) {
+            EXPECT_NEAR(over, 0.0f, 0.01f);
+            ++middle;
+        }
+    }
+    EXPECT_GT(rim, 3);
+    EXPECT_GT(ground, 3);
+    EXPECT_GT(middle, 0);
+}
+
 // A ball of 20 cm under half a metre of snow: it carries what lies at repose on its crown, little at its
 // sides, and nowhere is the snow steeper than it holds by itself.
 TEST(SnowShape, RoundThingsCarryAllOfItOnTheirCrown)

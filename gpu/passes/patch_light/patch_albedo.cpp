@@ -42,8 +42,8 @@ float mean_snow(float amount, float height_factor, float up, const MaterialWeath
     float sum = 0.0f;
     for (const float mask : kQuarters) {
         for (const float detail : kQuarters) {
-            sum += shared::snow_cover(amount, height_factor, up, m.snow_slope_damp, 1.0f, mask,
-                                      detail, melt)
+            sum += shared::snow_cover(amount, height_factor, up + shared::snow_rests(up), m.snow_slope_damp, 1.0f,
+                                      mask, detail, melt, 0.0f)
                        .snow;
         }
     }

@@ -1,6 +1,7 @@
 #include "gpu/passes/patch_light/patch_light.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -38,6 +39,33 @@ void add_list(Hasher& hasher, const std::vector<T>& list)
     hasher.add_bytes(std::as_bytes(std::span(list)));
 }
 
+// Open ground in the outer fifth of a scene, where it fills half of each eighth around: else what stands at the rim
+// is a house, and no land goes on from it.
+std::vector<std::uint32_t> rim_of(const scene::Patches& p)
+{
+    glm::vec3 low(1.0e30f), high(-1.0e30f);
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        low = glm::min(low, p.position_m[i]);
+        high = glm::max(high, p.position_m[i]);
+    }
+    const glm::vec2 middle = 0.5f * glm::vec2(low.x + high.x, low.z + high.z);
+    const glm::vec2 half = glm::max(0.5f * glm::vec2(high.x - low.x, high.z - low.z), glm::vec2(1.0e-3f));
+    constexpr float kInner = 0.8f;
+    std::vector<std::uint32_t> rim;
+    std::array<float, 8> filled{};
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const glm::vec2 at = (glm::vec2(p.position_m[i].x, p.position_m[i].z) - middle) / half;
+        if (std::max(std::abs(at.x), std::abs(at.y)) < kInner || p.normal[i].y < 0.7f || p.sky_view[i] < 0.5f) continue;
+        rim.push_back(i);
+        const int eighth = (at.x > 0.0f ? 1 : 0) + (at.y > 0.0f ? 2 : 0) + (std::abs(at.x) > std::abs(at.y) ? 4 : 0);
+        filled[static_cast<std::size_t>(eighth)] += p.area_m2[i];
+    }
+    const float eighth_m2 = 0.5f * (1.0f - kInner * kInner) * half.x * half.y;
+    for (const float area : filled)
+        if (area < 0.5f * eighth_m2) return {};
+    return rim;
+}
+
 }  // namespace
 
 PatchLights::PatchLights(const Device& device) : device_(&device)
@@ -72,12 +100,15 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     ++loads_;
     lit_by_.clear();
     radiosity_.clear();
+    rim_.clear();
+    rim_radiance_.reset();
     grid_ = {};
     if (!loaded()) {
         make_buffers(1, 1, 1, 1);
         return;
     }
     const scene::Patches& p = scene_->patches;
+    rim_ = rim_of(p);
     const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
     make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
                  std::max<std::size_t>(4 * scene_->near.sender.size(), 1));
@@ -200,6 +231,16 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     if (frame.emissive_lights) {
         for (std::size_t i = 0; i < rough_radiosity_.size(); ++i) rough_radiosity_[i] -= emission[i];
         if (!frame.settings.reflections) radiosity_ = rough_radiosity_;
+    }
+    rim_radiance_.reset();
+    if (!rim_.empty()) {
+        glm::vec3 sum(0.0f);
+        float rim_m2 = 0.0f;
+        for (const std::uint32_t i : rim_) {
+            sum += p.area_m2[i] * lit.radiosity[i];
+            rim_m2 += p.area_m2[i];
+        }
+        rim_radiance_ = sum / (rim_m2 * shared::kPi);
     }
     lit_by_ = lit_by;
     relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ public:
     /// glows as a light. Empty before the first.
     const std::vector<glm::vec3>& radiosity() const { return radiosity_; }
     const std::vector<glm::vec3>& rough_radiosity() const { return rough_radiosity_; }
+    /// Of the last relight: radiance of the ground at the rim of the scene, which the land beyond goes on from;
+    /// none where the scene's ground does not reach its rim all around, as a street's behind its houses.
+    const std::optional<glm::vec3>& rim() const { return rim_radiance_; }
     const PatchScene* scene() const { return scene_.get(); }
     std::uint64_t loads() const { return loads_; }  ///< grows with each load()
     /// Changes with the light; empty before the first relight.
@@ -59,6 +63,8 @@ private:
     shared::PatchGrid grid_{};
     std::uint64_t loads_ = 0;
     std::vector<glm::vec3> radiosity_, rough_radiosity_;
+    std::vector<std::uint32_t> rim_;  // patches of it; none where it does not close
+    std::optional<glm::vec3> rim_radiance_;
     std::string lit_by_;  // fingerprint of what the light was solved from
     double relight_ms_ = 0.0;
 };

@@ -87,12 +87,13 @@ Cover cover_on(SurfaceInput at, TangentFrame f, vec3 mapped)
     water.deep = 0.0;
     water.runs = 0.0;
     water.depth_m = 0.0;
+    water.below = 0.0;
     water.stands_m = 0.0;
     if (WATER != 0u) water = water_on(at, here);
     if (max(here.pond_m, water.depth_m) > 0.0) {
-        // In the relief its edge is as wide as a drop is high; a pond drowns what stands in it by and by.
+        // A pond drowns what stands in it by and by.
         const WaterCover pond = pond_cover(here.pond_m, water.stands_m);
-        water.anywhere = max(water.anywhere, max(smooth_edge(0.0, 0.002, water.depth_m), pond.anywhere));
+        water.anywhere = max(water.anywhere, max(water.below, pond.anywhere));
         water.deep = max(water.deep, max(smooth_edge(0.0005, 0.006, water.depth_m), pond.deep));
     }
     if ((SNOW & SNOW_BODY) != 0u) {

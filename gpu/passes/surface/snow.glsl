@@ -40,6 +40,15 @@ float unique_mask(SurfaceInput at)
     return unique;
 }
 
+float snow_masks_blurred(SurfaceInput at)
+{
+    const bool local = (SNOW & SNOW_LOCAL) != 0u;
+    const vec4 tiling = local ? material.snow_local_tiling : frame.look.snow_tiling;
+    const vec2 dx = local ? at.uv_dx.xy : at.position_dx.xz;
+    const vec2 dy = local ? at.uv_dy.xy : at.position_dy.xz;
+    return snow_mask_blurred(sqrt(max(dot(dx, dx), dot(dy, dy))), vec2(tiling[kSnowMask], tiling[kSnowMaskDetail]));
+}
+
 // smoothed_up: y of the pixel normal, smoothed by the snow's amount.
 SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
 {
@@ -54,11 +63,13 @@ SnowCover snow_on(SurfaceInput at, float amount, float smoothed_up)
         return blade;
     }
     const float detail = snow_map_at(at, kSnowMaskDetail).b;
+    const float blurred = snow_masks_blurred(at);
     if ((SNOW & SNOW_VERTEX) != 0u) {
-        return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt);
+        return snow_cover_of_vertices(amount, at.normal.y, material.snow_slope_damp, mask, detail, melt,
+                                      blurred);
     }
-    return snow_cover(amount, height, smoothed_up, material.snow_slope_damp, unique_mask(at), mask,
-                      detail, melt);
+    return snow_cover(amount, height, smoothed_up + snow_rests(at.normal.y), material.snow_slope_damp,
+                      unique_mask(at), mask, detail, melt, blurred);
 }
 
 struct SnowRelief {

@@ -12,6 +12,7 @@ struct StandingWater {
     float deep;
     float runs;  // 0..1: what falls on a slope and leaves it
     float depth_m;  // in the relief below a patch
+    float below;    // share of the relief below that water
     float stands_m;  // how high the relief stands in the shallows of a hollow
 };
 
@@ -28,27 +29,38 @@ StandingWater water_on(SurfaceInput at, LocalWeather here)
         mapped ? smooth_edge(0.55, 0.9, at.normal.y) : level_ground(at.normal.y);
     const vec2 flood = (here.volume ? vec2(0.0) : weather * levelness) + holds.xz;
     float height = material.default_height;
+    float blurred = 0.0;
     if (mapped) {
         height = relief_height(at);
     } else {
-        height += kGroundRelief * ground_relief(at.position.xz);
+        const vec2 dx = at.position_dx.xz;
+        const vec2 dy = at.position_dy.xz;
+        const float width_m = sqrt(max(dot(dx, dx), dot(dy, dy)));
+        height += kGroundRelief * ground_relief_seen(at.position.xz, width_m);
+        blurred = kGroundRelief * ground_relief_blurred(width_m);
     }
     float puddle_mask = at.weather.g;
     if (has(TEXTURE_PUDDLE_MASK)) {
         puddle_mask *= number_at(puddle_mask_texture, TEXTURE_PUDDLE_MASK, at);
     }
     const WaterCover cover =
-        water_cover(flood, height, puddle_mask, at.normal.y, material.water_slope_damp);
+        water_cover_of_mean(flood, height, puddle_mask, at.normal.y, material.water_slope_damp, blurred);
     StandingWater water;
     water.anywhere = cover.anywhere;
     water.deep = cover.deep;
     water.runs = saturate(weather.y) * (1.0 - levelness);
     water.depth_m = 0.0;
+    water.below = 0.0;
     const float unit_m = mapped && material.height_scale_m > 0.0 ? material.height_scale_m : kGroundReliefUnit_m;
     // Half of it: the mesh is the mean of its ground.
     water.stands_m = 0.5 * unit_m * (mapped ? height : height - material.default_height);
     if (PLACE != 0u && here.volume) {
-        water.depth_m = max(here.level - height, 0.0) * unit_m * levelness;
+        // The places of a pixel stand within `wider_m` of their mean. Its edge is as wide as a drop is high.
+        const float over_m = (here.level - height) * unit_m * levelness;
+        const float wider_m = 1.5 * blurred * unit_m * levelness;
+        const float rises_m = max(over_m + wider_m, 0.0);
+        water.depth_m = over_m >= wider_m ? over_m : rises_m * rises_m / max(4.0 * wider_m, 1.0e-9);
+        water.below = smooth_edge(-wider_m, 0.002 + wider_m, over_m);
     }
     return water;
 }
