@@ -96,23 +96,34 @@ private:
         return blocks_.data() + static_cast<std::size_t>(block) * format_.bytes;
     }
 
-    // Infinite where it is above `most`.
-    float error_of(const std::byte* bytes, const BlockTexels& aim, float most) const
+    // Infinite where it is above `most`. `aim` in the order of decoded texels.
+    float error_of(const std::byte* bytes, const BlockBytes& aim, float most) const
     {
         BlockBytes read;
         format_.decode(bytes, BlockSign::Unsigned, read);
         const std::size_t channels = static_cast<std::size_t>(format_.channels);
-        float total = 0.0f;
-        for (std::size_t c = 0; c < channels; ++c) {
-            int sum = 0;
-            for (std::size_t t = 0; t < 16; ++t) {
-                const int off = std::to_integer<int>(read[t * channels + c]) - aim.plane[c][t];
-                sum += off * off;
-            }
-            total += weight_[c] * static_cast<float>(sum);
-            if (total > most) return kNever;
+        int sums[4] = {};
+        if (channels == 4) {
+            sum_squares<4>(read, aim, sums);
+        } else if (channels == 2) {
+            sum_squares<2>(read, aim, sums);
+        } else {
+            sum_squares<1>(read, aim, sums);
         }
-        return total;
+        float total = 0.0f;
+        for (std::size_t c = 0; c < channels; ++c) total += weight_[c] * static_cast<float>(sums[c]);
+        return total > most ? kNever : total;
+    }
+
+    template <std::size_t channels>
+    static void sum_squares(const BlockBytes& read, const BlockBytes& aim, int (&sums)[4])
+    {
+        for (std::size_t t = 0; t < 16; ++t) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                const int off = std::to_integer<int>(read[t * channels + c]) - std::to_integer<int>(aim[t * channels + c]);
+                sums[c] += off * off;
+            }
+        }
     }
 
     float match_bits(int distance, int first) const
@@ -122,15 +133,26 @@ private:
                std::log2(static_cast<float>(distance) * static_cast<float>(format_.bytes));
     }
 
+    // An earlier block worth a look.
+    struct Candidate {
+        int block, mode;
+        float bits;  // of a match that does not begin the block
+        std::array<std::uint64_t, 2> content;
+    };
+
     // Earlier blocks worth a look, nearest first, each content once.
     void gather(int i)
     {
         candidates_.clear();
         const auto offer = [&](int j) {
             if (j < 0 || j >= i) return;
-            for (const int other : candidates_)
-                if (std::memcmp(at(other), at(j), format_.bytes) == 0) return;
-            candidates_.push_back(j);
+            Candidate found{j, 0, 0.0f, {}};
+            std::memcpy(found.content.data(), at(j), format_.bytes);
+            for (const Candidate& other : candidates_)
+                if (other.content == found.content) return;
+            found.mode = mode_of(format_.block, at(j));
+            found.bits = match_bits(i - j, 1);
+            candidates_.push_back(found);
         };
         if (distance_ > 0) offer(i - distance_);
         for (int back = 1; back <= kBack; ++back) offer(i - back);
@@ -140,7 +162,11 @@ private:
 
     void place(int i)
     {
-        const BlockTexels aim = texels_(i % across_, first_row_ + i / across_);
+        const std::size_t channels = static_cast<std::size_t>(format_.channels);
+        const BlockTexels texels = texels_(i % across_, first_row_ + i / across_);
+        BlockBytes aim;
+        for (std::size_t t = 0; t < 16; ++t)
+            for (std::size_t c = 0; c < channels; ++c) aim[t * channels + c] = std::byte{texels.plane[c][t]};
         std::byte* own = at(i);
         const float least_error = error_of(own, aim, kNever);
         if (least_error >= most_) {
@@ -153,40 +179,43 @@ private:
         Run taken{0, 0};
         int from = 0;
         const int bytes = static_cast<int>(format_.bytes);
+        float best_error = least_error;
         float cost = least_error + price_ * kByteBits * static_cast<float>(bytes);
-        const auto attempt = [&](const Bytes& base, float spent, Run run, int j) {
-            const float bits =
-                spent - kByteBits * static_cast<float>(run.count) + match_bits(i - j, run.first);
+        const auto attempt = [&](const Bytes& base, float base_error, float spent, Run run, const Candidate& c) {
+            const float match = run.first == 0 && ends_ && i - c.block == distance_ ? 0.0f : c.bits;
+            const float bits = spent - kByteBits * static_cast<float>(run.count) + match;
             // No other bytes are nearer to the texels than the encoder's, nearly.
             if (0.98f * least_error + price_ * bits >= cost) return;
             Bytes trial = base;
-            std::memcpy(trial.data() + run.first, at(j) + run.first,
+            std::memcpy(trial.data() + run.first, at(c.block) + run.first,
                         static_cast<std::size_t>(run.count));
-            const float error = error_of(trial.data(), aim, std::min(cost - price_ * bits, most_));
+            const float error = trial == base ? base_error : error_of(trial.data(), aim, std::min(cost - price_ * bits, most_));
             if (!(error + price_ * bits < cost)) return;
             cost = error + price_ * bits;
             best = trial;
+            best_error = error;
             taken = run;
-            from = j;
+            from = c.block;
         };
         Bytes base = best;
         const int mode = mode_of(format_.block, own);
         for (const Run& run : runs_of(format_.block))
-            for (const int j : candidates_)
-                if (run.count == bytes || mode_of(format_.block, at(j)) == mode)
-                    attempt(base, kByteBits * static_cast<float>(bytes), run, j);
+            for (const Candidate& c : candidates_)
+                if (run.count == bytes || c.mode == mode)
+                    attempt(base, least_error, kByteBits * static_cast<float>(bytes), run, c);
         if (taken.count > 0 && taken.count < bytes) {  // a second run beside the first
             base = best;
+            const float base_error = best_error;
             const Run one = taken;
             const float spent =
                 kByteBits * static_cast<float>(bytes - one.count) + match_bits(i - from, one.first);
             const int first_from = from;
+            const int base_mode = mode_of(format_.block, base.data());
             for (const Run& run : runs_of(format_.block)) {
                 if (run.first < one.first + one.count && one.first < run.first + run.count)
                     continue;
-                for (const int j : candidates_)
-                    if (mode_of(format_.block, at(j)) == mode_of(format_.block, base.data()))
-                        attempt(base, spent, run, j);
+                for (const Candidate& c : candidates_)
+                    if (c.mode == base_mode) attempt(base, base_error, spent, run, c);
             }
             // The later of the two is what the next block goes on from.
             if (taken.first < one.first) taken = one, from = first_from;
@@ -202,7 +231,7 @@ private:
     const std::function<BlockTexels(int, int)>& texels_;
     float price_, most_;  // squared error a block: of a bit, and at most
     std::array<float, 4> weight_{};
-    std::vector<int> candidates_;
+    std::vector<Candidate> candidates_;
     int distance_ = 0;   // of the match before
     bool ends_ = false;  // it reached the end of its block
 };

@@ -1,6 +1,7 @@
 #ifndef PETRICHOR_TEXPROC_CODECS_BLOCKS_DETAIL_BIT_READER_H
 #define PETRICHOR_TEXPROC_CODECS_BLOCKS_DETAIL_BIT_READER_H
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -12,14 +13,20 @@ class BitReader {
 public:
     explicit BitReader(const std::byte* block)
     {
-        for (int i = 0; i < 8; ++i) {
-            low_ |= static_cast<std::uint64_t>(block[i]) << (8 * i);
-            high_ |= static_cast<std::uint64_t>(block[8 + i]) << (8 * i);
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(&low_, block, 8);
+            std::memcpy(&high_, block + 8, 8);
+        } else {
+            for (int i = 0; i < 8; ++i) {
+                low_ |= static_cast<std::uint64_t>(block[i]) << (8 * i);
+                high_ |= static_cast<std::uint64_t>(block[8 + i]) << (8 * i);
+            }
         }
     }
-    int take(int bits)
+    int take(int bits) { return bits == 0 ? 0 : take_some(bits); }
+    /// The same for at least one bit.
+    int take_some(int bits)
     {
-        if (bits == 0) return 0;
         const int value = static_cast<int>(low_ & ((1ull << bits) - 1));
         low_ = (low_ >> bits) | (high_ << (64 - bits));
         high_ >>= bits;

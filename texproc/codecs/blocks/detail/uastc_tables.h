@@ -36,7 +36,7 @@ constexpr std::array<UastcMode, 19> kUastcModes{{
 struct UastcRange {
     int bits;
     int base;  ///< 0: bits only
-    int levels() const { return (1 << bits) * (base ? base : 1); }
+    constexpr int levels() const { return (1 << bits) * (base ? base : 1); }
 };
 constexpr std::array<UastcRange, 8> kUastcRanges{
     {{2, 3}, {4, 0}, {5, 0}, {3, 5}, {4, 3}, {5, 5}, {6, 3}, {8, 0}}};
