@@ -328,6 +328,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
                     c.world_to_clip, c.camera_m, weather, Draws::LetLightThrough, &between);
     };
     const auto light = [&] {
+        add_depth_rows(graph, layer);
         add_light_lists(graph, layer, *r.lights, constants);
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
@@ -471,6 +472,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                          !weathered);
             }
         }
+        add_depth_rows(graph, *r.targets);
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants, pixels);

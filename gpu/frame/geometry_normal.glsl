@@ -1,10 +1,11 @@
-// The normal of the mesh at a pixel, of the depths around it. Before the include: frame and depth_map.
+// The normal of the mesh at a pixel, of the depths around it. Before the include: frame and depth_rows.
 #ifndef PETRICHOR_GEOMETRY_NORMAL_GLSL
 #define PETRICHOR_GEOMETRY_NORMAL_GLSL
 
 float depth_at(ivec2 texel)
 {
-    return texelFetch(depth_map, clamp(texel, ivec2(0), frame.size - 1), 0).r;
+    const ivec2 at = clamp(texel, ivec2(0), frame.size - 1);
+    return texelFetch(depth_rows, at.y * frame.size.x + at.x).r;
 }
 
 vec3 position_at(ivec2 texel, float depth)

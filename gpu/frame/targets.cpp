@@ -79,6 +79,24 @@ void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBuffer& gbuffer,
 #undef ROW
 }
 
+void add_depth_rows(FrameGraph& graph, FrameTargets& targets)
+{
+    GpuImage* depth = targets.gbuffer.depth.get();
+    GpuBuffer* rows = targets.depth_rows.get();
+    graph.add(TransferPass{
+        "depth_rows",
+        {{.image = depth, .use = Use::TransferSource}, {.buffer = rows, .use = Use::TransferTarget}},
+        [depth, rows](VkCommandBuffer commands) {
+            VkBufferImageCopy region{};
+            region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+            region.imageExtent = {static_cast<std::uint32_t>(depth->width),
+                                  static_cast<std::uint32_t>(depth->height), 1};
+            vkCmdCopyImageToBuffer(commands, depth->image.get(),
+                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, rows->buffer.get(), 1,
+                                   &region);
+        }});
+}
+
 VkDeviceSize light_lists_bytes(int width, int height, int light_words)
 {
     const auto tiles = static_cast<VkDeviceSize>(divide_up(width, LIGHT_TILE)) *

@@ -64,6 +64,9 @@ struct FrameTargets {
     int coarse_y() const;
 };
 
+/// Copies the depth into its rows.
+void add_depth_rows(FrameGraph& graph, FrameTargets& targets);
+
 /// light_words: 32-bit words for one bit a light.
 VkDeviceSize light_lists_bytes(int width, int height, int light_words);
 FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int width, int height,

@@ -14,7 +14,7 @@
 
 layout(local_size_x = AMBIENT_OCCLUSION_TILE, local_size_y = AMBIENT_OCCLUSION_TILE) in;
 layout(binding = AMBIENT_OCCLUSION_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform sampler2D depth_map;
+layout(binding = AMBIENT_OCCLUSION_DEPTH) uniform samplerBuffer depth_rows;
 layout(binding = AMBIENT_OCCLUSION_NORMALS) uniform sampler2D normal_map;
 layout(binding = AMBIENT_OCCLUSION_TARGET, r8) uniform writeonly image2D target;
 #include "gpu/frame/geometry_normal.glsl"
@@ -75,7 +75,7 @@ void main()
 {
     ivec2 texel;
     if (!this_pixel(frame.size, texel)) return;
-    const float depth = texelFetch(depth_map, texel, 0).r;
+    const float depth = depth_at(texel);
     if (depth <= 0.0) {
         imageStore(target, texel, vec4(1.0));
         return;

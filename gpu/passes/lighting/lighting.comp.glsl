@@ -67,6 +67,7 @@ LIGHTING_MODELS(ROW)
 layout(binding = LIGHTING_FRAME, scalar) uniform Frame { FrameConstants frame; };
 layout(binding = LIGHTING_SKY_LIGHT, scalar) uniform Sky { SkyLight sky_light; };
 layout(binding = LIGHTING_OCCLUSION) uniform sampler2D occlusion_map;
+layout(binding = LIGHTING_DEPTH_ROWS) uniform samplerBuffer depth_rows;
 layout(binding = LIGHTING_SHADOW) uniform sampler2DArray shadow_map;
 layout(binding = LIGHTING_LAMP_SHADOWS) uniform sampler2DArray lamp_shadow_map;
 layout(binding = LIGHTING_SPECULAR) uniform samplerCube specular_map;
@@ -279,7 +280,7 @@ void main()
         return;
     }
     const vec2 pixel = vec2(texel) + 0.5;
-    const float depth = texelFetch(depth_map, texel, 0).r;
+    const float depth = depth_at(texel);
     const bool there = inside && depth > 0.0;
     vec3 radiance;
     vec4 mirror = vec4(0.0);  // what a smooth surface reflects; alpha: how far water closes over relief

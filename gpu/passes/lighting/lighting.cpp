@@ -43,6 +43,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
                      {LIGHTING_OCCLUSION, sampled(*targets.occlusion, nearest)},
+                     {LIGHTING_DEPTH_ROWS, texels(*targets.depth_rows)},
                      {LIGHTING_SHADOW, sampled(*depth_maps.shadow, depth_maps.plain)},
                      {LIGHTING_LAMP_SHADOWS, sampled(lamp_shadows.map(), depth_maps.plain)},
                      {LIGHTING_SPECULAR, sampled(*sky.specular, sky.linear)},

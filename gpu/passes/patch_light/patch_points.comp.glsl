@@ -10,7 +10,7 @@
 
 layout(local_size_x = PATCH_POINTS_TILE, local_size_y = PATCH_POINTS_TILE) in;
 layout(binding = PATCH_POINTS_FRAME, scalar) uniform Frame { FrameConstants frame; };
-layout(binding = PATCH_POINTS_DEPTH) uniform sampler2D depth_map;
+layout(binding = PATCH_POINTS_DEPTH) uniform samplerBuffer depth_rows;
 layout(binding = PATCH_POINTS_NORMALS) uniform sampler2D normal_map;
 layout(binding = PATCH_POINTS_TABLE) uniform usamplerBuffer patch_table_texels;
 layout(binding = PATCH_POINTS_WAYS) uniform usamplerBuffer patch_way_texels;

@@ -14,7 +14,7 @@ void add_patch_points(FrameGraph& graph, FrameTargets& targets, const PatchLight
         .shader = "patch_points.comp",
         .constants = {},
         .bindings = {{PATCH_POINTS_FRAME, frame_binding(constants)},
-                     {PATCH_POINTS_DEPTH, sampled(*g.depth, targets.nearest)},
+                     {PATCH_POINTS_DEPTH, texels(*targets.depth_rows)},
                      {PATCH_POINTS_NORMALS, sampled(*g.normals, targets.nearest)},
                      {PATCH_POINTS_TABLE, texels(patches.table())},
                      {PATCH_POINTS_WAYS, texels(patches.ways())},

@@ -5,34 +5,12 @@
 #include "gpu/passes/reflections/reflections_io.h"
 
 namespace petrichor::gpu {
-namespace {
-
-void add_depth_rows(FrameGraph& graph, FrameTargets& targets)
-{
-    GpuImage* depth = targets.gbuffer.depth.get();
-    GpuBuffer* rows = targets.depth_rows.get();
-    graph.add(TransferPass{
-        "depth_rows",
-        {{.image = depth, .use = Use::TransferSource}, {.buffer = rows, .use = Use::TransferTarget}},
-        [depth, rows](VkCommandBuffer commands) {
-            VkBufferImageCopy region{};
-            region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
-            region.imageExtent = {static_cast<std::uint32_t>(depth->width),
-                                  static_cast<std::uint32_t>(depth->height), 1};
-            vkCmdCopyImageToBuffer(commands, depth->image.get(),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, rows->buffer.get(), 1,
-                                   &region);
-        }});
-}
-
-}  // namespace
 
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,
                      const MirrorOutputs& outputs, Pixels pixels)
 {
     const SamplerHandle& nearest = targets.nearest;
-    if (outputs.picture) add_depth_rows(graph, targets);
     ComputePass pass{
         .name = "reflections",
         .shader = "reflections.comp",

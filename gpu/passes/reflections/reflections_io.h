@@ -29,7 +29,7 @@ SHARED_END
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
 
 #define REFLECTIONS_EMISSION 14     // of the G-buffer
-#define REFLECTIONS_DEPTH_ROWS 13   // the depth map again, row by row: buffers are read faster
+#define REFLECTIONS_DEPTH_ROWS 13   // the depth map again, row by row
 
 #define REFLECTIONS_SPEC_PROBES 0   // how many
 #define REFLECTIONS_SPEC_SPLIT 1    // 1: what is mirrored is written apart, too
