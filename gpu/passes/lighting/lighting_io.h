@@ -58,7 +58,8 @@
 #define LIGHTING_SHARES 21
 #define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
 #define LIGHTING_PARTS 23
-#define LIGHTING_DEPTH_ROWS 24  // the depth map again, row by row
-#define LIGHTING_GBUFFER 25     // depth, then the targets
+#define LIGHTING_DEPTH_ROWS 24   // the depth map again, row by row
+#define LIGHTING_MIRROR_LIST 25  // gpu/frame/pixel_list_io.h
+#define LIGHTING_GBUFFER 26      // depth, then the targets
 
 #endif

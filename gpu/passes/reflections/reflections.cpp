@@ -29,14 +29,19 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_ACCUMULATED, storage(*targets.accumulated)},
                      {REFLECTIONS_PROBES, texels(probes.rows())},
                      {REFLECTIONS_PROBE_LIGHT, texels(probes.light())},
-                     {REFLECTIONS_PIXELS, texels(*targets.pixel_list)},
+                     {REFLECTIONS_PIXELS, texels(outputs.label ? *targets.pixel_list : *targets.mirror_list)},
                      {REFLECTIONS_IDENTITY, sampled(*targets.gbuffer.identity, nearest)},
                      {REFLECTIONS_EMISSION, sampled(*targets.gbuffer.emission, nearest)},
                      {REFLECTIONS_PARTS, storage(*outputs.parts)},
                      {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
         .groups = {}};
-    add_over_pixels(graph, targets, std::move(pass), pixels);
+    if (outputs.label) {  // where nothing is mirrored that is said, too
+        add_over_pixels(graph, targets, std::move(pass), pixels);
+        return;
+    }
+    add_list_groups(graph, pass.name, *targets.mirror_list, *targets.mirror_groups);
+    add_over_list(graph, std::move(pass), *targets.mirror_groups);
 }
 
 }  // namespace petrichor::gpu
