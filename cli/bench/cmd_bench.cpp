@@ -159,6 +159,8 @@ void add_bench(CLI::App& app)
                         "part of a device name, or its number in `petrichor doctor`");
     command->add_option("--threads", o->threads, "CPU threads (all)")->check(CLI::Range(1, 1024));
     command->add_option("--png", o->picture, "keep the picture that was timed");
+    command->add_flag("--apart", o->apart,
+                      "wait for each pass and tell its CPU time, too (the frame takes longer)");
     command->add_flag("--json", o->json, "report for programs");
     command
         ->add_option("--surface-path", o->surface_path,

@@ -47,11 +47,14 @@ std::vector<gpu::PassTime> median_passes(const std::vector<FrameCost>& costs)
 {
     std::vector<gpu::PassTime> passes = costs.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        std::vector<double> values;
+        std::vector<double> wall, cpu;
         for (const FrameCost& frame : costs) {
-            if (i < frame.passes.size()) values.push_back(frame.passes[i].milliseconds);
+            if (i >= frame.passes.size()) continue;
+            wall.push_back(frame.passes[i].milliseconds);
+            cpu.push_back(frame.passes[i].cpu_milliseconds);
         }
-        passes[i].milliseconds = median(values);
+        passes[i].milliseconds = median(wall);
+        passes[i].cpu_milliseconds = median(cpu);
     }
     return passes;
 }
@@ -121,7 +124,9 @@ void print_json(const RenderBenchOptions& options, int samples, const std::strin
     report["peak_memory_mib"] = peak_memory_mib();
     report["passes"] = nlohmann::ordered_json::array();
     for (const gpu::PassTime& pass : median_passes(costs)) {
-        report["passes"].push_back({{"name", pass.name}, {"wall_ms", pass.milliseconds}});
+        nlohmann::ordered_json row{{"name", pass.name}, {"wall_ms", pass.milliseconds}};
+        if (options.apart) row["cpu_ms"] = pass.cpu_milliseconds;
+        report["passes"].push_back(row);
     }
     for (const PeerRow& peer : peers) {
         nlohmann::ordered_json row{{"name", peer.name}, {"version", peer.version}};
@@ -150,7 +155,12 @@ void print_text(const RenderBenchOptions& options, int samples, const std::strin
         "  cpu_ms_per_frame   %10.2f\n  wall_ms_per_frame  %10.2f\n  peak_memory_mib    %10ld\n",
         median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), peak_memory_mib());
     for (const gpu::PassTime& pass : median_passes(costs)) {
-        std::printf("    %-24s %8.2f ms\n", pass.name.c_str(), pass.milliseconds);
+        if (options.apart) {
+            std::printf("    %-24s %8.2f ms, CPU %8.2f ms\n", pass.name.c_str(), pass.milliseconds,
+                        pass.cpu_milliseconds);
+        } else {
+            std::printf("    %-24s %8.2f ms\n", pass.name.c_str(), pass.milliseconds);
+        }
     }
     if (!peers.empty()) {
         const Cost ours{median_of(costs, &Cost::cpu_ms), median_of(costs, &Cost::wall_ms), 0.0};
@@ -189,7 +199,7 @@ Workload plain_workload(const RenderBenchOptions& options)
 {
     const ImageSize size = parse_size(options.size.empty() ? "1280x720" : options.size);
     scene::Scene scene = read_scene(options.scene).scene;
-    gpu::Renderer renderer({.device = options.device});
+    gpu::Renderer renderer({.device = options.device, .passes_apart = options.apart});
     renderer.load(scene, prepare_textures(scene, {.threads = options.threads}));
     return {std::move(renderer), bench_frame(scene, options, size)};
 }
@@ -220,6 +230,7 @@ Workload scenario_workload(const RenderBenchOptions& options)
     RenderRequest request;
     request.device = options.device;
     request.threads = options.threads;
+    request.passes_apart = options.apart;
     RenderReport report;
     Job job{options.frame, options.variant, options.view};
     // The first of those there are, where none is named.

@@ -20,6 +20,7 @@ struct RenderBenchOptions {
     int samples = 0;  ///< 0: the scenario's, or 1
     int threads = 0;
     bool json = false;
+    bool apart = false;  ///< waits for each pass and tells its CPU time
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
     bool shadows = false;
     bool ambient_occlusion = false;

@@ -330,6 +330,7 @@ std::vector<gpu::Renderer> sequence_renderers(Sequence& sequence, const RenderRe
     maps.tracks = draw_tracks(scenario.ground.tracks);
     const gpu::RendererOptions device{.device = request.device,
                                       .validation = request.validation,
+                                      .passes_apart = request.passes_apart,
                                       .ripple_texture_size = scenario.render.ripple_texture_size};
     std::vector<gpu::Renderer> renderers;
     renderers.emplace_back(device, maps);

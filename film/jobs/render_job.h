@@ -44,6 +44,7 @@ struct RenderRequest {
     int threads = 0;                  ///< of the image readers; 0: all cores
     int in_flight = 0;                ///< pictures rendered at a time; 0: frames_in_flight()
     bool validation = false;          ///< run the validation layer; its messages are an error
+    bool passes_apart = false;        ///< as in gpu::RendererOptions
     std::string command;              ///< how to go on after a stop: the command line with --resume
     StopRequest stop = {};            ///< asked between frames
     RenderTally* tally = nullptr;

@@ -322,6 +322,7 @@ std::vector<DeviceInfo> list_devices()
 Device::Device(const RendererOptions& options)
     : messages_(std::make_unique<std::vector<std::string>>())
 {
+    passes_apart_ = options.passes_apart;
     instance_ = create_instance(options.validation, &debug_utils_, messages_.get());
     try {
         const auto load = [this](const char* name) {

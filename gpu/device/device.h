@@ -33,6 +33,8 @@ public:
     bool primitive_ids() const { return primitive_ids_; }
     /// So many invocations of a compute shader can hand each other values.
     std::uint32_t subgroup_size() const { return subgroup_size_; }
+    /// RendererOptions::passes_apart.
+    bool passes_apart() const { return passes_apart_; }
     const DeviceInfo& info() const { return info_; }
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
@@ -65,6 +67,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool primitive_ids_ = false;
+    bool passes_apart_ = false;
     std::uint32_t subgroup_size_ = 1;
     bool debug_utils_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;

@@ -24,12 +24,14 @@ std::vector<DeviceInfo> list_devices();
 struct RendererOptions {
     std::string device;       ///< part of a device name or an index; empty: best GPU, else CPU
     bool validation = false;  ///< load the validation layer and collect its messages
+    bool passes_apart = false;  ///< each pass is waited for, so that its CPU time is known; slower
     int ripple_texture_size = 512;  ///< texels a side of the map of rings: a power of two, 64..4096
 };
 
 struct PassTime {
     std::string name;
     double milliseconds = 0.0;  ///< of the device, all samples of the frame together
+    double cpu_milliseconds = 0.0;  ///< of all threads, with RendererOptions::passes_apart; 0 without
 };
 
 }  // namespace petrichor::gpu

@@ -1,6 +1,7 @@
 #include "gpu/device/graph.h"
 
 #include <algorithm>
+#include <ctime>
 #include <map>
 #include <stdexcept>
 
@@ -311,26 +312,44 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
         wanted.insert(wanted.end(), pass.pipelines.begin(), pass.pipelines.end());
     }
     pipelines.prepare(wanted);
-    device.run([&](VkCommandBuffer commands) {
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(), 0);
-        std::uint32_t query = 1;
-        for (const Pass& pass : passes_) {
-            device.begin_label(commands, pass.name);
-            Barriers barriers;
-            for (const Touch& touch : pass.touches) {
-                if (touch.image) {
-                    barriers.add(*touch.image, touch.use);
-                } else {
-                    barriers.add(*touch.buffer, touch.use);
-                }
+    const auto stamp = [&](VkCommandBuffer commands, std::size_t query) {
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(),
+                             static_cast<std::uint32_t>(query));
+    };
+    const auto record = [&](VkCommandBuffer commands, const Pass& pass) {
+        device.begin_label(commands, pass.name);
+        Barriers barriers;
+        for (const Touch& touch : pass.touches) {
+            if (touch.image) {
+                barriers.add(*touch.image, touch.use);
+            } else {
+                barriers.add(*touch.buffer, touch.use);
             }
-            barriers.record(commands);
-            pass.record(commands, pipelines, descriptors);
-            device.end_label(commands);
-            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool.get(),
-                                 query++);
         }
-    });
+        barriers.record(commands);
+        pass.record(commands, pipelines, descriptors);
+        device.end_label(commands);
+    };
+    std::vector<double> cpu_ms(passes_.size(), 0.0);
+    if (device.passes_apart()) {
+        device.run([&](VkCommandBuffer commands) { stamp(commands, 0); });
+        for (std::size_t i = 0; i < passes_.size(); ++i) {
+            const std::clock_t before = std::clock();
+            device.run([&](VkCommandBuffer commands) {
+                record(commands, passes_[i]);
+                stamp(commands, i + 1);
+            });
+            cpu_ms[i] = 1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+        }
+    } else {
+        device.run([&](VkCommandBuffer commands) {
+            stamp(commands, 0);
+            for (std::size_t i = 0; i < passes_.size(); ++i) {
+                record(commands, passes_[i]);
+                stamp(commands, i + 1);
+            }
+        });
+    }
     std::vector<std::uint64_t> ticks(queries);
     check(vkGetQueryPoolResults(device.handle(), pool.get(), 0, queries,
                                 ticks.size() * sizeof(std::uint64_t), ticks.data(),
@@ -342,7 +361,8 @@ std::vector<PassTime> FrameGraph::execute(const Device& device, PipelineCache& p
     const double to_ms = static_cast<double>(device.limits().timestampPeriod) * 1e-6;
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         const auto [slot, is_new] = by_name.try_emplace(passes_[i].name, times.size());
-        if (is_new) times.push_back({passes_[i].name, 0.0});
+        if (is_new) times.push_back({passes_[i].name});
+        times[slot->second].cpu_milliseconds += cpu_ms[i];
         times[slot->second].milliseconds += static_cast<double>(ticks[i + 1] - ticks[i]) * to_ms;
     }
     return times;

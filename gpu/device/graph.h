@@ -168,7 +168,8 @@ public:
     /// Makes what was written visible to the host once the frame is done.
     void read_back(const std::vector<GpuBuffer*>& buffers);
 
-    /// Records all passes into one command buffer, submits, waits. Times are summed by pass name.
+    /// Records all passes into one command buffer, submits, waits; each pass by itself with
+    /// RendererOptions::passes_apart. Times are summed by pass name.
     std::vector<PassTime> execute(const Device& device, PipelineCache& pipelines,
                                   DescriptorArena& descriptors);
     bool empty() const { return passes_.empty(); }

@@ -20,6 +20,13 @@ void add_all_pixels(FrameGraph& graph, FrameTargets& targets);
 /// its bindings.
 void add_over_pixels(FrameGraph& graph, FrameTargets& targets, ComputePass pass, Pixels pixels);
 
+/// Empties a list of that kind, as part of the pass of that name.
+void add_empty_list(FrameGraph& graph, const std::string& pass, GpuBuffer& list);
+/// Works out the groups of a pass over it.
+void add_list_groups(FrameGraph& graph, const std::string& pass, GpuBuffer& list, GpuBuffer& groups);
+/// Adds a pass over the list that is among its bindings.
+void add_over_list(FrameGraph& graph, ComputePass pass, GpuBuffer& groups);
+
 }  // namespace petrichor::gpu
 
 #endif

@@ -6,4 +6,8 @@
 #define PIXEL_LIST_ALL 0xffffffffu  // in place of how many
 #define PIXEL_LIST_GROUP 64    // pixels that a workgroup shades; 8 x 8 without the list
 
+// list_groups: how many groups shade a list
+#define LIST_GROUPS_LIST 0
+#define LIST_GROUPS_GROUPS 1   // VkDispatchIndirectCommand
+
 #endif

@@ -201,14 +201,22 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                         .size = light_lists_bytes(width, height, light_words),
                                         .usage = table,
                                         .texel_format = VK_FORMAT_R32G32_UINT});
-    targets.pixel_list = arena.buffer({.name = "pixel_list",
-                                       .size = (pixels + 1) * 4,
-                                       .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                       .texel_format = VK_FORMAT_R32_UINT});
-    targets.pixel_groups = arena.buffer(
-        {.name = "pixel_groups",
-         .size = sizeof(VkDispatchIndirectCommand),
-         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    const auto list = [&](const char* name) {
+        return arena.buffer({.name = name,
+                             .size = (pixels + 1) * 4,
+                             .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                             .texel_format = VK_FORMAT_R32_UINT});
+    };
+    const auto groups = [&](const char* name) {
+        return arena.buffer(
+            {.name = name,
+             .size = sizeof(VkDispatchIndirectCommand),
+             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    };
+    targets.pixel_list = list("pixel_list");
+    targets.pixel_groups = groups("pixel_groups");
+    targets.mirror_list = list("mirror_list");
+    targets.mirror_groups = groups("mirror_groups");
     targets.patch_points =
         arena.buffer({.name = "patch_points",
                       .size = static_cast<VkDeviceSize>(divide_up(width, PATCH_BLOCK)) *

@@ -60,6 +60,8 @@ struct FrameTargets {
     std::unique_ptr<GpuBuffer> light_lists;
     std::unique_ptr<GpuBuffer> pixel_list;    ///< gpu/frame/pixel_list_io.h
     std::unique_ptr<GpuBuffer> pixel_groups;  ///< the arguments of a dispatch over it
+    std::unique_ptr<GpuBuffer> mirror_list;    ///< likewise of pixels that have a mirror_weight
+    std::unique_ptr<GpuBuffer> mirror_groups;
     std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
     std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 using namespace testing_program;
 
 constexpr const char* kScenario = R"(
@@ -431,6 +433,27 @@ TEST_F(Render, BenchReportsAndKeepsThePicture)
         EXPECT_THAT(outcome.out, HasSubstr(name));
     }
     EXPECT_GT(fs::file_size(place_ / "timed.png"), 100u);
+}
+
+// Passes one by one are the same picture, and the CPU time of each is known: of all no more than the frame's.
+TEST_F(Render, BenchTellsTheCpuTimeOfEachPass)
+{
+    const auto bench = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bench", "s.toml", "--repeat", "1", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_petrichor({.arguments = std::move(arguments)}, place_.path());
+    };
+    const Outcome together = bench({"--png", "together.png"});
+    const Outcome apart = bench({"--png", "apart.png", "--apart"});
+    ASSERT_EQ(together.exit_code, 0) << together.err;
+    ASSERT_EQ(apart.exit_code, 0) << apart.err;
+    EXPECT_THAT(together.out, Not(HasSubstr("\"cpu_ms\"")));
+    EXPECT_EQ(read_file(place_ / "apart.png"), read_file(place_ / "together.png"));
+    const auto report = nlohmann::json::parse(apart.out);
+    double all_ms = 0.0;
+    for (const auto& pass : report["passes"]) all_ms += pass["cpu_ms"].get<double>();
+    EXPECT_GT(all_ms, 0.0);
+    EXPECT_LE(all_ms, report["cpu_ms_per_frame"].get<double>());
 }
 
 }  // namespace

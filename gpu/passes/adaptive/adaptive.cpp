@@ -1,5 +1,6 @@
 #include "gpu/passes/adaptive/adaptive.h"
 
+#include "gpu/frame/pixel_list.h"
 #include "gpu/passes/adaptive/adaptive_io.h"
 
 namespace petrichor::gpu {
@@ -71,11 +72,7 @@ void add_ask(FrameGraph& graph, FrameTargets& targets, ResolveTables& resolve, A
 {
     const SamplerHandle& nearest = targets.nearest;
     GpuBuffer& list = *targets.pixel_list;
-    graph.add(TransferPass{.name = "adaptive",
-                           .transfers = {{nullptr, &list, Use::TransferTarget}},
-                           .record = [&list](VkCommandBuffer commands) {
-                               vkCmdFillBuffer(commands, list.buffer.get(), 0, 4, 0);
-                           }});
+    add_empty_list(graph, "adaptive", list);
     const int across = (targets.width + ADAPTIVE_TILE - 1) / ADAPTIVE_TILE;
     const int down = (targets.height + ADAPTIVE_TILE - 1) / ADAPTIVE_TILE;
     graph.add(ComputePass{.name = "adaptive",
@@ -91,13 +88,7 @@ void add_ask(FrameGraph& graph, FrameTargets& targets, ResolveTables& resolve, A
                                        {ADAPTIVE_ASK_LIST, storage_buffer(list)}},
                           .push = {},
                           .groups = groups_over(across, down, ADAPTIVE_TILE)});
-    graph.add(ComputePass{.name = "adaptive",
-                          .shader = "adaptive_groups.comp",
-                          .constants = {},
-                          .bindings = {{ADAPTIVE_GROUPS_LIST, storage_buffer(list)},
-                                       {ADAPTIVE_GROUPS_GROUPS, storage_buffer(*targets.pixel_groups)}},
-                          .push = {},
-                          .groups = {}});
+    add_list_groups(graph, "adaptive", list, *targets.pixel_groups);
 }
 
 }  // namespace petrichor::gpu

@@ -3,7 +3,6 @@
 //   adaptive_first   keeps what the first sample saw: draw, depth, light
 //   adaptive_settle  calm pixels: the second sample saw the same surface in nearly the same light
 //   adaptive_ask     a later sample: calm pixels take the mean of the two, the others are listed
-//   adaptive_groups  how many groups shade the list
 #ifndef PETRICHOR_GPU_PASSES_ADAPTIVE_ADAPTIVE_IO_H
 #define PETRICHOR_GPU_PASSES_ADAPTIVE_ADAPTIVE_IO_H
 
@@ -37,10 +36,6 @@
 #define ADAPTIVE_ASK_LIT 5    // calm pixels are added
 #define ADAPTIVE_ASK_ASKED 6  // two words a tile: pixels that are shaded
 #define ADAPTIVE_ASK_LIST 7   // gpu/frame/pixel_list_io.h
-
-#define ADAPTIVE_GROUPS_GROUP 1
-#define ADAPTIVE_GROUPS_LIST 0
-#define ADAPTIVE_GROUPS_GROUPS 1  // VkDispatchIndirectCommand
 
 SHARED_BEGIN
 

@@ -9,7 +9,7 @@ namespace petrichor::gpu {
 
 // Screen-space ambient occlusion.
 //
-//   reads    depth, normals
+//   reads    depth_rows, normals
 //   writes   screen_occlusion
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants, Pixels pixels);

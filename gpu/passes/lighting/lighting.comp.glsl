@@ -3,6 +3,7 @@
 // the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "gpu/lighting/models_io.h"
 #include "formulas/color/srgb.h"
@@ -87,6 +88,7 @@ layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texel
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
+layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_count; uint mirror_pixels[]; };
 
 #include "gpu/frame/air.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
@@ -272,6 +274,17 @@ Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, f
     const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
     const vec3 seen = open + (1.0 - open) * hidden;
     return Ambient(sky_irradiance(p.normal) * seen, crevices * screen, seen, open);
+}
+
+// Lists the pixels that the pass of reflections is about: a CPU would do its work for all others, too. The order of
+// the list decides no pixel.
+void list_mirror(bool mirrors, ivec2 texel)
+{
+    const uvec4 asked = subgroupBallot(mirrors);
+    uint first = 0u;
+    if (subgroupElect()) first = atomicAdd(mirror_count, subgroupBallotBitCount(asked));
+    first = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(asked);
+    if (mirrors) mirror_pixels[first] = uint(texel.y) * 65536u + uint(texel.x);
 }
 
 void main()
@@ -576,8 +589,7 @@ void main()
         imageStore(radiance_out, texel, result);
         imageStore(mirror_weight, texel, mirror);
         imageStore(mirror_shape, texel, shape);
-    } else {
-        imageStore(accumulated, texel,
-                   frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
+        list_mirror(mirror.r + mirror.g + mirror.b > 0.0, texel);
     }
+    imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
 }

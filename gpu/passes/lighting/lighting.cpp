@@ -10,6 +10,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                   const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
+    if (variant.image_based_light) add_empty_list(graph, "lighting", *targets.mirror_list);
     ComputePass pass{
         .name = "lighting",
         .shader = variant.shader,
@@ -64,7 +65,8 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
                      {LIGHTING_PARTS, storage(*variant.parts)},
-                     {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)}},
+                     {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)},
+                     {LIGHTING_MIRROR_LIST, storage_buffer(*targets.mirror_list)}},
         .push = {},
         .groups = {}};
     for (std::size_t i = 0; i < variant.models.size(); ++i) {

@@ -49,11 +49,11 @@ struct LightingVariant {
     std::vector<bool> models{true};  ///< by number: something in the picture has it
 };
 
-// Applies weather to the dry material, then light. Without image-based light the sample is added to
-// the sum at once, else by the reflections.
+// Applies weather to the dry material, then light, and adds the sample to the sum.
 //
 //   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
-//   writes   radiance, mirror_weight, mirror_shape, or edits accumulated; light_parts of frames that ask
+//   writes   radiance, mirror_weight, mirror_shape, mirror_list for the reflections, with image-based light
+//   edits    accumulated; light_parts of frames that ask
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
                   DepthMaps& depth_maps, LampShadows& lamp_shadows,

@@ -58,6 +58,7 @@
 #define LIGHTING_SHARES 21
 #define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
 #define LIGHTING_PARTS 23
-#define LIGHTING_GBUFFER 24  // depth, then the targets
+#define LIGHTING_MIRROR_LIST 24  // gpu/frame/pixel_list_io.h
+#define LIGHTING_GBUFFER 25      // depth, then the targets
 
 #endif

@@ -229,7 +229,6 @@ void main()
 {
     ivec2 texel;
     if (!this_pixel(frame.size, texel)) return;
-    vec4 sum = texelFetch(radiance_map, texel, 0);
     const vec4 mirror = texelFetch(mirror_weight, texel, 0);
     const vec3 weight = mirror.rgb;
     vec3 mirrored_light = vec3(0.0);
@@ -291,7 +290,6 @@ void main()
             mirrored = mix(mirrored, seen, hit.confidence);
         }
         mirrored_light = weight * mirrored;
-        sum.rgb += mirrored_light;
         if (LABEL != 0u) label = reflection_label(weight, hit, probed_share);
     }
     if (SPLIT != 0u) {
@@ -302,6 +300,5 @@ void main()
     if (LABEL != 0u && frame.sample_index == 0u) {
         imageStore(label_image, ivec3(texel, REFLECTION_LABEL_LAYER), vec4(label, 0.0, 0.0));
     }
-    if (frame.sample_index > 0u) sum += imageLoad(accumulated, texel);
-    imageStore(accumulated, texel, sum);
+    imageStore(accumulated, texel, imageLoad(accumulated, texel) + vec4(mirrored_light, 0.0));
 }

@@ -35,7 +35,12 @@ void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      {REFLECTIONS_LABEL, storage(*outputs.labels)}},
         .push = {},
         .groups = {}};
-    add_over_pixels(graph, targets, std::move(pass), pixels);
+    if (outputs.label) {  // where nothing is mirrored that is said, too
+        add_over_pixels(graph, targets, std::move(pass), pixels);
+        return;
+    }
+    add_list_groups(graph, pass.name, *targets.mirror_list, *targets.mirror_groups);
+    add_over_list(graph, std::move(pass), *targets.mirror_groups);
 }
 
 }  // namespace petrichor::gpu

@@ -18,10 +18,9 @@ struct MirrorOutputs {
     bool glows = false;         ///< surfaces that glow are lights, too
 };
 
-// Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky; then
-// adds the sample to the sum.
+// Adds what smooth surfaces mirror of the picture itself, else of the probes around, else of the sky.
 //
-//   reads    depth, radiance, mirror_weight, mirror_shape, sky_specular, probes
+//   reads    depth, radiance, mirror_weight, mirror_shape, mirror_list, sky_specular, probes
 //   edits    accumulated; light_parts of frames that ask
 void add_reflections(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky,
                      const ProbeTable& probes, bool with_probes, const ConstantsRange& constants,

@@ -23,7 +23,7 @@ SHARED_END
 #define REFLECTIONS_PROBES 7        // PROBE_ROWS entries a probe
 #define REFLECTIONS_PROBE_LIGHT 8   // levels of each probe, one after the other
 
-#define REFLECTIONS_PIXELS 9        // gpu/frame/pixel_list_io.h
+#define REFLECTIONS_PIXELS 9        // gpu/frame/pixel_list_io.h: those that mirror
 #define REFLECTIONS_IDENTITY 10
 #define REFLECTIONS_PARTS 11        // gpu/outputs/light_parts_io.h
 #define REFLECTIONS_LABEL 12        // the same image, or that of all samples
