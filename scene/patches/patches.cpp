@@ -16,6 +16,8 @@ namespace {
 constexpr float kCell_m = 0.35f;
 constexpr float kCellsAcross = 48.0f;
 constexpr float kCoarsestAcross = 20.0f;
+constexpr float kSlopesAcross = 128.0f;
+constexpr float kSlope_m = 4.0f;
 constexpr int kBackdropLevels = 3;  // coarser ones for open ground around a scene
 constexpr float kSmallest_m = 1e-4f;
 
@@ -71,6 +73,7 @@ CellPlan plan_of(float regular_cell_m, const Triangles& triangles, const PatchOp
            plan.cell_m * static_cast<float>(1 << (plan.levels - 1)) < coarsest)
         ++plan.levels;
     plan.content_levels = plan.levels;
+    plan.slope_m = std::max(kSlope_m, longest_side_m(triangles) / kSlopesAcross);
     if (triangles.backdrop())
         plan.levels = std::min(plan.levels + kBackdropLevels, shared::kPatchLevels);
     return plan;

@@ -512,6 +512,39 @@ TEST(Patches, ABackdropIsPatchesNearTheScene)
     EXPECT_GT(ground_links, p.rays / 3);
 }
 
+// Hills of 200 m under the open sky: nothing is near, and each slope has its own sun.
+TEST(Patches, SlopesOfALandscapeAreApart)
+{
+    Scene scene = patch_scenes::empty_scene();
+    constexpr int kCells = 80;
+    constexpr float kEdge_m = 12.5f;
+    const auto height = [](float x) { return 16.0f * std::sin(x * 2.0f * std::numbers::pi_v<float> / 200.0f); };
+    for (int i = 0; i < kCells; ++i) {
+        for (int k = 0; k < kCells; ++k) {
+            const glm::vec2 at = kEdge_m * (glm::vec2(i, k) - 0.5f * kCells);
+            const float rise = height(at.x + kEdge_m) - height(at.x);
+            patch_scenes::add_face(scene, {at.x, height(at.x), at.y + kEdge_m}, {kEdge_m, rise, 0}, {0, 0, -kEdge_m});
+        }
+    }
+    const Cut cut(scene, {});
+    const Patches& p = cut.patches;
+    int sunny = 0, shady = 0;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const float edge_m = p.level_cell_m(level_of(p.key[i]));
+        glm::vec3 mean(0.0f);
+        for (int k = 0; k < kPatchSamples; ++k)
+            mean += cut.triangles.normal(p.samples[i * kPatchSamples + static_cast<std::size_t>(k)].triangle);
+        if (edge_m > 8.0f) {
+            EXPECT_GE(glm::length(mean) / kPatchSamples, 0.98f) << edge_m << " m";
+        }
+        sunny += p.normal[i].x > 0.2f ? 1 : 0;
+        shady += p.normal[i].x < -0.2f ? 1 : 0;
+    }
+    EXPECT_GT(sunny, 300);
+    EXPECT_GT(shady, 300);
+    EXPECT_LT(p.count, 20000u);
+}
+
 TEST(Patches, OptionsOutOfRangeAreRefused)
 {
     const Scene scene = room();

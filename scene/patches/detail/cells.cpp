@@ -57,6 +57,8 @@ namespace {
 
 // Samples of a face: one every cell^2 / 48, as the reference has it.
 constexpr float kSamplesACell = 48.0f;
+// 1 less the length of the mean of unit normals: where they lie about 8 degrees about their mean.
+constexpr float kBends = 0.01f;
 // More than this are never held at once, 28 bytes each.
 constexpr std::size_t kMostRawSamples = 6'000'000;
 constexpr std::size_t kTrianglesAJob = 2048;
@@ -430,7 +432,10 @@ void Grower::examine(Cell& cell, const RawSample* const* raw, std::size_t count)
         // Ward 1988: the harmonic mean distance of what is seen.
         const float mean = inverse_distances / static_cast<float>(std::max(rays, 1));
         const bool coarse = level_ >= plan_.content_levels && holds_content(cell);
-        if (coarse || cell_edge_m(level_) * mean > 0.25f)
+        // Sun and snow tell the slopes of a hill apart, though all of them see nothing but the sky.
+        const bool bends = cell_edge_m(level_) > plan_.slope_m &&
+                           length < (1.0f - kBends) * static_cast<float>(cell.points);
+        if (coarse || bends || cell_edge_m(level_) * mean > 0.25f)
             cell.state = CellState::Split;
     } else if (level_ == 1 && options_.split_by_sight && parted(cell)) {
         cell.state = CellState::Split;

@@ -45,6 +45,7 @@ struct CellPlan {
     float cell_m = 0.175f;
     int levels = 2;  ///< level levels - 1 is the coarsest, 1 the finest regular one
     int content_levels = 2;  ///< coarser cells are for backdrops alone
+    float slope_m = 4.0f;    ///< longer cells whose ground bends are cut, whatever they see
     std::uint32_t most = kMostPatches;
 };
 
