@@ -1,5 +1,5 @@
 // The air between the camera and a surface. The includer has `frame`, and includes formulas/light/fog.h,
-// formulas/weather/falling.h and formulas/weather/gusts.h before.
+// formulas/weather/falling.h and formulas/weather/gusts.h before. GUSTS: 0 where the air is known to have none.
 #ifndef PETRICHOR_AIR_GLSL
 #define PETRICHOR_AIR_GLSL
 
@@ -16,7 +16,7 @@ float air_kept(vec3 position)
     // What the gusts carry is thick in places. A loop that does not start without them, not a branch: a CPU takes
     // both sides of one.
     float veil = 1.0;
-    for (int i = 0; i < (frame.gusts.z > 0.0 ? 1 : 0); ++i)
+    for (int i = 0; i < (GUSTS != 0u && frame.gusts.z > 0.0 ? 1 : 0); ++i)
         veil = gust_veil(frame.camera_m, position, frame.gusts.xy, frame.gusts.z);
     return veil == 1.0 ? veiled : pow(veiled, veil);
 }

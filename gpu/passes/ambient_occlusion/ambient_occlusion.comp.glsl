@@ -76,10 +76,7 @@ void main()
     ivec2 texel;
     if (!this_pixel(frame.size, texel)) return;
     const float depth = depth_at(texel);
-    if (depth <= 0.0) {
-        imageStore(target, texel, vec4(1.0));
-        return;
-    }
+    if (depth <= 0.0) return;  // nobody asks there
     const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
     const float metres_per_pixel = pixel_width_m(frame, z);

@@ -8,7 +8,7 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants, Pixels pixels)
 {
     GBuffer& g = targets.gbuffer;
-    add_over_pixels(
+    add_over_tiles(
         graph, targets,
         ComputePass{.name = "ambient_occlusion",
                     .shader = "ambient_occlusion.comp",
@@ -17,10 +17,10 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                                  {AMBIENT_OCCLUSION_DEPTH, texels(*targets.depth_rows)},
                                  {AMBIENT_OCCLUSION_NORMALS, sampled(*g.normals, targets.nearest)},
                                  {AMBIENT_OCCLUSION_TARGET, storage(*targets.occlusion)},
-                                 {AMBIENT_OCCLUSION_PIXELS, texels(*targets.pixel_list)}},
+                                 {AMBIENT_OCCLUSION_PIXELS, texels(pixels_of(targets, targets.surface_tiles, pixels))}},
                     .push = {},
                     .groups = {}},
-        pixels);
+        targets.surface_tiles, pixels);
 }
 
 }  // namespace petrichor::gpu

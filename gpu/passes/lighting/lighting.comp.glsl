@@ -1,6 +1,6 @@
 #version 460
 // Lights the G-buffer: weather is applied to the dry material here, in one place; then sun, lights from
-// the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
+// the tile's list, the sky, emission, fog. Pixels without a surface are left alone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -44,12 +44,11 @@ layout(constant_id = LIGHTING_SPEC_PATCHES) const uint PATCHES = 0u;
 layout(constant_id = LIGHTING_SPEC_LAMP_SHADOWS) const uint LAMP_SHADOWS = 1u;
 layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 // Constants, not branches: a device without branches of its own computes both sides of one.
-layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
+layout(constant_id = LIGHTING_SPEC_GUSTS) const uint GUSTS = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
 layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
-layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
@@ -94,7 +93,6 @@ layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_coun
 #include "gpu/frame/air.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
 #include "gpu/passes/patch_light/patch_spread.glsl"
-#include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
 const float kMirrorRoughness = 0.32;
@@ -118,36 +116,6 @@ vec2 split_sum(vec3 n, vec3 v, float roughness)
     const vec2 size = vec2(textureSize(env_brdf, 0));
     const vec2 at = (vec2(clamp(dot(n, v), 0.0, 1.0), roughness) * (size - 1.0) + 0.5) / size;
     return textureLod(env_brdf, at, 0.0).rg;
-}
-
-// The land of the sky, which shows it as an eye near the ground does: from higher up more air lies before it.
-vec3 land_behind_air(vec3 radiance, vec3 direction)
-{
-    if (FOG == 0u || (frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
-    const float path_m = fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
-                         fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
-    const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
-                                frame.fog_end_m);
-    // At the horizon the air is that of the sky above it; below, that of what stands on the land.
-    const vec3 level = textureLod(sky_map, vec3(direction.x, 0.0, direction.z), 0.0).rgb;
-    const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
-                          smoothstep(0.0, 0.12, -direction.y));
-    return mix(veil * frame.sky_scale, radiance, kept);
-}
-
-vec3 background(vec3 direction)
-{
-    const vec4 sky = textureLod(sky_map, direction, 0.0);
-    vec3 radiance = land_behind_air(sky.rgb * frame.sky_scale, direction);
-    if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
-    if ((frame.flags & FRAME_SUN_DISC) != 0u) {
-        const float c = dot(direction, frame.sun_direction);
-        if (c > frame.sun_angular_cos) {
-            const float solid_angle = 6.2831853 * (1.0 - frame.sun_angular_cos);
-            radiance += frame.sun_illuminance * (sky.a / solid_angle);
-        }
-    }
-    return radiance;
 }
 
 // Numbers from here on mean a model and layers.
@@ -205,6 +173,19 @@ vec3 model_own(LitPoint p)
 #include "gpu/passes/lighting/light_groups.glsl"
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/lighting/light_loops.glsl"
+
+// The surface without what it scatters. Whatever the model: its answer less that of this is scattered.
+LitPoint mirroring_part(LitPoint p)
+{
+    LitPoint q = p;
+    q.albedo = vec3(0.0);
+    q.diffuse = vec3(0.0);
+    q.translucency.strength = 0.0;
+    q.lobe.diffuse = vec3(0.0);
+    // The light through hair takes its colour from there, models of users' own what they scatter.
+    if (USES_hair == 0u || p.model != uint(LIGHTING_MODEL_HAIR)) q.base_color = vec3(0.0);
+    return q;
+}
 
 // Light from all around: what of it arrives, and what a mirror would see of it.
 struct Ambient {
@@ -300,7 +281,7 @@ void main()
     vec4 shape = vec4(0.0);
     PartsOfLight parts;
     if (PARTS != 0u) parts = no_parts();
-    if (TOGETHER || depth > 0.0) {
+    if (TOGETHER || there) {
         const GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(texel, WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
@@ -565,22 +546,12 @@ void main()
             mirror.rgb *= kept;
         }
     }
-    if (depth <= 0.0) {
-        radiance = BACKGROUND != 0u ? background(pixel_view_direction(frame, pixel)) : vec3(0.0);
-        radiance = min(radiance, vec3(60000.0));
-        mirror = vec4(0.0);
-        shape = vec4(0.0);
-        if (PARTS != 0u) {
-            parts = no_parts();
-            parts.of[PART_BACKGROUND] = radiance;
-        }
-    }
-    if (TOGETHER && !inside) return;
+    if (!there) return;  // it is the background's
     if (PARTS != 0u) {
         limit_parts(parts, radiance, vec3(60000.0));
         store_parts(parts, texel);
     }
-    const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
+    const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
     if (IMAGE_BASED_LIGHT != 0u) {
         imageStore(radiance_out, texel, result);
         imageStore(mirror_weight, texel, mirror);

@@ -25,12 +25,11 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_PATCHES, variant.patch_light},
                       {LIGHTING_SPEC_LAMP_SHADOWS, variant.lamp_shadows},
                       {LIGHTING_SPEC_RECTANGLES, variant.rectangles},
-                      {LIGHTING_SPEC_NIGHT, variant.night},
+                      {LIGHTING_SPEC_GUSTS, variant.gusts},
                       {LIGHTING_SPEC_FOG, variant.fog},
                       {LIGHTING_SPEC_LAYERS, variant.layers},
                       {LIGHTING_SPEC_SOFT_LAMPS, variant.soft_lamps},
                       {LIGHTING_SPEC_SHARES, variant.shares != nullptr},
-                      {LIGHTING_SPEC_BACKGROUND, variant.background},
                       {LIGHTING_SPEC_SUN, variant.sun},
                       {LIGHTING_SPEC_WAYS, variant.ways},
                       {LIGHTING_SPEC_LAZAROV, variant.lazarov},
@@ -59,7 +58,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKIN, texels(light_tables.skin())},
                      {LIGHTING_SHARES, sampled(variant.shares ? *variant.shares : light_tables.no_shares(),
                                                nearest)},
-                     {LIGHTING_PIXELS, texels(*targets.pixel_list)},
+                     {LIGHTING_PIXELS, texels(pixels_of(targets, targets.surface_tiles, variant.pixels))},
                      {LIGHTING_MATERIALS, texels(scene.material_looks())},
                      {LIGHTING_ACCUMULATED, storage(*targets.accumulated)},
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
@@ -75,7 +74,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         pass.constants.push_back({id, variant.models[i]});
     }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.gbuffer, nearest);
-    add_over_pixels(graph, targets, std::move(pass), variant.pixels);
+    add_over_tiles(graph, targets, std::move(pass), targets.surface_tiles, variant.pixels);
 }
 
 }  // namespace petrichor::gpu
