@@ -343,7 +343,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
-                    layers, more, draw, light);
+                    layers, more, variant.gusts, draw, light);
 }
 
 }  // namespace
