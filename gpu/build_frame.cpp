@@ -8,6 +8,7 @@
 #include "gpu/lighting/models_io.h"
 #include "gpu/outputs/light_parts_io.h"
 #include "gpu/passes/ambient_occlusion/ambient_occlusion.h"
+#include "gpu/passes/background/background.h"
 #include "gpu/passes/falling/splashes.h"
 #include "gpu/passes/glare/glare.h"
 #include "gpu/passes/lights/lights_io.h"
@@ -332,6 +333,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         add_gbuffer_rows(graph, layer, {true, true, true});
         add_light_lists(graph, layer, *r.lights, constants);
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
+        add_background(graph, layer, *r.sky, constants, variant);
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (variant.image_based_light) {
@@ -341,7 +343,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         }
     };
     add_transparent(graph, *r.targets, *r.transparent, *r.parts, *r.scene, *r.sky, constants,
-                    layers, more, draw, light);
+                    layers, more, variant.gusts, draw, light);
 }
 
 }  // namespace
@@ -427,6 +429,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
             variant.grain = settings.anisotropic_dither > 0.0f &&
                             (variant.layers & LAYERS_ANISOTROPY) != 0u;
             variant.fog = c.fog_per_m > 0.0f;
+            variant.gusts = c.gusts.z > 0.0f;
             variant.film = settings.film_lobe && weathered && c.weather.film_smoothness > 0.0f;
             variant.night =
                 settings.draw_sky && sun.analytic && frame.sky.sun_elevation_rad < -0.03f;
@@ -486,6 +489,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         }
         variant.parts = &lit_parts;
         variant.pixels = pixels;
+        add_background(graph, *r.targets, *r.sky, constants, variant);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
                      *r.lamp_shadows, constants, variant);
         if (settings.image_based_light) {

@@ -8,17 +8,23 @@
 layout(constant_id = PIXEL_LIST_SPEC) const uint LISTED = 0u;
 layout(binding = PIXEL_LIST_BINDING) uniform usamplerBuffer pixel_list;
 
+ivec2 listed_at(uint entry)
+{
+    const uint packed = texelFetch(pixel_list, int(entry) + 1).r;
+    return ivec2(packed & 65535u, packed >> 16);
+}
+
 // False where there is none.
 bool this_pixel(ivec2 size, out ivec2 pixel)
 {
-    const uint count = LISTED != 0u ? texelFetch(pixel_list, 0).r : PIXEL_LIST_ALL;
-    if (count != PIXEL_LIST_ALL) {
-        const uint at = gl_WorkGroupID.x * uint(PIXEL_LIST_GROUP) + gl_LocalInvocationIndex;
-        const uint packed = texelFetch(pixel_list, int(at) + 1).r;
-        pixel = ivec2(packed & 65535u, packed >> 16);
-        return at < count;
+    const uint count = LISTED == 1u ? texelFetch(pixel_list, 0).r : LISTED == 2u ? PIXEL_LIST_TILES : PIXEL_LIST_ALL;
+    if (count < PIXEL_LIST_TILES) {
+        const uint entry = gl_WorkGroupID.x * uint(PIXEL_LIST_GROUP) + gl_LocalInvocationIndex;
+        pixel = listed_at(entry);
+        return entry < count;
     }
-    pixel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 tile = count == PIXEL_LIST_TILES ? listed_at(gl_WorkGroupID.x) : ivec2(gl_WorkGroupID.xy);
+    pixel = tile * PIXEL_LIST_TILE + ivec2(gl_LocalInvocationID.xy);
     return all(lessThan(pixel, size));
 }
 

@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_FRAME_PIXEL_LIST_H
 
 #include "gpu/device/graph.h"
+#include "gpu/frame/constants_range.h"
 #include "gpu/frame/targets.h"
 
 namespace petrichor::gpu {
@@ -26,6 +27,14 @@ void add_empty_list(FrameGraph& graph, const std::string& pass, GpuBuffer& list)
 void add_list_groups(FrameGraph& graph, const std::string& pass, GpuBuffer& list, GpuBuffer& groups);
 /// Adds a pass over the list that is among its bindings.
 void add_over_list(FrameGraph& graph, ComputePass pass, GpuBuffer& groups);
+
+/// Lists the tiles that show a surface and those that show none somewhere, by depth_rows.
+void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRange& constants);
+/// Adds a pass over such tiles, or over the targets' list when it is Listed. pixels_of() is among its
+/// bindings.
+void add_over_tiles(FrameGraph& graph, FrameTargets& targets, ComputePass pass, const TileList& tiles,
+                    Pixels pixels);
+GpuBuffer& pixels_of(FrameTargets& targets, const TileList& tiles, Pixels pixels);
 
 }  // namespace petrichor::gpu
 

@@ -6,6 +6,7 @@
 
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/patch_points_io.h"
+#include "gpu/frame/pixel_list_io.h"
 
 namespace petrichor::gpu {
 
@@ -201,9 +202,9 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
                                         .size = light_lists_bytes(width, height, light_words),
                                         .usage = table,
                                         .texel_format = VK_FORMAT_R32G32_UINT});
-    const auto list = [&](const char* name) {
+    const auto list = [&](const char* name, VkDeviceSize entries) {
         return arena.buffer({.name = name,
-                             .size = (pixels + 1) * 4,
+                             .size = (entries + 1) * 4,
                              .usage = table | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                              .texel_format = VK_FORMAT_R32_UINT});
     };
@@ -211,12 +212,17 @@ FrameTargets make_frame_targets(const Device& device, MemoryArena& arena, int wi
         return arena.buffer(
             {.name = name,
              .size = sizeof(VkDispatchIndirectCommand),
-             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                      VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     };
-    targets.pixel_list = list("pixel_list");
+    const VkDeviceSize tiles = static_cast<VkDeviceSize>(divide_up(width, PIXEL_LIST_TILE)) *
+                               static_cast<VkDeviceSize>(divide_up(height, PIXEL_LIST_TILE));
+    targets.pixel_list = list("pixel_list", pixels);
     targets.pixel_groups = groups("pixel_groups");
-    targets.mirror_list = list("mirror_list");
+    targets.mirror_list = list("mirror_list", pixels);
     targets.mirror_groups = groups("mirror_groups");
+    targets.surface_tiles = {list("surface_tiles", tiles), groups("surface_groups")};
+    targets.open_tiles = {list("open_tiles", tiles), groups("open_groups")};
     targets.patch_points =
         arena.buffer({.name = "patch_points",
                       .size = static_cast<VkDeviceSize>(divide_up(width, PATCH_BLOCK)) *

@@ -40,6 +40,12 @@ std::vector<Attachment> gbuffer_attachments(GBuffer& gbuffer, const GBufferParts
 /// Adds the rows of depth and all targets at `first` and behind, as gbuffer_read.glsl reads them.
 void bind_gbuffer(Bindings& bindings, std::uint32_t first, GBufferRows& rows);
 
+/// Tiles of 8 x 8 pixels: gpu/frame/pixel_list_io.h, and the arguments of a dispatch over them.
+struct TileList {
+    std::unique_ptr<GpuBuffer> tiles;
+    std::unique_ptr<GpuBuffer> groups;
+};
+
 /// Images and buffers of one frame size.
 struct FrameTargets {
     int width = 0;
@@ -62,6 +68,8 @@ struct FrameTargets {
     std::unique_ptr<GpuBuffer> pixel_groups;  ///< the arguments of a dispatch over it
     std::unique_ptr<GpuBuffer> mirror_list;    ///< likewise of pixels that have a mirror_weight
     std::unique_ptr<GpuBuffer> mirror_groups;
+    TileList surface_tiles;  ///< that show a surface
+    TileList open_tiles;     ///< that show none somewhere
     std::unique_ptr<GpuBuffer> patch_points;       ///< gpu/frame/patch_points_io.h
     std::unique_ptr<GpuBuffer> beauty;             ///< RGBA half bits, read by the host
     std::unique_ptr<GpuBuffer> display;            ///< RGBA8, read by the host

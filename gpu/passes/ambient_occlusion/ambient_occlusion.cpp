@@ -16,10 +16,10 @@ void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                                  {AMBIENT_OCCLUSION_DEPTH, texels(*targets.rows.depth)},
                                  {AMBIENT_OCCLUSION_NORMALS, texels(*targets.rows.normals)},
                                  {AMBIENT_OCCLUSION_TARGET, storage(*targets.occlusion)},
-                                 {AMBIENT_OCCLUSION_PIXELS, texels(*targets.pixel_list)}},
+                                 {AMBIENT_OCCLUSION_PIXELS, texels(pixels_of(targets, targets.surface_tiles, pixels))}},
                     .push = {},
                     .groups = {}},
-        pixels);
+        targets.surface_tiles, pixels);
 }
 
 }  // namespace petrichor::gpu

@@ -9,8 +9,8 @@ namespace petrichor::gpu {
 
 // Screen-space ambient occlusion.
 //
-//   reads    depth_rows, normals
-//   writes   screen_occlusion
+//   reads    depth_rows, surface_tiles, normals
+//   writes   screen_occlusion, where a surface is
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants, Pixels pixels);
 

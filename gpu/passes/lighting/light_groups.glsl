@@ -7,7 +7,7 @@
 #include "gpu/passes/lighting/light_rows.glsl"
 
 // Asking costs about what two lights do: it pays where there are many.
-const bool SIFTED = (WAYS & (LIGHTS_TOGETHER | LIGHTS_MANY)) == (LIGHTS_TOGETHER | LIGHTS_MANY) && LISTED == 0u;
+const bool SIFTED = (WAYS & (LIGHTS_TOGETHER | LIGHTS_MANY)) == (LIGHTS_TOGETHER | LIGHTS_MANY) && LISTED != 1u;
 
 // Told out: a loop costs more than what is in it.
 #define OVER_GROUP(type_, name_, both_)                                   \

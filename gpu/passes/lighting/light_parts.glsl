@@ -1,5 +1,5 @@
 // The light of a pixel by the way it came, beside its sum (gpu/outputs/light_parts_io.h). Included by the
-// lighting pass; left out where no picture of a part is asked for.
+// passes of lighting and background; left out where no picture of a part is asked for.
 #ifndef PETRICHOR_LIGHT_PARTS_GLSL
 #define PETRICHOR_LIGHT_PARTS_GLSL
 
@@ -12,19 +12,6 @@ PartsOfLight no_parts()
     PartsOfLight parts;
     for (int i = 0; i < LIGHT_PARTS; ++i) parts.of[i] = vec3(0.0);
     return parts;
-}
-
-// The surface without what it scatters. Whatever the model: its answer less that of this is scattered.
-LitPoint mirroring_part(LitPoint p)
-{
-    LitPoint q = p;
-    q.albedo = vec3(0.0);
-    q.diffuse = vec3(0.0);
-    q.translucency.strength = 0.0;
-    q.lobe.diffuse = vec3(0.0);
-    // The light through hair takes its colour from there, models of users' own what they scatter.
-    if (USES_hair == 0u || p.model != uint(LIGHTING_MODEL_HAIR)) q.base_color = vec3(0.0);
-    return q;
 }
 
 // Behind fog that lets so much through.

@@ -5,7 +5,7 @@
 #ifndef PETRICHOR_LIGHT_ROWS_GLSL
 #define PETRICHOR_LIGHT_ROWS_GLSL
 
-const bool TOGETHER = (WAYS & LIGHTS_TOGETHER) != 0u && LISTED == 0u;
+const bool TOGETHER = (WAYS & LIGHTS_TOGETHER) != 0u && LISTED != 1u;
 
 struct LightRow {
     vec4 sphere;  // centre, world metres; reach, metres

@@ -1,6 +1,6 @@
 #version 460
 // Lights the G-buffer: weather is applied to the dry material here, in one place; then sun, lights from
-// the tile's list, the sky, emission, fog. Pixels without a surface show the sky.
+// the tile's list, the sky, emission, fog. Pixels without a surface are left alone.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -44,12 +44,11 @@ layout(constant_id = LIGHTING_SPEC_PATCHES) const uint PATCHES = 0u;
 layout(constant_id = LIGHTING_SPEC_LAMP_SHADOWS) const uint LAMP_SHADOWS = 1u;
 layout(constant_id = LIGHTING_SPEC_RECTANGLES) const uint RECTANGLES = 1u;
 // Constants, not branches: a device without branches of its own computes both sides of one.
-layout(constant_id = LIGHTING_SPEC_NIGHT) const uint NIGHT = 1u;
+layout(constant_id = LIGHTING_SPEC_GUSTS) const uint GUSTS = 1u;
 layout(constant_id = LIGHTING_SPEC_FOG) const uint FOG = 1u;
 layout(constant_id = LIGHTING_SPEC_LAYERS) const uint LAYERS = 0u;
 layout(constant_id = LIGHTING_SPEC_SOFT_LAMPS) const uint SOFT_LAMPS = 0u;
 layout(constant_id = LIGHTING_SPEC_SHARES) const uint SHARES = 0u;
-layout(constant_id = LIGHTING_SPEC_BACKGROUND) const uint BACKGROUND = 1u;
 layout(constant_id = LIGHTING_SPEC_SUN) const uint SUN = 1u;
 layout(constant_id = LIGHTING_SPEC_WAYS) const uint WAYS = 0u;
 layout(constant_id = LIGHTING_SPEC_LAZAROV) const uint LAZAROV = 0u;
@@ -93,7 +92,6 @@ layout(binding = LIGHTING_MIRROR_LIST, scalar) buffer Mirrors { uint mirror_coun
 #include "gpu/frame/air.glsl"
 #include "gpu/passes/lamp_shadows/lamp_shadow.glsl"
 #include "gpu/passes/patch_light/patch_spread.glsl"
-#include "gpu/passes/sky/night.glsl"
 
 // Smoother surfaces than this mirror their surroundings, in a pass of its own.
 const float kMirrorRoughness = 0.32;
@@ -210,6 +208,19 @@ vec3 model_own(LitPoint p)
 #include "gpu/passes/lighting/light_parts.glsl"
 #include "gpu/passes/lighting/light_loops.glsl"
 
+// The surface without what it scatters. Whatever the model: its answer less that of this is scattered.
+LitPoint mirroring_part(LitPoint p)
+{
+    LitPoint q = p;
+    q.albedo = vec3(0.0);
+    q.diffuse = vec3(0.0);
+    q.translucency.strength = 0.0;
+    q.lobe.diffuse = vec3(0.0);
+    // The light through hair takes its colour from there, models of users' own what they scatter.
+    if (USES_hair == 0u || p.model != uint(LIGHTING_MODEL_HAIR)) q.base_color = vec3(0.0);
+    return q;
+}
+
 // Light from all around: what of it arrives, and what a mirror would see of it.
 struct Ambient {
     vec3 irradiance;  // over pi
@@ -304,7 +315,7 @@ void main()
     vec4 shape = vec4(0.0);
     PartsOfLight parts;
     if (PARTS != 0u) parts = no_parts();
-    if (TOGETHER || depth > 0.0) {
+    if (TOGETHER || there) {
         const GBufferTexel g =
             decode_gbuffer(fetch_gbuffer(row_texel(texel, frame.size), WEATHER != 0u, EMISSION != 0u, BAKED != 0u), frame.flags);
         const vec3 position = pixel_position(frame, pixel, depth);
@@ -569,22 +580,12 @@ void main()
             mirror.rgb *= kept;
         }
     }
-    if (depth <= 0.0) {
-        radiance = BACKGROUND != 0u ? background(pixel_view_direction(frame, pixel)) : vec3(0.0);
-        radiance = min(radiance, vec3(60000.0));
-        mirror = vec4(0.0);
-        shape = vec4(0.0);
-        if (PARTS != 0u) {
-            parts = no_parts();
-            parts.of[PART_BACKGROUND] = radiance;
-        }
-    }
-    if (TOGETHER && !inside) return;
+    if (!there) return;  // it is the background's
     if (PARTS != 0u) {
         limit_parts(parts, radiance, vec3(60000.0));
         store_parts(parts, texel);
     }
-    const vec4 result = vec4(min(radiance, vec3(60000.0)), depth > 0.0 ? 1.0 : 0.0);
+    const vec4 result = vec4(min(radiance, vec3(60000.0)), 1.0);
     if (IMAGE_BASED_LIGHT != 0u) {
         imageStore(radiance_out, texel, result);
         imageStore(mirror_weight, texel, mirror);

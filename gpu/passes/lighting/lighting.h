@@ -31,6 +31,7 @@ struct LightingVariant {
     std::uint32_t ways = 0;   ///< LIGHTS_... of the lights
     bool night = false;       ///< stars and moon may be seen
     bool fog = false;
+    bool gusts = false;       ///< the fog is thick in places
     bool sun = true;          ///< it shines
     bool background = true;   ///< the sky is seen where there is no surface
     bool lazarov = false;     ///< FrameSettings::lazarov
@@ -49,9 +50,9 @@ struct LightingVariant {
     std::vector<bool> models{true};  ///< by number: something in the picture has it
 };
 
-// Applies weather to the dry material, then light, and adds the sample to the sum.
+// Where a surface is: applies weather to the dry material, then light, and adds the sample to the sum.
 //
-//   reads    the G-buffer, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
+//   reads    the G-buffer, depth_rows, surface_tiles, screen_occlusion, shadow, lamp_shadows, sky maps, light lists, patch_points
 //   writes   radiance, mirror_weight, mirror_shape, mirror_list for the reflections, with image-based light
 //   edits    accumulated; light_parts of frames that ask
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,

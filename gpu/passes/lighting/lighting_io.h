@@ -15,7 +15,7 @@
 #define LIGHTING_SPEC_GAMMA 7       // 1: colours are lit as codes
 #define LIGHTING_SPEC_LAMP_SHADOWS 8
 #define LIGHTING_SPEC_RECTANGLES 9
-#define LIGHTING_SPEC_NIGHT 10
+#define LIGHTING_SPEC_GUSTS 10    // air is thick in places
 #define LIGHTING_SPEC_FOG 11
 #define LIGHTING_SPEC_PATCHES 12  // irradiance from patches, not from sky maps
 #define LIGHTING_SPEC_LAYERS 13   // bits of LAYERS_..., gpu/upload/material_io.h: in the picture
@@ -23,7 +23,6 @@
 #define LIGHTING_SPEC_LAZAROV 15  // another fit of what is mirrored
 #define LIGHTING_SPEC_HORIZON 16
 #define LIGHTING_SPEC_SNOW_SCATTER 17
-#define LIGHTING_SPEC_BACKGROUND 18  // 0: nothing where there is no surface
 #define LIGHTING_SPEC_SHARES 19      // textures of layers: gpu/frame/layer_shares.glsl
 #define LIGHTING_SPEC_SOFT_LAMPS 20
 #define LIGHTING_SPEC_SUN 21      // 0: it does not shine

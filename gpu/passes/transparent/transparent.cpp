@@ -69,7 +69,7 @@ void begin_transparent(FrameGraph& graph, TransparentTargets& own, LightParts& p
 
 void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,
                      LightParts& parts, const GpuScene& scene, SkyMaps& sky,
-                     const ConstantsRange& constants, int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
+                     const ConstantsRange& constants, int layers, bool more, bool gusts, const std::function<void(const SurfaceLayer&)>& draw_layer,
                      const std::function<void()>& light_layer)
 {
     const SamplerHandle& nearest = targets.nearest;
@@ -85,7 +85,8 @@ void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTarget
             .shader = "transparent_over.comp",
             .constants = {{TRANSPARENT_OVER_SPEC_FIRST, k == 0},
                           {TRANSPARENT_OVER_SPEC_BODY, scene.body_shares()},
-                          {TRANSPARENT_OVER_SPEC_SPLIT, parts.split}},
+                          {TRANSPARENT_OVER_SPEC_SPLIT, parts.split},
+                          {TRANSPARENT_OVER_SPEC_GUSTS, gusts}},
             .bindings = {{TRANSPARENT_OVER_FRAME, frame_binding(constants)},
                          {TRANSPARENT_OVER_DEPTH, sampled(*layer.gbuffer.depth, nearest)},
                          {TRANSPARENT_OVER_LIT, sampled(*layer.accumulated, nearest)},

@@ -39,7 +39,7 @@ void begin_transparent(FrameGraph& graph, TransparentTargets& own, LightParts& p
                        const ConstantsRange& constants);
 void add_transparent(FrameGraph& graph, FrameTargets& targets, TransparentTargets& own,
                      LightParts& parts, const GpuScene& scene, SkyMaps& sky,
-                     const ConstantsRange& constants, int layers, bool more, const std::function<void(const SurfaceLayer&)>& draw_layer,
+                     const ConstantsRange& constants, int layers, bool more, bool gusts, const std::function<void(const SurfaceLayer&)>& draw_layer,
                      const std::function<void()>& light_layer);
 
 }  // namespace petrichor::gpu

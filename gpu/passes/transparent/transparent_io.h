@@ -13,6 +13,7 @@
 #define TRANSPARENT_OVER_SPEC_FIRST 0  // 1: no layer is before
 #define TRANSPARENT_OVER_SPEC_BODY 1   // 1: some thicknesses have a texture
 #define TRANSPARENT_OVER_SPEC_SPLIT 2  // 1: the light is kept taken apart, too
+#define TRANSPARENT_OVER_SPEC_GUSTS 3  // 1: the fog is thick in places
 #define TRANSPARENT_OVER_FRAME 0
 #define TRANSPARENT_OVER_DEPTH 1
 #define TRANSPARENT_OVER_LIT 2

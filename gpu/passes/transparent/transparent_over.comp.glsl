@@ -36,6 +36,7 @@ layout(constant_id = TRANSPARENT_OVER_SPEC_SPLIT) const uint SPLIT = 0u;
 layout(binding = TRANSPARENT_OVER_LIT_PARTS, rgba32f) uniform readonly image2DArray lit_parts;
 layout(binding = TRANSPARENT_OVER_FRONT_PARTS, rgba32f) uniform image2DArray front_parts;
 
+layout(constant_id = TRANSPARENT_OVER_SPEC_GUSTS) const uint GUSTS = 0u;
 #include "gpu/frame/air.glsl"
 
 const int kTaps = 32;

@@ -1,0 +1,81 @@
+#version 460
+// What is seen where no surface is.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/fog.h"
+#include "formulas/weather/falling.h"
+#include "formulas/weather/gusts.h"
+#include "gpu/frame/gbuffer.glsl"
+#include "gpu/outputs/light_parts_io.h"
+#include "gpu/passes/background/background_io.h"
+#define PIXEL_LIST_BINDING BACKGROUND_PIXELS
+#include "gpu/frame/pixel_list.glsl"
+
+layout(local_size_x = BACKGROUND_TILE, local_size_y = BACKGROUND_TILE) in;
+layout(constant_id = BACKGROUND_SPEC_SKY) const uint SKY = 1u;
+layout(constant_id = BACKGROUND_SPEC_NIGHT) const uint NIGHT = 1u;
+layout(constant_id = BACKGROUND_SPEC_FOG) const uint FOG = 1u;
+layout(constant_id = BACKGROUND_SPEC_PARTS) const uint PARTS = 0u;
+layout(constant_id = BACKGROUND_SPEC_MIRRORED) const uint MIRRORED = 1u;
+layout(binding = BACKGROUND_FRAME, scalar) uniform Frame { FrameConstants frame; };
+layout(binding = BACKGROUND_DEPTH_ROWS) uniform samplerBuffer depth_rows;
+layout(binding = BACKGROUND_SKY) uniform samplerCube sky_map;
+layout(binding = BACKGROUND_ACCUMULATED, rgba32f) uniform image2D accumulated;
+layout(binding = BACKGROUND_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
+layout(binding = BACKGROUND_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
+layout(binding = BACKGROUND_PARTS, rgba32f) uniform image2DArray light_parts;
+
+const uint GUSTS = 0u;
+#include "gpu/frame/air.glsl"
+#include "gpu/passes/lighting/light_parts.glsl"
+#include "gpu/passes/sky/night.glsl"
+
+// The land of the sky, which shows it as an eye near the ground does: from higher up more air lies before it.
+vec3 land_behind_air(vec3 radiance, vec3 direction)
+{
+    if (FOG == 0u || (frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
+    const float path_m = fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
+                         fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
+    const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
+                                frame.fog_end_m);
+    // At the horizon the air is that of the sky above it; below, that of what stands on the land.
+    const vec3 level = textureLod(sky_map, vec3(direction.x, 0.0, direction.z), 0.0).rgb;
+    const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
+                          smoothstep(0.0, 0.12, -direction.y));
+    return mix(veil * frame.sky_scale, radiance, kept);
+}
+
+vec3 background(vec3 direction)
+{
+    const vec4 sky = textureLod(sky_map, direction, 0.0);
+    vec3 radiance = land_behind_air(sky.rgb * frame.sky_scale, direction);
+    if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
+    if ((frame.flags & FRAME_SUN_DISC) != 0u) {
+        const float c = dot(direction, frame.sun_direction);
+        if (c > frame.sun_angular_cos) {
+            const float solid_angle = 6.2831853 * (1.0 - frame.sun_angular_cos);
+            radiance += frame.sun_illuminance * (sky.a / solid_angle);
+        }
+    }
+    return radiance;
+}
+
+void main()
+{
+    ivec2 texel;
+    if (!this_pixel(frame.size, texel)) return;
+    if (texelFetch(depth_rows, texel.y * frame.size.x + texel.x).r > 0.0) return;
+    vec3 radiance = vec3(0.0);
+    if (SKY != 0u) radiance = background(pixel_view_direction(frame, vec2(texel) + 0.5));
+    const vec4 result = vec4(min(radiance, vec3(60000.0)), 0.0);
+    if (PARTS != 0u) {
+        PartsOfLight parts = no_parts();
+        parts.of[PART_BACKGROUND] = result.rgb;
+        store_parts(parts, texel);
+    }
+    if (MIRRORED != 0u) {
+        imageStore(radiance_out, texel, result);
+        imageStore(mirror_weight, texel, vec4(0.0));
+    }
+    imageStore(accumulated, texel, frame.sample_index > 0u ? result + imageLoad(accumulated, texel) : result);
+}

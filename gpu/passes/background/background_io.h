@@ -1,0 +1,23 @@
+// Interface of the background pass.
+#ifndef PETRICHOR_GPU_PASSES_BACKGROUND_BACKGROUND_IO_H
+#define PETRICHOR_GPU_PASSES_BACKGROUND_BACKGROUND_IO_H
+
+#define BACKGROUND_TILE 8
+
+#define BACKGROUND_FRAME 0
+#define BACKGROUND_DEPTH_ROWS 1
+#define BACKGROUND_SKY 2
+#define BACKGROUND_PIXELS 3       // gpu/frame/pixel_list_io.h
+#define BACKGROUND_ACCUMULATED 4
+#define BACKGROUND_RADIANCE 5
+#define BACKGROUND_MIRROR_WEIGHT 6
+#define BACKGROUND_PARTS 7
+
+// Specialization constants: 0 leaves the part out of the compiled shader.
+#define BACKGROUND_SPEC_SKY 0      // 0: black
+#define BACKGROUND_SPEC_NIGHT 1    // stars and moon
+#define BACKGROUND_SPEC_FOG 2
+#define BACKGROUND_SPEC_PARTS 3    // the light is written taken apart, too
+#define BACKGROUND_SPEC_MIRRORED 4 // surfaces may mirror it
+
+#endif
