@@ -2,6 +2,8 @@
 // arch, snow, a lamp round the corner.
 #include <numbers>
 
+#include "formulas/weather/surface_weather.h"
+#include "formulas/weather/weather_maps.h"
 #include "gpu/frame/patch_points_io.h"
 #include "gpu/passes/patch_light/patch_albedo.h"
 #include "scene/patches/lookup.h"
@@ -391,6 +393,30 @@ TEST_F(PatchLightTest, WhatIsCloseHasItsOwnMaterialUnderItsOwnWeather)
     frame.weather.snow_amount = 1.0f;
     frame.weather.water_to_snow = 1.0f;
     EXPECT_GT(luminance(pixel(renderer->render(frame), 48, 32)), 1.03f * before);
+}
+
+// A patch under thin snow is as white as its places are in the mean.
+TEST_F(PatchLightTest, ThinSnowOnAPatchIsTheMeanOfItsPlaces)
+{
+    const auto patches = traced(scene_of({quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})}, {lambert(glm::vec3(0.0f))}), 1.0f);
+    const float damp = patches->materials[0].weather.snow_slope_damp;
+    for (const float amount : {0.25f, 0.4f, 0.58f, 0.8f}) {
+        shared::WeatherMoment weather;
+        weather.snow_amount = amount;
+        weather.snow_start_height_m = -100.0f;
+        weather.snow_height_blend_m = 10.0f;
+        const PatchLook look = patch_look(*patches, weather, {}, false);
+        double cover = 0.0;
+        const int count = 4000;
+        for (int i = 0; i < count; ++i) {
+            const glm::vec2 at(111.0f * shared::hash_f(static_cast<std::uint32_t>(i)),
+                               111.0f * shared::hash_f(static_cast<std::uint32_t>(i) + 77777u));
+            const float mask = shared::snow_texel(at * 0.09f, 1.0f / 512.0f).z;
+            const float detail = shared::snow_texel(at * 0.83f, 1.0f / 512.0f).z;
+            cover += static_cast<double>(shared::snow_cover(amount, 1.0f, 1.0f, damp, 1.0f, mask, detail, 0.0f, 0.0f).snow);
+        }
+        EXPECT_NEAR(look.albedo.front().x, 0.92 * cover / count, 0.05) << amount;
+    }
 }
 
 // Snow that lies on some patches alone brightens those, whatever the frame says of the open.

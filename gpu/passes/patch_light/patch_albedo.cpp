@@ -38,7 +38,8 @@ float film_of(const MaterialWeather& m)
 // Cover of snow, a mean over the two masks of the snow map.
 float mean_snow(float amount, float height_factor, float up, const MaterialWeather& m, float melt)
 {
-    constexpr std::array<float, 4> kQuarters{0.125f, 0.375f, 0.625f, 0.875f};
+    // Middles of the quarters of what snow_texel (formulas/weather/weather_maps.h) holds.
+    constexpr std::array<float, 4> kQuarters{0.543f, 0.665f, 0.75f, 0.867f};
     float sum = 0.0f;
     for (const float mask : kQuarters) {
         for (const float detail : kQuarters) {
