@@ -331,6 +331,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
     };
     const auto light = [&] {
         add_gbuffer_rows(graph, layer, {true, true, true});
+        add_tile_lists(graph, layer, constants);
         add_light_lists(graph, layer, *r.lights, constants);
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
         add_background(graph, layer, *r.sky, constants, variant);
@@ -477,6 +478,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
                          !weathered);
             }
         }
+        add_tile_lists(graph, *r.targets, constants);
         add_light_lists(graph, *r.targets, *r.lights, constants);
         if (settings.ambient_occlusion) {
             add_ambient_occlusion(graph, *r.targets, constants, pixels);

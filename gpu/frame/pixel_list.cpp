@@ -95,7 +95,7 @@ void add_tile_lists(FrameGraph& graph, FrameTargets& targets, const ConstantsRan
                           .shader = "tile_lists.comp",
                           .constants = {},
                           .bindings = {{TILE_LISTS_FRAME, frame_binding(constants)},
-                                       {TILE_LISTS_DEPTH_ROWS, texels(*targets.depth_rows)},
+                                       {TILE_LISTS_DEPTH_ROWS, texels(*targets.rows.depth)},
                                        {TILE_LISTS_SURFACES, storage_buffer(*surfaces.tiles)},
                                        {TILE_LISTS_SURFACE_GROUPS, storage_buffer(*surfaces.groups)},
                                        {TILE_LISTS_OPEN, storage_buffer(*open.tiles)},

@@ -77,10 +77,7 @@ void main()
     if (!this_pixel(frame.size, texel)) return;
     const int at = row_texel(texel, frame.size);
     const float depth = texelFetch(depth_rows, at).r;
-    if (depth <= 0.0) {
-        imageStore(target, texel, vec4(1.0));
-        return;
-    }
+    if (depth <= 0.0) return;  // nobody asks there
     const vec3 mesh = position_at(texel, depth);
     const float z = linear_depth(frame, depth);
     const float metres_per_pixel = pixel_width_m(frame, z);

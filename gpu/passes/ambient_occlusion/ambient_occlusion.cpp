@@ -7,7 +7,7 @@ namespace petrichor::gpu {
 void add_ambient_occlusion(FrameGraph& graph, FrameTargets& targets,
                            const ConstantsRange& constants, Pixels pixels)
 {
-    add_over_pixels(
+    add_over_tiles(
         graph, targets,
         ComputePass{.name = "ambient_occlusion",
                     .shader = "ambient_occlusion.comp",

@@ -33,9 +33,14 @@ const uint GUSTS = 0u;
 // The land of the sky, which shows it as an eye near the ground does: from higher up more air lies before it.
 vec3 land_behind_air(vec3 radiance, vec3 direction)
 {
-    if (FOG == 0u || (frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
-    const float path_m = fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
-                         fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
+    if ((frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
+    // Where the ground of the scene goes on it is that ground, told without air; near the horizon the sky's own.
+    const float known = frame.land.w * smoothstep(0.0, 0.02, -direction.y);
+    radiance = mix(radiance, frame.land.rgb, known);
+    if (FOG == 0u) return radiance;
+    const float path_m =
+        fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
+        (1.0 - known) * fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
     const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
                                 frame.fog_end_m);
     // At the horizon the air is that of the sky above it; below, that of what stands on the land.

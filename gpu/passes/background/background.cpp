@@ -17,7 +17,7 @@ void add_background(FrameGraph& graph, FrameTargets& targets, SkyMaps& sky, cons
                                    {BACKGROUND_SPEC_PARTS, variant.split},
                                    {BACKGROUND_SPEC_MIRRORED, variant.image_based_light}},
                      .bindings = {{BACKGROUND_FRAME, frame_binding(constants)},
-                                  {BACKGROUND_DEPTH_ROWS, texels(*targets.depth_rows)},
+                                  {BACKGROUND_DEPTH_ROWS, texels(*targets.rows.depth)},
                                   {BACKGROUND_SKY, sampled(*sky.cube, sky.linear)},
                                   {BACKGROUND_PIXELS, texels(pixels_of(targets, targets.open_tiles, variant.pixels))},
                                   {BACKGROUND_ACCUMULATED, storage(*targets.accumulated)},

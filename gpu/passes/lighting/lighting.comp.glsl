@@ -117,41 +117,6 @@ vec2 split_sum(vec3 n, vec3 v, float roughness)
     return textureLod(env_brdf, at, 0.0).rg;
 }
 
-// The land of the sky, which shows it as an eye near the ground does: from higher up more air lies before it.
-vec3 land_behind_air(vec3 radiance, vec3 direction)
-{
-    if ((frame.flags & FRAME_LAND) == 0u || direction.y >= 0.0) return radiance;
-    // Where the ground of the scene goes on it is that ground, told without air; near the horizon the sky's own.
-    const float known = frame.land.w * smoothstep(0.0, 0.02, -direction.y);
-    radiance = mix(radiance, frame.land.rgb, known);
-    if (FOG == 0u) return radiance;
-    const float path_m =
-        fog_path_to_land(direction.y, frame.camera_m.y - frame.fog_base_m, frame.fog_height_m) -
-        (1.0 - known) * fog_path_to_land(direction.y, fog_eye_of_sky_m(), frame.fog_height_m);
-    const float kept = fog_kept(frame.fog_mode, max(path_m, 0.0), frame.fog_per_m, frame.fog_start_m,
-                                frame.fog_end_m);
-    // At the horizon the air is that of the sky above it; below, that of what stands on the land.
-    const vec3 level = textureLod(sky_map, vec3(direction.x, 0.0, direction.z), 0.0).rgb;
-    const vec3 veil = mix(level, textureLod(sky_map, air_level(direction), kAirMip).rgb,
-                          smoothstep(0.0, 0.12, -direction.y));
-    return mix(veil * frame.sky_scale, radiance, kept);
-}
-
-vec3 background(vec3 direction)
-{
-    const vec4 sky = textureLod(sky_map, direction, 0.0);
-    vec3 radiance = land_behind_air(sky.rgb * frame.sky_scale, direction);
-    if (NIGHT != 0u) radiance += night_lights(direction) * sky.a;
-    if ((frame.flags & FRAME_SUN_DISC) != 0u) {
-        const float c = dot(direction, frame.sun_direction);
-        if (c > frame.sun_angular_cos) {
-            const float solid_angle = 6.2831853 * (1.0 - frame.sun_angular_cos);
-            radiance += frame.sun_illuminance * (sky.a / solid_angle);
-        }
-    }
-    return radiance;
-}
-
 // Numbers from here on mean a model and layers.
 const uint LIGHTING_MODEL_COUNT = 0u
 #define ROW(number_, name_) + 1u

@@ -73,7 +73,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
         pass.constants.push_back({id, variant.models[i]});
     }
     bind_gbuffer(pass.bindings, LIGHTING_GBUFFER, targets.rows);
-    add_over_pixels(graph, targets, std::move(pass), variant.pixels);
+    add_over_tiles(graph, targets, std::move(pass), targets.surface_tiles, variant.pixels);
 }
 
 }  // namespace petrichor::gpu
