@@ -133,6 +133,10 @@ void run(Arguments& a)
     PrefilterMaps maps;
     texproc::Prefiltered chains;
     timings.read = timed([&] { maps = read_prefilter_maps(a.input); });
+    if (o.bits == 8 && o.rule == "overlap") {  // lobes are fitted to the level 0 that ships
+        maps.normal = texproc::in_8_bits(std::move(maps.normal));
+        maps.map = texproc::in_8_bits(std::move(maps.map));
+    }
     BlockFit fit;
     timings.kernel = timed([&] {
         chains = texproc::prefilter_raw(maps.normal, maps.map, o);

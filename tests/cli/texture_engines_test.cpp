@@ -143,7 +143,7 @@ TEST(TextureEngines, UnityGetsMetaFilesWithLastingGuids)
     write_wall(place / "in");
     const auto built = [&](const std::vector<std::string>& more) {
         std::vector<std::string> command{"texture",   "build",      "in", "--engine",
-                                         "unity-urp", "--no-score", "-o", "out"};
+                                         "unity-urp", "--no-score", "--rule", "median", "-o", "out"};
         command.insert(command.end(), more.begin(), more.end());
         const Outcome made = run(command, place);
         EXPECT_EQ(made.exit_code, 0) << made.err;
