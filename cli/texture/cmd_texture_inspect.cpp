@@ -275,6 +275,10 @@ void add_texture_inspect(CLI::App& texture)
                     "--sheet: colour; default: dark grey, where gloss shows best");
     app->add_flag("--green-down", a->green_down,
                   "of the normal map: +Y is down (DirectX); default: what the name or else the map says");
+    app->add_option("--frames", a->drawing.frames,
+                    "of the film, 24 a second; the camera goes on by one repeat of the material in all of them")
+        ->check(CLI::Range(2, 2400))
+        ->capture_default_str();
     app->add_option("--rule", a->drawing.rule, "prefilter rule of sheet and film")->capture_default_str();
     app->add_option("--quality", a->quality, "of sheet and film: full or quick")
         ->check(CLI::IsMember({"full", "quick"}))

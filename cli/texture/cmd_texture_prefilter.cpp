@@ -133,6 +133,13 @@ void run(Arguments& a)
     PrefilterMaps maps;
     texproc::Prefiltered chains;
     timings.read = timed([&] { maps = read_prefilter_maps(a.input); });
+    if (o.bits == 8 && o.rule == "overlap") {  // lobes are fitted to the level 0 that ships
+        // What was rounded is no longer what the source file holds, which else is copied.
+        if (maps.normal.type != texproc::PixelType::U8) a.input.normal.clear();
+        if (maps.map.type != texproc::PixelType::U8) maps.map_path.clear();
+        maps.normal = texproc::in_8_bits(std::move(maps.normal));
+        maps.map = texproc::in_8_bits(std::move(maps.map));
+    }
     BlockFit fit;
     timings.kernel = timed([&] {
         chains = texproc::prefilter_raw(maps.normal, maps.map, o);

@@ -115,6 +115,7 @@ void run_score_protocol(const ProtocolRequest& request, const texproc::ReadOptio
     texproc::ProtocolOptions options;
     if (request.effort == "quick") options = texproc::quick_protocol();
     if (request.seeds > 0) options.seeds = request.seeds;
+    options.bits = request.bits;
     options.threads = threads;
     options.best_ellipse = request.best_ellipse;
     options.progress = [](const std::string& what) { std::cerr << "score: " << what << "\n"; };

@@ -14,10 +14,10 @@
 namespace petrichor::cli {
 namespace {
 
-constexpr int kFrames = 48, kScale = 2, kGap = 10, kTop = 64, kCaption = 24;
+constexpr int kScale = 2, kGap = 10, kTop = 64, kCaption = 24;
 constexpr double kFps = 24.0;
 
-texproc::PictureOptions moving_pictures(int frames, int threads)
+texproc::PictureOptions moving_pictures(int frames, int all_frames, int threads)
 {
     texproc::PictureOptions o = texproc::reference_pictures();
     o.frames = frames;
@@ -26,7 +26,7 @@ texproc::PictureOptions moving_pictures(int frames, int threads)
     // One repeat of the material in the whole film.
     for (texproc::PictureView& view : o.views) {
         view.step_right_m = 0.0;
-        view.step_ahead_m = 1.0 / kFrames;
+        view.step_ahead_m = 1.0 / all_frames;
     }
     return o;
 }
@@ -71,7 +71,7 @@ Chains make_chains(const SparkleSheet& sheet, int frames, const std::function<vo
     options.progress = [&](double share) { progress(0.5 * share); };
     Chains chains{texproc::PictureBench(texproc::to_raw(sheet.normal, texproc::PixelType::F32),
                                         texproc::to_raw(sheet.roughness, texproc::PixelType::F32), {},
-                                        moving_pictures(frames, sheet.threads)),
+                                        moving_pictures(frames, sheet.frames, sheet.threads)),
                   {}, texproc::prefilter(sheet.normal, sheet.roughness, options), {}, {}};
     chains.plain.roughness = chains.bench.plain_roughness();
     chains.plain_scores = chains.bench.score(chains.plain);
@@ -122,7 +122,7 @@ void write_sparkle_film(const SparkleSheet& sheet, const std::filesystem::path& 
         throw Error("texture inspect: --film " + film.string() + " needs ffmpeg, which is not installed",
                     "apt-get install ffmpeg, or name a .png for a strip of the first frame.");
     }
-    const Chains chains = make_chains(sheet, moves ? kFrames : 5, progress);
+    const Chains chains = make_chains(sheet, moves ? sheet.frames : 5, progress);
     if (!moves) {
         const Pixels strip = draw_frame(sheet, chains, 0);
         texproc::write_png8(film, strip.width, strip.height, 3, strip.rgb);
@@ -132,10 +132,10 @@ void write_sparkle_film(const SparkleSheet& sheet, const std::filesystem::path& 
         [&](int f) {
             const Pixels picture = draw_frame(sheet, chains, f);
             const auto bytes = texproc::encode_png8(picture.width, picture.height, 3, picture.rgb);
-            progress(0.5 + 0.5 * static_cast<double>(f + 1) / kFrames);
+            progress(0.5 + 0.5 * static_cast<double>(f + 1) / sheet.frames);
             return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         },
-        kFrames, kFps, film, stop);
+        sheet.frames, kFps, film, stop);
 }
 
 }  // namespace petrichor::cli

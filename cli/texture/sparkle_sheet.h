@@ -17,6 +17,7 @@ struct SparkleSheet {
     std::string rule = "picture";
     bool quick = true;
     float light = 0.0f;
+    int frames = 48;  ///< of a film: it goes on by one repeat of the material in so many
     int threads = 0;
 };
 

@@ -59,7 +59,7 @@ TEST(TextureEngines, UnrealGetsBlueFirstAndAScript)
     const Workplace place("engine_unreal");
     write_wall(place / "in");
     const Outcome made =
-        run({"texture", "build", "in", "--engine", "unreal", "--no-score", "-o", "out"}, place);
+        run({"texture", "build", "in", "--engine", "unreal", "--no-score", "--rule", "median", "-o", "out"}, place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     for (const auto& [name, dxgi] :
          {std::pair("T_Wall_BC", 91u), std::pair("T_Wall_N", 87u), std::pair("T_Wall_ORM", 87u)}) {
@@ -94,7 +94,7 @@ TEST(TextureEngines, MapsWithEmptyRowsAreTold)
     std::fill(rough.pixels.begin() + 16 * 10, rough.pixels.end(), 0.0f);
     texproc::write_image(place / "in/Wall_roughness.png", rough);
     const Outcome made =
-        run({"texture", "build", "in", "--engine", "gltf", "--no-score", "-o", "out"}, place);
+        run({"texture", "build", "in", "--engine", "gltf", "--no-score", "--rule", "median", "-o", "out"}, place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out,
                 HasSubstr("Wall_roughness.png as roughness: rows 10 to 15 of 16 are zero"));
@@ -106,7 +106,7 @@ TEST(TextureEngines, PhonesGetAstc)
     if (!texproc::has_astc()) GTEST_SKIP() << "built without Arm's library for ASTC (libastcenc-dev)";
     const Workplace place("engine_mobile");
     write_wall(place / "in");
-    const Outcome made = run({"texture", "build", "in", "--engine", "mobile", "-o", "out"}, place);
+    const Outcome made = run({"texture", "build", "in", "--engine", "mobile", "--no-score", "--rule", "median", "-o", "out"}, place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const texproc::MipTexture color = texproc::read_texture(place / "out/Wall_baseColor.ktx2");
     EXPECT_EQ(texproc::name_of(color.format), "astc-6x6");
@@ -118,7 +118,7 @@ TEST(TextureEngines, PhonesGetAstc)
     const texproc::RawImage flat = texproc::decode_level(normal, 0);
     EXPECT_NEAR(std::to_integer<int>(flat.bytes[2]), 255, 1) << "z of a flat wall";
     // There is no DDS of it: that is written without blocks.
-    EXPECT_EQ(run({"texture", "build", "in", "--engine", "mobile", "--format", "dds", "--no-score", "-o", "dds"}, place).exit_code, 0);
+    EXPECT_EQ(run({"texture", "build", "in", "--engine", "mobile", "--format", "dds", "--no-score", "--rule", "median", "-o", "dds"}, place).exit_code, 0);
     EXPECT_FALSE(texproc::read_texture(place / "dds/Wall_orm.dds").format.block.has_value());
 }
 
@@ -143,7 +143,7 @@ TEST(TextureEngines, UnityGetsMetaFilesWithLastingGuids)
     write_wall(place / "in");
     const auto built = [&](const std::vector<std::string>& more) {
         std::vector<std::string> command{"texture",   "build",      "in", "--engine",
-                                         "unity-urp", "--no-score", "-o", "out"};
+                                         "unity-urp", "--no-score", "--rule", "median", "-o", "out"};
         command.insert(command.end(), more.begin(), more.end());
         const Outcome made = run(command, place);
         EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -177,11 +177,11 @@ TEST(TextureEngines, GodotIsToldWhatItCompresses)
 {
     const Workplace place("engine_godot");
     write_wall(place / "in");
-    ASSERT_EQ(run({"texture", "build", "in", "--engine", "godot", "--no-score", "-o", "dds"}, place)
+    ASSERT_EQ(run({"texture", "build", "in", "--engine", "godot", "--no-score", "--rule", "median", "-o", "dds"}, place)
                   .exit_code,
               0);
     EXPECT_FALSE(fs::exists(place / "dds/Wall_albedo.dds.import")) << "loaded as it is";
-    ASSERT_EQ(run({"texture", "build", "in", "--engine", "godot", "--no-score", "--format", "png",
+    ASSERT_EQ(run({"texture", "build", "in", "--engine", "godot", "--no-score", "--rule", "median", "--format", "png",
                    "-o", "png"},
                   place)
                   .exit_code,
@@ -198,7 +198,7 @@ TEST(TextureEngines, TilesOfASetStayTiles)
     write_wall(place / "in", ".1001");
     write_wall(place / "in", ".1012");
     const Outcome made =
-        run({"texture", "build", "in", "--engine", "unity-urp", "--no-score", "-o", "out"}, place);
+        run({"texture", "build", "in", "--engine", "unity-urp", "--no-score", "--rule", "median", "-o", "out"}, place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out, HasSubstr("2 built"));
     for (const char* tile : {"1001", "1012"}) {
@@ -226,7 +226,7 @@ TEST(TextureEngines, MapsThatMeetAreBroughtToOneSize)
     texproc::write_image(place / "in/Wall_ao.png", Image(8, 16, 1, ColorSpace::Data, 0.5f));
     texproc::write_image(place / "in/Wall_height.png", waves(32, 32, 1, 0.9f));
     const Outcome made =
-        run({"texture", "build", "in", "--engine", "unreal", "--no-score", "-o", "out"}, place);
+        run({"texture", "build", "in", "--engine", "unreal", "--no-score", "--rule", "median", "-o", "out"}, place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out, HasSubstr("note: Wall: occlusion: 8 x 16 resampled to 16 x 16\n"));
     EXPECT_THAT(made.out, Not(HasSubstr("height:"))) << "it meets no other map in a file";
@@ -241,7 +241,7 @@ TEST(TextureEngines, AScenesMapsBecomeTexturesOfAnEngine)
     const Workplace place("engine_scene");
     write_file(place / "scene.glb", tiny_scene_glb());
     const Outcome made =
-        run({"texture", "build", "scene.glb", "--engine", "unity-hdrp", "--no-score", "-o", "out"},
+        run({"texture", "build", "scene.glb", "--engine", "unity-hdrp", "--no-score", "--rule", "median", "-o", "out"},
             place);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     std::set<std::string> kinds;

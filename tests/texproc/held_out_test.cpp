@@ -5,6 +5,7 @@
 
 #include "texproc/study/fresh_maps.h"
 #include "texproc/study/protocol.h"
+#include "texproc/study/scored_maps.h"
 
 namespace petrichor::texproc {
 namespace {
@@ -73,6 +74,25 @@ TEST_P(HeldOut, EightBitsNeverLoseToPlainMipsOfEightBits)
         for (std::size_t k = 0; k < joint.levels.size(); ++k) {
             EXPECT_LE(joint.levels[k].tested, plain.levels[k].tested + 0.005)
                 << rows[i].material << ", level " << joint.levels[k].level;
+        }
+    }
+}
+
+// Against level 0 as the file holds it: what supersampling of that file shows.
+TEST_P(HeldOut, EightBitsCloseTheRoomOfWhatShips)
+{
+    std::vector<ScoredMaps> materials = fresh_maps(96, GetParam());
+    const std::vector<ScoredMaps> hard = hard_maps(128);
+    materials.push_back(*std::find_if(hard.begin(), hard.end(),
+                                      [](const ScoredMaps& m) { return m.name == "scratched mirror"; }));
+    ProtocolOptions options = some_texels({0.0f});
+    options.bits = 8;
+    for (const ProtocolRow& row : run_protocol(materials, overlap_variants(8), options)) {
+        if (row.variant != "overlap joint") continue;
+        for (const RangeScore& range : {row.score.fine(), row.score.coarse()}) {
+            if (range.has_room()) {
+                EXPECT_GE(range.gap(), 90.0) << row.material << "\n" << to_text(row.score);
+            }
         }
     }
 }

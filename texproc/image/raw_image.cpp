@@ -99,6 +99,11 @@ void float_to_codes(const Image& image, Rounding rounding, std::byte* to)
 
 }  // namespace
 
+RawImage in_8_bits(RawImage data)
+{
+    return data.type == PixelType::U8 ? std::move(data) : to_raw(to_image(data, ColorSpace::Data), PixelType::U8);
+}
+
 float srgb_to_linear(float encoded)
 {
     return shared::linear_from_srgb(encoded);

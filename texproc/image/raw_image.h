@@ -61,6 +61,9 @@ enum class Rounding {
 /// `rounding` is for U8 only. Codes themselves (k / 255) come back exactly either way.
 RawImage to_raw(const Image& image, PixelType type, Rounding rounding = Rounding::Nearest);
 
+/// Data as a file of 8 bits holds it: each number the nearest code. U8 stays as it is.
+RawImage in_8_bits(RawImage data);
+
 /// The sRGB curve and its inverse, one value.
 float srgb_to_linear(float encoded);
 float linear_to_srgb(float linear);

@@ -27,7 +27,14 @@ PrefilteredMaps::PrefilteredMaps(const PlannedMaterial& plan, const SourceMaps& 
     if (std::none_of(plan.outputs.begin(), plan.outputs.end(), filtered)) return;
     rough_role_ = maps.rough_role();
     choose_options(threads);
-    chains_ = prefilter_raw(maps.images.at("normal"), maps.images.at(rough_role_), options_);
+    const RawImage &normal = maps.images.at("normal"), &rough = maps.images.at(rough_role_);
+    // Lobes are fitted to the level 0 that ships.
+    const bool rounds = options_.rule == "overlap" && options_.bits == 8 &&
+                        std::none_of(plan.outputs.begin(), plan.outputs.end(), [](const PlannedOutput& output) {
+                            return output.prefiltered && output.rule.compression != "none";
+                        });
+    chains_ = rounds ? prefilter_raw(in_8_bits(normal), in_8_bits(rough), options_)
+                     : prefilter_raw(normal, rough, options_);
 }
 
 void PrefilteredMaps::choose_options(int threads)

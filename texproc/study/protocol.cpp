@@ -155,8 +155,12 @@ std::vector<ProtocolRow> run_protocol(const std::vector<ScoredMaps>& materials,
                 }
                 // An odd roll: other texels meet in every footprint.
                 const int dx = (seed - 1) * 341 + 1, dy = (seed - 1) * 173 + 3;
-                const ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
-                                      rolled(material.roughness, dx, dy)};
+                ScoredMaps maps{material.name, rolled(material.normal, dx, dy),
+                                rolled(material.roughness, dx, dy)};
+                if (options.bits == 8) {
+                    maps.normal = in_8_bits(std::move(maps.normal));
+                    maps.roughness = in_8_bits(std::move(maps.roughness));
+                }
                 const ScoreOptions scoring{.light = light,
                                            .texels = options.texels,
                                            .points = options.points,

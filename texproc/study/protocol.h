@@ -28,6 +28,8 @@ struct ProtocolOptions {
     int texels = 64;
     int points = 1024;
     std::vector<float> lights{0.0f, 0.1f};
+    /// 8: level 0 is rounded before anything looks at it, as the file holds it that an engine reads.
+    int bits = 16;
     int threads = 0;
     /// Also rows for the best elliptic lobes (ScoreOptions::best_ellipse): "best ellipse, found" on
     /// other points, and "best ellipse, bound".
