@@ -355,7 +355,9 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         const vec3 way = box_projected(p, probe_direction(c.x, c.y), low, high, 0.5f * (low + high));
         const float share = reflection_probe_share(p, low, high, 2.0f * c.z);
         const vec2 blend = reflection_probe_blend(vec3(2.0f, 1.0f + c.w, 1.0f));
-        return vec4(way.x + way.y, way.z, reflection_probe_weight(share, 1.0f + a.w, p), blend.y);
+        const vec3 rough = rough_mirror_direction(probe_direction(b.x, b.y), probe_direction(c.x, c.y), a.w);
+        return vec4(way.x + way.y, way.z + rough.x, reflection_probe_weight(share, 1.0f + a.w, p),
+                    blend.y + ggx_band(int(8.999f * b.z), c.w));
     }
     if (kind == 43) {
         const vec3 n = probe_direction(a.x, a.y);

@@ -336,7 +336,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
         if (variant.patch_light) add_patch_points(graph, layer, *r.patches, constants);
         add_background(graph, layer, *r.sky, constants, variant);
         add_lighting(graph, layer, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
-                     *r.lamp_shadows, constants, variant);
+                     *r.lamp_shadows, *r.probes, constants, variant);
         if (variant.image_based_light) {
             add_reflections(graph, layer, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, variant.parts, false, variant.mirrors_picture,
@@ -493,7 +493,7 @@ FrameGraph build_frame(const Frame& frame, const Sun& sun, FrameResources& r,
         variant.pixels = pixels;
         add_background(graph, *r.targets, *r.sky, constants, variant);
         add_lighting(graph, *r.targets, *r.scene, *r.lights, *r.light_tables, *r.sky, *r.depth_maps,
-                     *r.lamp_shadows, constants, variant);
+                     *r.lamp_shadows, *r.probes, constants, variant);
         if (settings.image_based_light) {
             add_reflections(graph, *r.targets, *r.sky, *r.probes, variant.patch_light, constants,
                             {variant.parts, variant.split, &r.parts->sum_or_none(),

@@ -5,6 +5,7 @@
 #define PETRICHOR_FORMULAS_LIGHT_REFLECTION_PROBE_H
 
 #include "base/interop.h"
+#include "formulas/light/spherical_harmonics.h"
 
 SHARED_BEGIN
 
@@ -73,6 +74,33 @@ SHARED_FN float distance_to_wall(float from, float ray, float low, float high)
 {
     if (abs(ray) < 1.0e-6f) return 1.0e9f;
     return abs((ray > 0.0f ? high : low) - from) / abs(ray);
+}
+
+// Rougher surfaces than levels are for see a probe by its harmonics, not turned to the walls of its box.
+struct ProbeSpread {
+    vec4 centre;           // boost
+    vec4 low;              // blend
+    vec4 high;             // share of sky above
+    vec4 bands[kHarmonics];  // rgb: radiance of surfaces, a: share of sky
+};
+
+// What a GGX lobe seen along the normal leaves of the i-th function; fitted to its integrals (0.003 of the first
+// band, 0.007 of the second). At alpha 1 it is a cosine.
+SHARED_FN float ggx_band(int i, float alpha)
+{
+    if (i == 0) return 1.0f;
+    if (i < 4) {
+        return (1.0f + (2.2081951f + 3.8120016f * alpha) * alpha) / (1.0f + (2.4882670f + 7.0461332f * alpha) * alpha);
+    }
+    return (1.0f + (1.8242479f + 0.3717228f * alpha) * alpha) / (1.0f + (2.6157152f + 9.1955338f * alpha) * alpha);
+}
+
+// Where a rough lobe has its middle: the rougher, the nearer to the normal (Lagarde and de Rousiers 2014).
+SHARED_FN vec3 rough_mirror_direction(vec3 normal, vec3 mirrored, float roughness)
+{
+    const float smoothness = 1.0f - roughness * roughness;
+    const float share = smoothness * (sqrt(max(smoothness, 0.0f)) + roughness * roughness);
+    return normalize(normal + (mirrored - normal) * share);
 }
 
 // The direction from `centre` to where a ray from `position` meets the box; not unit.

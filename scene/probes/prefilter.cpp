@@ -251,4 +251,25 @@ std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::
     return all;
 }
 
+std::array<glm::vec4, shared::kHarmonics> probe_bands(std::span<const glm::vec4> light)
+{
+    // Behind the first level, which has what glows; a mirror for lobes as wide as these.
+    constexpr int kLevel = 1;
+    const int side = shared::reflection_probe_side(kLevel);
+    const auto first = static_cast<std::size_t>(shared::reflection_probe_offset(kLevel));
+    std::array<glm::vec4, shared::kHarmonics> bands{};
+    float all = 0.0f;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const float angle = solid_angle(x, y, side);
+            const glm::vec3 d = direction_of(x, y, side);
+            const glm::vec4 here = light[first + static_cast<std::size_t>((y + 1) * (side + 2) + x + 1)] * angle;
+            for (int i = 0; i < shared::kHarmonics; ++i) bands[static_cast<std::size_t>(i)] += here * shared::harmonic(i, d);
+            all += angle;
+        }
+    }
+    for (glm::vec4& band : bands) band *= 4.0f * shared::kPi / all;
+    return bands;
+}
+
 }  // namespace petrichor::scene

@@ -1,11 +1,13 @@
 #ifndef PETRICHOR_SCENE_PROBES_PROBES_H
 #define PETRICHOR_SCENE_PROBES_PROBES_H
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "formulas/light/spherical_harmonics.h"
 #include "scene/patches/patches.h"
 #include "scene/patches/surfaces.h"
 
@@ -60,6 +62,10 @@ std::vector<ProbePlace> place_probes(const Patches& patches, const Tracer& trace
 ///   rough  radiosity for the levels behind the first, where what glows is a light of its own; empty: the same
 std::vector<glm::vec4> lit_probe(const TracedProbe& probe, std::span<const glm::vec3> radiosity,
                                  std::span<const glm::vec3> rough = {});
+
+/// The same of what rough surfaces see, as harmonics (formulas/light/spherical_harmonics.h): the sum over them times
+/// shared::ggx_band is what a lobe gathers. light: as lit_probe() gives it.
+std::array<glm::vec4, shared::kHarmonics> probe_bands(std::span<const glm::vec4> light);
 
 }  // namespace petrichor::scene
 

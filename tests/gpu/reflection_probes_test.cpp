@@ -109,6 +109,39 @@ TEST_F(ReflectionProbesTest, TheMoreImportantOneCounts)
     EXPECT_NEAR(mirrored(shot(hall), 0.8f).g, 4.0f, 0.2f) << "as much as each other";
 }
 
+// Too rough for a mirror of its own: seen along, the middle of the floor has the light of the half that it is seen
+// towards. Patches alone know how much light there is, not from where.
+TEST_F(ReflectionProbesTest, RoughMetalHasTheLightOfTheSideItIsSeenTowards)
+{
+    Hall hall;
+    hall.scene.materials[0].roughness = 0.5f;
+    hall.patches->probes[0].place.position_m.x = 0.0f;
+    scene::Triangles triangles(hall.scene, {});
+    const scene::Tracer tracer(triangles);
+    hall.patches->probes[0] = scene::trace_probe(hall.patches->patches, tracer, hall.patches->surfaces, {}, hall.patches->probes[0].place);
+    const auto seen = [&](float from) {
+        renderer->load(hall.scene, {});
+        renderer->set_patches(hall.patches);
+        renderer->set_environment(constant_environment(0.0f));
+        Frame frame;
+        frame.camera = look({from, 1.2f, 0.001f}, {0, 0, 0}, 0.2f);
+        frame.sky.sun_illuminance = 0.0f;
+        frame.settings.width = frame.settings.height = 16;
+        frame.settings.samples = 1;
+        frame.emissive_lights = false;  // no highlights of the ceiling
+        frame.settings.ambient_occlusion = false;
+        frame.weather.visibility_m = 1e9f;
+        return pixel(renderer->render(frame), 8, 8);
+    };
+    const glm::vec3 towards_green = seen(-2.0f), towards_red = seen(2.0f);
+    EXPECT_GT(towards_green.g, 2.0f * towards_green.r);
+    EXPECT_GT(towards_red.r, 2.0f * towards_red.g);
+    hall.patches->probes.clear();
+    const glm::vec3 without = seen(-2.0f), other = seen(2.0f);
+    EXPECT_NEAR(without.g, other.g, 0.05f * other.g);
+    EXPECT_NEAR(without.r, other.r, 0.05f * other.r);
+}
+
 // A picture of the place stands for what would be traced, whatever the light of the frame.
 TEST_F(ReflectionProbesTest, APictureStandsInForWhatWasTraced)
 {

@@ -211,6 +211,83 @@ TEST(Probes, AutomaticOnesStandInTheOpenAndApart)
     EXPECT_TRUE(place_probes(small.patches, small.tracer, 4).empty());
 }
 
+// What the harmonics of a probe say of a lobe of a roughness about a direction.
+glm::vec4 in_lobe(const std::array<glm::vec4, shared::kHarmonics>& bands, glm::vec3 way, float roughness)
+{
+    glm::vec4 sum(0.0f);
+    for (int i = 0; i < shared::kHarmonics; ++i)
+        sum += bands[static_cast<std::size_t>(i)] *
+               (shared::harmonic(i, way) * shared::ggx_band(i, roughness * roughness));
+    return sum;
+}
+
+TEST(ProbeBands, AFurnaceIsOneInEveryLobe)
+{
+    const Traced room_of(room());
+    const TracedProbe probe = room_of.probe(at({1.0f, 1.6f, 2.5f}));
+    const std::vector<glm::vec3> radiosity(room_of.patches.count, glm::vec3(2.0f, 1.0f, 0.5f) * kPi);
+    const auto bands = probe_bands(lit_probe(probe, radiosity));
+    std::mt19937 random(3);
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec4 found = in_lobe(bands, random_way(random), 0.32f + 0.68f * static_cast<float>(i) / 200.0f);
+        ASSERT_NEAR(found.r, 2.0f, 0.01f);
+        ASSERT_NEAR(found.b, 0.5f, 0.0025f);
+        ASSERT_NEAR(found.a, 0.0f, 1e-6f);
+    }
+}
+
+// A wall of another colour on each side: the sum over the lobe, ray by ray.
+TEST(ProbeBands, LobesGatherWhatTheyLookAt)
+{
+    const Traced room_of(room());
+    const TracedProbe probe = room_of.probe(at(glm::vec3(2.0f)));
+    std::vector<glm::vec3> radiosity;
+    for (std::uint32_t i = 0; i < room_of.patches.count; ++i)
+        radiosity.push_back(kPi * (glm::vec3(2.0f) + glm::vec3(1.0f, 0.5f, 0.25f) * room_of.patches.normal[i]));
+    const auto light = lit_probe(probe, radiosity);
+    const auto bands = probe_bands(light);
+    std::mt19937 random(4);
+    for (const float roughness : {0.4f, 0.6f, 0.8f, 1.0f}) {
+        const float a2 = roughness * roughness * roughness * roughness;
+        for (int i = 0; i < 12; ++i) {
+            const glm::vec3 way = random_way(random);
+            glm::vec3 sum(0.0f);
+            float weights = 0.0f;
+            for (int k = 0; k < 20000; ++k) {
+                const glm::vec3 l = random_way(random);
+                const float nl = glm::dot(l, way);
+                if (nl <= 0.0f) continue;
+                const float d = (0.5f + 0.5f * nl) * (a2 - 1.0f) + 1.0f;
+                sum += glm::vec3(seen(light, 0, l)) * (nl / (d * d));
+                weights += nl / (d * d);
+            }
+            // Of walls of 1 to 3; nine functions round their edges off in the sharpest lobe.
+            EXPECT_NEAR(in_lobe(bands, way, roughness).r, sum.r / weights, roughness < 0.5f ? 0.25f : 0.12f)
+                << roughness << " " << way.x << " " << way.y << " " << way.z;
+        }
+    }
+}
+
+TEST(ProbeBands, TheFitIsThatOfTheLobes)
+{
+    for (const float alpha : {0.02f, 0.1f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
+        double all = 0.0, first = 0.0, second = 0.0;
+        for (int k = 0; k < 200000; ++k) {
+            const double t = (k + 0.5) / 200000.0, x = 1.0 - t * t * t;
+            const double a2 = static_cast<double>(alpha) * static_cast<double>(alpha);
+            const double d = (0.5 + 0.5 * x) * (a2 - 1.0) + 1.0;
+            const double w = x / (d * d) * t * t;
+            all += w;
+            first += w * x;
+            second += w * (1.5 * x * x - 0.5);
+        }
+        EXPECT_NEAR(static_cast<double>(shared::ggx_band(1, alpha)), first / all, 0.004) << alpha;
+        EXPECT_NEAR(static_cast<double>(shared::ggx_band(4, alpha)), second / all, 0.008) << alpha;
+    }
+    for (int i = 0; i < shared::kHarmonics; ++i)
+        EXPECT_NEAR(shared::ggx_band(i, 1.0f), shared::cosine_band(i), 1e-3f);
+}
+
 TEST(ReflectionProbe, RaysMeetTheWallsWhereTheyAre)
 {
     const glm::vec3 low{-3, 0, -2}, high{5, 4, 2}, centre{1, 1.6f, 0.5f};

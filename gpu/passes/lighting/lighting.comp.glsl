@@ -58,6 +58,7 @@ layout(constant_id = LIGHTING_SPEC_SNOW_SCATTER) const uint SNOW_SCATTER = 0u;
 layout(constant_id = LIGHTING_SPEC_SPARKLE) const uint SPARKLE = 0u;
 layout(constant_id = LIGHTING_SPEC_FILM) const uint FILM = 0u;
 layout(constant_id = LIGHTING_SPEC_PARTS) const uint PARTS = 0u;
+layout(constant_id = LIGHTING_SPEC_PROBES) const uint PROBES = 0u;
 layout(constant_id = LIGHTING_SPEC_PICTURE) const uint PICTURE = 1u;
 #define ROW(number_, name_) \
     layout(constant_id = LIGHTING_SPEC_MODEL + number_) const uint USES_##name_ = 1u;
@@ -84,6 +85,7 @@ layout(binding = LIGHTING_ACCUMULATED, rgba32f) uniform image2D accumulated;
 layout(binding = LIGHTING_PARTS, rgba32f) uniform image2DArray light_parts;
 layout(binding = LIGHTING_SKY_VISIBILITY) uniform sampler2DArrayShadow sky_visibility_map;
 layout(binding = LIGHTING_PATCH_POINTS) uniform usamplerBuffer patch_point_texels;
+layout(binding = LIGHTING_PROBES, scalar) uniform Probes { ProbeSpread probes[LIGHTING_MOST_PROBES]; };
 layout(binding = LIGHTING_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(binding = LIGHTING_MIRROR_WEIGHT, rgba16f) uniform writeonly image2D mirror_weight;
 layout(binding = LIGHTING_MIRROR_SHAPE, rgba16_snorm) uniform writeonly image2D mirror_shape;
@@ -190,32 +192,40 @@ LitPoint mirroring_part(LitPoint p)
 struct Ambient {
     vec3 irradiance;  // over pi
     float occlusion;  // of what is left to darken it
-    vec3 mirrored;    // the sky's maps times this
+    float screen;     // what near things leave of what is mirrored
+    vec3 mirrored;    // the sky's maps times this, where no probe tells more
+    vec3 unhidden;    // irradiance before what stands near takes its share
     float open;       // 0..1: how far a mirror sees the sky
 };
+
+#include "gpu/passes/lighting/rough_mirror.glsl"
 
 // From the patches around; nothing (open < 0) where there are none.
 Ambient patch_ambient(LitPoint p, vec3 geometry, float crevices, float screen, float view_m,
                       ivec2 texel)
 {
-    Ambient a = Ambient(vec3(0.0), crevices, vec3(1.0), -1.0);
     const SpreadLight light = patch_light_at(p.position, geometry, p.normal, p.view, view_m, texel);
+    Ambient a = Ambient(vec3(0.0), crevices, 1.0, vec3(1.0), light.irradiance, -1.0);
     if (light.open < 0.0) return a;
     a.irradiance = light.irradiance;
+    // A mirror sees about as much more or less than sky as a matt surface does.
+    const vec3 sky = sky_irradiance(p.normal);
+    a.mirrored = clamp(light.irradiance / max(sky, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
     if (AMBIENT_OCCLUSION != 0u) {
         // Relief smaller than a patch: what the pixel sees over what its patch does, both with the
         // light that crevices send back, both beyond what the point knows as close. The picture does not show
         // all that is near: it takes away only.
-        const vec3 own = bounced_occlusion(p.albedo, open_beyond(screen, light.close));
-        const vec3 mean = bounced_occlusion(p.albedo, open_beyond(light.open, light.close));
+        const float own_open = open_beyond(screen, light.close);
+        const float mean_open = open_beyond(light.open, light.close);
+        const vec3 own = bounced_occlusion(p.albedo, own_open);
+        const vec3 mean = bounced_occlusion(p.albedo, mean_open);
         const vec3 ratio = min(own / max(mean, vec3(0.05)), vec3(1.0));
         a.irradiance *= vec3(with_close_light(ratio.r, light.close_light),
                              with_close_light(ratio.g, light.close_light),
                              with_close_light(ratio.b, light.close_light));
+        // What patches saw of near things is in the light that is mirrored, too.
+        a.screen = with_close_light(min(own_open / max(mean_open, 0.05), 1.0), light.close_light);
     }
-    // A mirror sees about as much more or less than sky as a matt surface does.
-    const vec3 sky = sky_irradiance(p.normal);
-    a.mirrored = clamp(a.irradiance / max(sky, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
     a.open = clamp(dot(a.irradiance, vec3(0.2126, 0.7152, 0.0722)) /
                        max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1.0e-6),
                    0.0, 1.0);
@@ -242,14 +252,16 @@ Ambient ambient_light(LitPoint p, vec3 geometry, float crevices, float screen, f
         const Ambient a = patch_ambient(p, geometry, crevices, screen, view_m, texel);
         if (a.open >= 0.0) return a;
         // Far from all patches: the open sky.
-        return Ambient(sky_irradiance(p.normal), crevices * screen, vec3(1.0), 1.0);
+        const vec3 sky = sky_irradiance(p.normal);
+        return Ambient(sky, crevices * screen, screen, vec3(1.0), sky, 1.0);
     }
     const float open =
         AMBIENT_OCCLUSION != 0u ? sky_visibility(p.position, geometry, texel) : 1.0;
     // Where the sky is hidden, walls and ground send some of its light on, warmer.
     const vec3 hidden = vec3(1.0, 0.93, 0.85) * frame.bounce;
     const vec3 seen = open + (1.0 - open) * hidden;
-    return Ambient(sky_irradiance(p.normal) * seen, crevices * screen, seen, open);
+    const vec3 sky = sky_irradiance(p.normal) * seen;
+    return Ambient(sky, crevices * screen, screen, seen, sky, open);
 }
 
 // Lists the pixels that the pass of reflections is about: a CPU would do its work for all others, too. The order of
@@ -475,7 +487,7 @@ void main()
             s.irradiance_behind = p.layers.transmitted > 0.0 ? sky_irradiance(-n) * seen : vec3(0.0);
             if (BAKED != 0u) s.irradiance *= 1.0 - g.baked_sky;
             // A water surface lies above the crevices that its ground has.
-            const float mirror_occlusion = mix(m.occlusion * screen, 1.0, closed);
+            const float mirror_occlusion = mix(m.occlusion * around.screen, 1.0, closed);
             // Lagarde and de Rousiers 2014.
             s.specular_occlusion =
                 saturate(pow(nv + mirror_occlusion, exp2(-16.0 * p.roughness - 1.0)) - 1.0 +
@@ -510,8 +522,7 @@ void main()
                 mirror = vec4(coat, closed);
                 shape = vec4(octahedral_encode(p.layers.other_normal), p.layers.coat_roughness, sky_open);
             } else if (p.layers.coat > 0.0) {
-                const float lod = p.layers.coat_roughness * float(SKY_PREFILTER_MIPS - 1);
-                blurred = coat * textureLod(specular_map, reflect(-v, p.layers.other_normal), lod).rgb * seen;
+                blurred = coat * rough_mirror(p, around, p.layers.other_normal, p.layers.coat_roughness);
                 radiance += blurred;
             }
             const bool filmed = FILM != 0u && !coated && film.roughness < kMirrorRoughness &&
@@ -520,8 +531,7 @@ void main()
                 mirror = vec4(film_mirror, closed);
                 shape = vec4(octahedral_encode(film.normal), film.roughness, sky_open);
             } else if (FILM != 0u) {
-                const float lod = film.roughness * float(SKY_PREFILTER_MIPS - 1);
-                const vec3 over = film_mirror * textureLod(specular_map, reflect(-v, film.normal), lod).rgb * seen;
+                const vec3 over = film_mirror * rough_mirror(p, around, film.normal, film.roughness);
                 radiance += over;
                 blurred += over;
             }
@@ -529,9 +539,7 @@ void main()
                 mirror = vec4(reflected.mirror, closed);
                 shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
-                const float lod = p.roughness * float(SKY_PREFILTER_MIPS - 1);
-                const vec3 base = reflected.mirror *
-                                  textureLod(specular_map, reflect(-v, mirror_normal), lod).rgb * seen;
+                const vec3 base = reflected.mirror * rough_mirror(p, around, mirror_normal, p.roughness);
                 radiance += base;
                 blurred += base;
             }

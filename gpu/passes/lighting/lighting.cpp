@@ -1,12 +1,15 @@
 #include "gpu/passes/lighting/lighting.h"
 
+#include "formulas/light/reflection_probe.h"
 #include "gpu/passes/lighting/lighting_io.h"
 
 namespace petrichor::gpu {
 
+static_assert(LIGHTING_MOST_PROBES == kMostProbes);
+
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
-                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows, const ProbeTable& probes,
                   const ConstantsRange& constants, const LightingVariant& variant)
 {
     const SamplerHandle& nearest = targets.nearest;
@@ -39,6 +42,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                       {LIGHTING_SPEC_SPARKLE, variant.sparkle},
                       {LIGHTING_SPEC_PARTS, variant.split},
                       {LIGHTING_SPEC_FILM, variant.film},
+                      {LIGHTING_SPEC_PROBES, variant.patch_light ? probes.count() : 0u},
                       {LIGHTING_SPEC_PICTURE, variant.mirrors_picture}},
         .bindings = {{LIGHTING_FRAME, frame_binding(constants)},
                      {LIGHTING_SKY_LIGHT, sky_light_binding(sky)},
@@ -63,6 +67,7 @@ void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scen
                      {LIGHTING_SKY_VISIBILITY, sampled(*depth_maps.sky, depth_maps.compare)},
                      {LIGHTING_RADIANCE, storage(*targets.radiance)},
                      {LIGHTING_MIRROR_WEIGHT, storage(*targets.mirror_weight)},
+                     {LIGHTING_PROBES, uniform(probes.spread(), 0, kMostProbes * sizeof(shared::ProbeSpread))},
                      {LIGHTING_PARTS, storage(*variant.parts)},
                      {LIGHTING_MIRROR_SHAPE, storage(*targets.mirror_shape)},
                      {LIGHTING_MIRROR_LIST, storage_buffer(*targets.mirror_list)}},

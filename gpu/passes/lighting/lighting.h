@@ -6,6 +6,7 @@
 #include "gpu/passes/lamp_shadows/lamp_shadows.h"
 #include "gpu/passes/lighting/light_tables.h"
 #include "gpu/passes/lights/lights.h"
+#include "gpu/passes/reflections/probe_table.h"
 #include "gpu/passes/sky/sky.h"
 
 namespace petrichor::gpu {
@@ -57,7 +58,7 @@ struct LightingVariant {
 //   edits    accumulated; light_parts of frames that ask
 void add_lighting(FrameGraph& graph, FrameTargets& targets, const GpuScene& scene,
                   LightTable& lights, LightTables& light_tables, SkyMaps& sky,
-                  DepthMaps& depth_maps, LampShadows& lamp_shadows,
+                  DepthMaps& depth_maps, LampShadows& lamp_shadows, const ProbeTable& probes,
                   const ConstantsRange& constants, const LightingVariant& variant);
 
 }  // namespace petrichor::gpu

@@ -3,6 +3,7 @@
 #define PETRICHOR_GPU_PASSES_LIGHTING_LIGHTING_IO_H
 
 #define LIGHTING_TILE 8
+#define LIGHTING_MOST_PROBES 8
 
 // Specialization constants: 0 leaves the part out of the compiled shader.
 #define LIGHTING_SPEC_WEATHER 0
@@ -31,7 +32,8 @@
 #define LIGHTING_SPEC_GRAIN 24    // anisotropic surfaces mirror along their grain, by chance
 #define LIGHTING_SPEC_PICTURE 25  // smooth surfaces mirror the picture itself
 #define LIGHTING_SPEC_SPARKLE 26  // snow under the sun has single crystals
-#define LIGHTING_SPEC_MODEL 27    // + number of a lighting model: in the picture
+#define LIGHTING_SPEC_PROBES 27   // how many rough surfaces see
+#define LIGHTING_SPEC_MODEL 28    // + number of a lighting model: in the picture
 
 #define LIGHTING_FRAME 0
 #define LIGHTING_SKY_LIGHT 1
@@ -58,6 +60,7 @@
 #define LIGHTING_PIXELS 22   // gpu/frame/pixel_list_io.h
 #define LIGHTING_PARTS 23
 #define LIGHTING_MIRROR_LIST 24  // gpu/frame/pixel_list_io.h
-#define LIGHTING_GBUFFER 25      // depth, then the targets
+#define LIGHTING_PROBES 25       // ProbeSpread of each
+#define LIGHTING_GBUFFER 26      // depth, then the targets
 
 #endif

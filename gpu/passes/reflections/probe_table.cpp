@@ -41,7 +41,7 @@ ProbeTable::ProbeTable(const Device& device) : device_(&device)
 
 void ProbeTable::make_buffers(std::size_t probes)
 {
-    for (auto* buffer : {&rows_, &light_}) *buffer = nullptr;
+    for (auto* buffer : {&rows_, &light_, &spread_}) *buffer = nullptr;
     arena_ = std::make_unique<MemoryArena>(*device_);
     const auto texels = [&](const char* name, std::size_t count) {
         return arena_->buffer({.name = name,
@@ -54,6 +54,10 @@ void ProbeTable::make_buffers(std::size_t probes)
     light_ = texels("reflection_probe_light",
                     probes * static_cast<std::size_t>(
                                  shared::reflection_probe_offset(shared::kProbeLevels)));
+    spread_ = arena_->buffer({.name = "reflection_probe_spread",
+                              .size = kMostProbes * sizeof(shared::ProbeSpread),
+                              .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                              .host = true});
     count_ = static_cast<std::uint32_t>(probes);
 }
 
@@ -77,6 +81,10 @@ void ProbeTable::relight(const PatchLights& patches)
             glm::vec4(p.position_m, std::pow(1000.0f, p.importance)),
             glm::vec4(p.low_m, p.blend_m), glm::vec4(p.high_m, sky_above(light))};
         std::memcpy(rows_->mapped + i * sizeof rows, rows, sizeof rows);
+        shared::ProbeSpread spread{rows[0], rows[1], rows[2], {}};
+        const auto bands = scene::probe_bands(light);
+        std::copy(bands.begin(), bands.end(), spread.bands);
+        std::memcpy(spread_->mapped + i * sizeof spread, &spread, sizeof spread);
     });
     if (wanted > 0) {
         relight_ms_ = std::chrono::duration<double, std::milli>(

@@ -42,6 +42,7 @@ const float kWidest_px = 24.0;
 struct Hit {
     vec2 pixel;
     float confidence;  // 0: nothing met
+    bool hidden;       // where the ray went behind what is seen, not where it met it
 };
 
 float scene_depth_m(vec2 pixel)
@@ -110,12 +111,19 @@ bool is_behind(ScreenRay ray, float s)
     return here.ray_m > here.seen_m;
 }
 
+// Shorter steps near the surface, half as long as even ones: the frame beside a pane is a few pixels wide.
+float part_of_way(float t)
+{
+    return 0.5 * (t + t * t);
+}
+
 // Walks the ray through the depth of the picture. Steps are a few pixels, so that nothing wider is
 // missed; what the ray passes behind is let be.
 Hit trace(vec3 origin, vec3 direction)
 {
     Hit hit;
     hit.confidence = 0.0;
+    hit.hidden = false;
     const ScreenRay ray = screen_ray(origin, direction);
     const float pixels = length(ray.to.xy - ray.from.xy);
     if (pixels < 1.0) return hit;
@@ -130,7 +138,7 @@ Hit trace(vec3 origin, vec3 direction)
     for (int i = 1; i <= steps && met < 0.0; i += kStepsAtOnce) {
         WalkStep walk[kStepsAtOnce];
         for (int j = 0; j < kStepsAtOnce; ++j)
-            walk[j] = walk_step(ray, mix(first, 1.0, float(i + j) / float(steps)));
+            walk[j] = walk_step(ray, mix(first, 1.0, part_of_way(float(i + j) / float(steps))));
         for (int j = 0; j < kStepsAtOnce; ++j) {
             const WalkStep here = walk[j];
             const bool goes = met < 0.0 && i + j <= steps;
@@ -167,6 +175,7 @@ Hit trace(vec3 origin, vec3 direction)
         // It never came out again: what hides it is likelier what it meets than the sky.
         hit.pixel = mix(ray.from, ray.to, hidden).xy;
         hit.confidence = 0.8;
+        hit.hidden = true;
     }
     return hit;
 }
@@ -261,6 +270,7 @@ void main()
 
         Hit hit;
         hit.confidence = 0.0;
+        hit.hidden = false;
         if (PICTURE != 0u && (frame.flags & FRAME_ORTHOGRAPHIC) == 0u && dot(ray, n) > 0.0 && roughness < kWideRoughness) {
             // Water stands above the relief that the depth map knows.
             hit = trace(position + n * (0.001 * view_m + 0.015 * mirror.a), ray);
@@ -279,6 +289,8 @@ void main()
                                 sky * (probed.light.a * mix(frame.bounce * 0.7, 1.0, here));
             mirrored = mix(mirrored, around, probed.share);
             probed_share = probed.share;
+            // A probe saw what is behind there: where it saw the sky, the ray goes on to it.
+            if (hit.hidden) hit.confidence *= 1.0 - probed.share * probed.light.a;
         }
         hit.confidence *= 1.0 - smoothstep(kSharpRoughness, kWideRoughness, roughness);
         if (hit.confidence > 0.0) {
