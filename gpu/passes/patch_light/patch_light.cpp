@@ -80,7 +80,7 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     const scene::Patches& p = scene_->patches;
     const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
     make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
-                 std::max<std::size_t>(4 * scene_->near.sender.size(), 1));
+                 std::max<std::size_t>(4 * scene_->near.entries(), 1));
     grid_ = ways.grid;
     const auto planes = scene::lookup_planes(p);
     std::memcpy(table_->mapped, ways.table.data(), ways.table.size() * sizeof(ways.table[0]));
@@ -145,11 +145,11 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                                 frame.materials, frame.place.get());
     if (frame.patch_albedo.size() == p.count) {
         look.albedo = frame.patch_albedo;
-        for (std::size_t e = 0; e < look.near_albedo.size(); ++e)
-            look.near_albedo[e] = look.albedo[scene_->near.sender[e]];
+        for (std::size_t s = 0; s < look.near_albedo.size(); ++s)
+            look.near_albedo[s] = look.albedo[scene_->near.sender[s]];
     }
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
-    std::vector<glm::vec3> near_direct(scene_->near.entries(), glm::vec3(0.0f));
+    std::vector<glm::vec3> near_direct(scene_->near.sources(), glm::vec3(0.0f));
     scene::add_sun(p, sun.direction, sun.illuminance, direct);
     scene::add_sun(scene_->near, sun.direction, sun.illuminance, near_direct);
     for (std::size_t i = 0; i < lights.size(); ++i) {

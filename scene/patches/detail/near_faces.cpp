@@ -78,6 +78,18 @@ NearPolygon cut_above(const NearPolygon& polygon, glm::vec3 n, float least)
     return cut;
 }
 
+NearPolygon cut_to(const NearPolygon& polygon, glm::vec3 low, glm::vec3 high)
+{
+    NearPolygon cut = polygon;
+    for (int k = 0; k < 3 && cut.count >= 3; ++k) {
+        glm::vec3 axis(0.0f);
+        axis[k] = 1.0f;
+        cut = cut_above(cut, axis, low[k]);
+        cut = cut_above(cut, -axis, -high[k]);
+    }
+    return cut;
+}
+
 void simplify(NearPolygon& p)
 {
     while (p.count > 4) {
