@@ -111,7 +111,7 @@ NearLinks trace_near(const Patches& patches, const Tracer& tracer, const GlowLin
     const NearFaces faces = near_faces(triangles);
     const NearSources sources(patches, tracer, faces, glow, hints);
     const NearChooser chooser(patches, tracer, faces, sources, hints);
-    const auto receivers = near_receivers(patches, triangles, threads);
+    const auto receivers = near_receivers(patches, tracer, faces, threads);
 
     std::vector<std::vector<NearCandidate>> candidates(patches.count);
     for_patches(patches, threads, [&](std::uint32_t i) { candidates[i] = chooser.candidates(i, receivers[i]); });

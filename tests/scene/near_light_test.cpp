@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "formulas/light/near_light.h"
+#include "scene/patches/detail/near_choice.h"
 #include "scene/patches/detail/near_faces.h"
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
@@ -355,6 +357,29 @@ TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
             EXPECT_NEAR(light_at(lit.lit, {0, 1.0f + h, z}, {1, 0, 0}).irradiance.x, right, 0.05f * right) << z << " " << h;
         }
     }
+}
+
+// The bevel of a table is a hundredth of the cells along it: it is asked all the same.
+TEST(NearLight, ABevelWithoutSamplesIsAsked)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 1, 1}, {2, 0, 0}, {0, 0, -1});
+    add_face(scene, {0, 0.998f, 1.002f}, {2, 0, 0}, {0, 0.002f, -0.002f});
+    const Cut cut(scene, 0.5f);
+    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
+    const LeafFinder finder(cut.patches);
+    const glm::vec3 n = glm::normalize(glm::vec3(0, 1, 1));
+    int asked = 0;
+    for (int k = 0; k < 4; ++k) {
+        const glm::vec3 at(0.25f + 0.5f * static_cast<float>(k), 0.999f, 1.001f);
+        const std::uint32_t leaf = finder.leaf_at(at, n);
+        if (leaf >= cut.patches.count) continue;
+        ++asked;
+        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
+            << at.x;
+    }
+    EXPECT_GT(asked, 2);
 }
 
 // Two triangles of a face are one polygon.

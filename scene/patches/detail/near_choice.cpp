@@ -23,6 +23,10 @@ constexpr std::size_t kSightRays = 24;  // of all of them
 constexpr int kSightDirections = 64;
 constexpr std::size_t kFewReceivers = 4;
 constexpr float kStripWidth = 0.05f;    // over its length
+constexpr float kAlike = 0.9f;          // cosine of two normals
+constexpr int kSourceLevel = 1;          // of cells that pieces of faces are as long as
+constexpr int kGlowLevel = 0;
+constexpr int kMostAlong = 8;
 constexpr float kTowardsMiddle = 0.1f;  // of a polygon, from what is nearest to its receivers
 constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
@@ -38,10 +42,66 @@ float form_factor(const std::array<glm::vec3, 4>& c, glm::vec3 x, glm::vec3 n)
     return shared::near_form_factor(c[0] - x, c[1] - x, c[2] - x, c[3] - x, n);
 }
 
+// Points along the middle of a face's side, one a cell.
+std::vector<SamplePoint> along(const NearFace& face, bool back, float cell_m)
+{
+    const auto c = corners_of(face.polygon);
+    const glm::vec3 u = c[1] - c[0], v = c[2] - c[1];
+    const bool by_u = glm::dot(u, u) > glm::dot(v, v);
+    const float length = std::sqrt(std::max(glm::dot(u, u), glm::dot(v, v)));
+    const int count = std::clamp(static_cast<int>(length / cell_m + 0.5f), 1, kMostAlong);
+    std::vector<SamplePoint> points;
+    for (int k = 0; k < count; ++k) {
+        const float at = (static_cast<float>(k) + 0.5f) / static_cast<float>(count);
+        points.push_back({by_u ? point_in(c, at, 0.5f) : point_in(c, 0.5f, at), back ? -face.normal : face.normal});
+    }
+    return points;
+}
+
+// Where no receiver of a leaf faces along with what asks it.
+void add_bevels(const Patches& patches, const Tracer& tracer, const NearFaces& faces, const LeafFinder& finder,
+                int threads, std::vector<std::vector<SamplePoint>>& receivers)
+{
+    struct Asks {
+        SamplePoint point;
+        std::uint32_t leaf;
+    };
+    const float regular = patches.level_cell_m(1);
+    const auto known = [&](const SamplePoint& p, std::uint32_t leaf) {
+        return std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                           [&](const SamplePoint& other) { return glm::dot(other.normal, p.normal) > kAlike; });
+    };
+    constexpr std::size_t kFacesAJob = 512;
+    std::vector<std::vector<Asks>> asks((faces.faces.size() + kFacesAJob - 1) / kFacesAJob);
+    parallel_for(asks.size(), threads, [&](std::size_t job) {
+        const std::size_t last = std::min(faces.faces.size(), (job + 1) * kFacesAJob);
+        for (std::size_t f = job * kFacesAJob; f < last; ++f) {
+            const NearFace& face = faces.faces[f];
+            const bool both = tracer.triangles().double_sided(face.triangles[0]);
+            for (const bool back : {false, true}) {
+                if (back && !both) continue;
+                for (const SamplePoint& p : along(face, back, regular)) {
+                    const std::uint32_t leaf = finder.leaf_at(p.position_m, p.normal);
+                    if (leaf >= patches.count || known(p, leaf)) continue;
+                    const RayHit hit =
+                        tracer.nearest({p.position_m + p.normal * ray_lift_m(p.position_m, regular), p.normal});
+                    const bool inside = hit.hit() && hit.back && !tracer.triangles().double_sided(hit.triangle);
+                    if (!inside) asks[job].push_back({p, leaf});
+                }
+            }
+        }
+    });
+    for (const auto& list : asks)
+        for (const Asks& one : list)
+            if (!known(one.point, one.leaf)) receivers[one.leaf].push_back(one.point);
+}
+
 }  // namespace
 
-std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Triangles& triangles, int threads)
+std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Tracer& tracer,
+                                                     const NearFaces& faces, int threads)
 {
+    const Triangles& triangles = tracer.triangles();
     const LeafFinder finder(patches);
     std::vector<SamplePoint> points(patches.samples.size());
     std::vector<std::uint32_t> leaf(points.size());
@@ -61,6 +121,7 @@ std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, con
         const auto own = points.begin() + static_cast<std::ptrdiff_t>(std::size_t{i} * kPatchSamples);
         receivers[i].insert(receivers[i].end(), own, own + kPatchSamples);
     }
+    add_bevels(patches, tracer, faces, finder, threads, receivers);
     return receivers;
 }
 
@@ -87,7 +148,6 @@ NearChooser::Surroundings NearChooser::surroundings(std::uint32_t patch, std::sp
     const float edge = patches_.level_cell_m(level);
     const float reach = std::min(edge, reach_);
     Surroundings around;
-    around.level = level;
     around.area = patches_.area_m2[patch];
     around.spacing = 0.25f * std::sqrt(around.area);
     around.low = (glm::vec3(cell_in(key) - glm::ivec3(shared::kPatchCellBias >> level))) * edge -
@@ -128,10 +188,19 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
     const float area = area_m2(polygon);
     if (!(area > kSmallest_m2)) return std::nullopt;
     const auto corners = corners_of(polygon);
+    const glm::vec3 middle = point_in(corners, 0.5f, 0.5f);
+    float radius2 = 0.0f;
+    for (const glm::vec3& c : corners) radius2 = std::max(radius2, glm::dot(c - middle, c - middle));
+    const float radius = std::sqrt(radius2);
     float nearest2 = std::numeric_limits<float>::max(), square = 0.0f, factors = 0.0f;
     glm::vec3 heart(0.0f);
     for (const SamplePoint& p : around.points) {
-        if (!(glm::dot(p.position_m - polygon.corner[0], n) > 0.0f)) continue;
+        const glm::vec3 way = middle - p.position_m;
+        if (!(glm::dot(way, n) < 0.0f)) continue;
+        // Neither seen by more than can be left out nor nearer than another's.
+        const float least = std::max(std::sqrt(glm::dot(way, way)) - radius, 0.0f);
+        const float least_beside = std::max(least - around.spacing, 0.0f);
+        if (area < kFarFactor * least * least && least_beside * least_beside >= nearest2) continue;
         float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
         for (int k = 0; k < polygon.count; ++k) {
             const float h = glm::dot(polygon.corner[static_cast<std::size_t>(k)] - p.position_m, p.normal);
@@ -141,27 +210,25 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
         // Level with the point: rounding.
         if (!(highest > 1e-5f)) continue;
         const float height = std::max(lowest, 0.0f);
-        const float whole = distance_m(polygon, n, p.position_m);
+        const glm::vec3 nearest = nearest_in(polygon, n, p.position_m);
+        const float whole2 = glm::dot(nearest - p.position_m, nearest - p.position_m);
         // Between its samples the patch goes on.
-        const float beside =
-            std::max(std::sqrt(std::max(whole * whole - height * height, 0.0f)) - around.spacing, 0.0f);
+        const float beside = std::max(std::sqrt(std::max(whole2 - height * height, 0.0f)) - around.spacing, 0.0f);
         nearest2 = std::min(nearest2, height * height + beside * beside);
-        if (area < kFarFactor * whole * whole) continue;  // too small from here
+        if (area < kFarFactor * whole2) continue;  // too small from here
         const float factor = form_factor(corners, p.position_m, p.normal);
         square += factor * factor / static_cast<float>(around.points.size());
-        heart += nearest_in(polygon, n, p.position_m) * factor;
+        heart += nearest * factor;
         factors += factor;
     }
     if (nearest2 == std::numeric_limits<float>::max()) return std::nullopt;
     const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
     square = std::max(square, kStripSquare * area * (area / far) / std::max(around.area, area));
     if (square < kLeastSquare) return std::nullopt;
-    const glm::vec3 middle = point_in(corners, 0.5f, 0.5f);
     heart = factors > 0.0f ? glm::mix(heart / factors, middle, kTowardsMiddle) : middle;
     // What glows has edges and pictures.
     const bool glows = glow_of(triangles_, face.triangles[0]) > 0.0f;
-    const int level = glows ? std::max(around.level - 1, 0) : std::max(around.level, 1);
-    return NearCandidate{number, back, square, sources_.key_at(number, back, heart, level)};
+    return NearCandidate{number, back, square, sources_.key_at(number, back, heart, glows ? kGlowLevel : kSourceLevel)};
 }
 
 std::vector<NearCandidate> NearChooser::candidates(std::uint32_t patch, std::span<const SamplePoint> receivers) const

@@ -35,7 +35,9 @@ struct NearChoice {
 
 /// Points of all surfaces by the leaf that a lookup there asks: a pane behind its frame is asked of the frame's where
 /// that counts more.
-std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Triangles& triangles, int threads);
+/// Of bevels that samples leave out there is a point in each cell along them.
+std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Tracer& tracer,
+                                                     const NearFaces& faces, int threads);
 
 class NearChooser {
 public:
@@ -54,7 +56,6 @@ private:
         std::vector<SamplePoint> points;
         glm::vec3 low, high;
         float spacing, area;
-        int level;
     };
     Surroundings surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
     NearPolygon part_of(std::uint32_t face, bool back, const Surroundings& around) const;
