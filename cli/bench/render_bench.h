@@ -21,6 +21,7 @@ struct RenderBenchOptions {
     int threads = 0;
     bool json = false;
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
+    bool relight = false;  ///< the light between surfaces is solved in each frame
     bool shadows = false;
     bool ambient_occlusion = false;
     bool image_based_light = false;

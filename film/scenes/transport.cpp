@@ -409,12 +409,16 @@ std::string lights_key(const std::string& surfaces, const gpu::PatchScene& made,
 
 }  // namespace
 
-std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
-                                                     const TransportOptions& options,
-                                                     std::vector<std::string>& notes)
+namespace {
+
+struct PreparedPatches {
+    std::shared_ptr<gpu::PatchScene> scene;
+    bool kept;
+};
+
+PreparedPatches prepare_lights(const scene::Scene& scene, SceneTransport transport, const TransportOptions& options,
+                               std::vector<std::string>& notes)
 {
-    const auto start = std::chrono::steady_clock::now();
-    SceneTransport transport = prepare_transport(scene, options);
     auto made = std::make_shared<gpu::PatchScene>();
     made->patches = std::move(transport.patches);
     made->surfaces = std::move(transport.surfaces);
@@ -483,12 +487,30 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         for (const auto& reach : made->near_reach) bytes.add(reach);
         if (options.cache.on()) keep(options.cache, kLampKind, key, bytes.all, notes);
     }
+    return {made, transport.kept && kept};
+}
+
+}  // namespace
+
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene, SceneTransport transport,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes)
+{
+    return prepare_lights(scene, std::move(transport), options, notes).scene;
+}
+
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const PreparedPatches made = prepare_lights(scene, prepare_transport(scene, options), options, notes);
     char text[160];
     std::snprintf(text, sizeof text, "light between surfaces: %u patches, %s in %.1f s",
-                  made->patches.count, transport.kept && kept ? "found in the cache" : "traced",
+                  made.scene->patches.count, made.kept ? "found in the cache" : "traced",
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     notes.emplace_back(text);
-    return made;
+    return made.scene;
 }
 
 double traced_share(std::string_view stage, float share)

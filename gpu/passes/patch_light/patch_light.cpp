@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <span>
 
 #include "base/hash.h"
@@ -92,8 +93,10 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                           const std::vector<Light>& lights)
 {
     relight_ms_ = 0.0;
+    relight_cpu_ms_ = 0.0;
     if (!loaded()) return;
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     const scene::Patches& p = scene_->patches;
     const auto texel_of_sky = [&](std::size_t i) {
         glm::vec4 texel;
@@ -204,6 +207,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     lit_by_ = lit_by;
     relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                       .count();
+    relight_cpu_ms_ = 1e3 * static_cast<double>(std::clock() - cpu_start) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
 void add_sky_bins(FrameGraph& graph, SkyMaps& sky, PatchLights& lights)
