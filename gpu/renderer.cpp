@@ -469,6 +469,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         if (frame.sun_cookie.first_texel >= 0) through.illuminance *= frame.sun_cookie.mean;
         patches.relight(frame, through, scene_sun, scene->lights());
         result.passes.push_back({"patch_light", patches.relight_ms()});
+        result.patch_light_cpu_ms = patches.relight_cpu_ms();
         probes.relight(patches);
         if (probes.count() > 0) result.passes.push_back({"probes", probes.relight_ms()});
     }

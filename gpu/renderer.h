@@ -38,6 +38,7 @@ struct RenderResult {
     std::vector<AovImage> aovs;
     FallingFacts falling;
     std::vector<PassTime> passes;
+    double patch_light_cpu_ms = 0.0;  ///< CPU time of solving the light between surfaces; 0 where it was as before
 };
 
 /// Renders frames of one scene. Movable, not copyable; not thread-safe. Same input, same bytes.

@@ -169,6 +169,8 @@ void add_bench(CLI::App& app)
             std::map<std::string, gpu::SurfacePath>{{"auto", gpu::SurfacePath::Auto},
                                                     {"fragment", gpu::SurfacePath::Fragment},
                                                     {"visibility", gpu::SurfacePath::Visibility}}));
+    command->add_flag("--relight", o->relight,
+                      "solve the light between surfaces in each timed frame, and say what that takes");
     command->add_flag("--shadows", o->shadows, "with shadows of the sun")->needs(scene);
     command->add_flag("--ao", o->ambient_occlusion, "with ambient occlusion")->needs(scene);
     command->add_flag("--ibl", o->image_based_light, "with light from the sky")->needs(scene);

@@ -22,6 +22,7 @@ struct RenderBenchOptions {
     bool json = false;
     bool apart = false;  ///< waits for each pass and tells its CPU time
     gpu::SurfacePath surface_path = gpu::SurfacePath::Auto;
+    bool relight = false;  ///< the light between surfaces is solved in each frame
     bool shadows = false;
     bool ambient_occlusion = false;
     bool image_based_light = false;

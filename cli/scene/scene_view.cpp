@@ -146,6 +146,12 @@ SceneView open_scene(const SceneViewOptions& options)
     const double before = cpu_seconds();
     view.transport = prepare_transport(*view.scene, transport);
     view.cpu_seconds = cpu_seconds() - before;
+    if (options.fresh) {
+        const double start = cpu_seconds();
+        std::vector<std::string> ignored;
+        const auto lights = prepare_patch_scene(*view.scene, view.transport, transport, ignored);
+        view.close = {lights->near.entries(), lights->near.sources(), cpu_seconds() - start};
+    }
     std::vector<std::string> said;
     view.triangles =
         std::make_unique<scene::Triangles>(*view.scene, alpha_images(*view.scene, said));
@@ -233,6 +239,10 @@ std::string scene_report(const SceneView& view, const GroundView& hollows)
     out << "  made in      " << number(view.transport.seconds, 2) << " s, "
         << number(view.cpu_seconds, 2) << " CPU-s"
         << (view.transport.kept ? " (found in the cache)" : "") << "\n";
+    if (view.close) {
+        out << "  close        " << view.close->polygons << " polygons of " << view.close->sources
+            << " sources, with lamps and glow " << number(view.close->cpu_seconds, 2) << " CPU-s\n";
+    }
     std::vector<std::pair<double, std::uint32_t>> areas;
     for (const auto& [material, area] : totals.material_area_m2) areas.push_back({area, material});
     std::sort(areas.begin(), areas.end(), [](const auto& a, const auto& b) {
@@ -302,6 +312,11 @@ std::string scene_json(const SceneView& view, const GroundView& hollows)
     json["kept"] = view.transport.kept;
     json["seconds"] = view.transport.seconds;
     json["cpu_seconds"] = view.cpu_seconds;
+    if (view.close) {
+        json["close"] = {{"polygons", view.close->polygons},
+                         {"sources", view.close->sources},
+                         {"cpu_seconds", view.close->cpu_seconds}};
+    }
     return json.dump(2);
 }
 

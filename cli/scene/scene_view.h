@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct SceneView {
     film::SceneTransport transport;
     std::unique_ptr<scene::Triangles> triangles;
     double cpu_seconds = 0.0;  ///< of patches, all threads
+    /// What is close to them, lamps and glow: for fresh ones alone, since only renders want it.
+    struct Close {
+        std::size_t polygons = 0, sources = 0;
+        double cpu_seconds = 0.0;
+    };
+    std::optional<Close> close;
 
     const scene::Patches& patches() const { return transport.patches; }
 };

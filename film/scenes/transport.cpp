@@ -269,12 +269,12 @@ struct FromBytes {
 // Whether numbers of a patch, of entries and of rays are there.
 bool near_fits(const scene::NearLinks& near, const scene::GlowLinks& glow, std::uint32_t count, int rays)
 {
-    const std::size_t entries = near.entries();
+    const std::size_t entries = near.entries(), sources = near.sources();
     bool good = near.first.size() == std::size_t{count} + 1 &&
                 near.ray_first.size() == std::size_t{count} + 1 && near.corners.size() == entries &&
-                near.seen.size() == entries && near.visible.size() == entries &&
-                near.material.size() == entries &&
-                near.links.size() == entries * scene::NearLinks::kLinks &&
+                near.seen.size() == entries && near.normal.size() == sources &&
+                near.points.size() == sources * scene::NearLinks::kSamples && near.visible.size() == sources &&
+                near.material.size() == sources && near.links.size() == sources * scene::NearLinks::kLinks &&
                 near.first.front() == 0 && near.first.back() == entries &&
                 near.ray_first.front() == 0 && near.ray_first.back() == near.rays.size();
     for (std::uint32_t i = 0; good && i < count; ++i) {
@@ -282,13 +282,14 @@ bool near_fits(const scene::NearLinks& near, const scene::GlowLinks& glow, std::
                near.first[i + 1] - near.first[i] <= scene::NearLinks::kMostAPatch &&
                near.ray_first[i + 1] >= near.ray_first[i];
     }
+    for (const std::uint32_t s : near.source) good = good && s < sources;
     for (const std::uint32_t s : near.sender) good = good && s < count;
     const bool glows = !glow.empty();
     good = good && near.glow_taken.size() == (glows ? glow.factor.size() : 0) &&
-           near.glow_first.size() == (glows ? entries + 1 : 0) && near.glow_more.size() == near.glow_patch.size() &&
+           near.glow_first.size() == (glows ? sources + 1 : 0) && near.glow_more.size() == near.glow_patch.size() &&
            (!glows || (near.glow_first.front() == 0 && near.glow_first.back() == near.glow_patch.size()));
-    for (std::size_t e = 1; e < near.glow_first.size(); ++e)
-        good = good && near.glow_first[e] >= near.glow_first[e - 1];
+    for (std::size_t s = 1; s < near.glow_first.size(); ++s)
+        good = good && near.glow_first[s] >= near.glow_first[s - 1];
     for (const std::uint32_t g : near.glow_patch) good = good && g < count;
     for (const std::uint16_t r : near.rays) good = good && r < rays;
     for (const std::uint16_t l : near.links)
@@ -309,6 +310,9 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     near.first = from.take<std::uint32_t>();
     near.corners = from.take<std::array<glm::vec3, 4>>();
     near.seen = from.take<float>();
+    near.source = from.take<std::uint32_t>();
+    near.normal = from.take<glm::vec3>();
+    near.points = from.take<glm::vec3>();
     near.sender = from.take<std::uint32_t>();
     near.material = from.take<std::uint32_t>();
     near.visible = from.take<std::array<std::uint32_t, 8>>();
@@ -337,8 +341,8 @@ bool take_lights(std::span<const std::byte> bytes, std::size_t lights, gpu::Patc
     good = good && near_fits(near, glow, count, made.patches.rays);
     for (const auto& list : reach) good = good && (list.empty() || list.size() == count);
     for (const auto& list : near_reach)
-        good = good && (list.empty() || list.size() == near.entries());
-    good = good && near_surfaces.size() == near.entries();
+        good = good && (list.empty() || list.size() == near.sources());
+    good = good && near_surfaces.size() == near.sources();
     for (const std::uint32_t m : near.material) good = good && m < made.materials.size();
     if (!good) return false;
     made.near_surfaces = std::move(near_surfaces);
@@ -405,12 +409,16 @@ std::string lights_key(const std::string& surfaces, const gpu::PatchScene& made,
 
 }  // namespace
 
-std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
-                                                     const TransportOptions& options,
-                                                     std::vector<std::string>& notes)
+namespace {
+
+struct PreparedPatches {
+    std::shared_ptr<gpu::PatchScene> scene;
+    bool kept;
+};
+
+PreparedPatches prepare_lights(const scene::Scene& scene, SceneTransport transport, const TransportOptions& options,
+                               std::vector<std::string>& notes)
 {
-    const auto start = std::chrono::steady_clock::now();
-    SceneTransport transport = prepare_transport(scene, options);
     auto made = std::make_shared<gpu::PatchScene>();
     made->patches = std::move(transport.patches);
     made->surfaces = std::move(transport.surfaces);
@@ -441,9 +449,9 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         made->near_surfaces = scene::near_surfaces(made->near, rays.get().triangles(),
                                                    color_images(scene, threads, notes));
         made->near.samples = {};  // it is coloured
-        for (std::size_t e = 0; e < made->near.entries(); ++e) {
-            if (in_a_lantern(scene, scene::near_middle(made->near, e)))
-                made->near_surfaces[e].emission = glm::vec3(0.0f);
+        for (std::size_t s = 0; s < made->near.sources(); ++s) {
+            if (in_a_lantern(scene, scene::near_middle(made->near, s)))
+                made->near_surfaces[s].emission = glm::vec3(0.0f);
         }
         for (const scene::Light& light : scene.lights) {
             made->near_reach.emplace_back();
@@ -461,6 +469,9 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         bytes.add(made->near.first);
         bytes.add(made->near.corners);
         bytes.add(made->near.seen);
+        bytes.add(made->near.source);
+        bytes.add(made->near.normal);
+        bytes.add(made->near.points);
         bytes.add(made->near.sender);
         bytes.add(made->near.material);
         bytes.add(made->near.visible);
@@ -476,12 +487,30 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
         for (const auto& reach : made->near_reach) bytes.add(reach);
         if (options.cache.on()) keep(options.cache, kLampKind, key, bytes.all, notes);
     }
+    return {made, transport.kept && kept};
+}
+
+}  // namespace
+
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene, SceneTransport transport,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes)
+{
+    return prepare_lights(scene, std::move(transport), options, notes).scene;
+}
+
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const PreparedPatches made = prepare_lights(scene, prepare_transport(scene, options), options, notes);
     char text[160];
     std::snprintf(text, sizeof text, "light between surfaces: %u patches, %s in %.1f s",
-                  made->patches.count, transport.kept && kept ? "found in the cache" : "traced",
+                  made.scene->patches.count, made.kept ? "found in the cache" : "traced",
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     notes.emplace_back(text);
-    return made;
+    return made.scene;
 }
 
 double traced_share(std::string_view stage, float share)

@@ -44,6 +44,11 @@ std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene,
                                                      const TransportOptions& options,
                                                      std::vector<std::string>& notes);
 
+/// Of patches that are there already; what was traced or found is not noted.
+std::shared_ptr<gpu::PatchScene> prepare_patch_scene(const scene::Scene& scene, SceneTransport transport,
+                                                     const TransportOptions& options,
+                                                     std::vector<std::string>& notes);
+
 /// Share 0..1 of all tracing, from what scene::PatchOptions::progress is told.
 double traced_share(std::string_view stage, float share);
 

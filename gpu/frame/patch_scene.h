@@ -22,8 +22,8 @@ struct PatchScene {
     std::vector<scene::Material> materials;     ///< of the scene, for their weather
     scene::GlowLinks glow;                      ///< of the patches that glow
     scene::NearLinks near;                      ///< what stands close to patches; empty: not asked
-    std::vector<scene::PatchSurface> near_surfaces;     ///< an entry of it each
-    std::vector<std::vector<std::uint8_t>> near_reach;  ///< a light each: trace_near_lamp of its entries
+    std::vector<scene::PatchSurface> near_surfaces;     ///< a source of it each
+    std::vector<std::vector<std::uint8_t>> near_reach;  ///< a light each: trace_near_lamp of its sources
     /// A light of Scene::lights each: share of 255 of a leaf that it reaches; empty where it reaches
     /// all that it faces (directional lights go by the visibility bits).
     std::vector<std::vector<std::uint8_t>> lamp_reach;

@@ -1,42 +1,37 @@
-// Light of the sun and of lamps on the polygons that are close to patches.
+// Light of the sun and of lamps on the sources of polygons that are close to patches.
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
 #include "scene/light_shape.h"
 #include "scene/patches/detail/cells.h"
-#include "scene/patches/detail/near_faces.h"
-#include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
 #include "scene/patches/near_light.h"
 #include "scene/patches/radiosity.h"
 
 namespace petrichor::scene {
 
-glm::vec3 near_normal(const NearLinks& near, std::size_t entry)
+glm::vec3 near_middle(const NearLinks& near, std::size_t source)
 {
-    return front_of(near.corners[entry]);
-}
-
-glm::vec3 near_middle(const NearLinks& near, std::size_t entry)
-{
-    return point_in(near.corners[entry], 0.5f, 0.5f);
+    glm::vec3 sum(0.0f);
+    for (std::size_t k = 0; k < NearLinks::kSamples; ++k) sum += near.points[source * NearLinks::kSamples + k];
+    return sum / static_cast<float>(NearLinks::kSamples);
 }
 
 std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& tracer,
                                           float regular_m, glm::vec3 position_m, float range_m,
                                           int threads)
 {
-    std::vector<std::uint8_t> reached(near.entries(), 0);
-    constexpr std::size_t kEntriesAJob = 256;
-    parallel_for((reached.size() + kEntriesAJob - 1) / kEntriesAJob, threads, [&](std::size_t job) {
-        const std::size_t last = std::min(reached.size(), (job + 1) * kEntriesAJob);
-        for (std::size_t e = job * kEntriesAJob; e < last; ++e) {
-            const glm::vec3 n = near_normal(near, e);
-            const glm::vec3 way = position_m - near.corners[e][0];
+    std::vector<std::uint8_t> reached(near.sources(), 0);
+    constexpr std::size_t kSourcesAJob = 256;
+    parallel_for((reached.size() + kSourcesAJob - 1) / kSourcesAJob, threads, [&](std::size_t job) {
+        const std::size_t last = std::min(reached.size(), (job + 1) * kSourcesAJob);
+        for (std::size_t s = job * kSourcesAJob; s < last; ++s) {
+            const glm::vec3 n = near.normal[s];
+            const glm::vec3 way = position_m - near.points[s * NearLinks::kSamples];
             if (!(std::sqrt(glm::dot(way, way)) < range_m + 2.0f * regular_m)) continue;
             for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
-                const glm::vec3 x = lamp_point(near.corners[e], k);
+                const glm::vec3 x = near.points[s * NearLinks::kSamples + k];
                 const glm::vec3 from = x + n * ray_lift_m(x, regular_m);
                 const glm::vec3 d = position_m - from;
                 const float length = std::sqrt(glm::dot(d, d));
@@ -44,7 +39,7 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
                 const bool blocked =
                     length > kLanternRadius_m &&
                     tracer.blocked({from, d / length, length - kLanternRadius_m});
-                if (!blocked) reached[e] = static_cast<std::uint8_t>(reached[e] | 1u << k);
+                if (!blocked) reached[s] = static_cast<std::uint8_t>(reached[s] | 1u << k);
             }
         }
     });
@@ -54,10 +49,10 @@ std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& t
 void add_sun(const NearLinks& near, glm::vec3 towards_sun, glm::vec3 illuminance,
              std::vector<glm::vec3>& direct)
 {
-    for (std::size_t e = 0; e < near.entries(); ++e) {
-        const float cosine = glm::dot(near_normal(near, e), towards_sun);
+    for (std::size_t s = 0; s < near.sources(); ++s) {
+        const float cosine = glm::dot(near.normal[s], towards_sun);
         if (cosine > 0.0f)
-            direct[e] += illuminance * (cosine * visible_share(near.visible[e], towards_sun));
+            direct[s] += illuminance * (cosine * visible_share(near.visible[s], towards_sun));
     }
 }
 
@@ -69,16 +64,16 @@ void add_lamp(const NearLinks& near, const Light& light, std::span<const std::ui
         return;
     }
     constexpr float kShare = 1.0f / static_cast<float>(NearLinks::kSamples);
-    for (std::size_t e = 0; e < near.entries(); ++e) {
-        const std::uint32_t bits = reach.empty() ? NearLinks::kAllLit : reach[e];
+    for (std::size_t s = 0; s < near.sources(); ++s) {
+        const std::uint32_t bits = reach.empty() ? NearLinks::kAllLit : reach[s];
         if (bits == 0) continue;
-        const auto& c = near.corners[e];
-        const glm::vec3 n = near_normal(near, e);
-        const glm::vec3 d = c[2] - c[0];
-        // A quarter of it is no point: nearer than its own size its light does not grow.
-        const float least_m = 0.25f * std::sqrt(glm::dot(d, d));
+        const glm::vec3* points = &near.points[s * NearLinks::kSamples];
+        // No point is one: nearer than half the way between two its light does not grow.
+        const glm::vec3 d = points[NearLinks::kSamples - 1] - points[0];
+        const float least_m = 0.5f * std::sqrt(glm::dot(d, d));
         for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
-            if ((bits >> k & 1u) != 0u) direct[e] += lamp_irradiance(light, lamp_point(c, k), n, least_m) * kShare;
+            if ((bits >> k & 1u) != 0u)
+                direct[s] += lamp_irradiance(light, points[k], near.normal[s], least_m) * kShare;
         }
     }
 }

@@ -26,22 +26,28 @@ struct NearHint {
 /// there is often the mean of a frame, a sheet of zinc and the wall behind.
 struct NearLinks {
     static constexpr std::uint32_t kMostAPatch = 7;
-    static constexpr std::size_t kLinks = 32;      ///< rays of an entry
-    static constexpr std::size_t kSamples = 4;     ///< points of an entry: its colour, its lamps
+    static constexpr std::size_t kLinks = 32;      ///< rays of a source
+    static constexpr std::size_t kSamples = 4;     ///< points of a source: its colour, its lamps
     static constexpr std::uint8_t kAllLit = 15;    ///< bits of kSamples
 
     /// Of leaf i: entries first[i] .. first[i + 1]; empty: of no patches.
     std::vector<std::uint32_t> first;
+    // Of entries.
     /// Corners in turn, seen from the front; of a triangle the last one twice.
     std::vector<std::array<glm::vec3, 4>> corners;
-    std::vector<float> seen;  ///< 0..1 of it, from the patch
+    std::vector<float> seen;            ///< 0..1 of it, from the patch
+    std::vector<std::uint32_t> source;  ///< what it sends
+
+    // Of sources: pieces of faces, as long as a cell, that entries of all patches around share.
+    std::vector<glm::vec3> normal;   ///< the front, unit
+    std::vector<glm::vec3> points;   ///< kSamples each, metres: where it shows
     /// The patch on whose surface it lies, of a mean of surfaces: weather of places, light of what glows far away.
     std::vector<std::uint32_t> sender;
     std::vector<std::uint32_t> material;  ///< index into Scene::materials
-    std::vector<PatchSample> samples;     ///< kSamples an entry, at its lamp points
+    std::vector<PatchSample> samples;     ///< kSamples each, of `points`
     std::vector<std::array<std::uint32_t, 8>> visible;  ///< as Patches::visible
-    std::vector<std::uint16_t> links;                   ///< kLinks an entry, as Patches::links
-    /// Of entry e, glow_first[e] .. glow_first[e + 1]: glowing patches that are close to it, and how much more of them
+    std::vector<std::uint16_t> links;                   ///< kLinks each, as Patches::links
+    /// Of source s, glow_first[s] .. glow_first[s + 1]: glowing patches that are close to it, and how much more of them
     /// its own rays meet than its sender's pairs say. Empty without GlowLinks.
     std::vector<std::uint32_t> glow_first;
     std::vector<std::uint32_t> glow_patch;
@@ -53,7 +59,8 @@ struct NearLinks {
     std::vector<std::uint16_t> rays;
 
     bool empty() const { return first.empty(); }
-    std::size_t entries() const { return sender.size(); }
+    std::size_t entries() const { return source.size(); }
+    std::size_t sources() const { return sender.size(); }
     std::uint32_t rays_of(std::uint32_t leaf) const { return ray_first[leaf + 1] - ray_first[leaf]; }
 };
 
@@ -69,18 +76,16 @@ struct NearLinks {
 NearLinks trace_near(const Patches& patches, const Tracer& tracer, const GlowLinks* glow = nullptr,
                      std::span<const NearHint> hints = {}, int threads = 0);
 
-/// The front of an entry, unit.
-glm::vec3 near_normal(const NearLinks& near, std::size_t entry);
-/// Its middle, metres.
-glm::vec3 near_middle(const NearLinks& near, std::size_t entry);
+/// The middle of a source where it shows, metres.
+glm::vec3 near_middle(const NearLinks& near, std::size_t source);
 
-/// Which of an entry's kSamples points a lamp reaches, a bit each, as trace_lamp of patches.
+/// Which of a source's kSamples points a lamp reaches, a bit each, as trace_lamp of patches.
 std::vector<std::uint8_t> trace_near_lamp(const NearLinks& near, const Tracer& tracer,
                                           float regular_m, glm::vec3 position_m, float range_m,
                                           int threads = 0);
 
-/// What falls directly on the entries, as add_sun and add_lamp of patches: the mean over the points that a lamp
-/// reaches. reach: trace_near_lamp; empty: all. direct: one number an entry.
+/// What falls directly on the sources, as add_sun and add_lamp of patches: the mean over the points that a lamp
+/// reaches. reach: trace_near_lamp; empty: all. direct: one number a source.
 void add_sun(const NearLinks& near, glm::vec3 towards_sun, glm::vec3 illuminance,
              std::vector<glm::vec3>& direct);
 void add_lamp(const NearLinks& near, const Light& light, std::span<const std::uint8_t> reach,

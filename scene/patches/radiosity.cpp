@@ -134,6 +134,51 @@ Four glow_beyond(const Relight& input, std::uint32_t i)
     return sum;
 }
 
+// Radiosity of the sources of close polygons. sent: of what rays meet; sky above the horizon apart.
+std::vector<glm::vec3> near_sends(const Patches& patches, const Relight& input, const std::vector<Four>& sent,
+                                  const SkyShares& sky, const std::vector<Four>& glow_light)
+{
+    const NearLinks& near = *input.near;
+    const std::uint32_t count = patches.count;
+    const bool glows = input.glow != nullptr && !input.glow->empty() && !near.glow_first.empty();
+    std::vector<float> leaves_up(static_cast<std::size_t>(shared::kSkyBins) + 1, 0.0f);
+    for (int s = 0; s < shared::kSkyBins; ++s)
+        leaves_up[static_cast<std::size_t>(s)] = shared::sky_bin_above(s) ? 1.0f : 0.0f;
+    std::vector<glm::vec3> sends(near.sources());
+    over_rows(static_cast<std::uint32_t>(sends.size()), input.threads, [&](std::uint32_t s) {
+        const std::uint16_t* row = near.links.data() + std::size_t{s} * NearLinks::kLinks;
+        constexpr float kShare = 1.0f / static_cast<float>(NearLinks::kLinks);
+        const std::uint32_t j = near.sender[s];
+        Four light{}, above{};
+        float up = 0.0f;
+        for (std::size_t r = 0; r < NearLinks::kLinks; ++r) {
+            light += sent[row[r]];
+            if (row[r] < count || leaves_up[row[r] - count] == 0.0f) continue;
+            up += 1.0f;
+            above += four(input.sky[row[r] - count]);
+        }
+        // Of the sky above it has what its patch has, which is known to more than a few rays, unless it faces
+        // another way.
+        if (up > 0.0f) {
+            const bool along = sky.share[j] > 0.0f && glm::dot(near.normal[s], patches.normal[j]) > kSameWay;
+            light += along ? sky.light[j] * Four{up, up, up, up} : above;
+        }
+        light = light * Four{kShare, kShare, kShare, kShare};
+        if (glows) {
+            Four glow = glow_light[j];
+            for (std::uint32_t g = near.glow_first[s]; g < near.glow_first[s + 1]; ++g) {
+                const float more = near.glow_more[g];
+                glow += four(input.emission[near.glow_patch[g]]) * Four{more, more, more, more};
+            }
+            for (int c = 0; c < 3; ++c) light[c] += std::max(glow[c], 0.0f);
+        }
+        const glm::vec3 falls = glm::vec3(light[0], light[1], light[2]) + input.near_direct[s];
+        sends[s] = glm::clamp(input.near_albedo[s], 0.0f, kMostAlbedo) * falls;
+        if (!input.near_emission.empty()) sends[s] += input.near_emission[s];
+    });
+    return sends;
+}
+
 }  // namespace
 
 GlowLinks trace_glow(const Patches& patches, const Tracer& tracer,
@@ -239,9 +284,9 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
 {
     assert(input.albedo.size() == patches.count && input.direct.size() == patches.count);
     assert(input.emission.empty() || input.emission.size() == patches.count);
-    assert(input.near == nullptr || (input.near_direct.size() == input.near->entries() &&
-                                     input.near_albedo.size() == input.near->entries()));
-    assert(input.near_emission.empty() || input.near_emission.size() == input.near->entries());
+    assert(input.near == nullptr || (input.near_direct.size() == input.near->sources() &&
+                                     input.near_albedo.size() == input.near->sources()));
+    assert(input.near_emission.empty() || input.near_emission.size() == input.near->sources());
     assert(input.sky.size() == static_cast<std::size_t>(shared::kSkyBins));
     const std::uint32_t count = patches.count;
     const bool glows = input.glow != nullptr && !input.glow->empty();
@@ -369,45 +414,15 @@ PatchIrradiance relight(const Patches& patches, const Relight& input)
     for (std::uint32_t i = 0; i < patches.nodes(); ++i) result.gradient[i].w = sizes[i];
     if (!close) return result;
     const NearLinks& near = *input.near;
+    const std::vector<glm::vec3> sends = near_sends(patches, input, sent, sky, glow_light);
     const auto entries = static_cast<std::uint32_t>(near.entries());
     result.near.resize(std::size_t{entries} * 4);
-    std::vector<float> leaves_up(static_cast<std::size_t>(shared::kSkyBins) + 1, 0.0f);
-    for (int s = 0; s < shared::kSkyBins; ++s)
-        leaves_up[static_cast<std::size_t>(s)] = shared::sky_bin_above(s) ? 1.0f : 0.0f;
     over_rows(entries, input.threads, [&](std::uint32_t e) {
-        const std::uint16_t* row = near.links.data() + std::size_t{e} * NearLinks::kLinks;
-        constexpr float kShare = 1.0f / static_cast<float>(NearLinks::kLinks);
-        const std::uint32_t j = near.sender[e];
-        Four light{}, above{};
-        float up = 0.0f;
-        for (std::size_t r = 0; r < NearLinks::kLinks; ++r) {
-            light += sent[row[r]];
-            if (row[r] < count || leaves_up[row[r] - count] == 0.0f) continue;
-            up += 1.0f;
-            above += four(input.sky[row[r] - count]);
-        }
-        // Of the sky above it has what its patch has, which is known to more than a few rays, unless it faces
-        // another way.
-        if (up > 0.0f) {
-            const bool along = sky.share[j] > 0.0f && glm::dot(near_normal(near, e), patches.normal[j]) > kSameWay;
-            light += along ? sky.light[j] * Four{up, up, up, up} : above;
-        }
-        light = light * Four{kShare, kShare, kShare, kShare};
-        if (glows && !near.glow_first.empty()) {
-            Four glow = glow_light[j];
-            for (std::uint32_t g = near.glow_first[e]; g < near.glow_first[e + 1]; ++g) {
-                const float more = near.glow_more[g];
-                glow += four(input.emission[near.glow_patch[g]]) * Four{more, more, more, more};
-            }
-            for (int c = 0; c < 3; ++c) light[c] += std::max(glow[c], 0.0f);
-        }
-        const glm::vec3 falls = glm::vec3(light[0], light[1], light[2]) + input.near_direct[e];
-        glm::vec3 sends = glm::clamp(input.near_albedo[e], 0.0f, kMostAlbedo) * falls;
-        if (!input.near_emission.empty()) sends += input.near_emission[e];
         const auto& corner = near.corners[e];
+        const glm::vec3 light = sends[near.source[e]];
         glm::vec4* texel = &result.near[std::size_t{e} * 4];
         texel[0] = glm::vec4(corner[0], near.seen[e]);
-        for (int c = 0; c < 3; ++c) texel[c + 1] = glm::vec4(corner[static_cast<std::size_t>(c) + 1], sends[c]);
+        for (int c = 0; c < 3; ++c) texel[c + 1] = glm::vec4(corner[static_cast<std::size_t>(c) + 1], light[c]);
     });
     return result;
 }

@@ -49,9 +49,9 @@ struct Relight {
     std::span<const SkyTexel> sky_above = {};  ///< the same above the horizon, finer; empty: from the bins
     const GlowLinks* glow = nullptr;
     const NearLinks* near = nullptr;  ///< of these patches; for lookups that know them
-    std::span<const glm::vec3> near_albedo;    ///< of its entries, as albedo
-    std::span<const glm::vec3> near_direct;    ///< irradiance of its entries from sun and lamps
-    std::span<const glm::vec3> near_emission;  ///< radiosity of its entries by themselves; empty: none
+    std::span<const glm::vec3> near_albedo;    ///< of its sources, as albedo
+    std::span<const glm::vec3> near_direct;    ///< irradiance of its sources from sun and lamps
+    std::span<const glm::vec3> near_emission;  ///< radiosity of its sources by themselves; empty: none
     int bounces = 3;  ///< between patches, 0..64; the light that then falls on them is gathered
     int threads = 0;
 };
@@ -61,8 +61,8 @@ struct PatchIrradiance {
     /// A node each: irradiance, w: Patches::open. With Relight::near both are of what is not close: the mean
     /// over the other directions, that a lookup takes for those that its point has left.
     std::vector<glm::vec4> irradiance;
-    /// Four texels an entry of Relight::near: corners, w: the share that is seen, then its radiosity by channel: by
-    /// its own albedo, of the light that its own rays bring and what falls on it directly.
+    /// Four texels an entry of Relight::near: corners, w: the share that is seen, then the radiosity of its source
+    /// by channel: by its own albedo, of the light that its own rays bring and what falls on it directly.
     std::vector<glm::vec4> near;
     /// A node each: shared::irradiance_towards, w: lookup_sizes.
     std::vector<glm::vec4> gradient;

@@ -33,7 +33,7 @@ struct PatchSurface {
 std::vector<PatchSurface> patch_surfaces(const Patches& patches, const Triangles& triangles,
                                          std::span<const ColorImage> images);
 
-/// One entry of NearLinks each.
+/// One source of NearLinks each.
 std::vector<PatchSurface> near_surfaces(const NearLinks& near, const Triangles& triangles,
                                         std::span<const ColorImage> images);
 

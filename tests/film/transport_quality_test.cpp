@@ -381,10 +381,10 @@ PatchWorld::PatchWorld(const World& world)
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)
         scene::add_lamp(p, street.scene.lights[l], street.patches->lamp_reach[l], direct);
     const scene::NearLinks& near = street.patches->near;
-    std::vector<glm::vec3> near_direct(near.entries(), glm::vec3(0.0f)), near_albedo;
-    for (std::size_t e = 0; e < near.entries(); ++e) {
-        const bool white = c.snow && scene::near_normal(near, e).y > 0.5f;
-        near_albedo.push_back(white ? glm::vec3(0.9f) : street.patches->near_surfaces[e].base_color);
+    std::vector<glm::vec3> near_direct(near.sources(), glm::vec3(0.0f)), near_albedo;
+    for (std::size_t s = 0; s < near.sources(); ++s) {
+        const bool white = c.snow && near.normal[s].y > 0.5f;
+        near_albedo.push_back(white ? glm::vec3(0.9f) : street.patches->near_surfaces[s].base_color);
     }
     scene::add_sun(near, c.towards_sun, c.sun, near_direct);
     for (std::size_t l = 0; c.lamp && l < street.scene.lights.size(); ++l)

@@ -214,8 +214,8 @@ TEST_F(PatchLightTest, TheDeviceLooksUpWhatTheCpuDoes)
     input.albedo = seen.albedo;
     input.direct = none;
     input.sky = sky;
-    const std::vector<glm::vec3> near_direct(patches->near.sender.size(), glm::vec3(0.0f));
-    ASSERT_GT(near_direct.size(), 50u);
+    const std::vector<glm::vec3> near_direct(patches->near.sources(), glm::vec3(0.0f));
+    ASSERT_GT(patches->near.entries(), 50u);
     input.near = &patches->near;
     input.near_albedo = seen.near_albedo;
     input.near_direct = near_direct;
@@ -365,20 +365,20 @@ TEST_F(PatchLightTest, WhatIsCloseHasItsOwnMaterialUnderItsOwnWeather)
     weather = {};
     weather.film_albedo = 1.0f;
     const PatchLook wet = patch_look(*patches, weather, {}, true);
-    ASSERT_EQ(dry.near_albedo.size(), near.entries());
+    ASSERT_EQ(dry.near_albedo.size(), near.sources());
     int tops = 0, sides = 0;
-    for (std::size_t e = 0; e < near.entries(); ++e) {
-        const bool sill = near.material[e] == 1;
-        EXPECT_NEAR(dry.near_albedo[e].x, sill ? 0.6f : 0.1f, 1e-4f);
-        EXPECT_NEAR(dry.near_albedo[e].z, sill ? 0.4f : 0.1f, 1e-4f);
+    for (std::size_t s = 0; s < near.sources(); ++s) {
+        const bool sill = near.material[s] == 1;
+        EXPECT_NEAR(dry.near_albedo[s].x, sill ? 0.6f : 0.1f, 1e-4f);
+        EXPECT_NEAR(dry.near_albedo[s].z, sill ? 0.4f : 0.1f, 1e-4f);
         if (!sill) continue;
-        const bool top = scene::near_normal(near, e).y > 0.9f;
+        const bool top = near.normal[s].y > 0.9f;
         (top ? tops : sides) += 1;
         if (top) {
-            EXPECT_GT(snowy.near_albedo[e].z, 0.6f);
-            EXPECT_LT(wet.near_albedo[e].x, 0.55f);
-        } else if (scene::near_normal(near, e).y < -0.9f) {
-            EXPECT_NEAR(snowy.near_albedo[e].z, 0.4f, 0.02f) << "no snow lies on what faces down";
+            EXPECT_GT(snowy.near_albedo[s].z, 0.6f);
+            EXPECT_LT(wet.near_albedo[s].x, 0.55f);
+        } else if (near.normal[s].y < -0.9f) {
+            EXPECT_NEAR(snowy.near_albedo[s].z, 0.4f, 0.02f) << "no snow lies on what faces down";
         }
     }
     EXPECT_GT(tops, 1);

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "formulas/light/near_light.h"
+#include "scene/patches/detail/near_choice.h"
 #include "scene/patches/detail/near_faces.h"
 #include "scene/patches/detail/sampling.h"
 #include "scene/patches/lamps.h"
@@ -167,12 +169,12 @@ TEST(NearLight, AFurnaceIsAFurnaceAtEveryPoint)
     Scene scene = room();
     add_box(scene, {1, 0, 1}, {1.7f, 1.3f, 1.9f}, false);
     const Cut cut(scene);
-    ASSERT_GT(cut.near.sender.size(), 100u);
+    ASSERT_GT(cut.near.entries(), 100u);
     const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.8f)),
         direct(cut.patches.count, glm::vec3(0.0f)), emission(cut.patches.count, glm::vec3(1.0f)),
         sky(shared::kSkyBins, glm::vec3(0.0f)),
-        near_direct(cut.near.entries(), glm::vec3(0.0f)),
-        near_albedo(cut.near.entries(), glm::vec3(0.8f)), near_emission(cut.near.entries(), glm::vec3(1.0f));
+        near_direct(cut.near.sources(), glm::vec3(0.0f)),
+        near_albedo(cut.near.sources(), glm::vec3(0.8f)), near_emission(cut.near.sources(), glm::vec3(1.0f));
     Relight input;
     input.albedo = albedo;
     input.direct = direct;
@@ -215,8 +217,8 @@ TEST(NearLight, ASunlitSillLightsTheBreadthAboveIt)
     const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.5f)),
         sky(shared::kSkyBins, glm::vec3(0.0f));
     std::vector<glm::vec3> direct(cut.patches.count, glm::vec3(0.0f)),
-        near_direct(cut.near.entries(), glm::vec3(0.0f));
-    const std::vector<glm::vec3> near_albedo(cut.near.entries(), glm::vec3(0.5f));
+        near_direct(cut.near.sources(), glm::vec3(0.0f));
+    const std::vector<glm::vec3> near_albedo(cut.near.sources(), glm::vec3(0.5f));
     add_sun(cut.patches, sun, glm::vec3(1.0f), direct);
     add_sun(cut.near, sun, glm::vec3(1.0f), near_direct);
     Relight input;
@@ -259,29 +261,72 @@ TEST(NearLight, ALampIsSeenPointByPoint)
     lamp.intensity = 100.0f;
     lamp.range_m = 20.0f;
     const auto reach = trace_near_lamp(cut.near, cut.tracer, 0.35f, lamp.position_m, lamp.range_m);
-    std::vector<glm::vec3> direct(cut.near.entries(), glm::vec3(0.0f));
+    std::vector<glm::vec3> direct(cut.near.sources(), glm::vec3(0.0f));
     add_lamp(cut.near, lamp, reach, direct);
     int whole = 0, half = 0, none = 0;
-    for (std::size_t e = 0; e < cut.near.entries(); ++e) {
-        const glm::vec3 n = near_normal(cut.near, e), middle = near_middle(cut.near, e);
+    for (std::size_t s = 0; s < cut.near.sources(); ++s) {
+        const glm::vec3 n = cut.near.normal[s], middle = near_middle(cut.near, s);
         if (n.y < 0.9f || middle.y > 1.2f) continue;
         glm::vec3 expected(0.0f);
         for (std::size_t k = 0; k < NearLinks::kSamples; ++k) {
-            const PatchSample& at = cut.near.samples[e * NearLinks::kSamples + k];
+            const PatchSample& at = cut.near.samples[s * NearLinks::kSamples + k];
             const glm::vec3 x = cut.triangles.point(at.triangle, at.at);
             if (std::abs(x.z) < 0.005f) continue;
             const bool lit = x.z < 0.0f;
-            EXPECT_EQ((reach[e] >> k & 1) != 0, lit) << x.x << " " << x.z;
+            EXPECT_EQ((reach[s] >> k & 1) != 0, lit) << x.x << " " << x.z;
             if (lit) expected += 0.25f * lamp_irradiance(lamp, x, n);
         }
-        EXPECT_NEAR(direct[e].x, expected.x, 1e-3f * expected.x + 1e-6f);
-        whole += reach[e] == NearLinks::kAllLit ? 1 : 0;
-        none += reach[e] == 0 ? 1 : 0;
-        half += reach[e] != 0 && reach[e] != NearLinks::kAllLit ? 1 : 0;
+        EXPECT_NEAR(direct[s].x, expected.x, 1e-3f * expected.x + 1e-6f);
+        whole += reach[s] == NearLinks::kAllLit ? 1 : 0;
+        none += reach[s] == 0 ? 1 : 0;
+        half += reach[s] != 0 && reach[s] != NearLinks::kAllLit ? 1 : 0;
     }
     EXPECT_GT(whole, 1);
     EXPECT_GT(none, 1);
     EXPECT_GT(half, 0);
+}
+
+// A box covers half of a sill: what the sill sends is asked of the half that shows, with all of the sky that it has.
+TEST(NearLight, ASourceIsWhereItsFaceShows)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 0, 2}, {0, 0, -4}, {0, 3, 0});        // a wall, facing +x
+    add_face(scene, {0, 1.0f, 2}, {0.3f, 0, 0}, {0, 0, -4});  // the sill, facing up
+    add_box(scene, {0.14f, 0.9f, -3.0f}, {0.5f, 1.01f, 3.0f}, false);
+    const Cut cut(scene, 0.35f);
+    int sources = 0;
+    for (std::size_t s = 0; s < cut.near.sources(); ++s) {
+        if (cut.near.normal[s].y < 0.9f || std::abs(near_middle(cut.near, s).y - 1.0f) > 0.001f) continue;
+        ++sources;
+        for (std::size_t k = 0; k < NearLinks::kSamples; ++k)
+            EXPECT_LT(cut.near.points[s * NearLinks::kSamples + k].x, 0.14f);
+        EXPECT_GT(visible_share(cut.near.visible[s], glm::normalize(glm::vec3(0.05f, 1.0f, 0.0f))), 0.97f);
+        for (std::size_t r = 0; r < NearLinks::kLinks; ++r)
+            EXPECT_NE(cut.near.links[s * NearLinks::kLinks + r], cut.patches.black());
+    }
+    EXPECT_GT(sources, 8);
+    EXPECT_LT(sources, 24) << "pieces as long as cells, shared";
+}
+
+// A sill of 4 m, sunlit in one half: entries along it send what is beside them, and all of a place the same.
+TEST(NearLight, EntriesShareTheSourceBesideThem)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 0, 2}, {0, 0, -4}, {0, 3, 0});         // the wall, facing +x
+    add_face(scene, {0, 1.0f, 2}, {0.06f, 0, 0}, {0, 0, -4});  // the sill, facing up
+    const Cut cut(scene, 0.35f);
+    ASSERT_LT(cut.near.sources() * 2, cut.near.entries() * 3);
+    int far = 0;
+    for (std::uint32_t i = 0; i < cut.patches.count; ++i) {
+        for (std::uint32_t e = cut.near.first[i]; e < cut.near.first[i + 1]; ++e) {
+            const std::uint32_t s = cut.near.source[e];
+            if (cut.near.normal[s].y < 0.9f) continue;
+            // Half of a piece, and half of a patch.
+            EXPECT_LT(std::abs(near_middle(cut.near, s).z - cut.patches.position_m[i].z), 0.36f) << e;
+            ++far;
+        }
+    }
+    EXPECT_GT(far, 10);
 }
 
 // A strip of 1 cm that stands on a wall is met by one ray in a hundred of a patch of 35 cm, or by none: it is known all the same,
@@ -293,10 +338,10 @@ TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
     add_face(scene, {0, 1.0f, 2}, {0.01f, 0, 0}, {0, 0, -4});  // the strip, facing up
     const Cut cut(scene, 0.35f);
     const std::vector<glm::vec3> albedo(cut.patches.count, glm::vec3(0.0f)), sky(shared::kSkyBins, glm::vec3(0.0f)),
-        direct(cut.patches.count, glm::vec3(0.0f)), near_direct(cut.near.entries(), glm::vec3(1.0f));
+        direct(cut.patches.count, glm::vec3(0.0f)), near_direct(cut.near.sources(), glm::vec3(1.0f));
     std::vector<glm::vec3> near_albedo;
-    for (std::size_t e = 0; e < cut.near.entries(); ++e)
-        near_albedo.push_back(glm::vec3(near_normal(cut.near, e).y > 0.9f ? 0.5f : 0.0f));
+    for (std::size_t s = 0; s < cut.near.sources(); ++s)
+        near_albedo.push_back(glm::vec3(cut.near.normal[s].y > 0.9f ? 0.5f : 0.0f));
     Relight input;
     input.albedo = albedo;
     input.direct = direct;
@@ -312,6 +357,29 @@ TEST(NearLight, AThinStripIsKnownToEveryPatchAlongIt)
             EXPECT_NEAR(light_at(lit.lit, {0, 1.0f + h, z}, {1, 0, 0}).irradiance.x, right, 0.05f * right) << z << " " << h;
         }
     }
+}
+
+// The bevel of a table is a hundredth of the cells along it: it is asked all the same.
+TEST(NearLight, ABevelWithoutSamplesIsAsked)
+{
+    Scene scene = empty_scene();
+    add_face(scene, {0, 1, 1}, {2, 0, 0}, {0, 0, -1});
+    add_face(scene, {0, 0.998f, 1.002f}, {2, 0, 0}, {0, 0.002f, -0.002f});
+    const Cut cut(scene, 0.5f);
+    const auto receivers = near_receivers(cut.patches, cut.tracer, near_faces(cut.triangles), 0);
+    const LeafFinder finder(cut.patches);
+    const glm::vec3 n = glm::normalize(glm::vec3(0, 1, 1));
+    int asked = 0;
+    for (int k = 0; k < 4; ++k) {
+        const glm::vec3 at(0.25f + 0.5f * static_cast<float>(k), 0.999f, 1.001f);
+        const std::uint32_t leaf = finder.leaf_at(at, n);
+        if (leaf >= cut.patches.count) continue;
+        ++asked;
+        EXPECT_TRUE(std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                                [&](const SamplePoint& p) { return glm::dot(p.normal, n) > 0.9f; }))
+            << at.x;
+    }
+    EXPECT_GT(asked, 2);
 }
 
 // Two triangles of a face are one polygon.
@@ -342,6 +410,9 @@ TEST(NearLight, IsTheSameForAnyNumberOfThreads)
         EXPECT_EQ(again.first, cut.near.first);
         EXPECT_EQ(again.corners, cut.near.corners);
         EXPECT_EQ(again.seen, cut.near.seen);
+        EXPECT_EQ(again.source, cut.near.source);
+        EXPECT_EQ(again.normal, cut.near.normal);
+        EXPECT_EQ(again.points, cut.near.points);
         EXPECT_EQ(again.sender, cut.near.sender);
         EXPECT_EQ(again.visible, cut.near.visible);
         EXPECT_EQ(again.rays, cut.near.rays);

@@ -259,12 +259,12 @@ PatchLook patch_look(const PatchScene& scene, const shared::WeatherMoment& weath
         result.emission.push_back(now.emission);
     }
     const scene::NearLinks& near = scene.near;
-    const std::size_t entries = std::min(near.entries(), scene.near_surfaces.size());
-    result.near_albedo.reserve(entries);
-    result.near_emission.reserve(entries);
-    for (std::size_t e = 0; e < entries; ++e) {
-        const Look now = looks.of({near.material[e], scene.near_surfaces[e], scene::near_middle(near, e),
-                                   scene::near_normal(near, e), near.visible[e], near.sender[e]});
+    const std::size_t sources = std::min(near.sources(), scene.near_surfaces.size());
+    result.near_albedo.reserve(sources);
+    result.near_emission.reserve(sources);
+    for (std::size_t s = 0; s < sources; ++s) {
+        const Look now = looks.of({near.material[s], scene.near_surfaces[s], scene::near_middle(near, s),
+                                   near.normal[s], near.visible[s], near.sender[s]});
         result.near_albedo.push_back(now.albedo);
         result.near_emission.push_back(now.emission);
     }

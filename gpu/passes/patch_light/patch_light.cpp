@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <span>
 
 #include "base/hash.h"
@@ -111,7 +112,7 @@ void PatchLights::load(std::shared_ptr<const PatchScene> scene)
     rim_ = rim_of(p);
     const scene::LookupWays ways = scene::lookup_ways(p, &scene_->near);
     make_buffers(p.nodes(), ways.table.size(), ways.ways.size(),
-                 std::max<std::size_t>(4 * scene_->near.sender.size(), 1));
+                 std::max<std::size_t>(4 * scene_->near.entries(), 1));
     grid_ = ways.grid;
     const auto planes = scene::lookup_planes(p);
     std::memcpy(table_->mapped, ways.table.data(), ways.table.size() * sizeof(ways.table[0]));
@@ -123,8 +124,10 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                           const std::vector<Light>& lights)
 {
     relight_ms_ = 0.0;
+    relight_cpu_ms_ = 0.0;
     if (!loaded()) return;
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     const scene::Patches& p = scene_->patches;
     const auto texel_of_sky = [&](std::size_t i) {
         glm::vec4 texel;
@@ -176,11 +179,11 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
                                 frame.materials, frame.place.get());
     if (frame.patch_albedo.size() == p.count) {
         look.albedo = frame.patch_albedo;
-        for (std::size_t e = 0; e < look.near_albedo.size(); ++e)
-            look.near_albedo[e] = look.albedo[scene_->near.sender[e]];
+        for (std::size_t s = 0; s < look.near_albedo.size(); ++s)
+            look.near_albedo[s] = look.albedo[scene_->near.sender[s]];
     }
     std::vector<glm::vec3> direct(p.count, glm::vec3(0.0f)), emission(p.count);
-    std::vector<glm::vec3> near_direct(scene_->near.entries(), glm::vec3(0.0f));
+    std::vector<glm::vec3> near_direct(scene_->near.sources(), glm::vec3(0.0f));
     scene::add_sun(p, sun.direction, sun.illuminance, direct);
     scene::add_sun(scene_->near, sun.direction, sun.illuminance, near_direct);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -245,6 +248,7 @@ void PatchLights::relight(const Frame& frame, const Sun& sun, const Light* scene
     lit_by_ = lit_by;
     relight_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                       .count();
+    relight_cpu_ms_ = 1e3 * static_cast<double>(std::clock() - cpu_start) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
 void add_sky_bins(FrameGraph& graph, SkyMaps& sky, PatchLights& lights)

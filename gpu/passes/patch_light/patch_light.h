@@ -43,6 +43,8 @@ public:
     const std::string& lit_by() const { return lit_by_; }
     /// Milliseconds of the last relight; 0 when nothing had changed.
     double relight_ms() const { return relight_ms_; }
+    /// The same of CPU time, of the whole process.
+    double relight_cpu_ms() const { return relight_cpu_ms_; }
 
     const shared::PatchGrid& grid() const { return grid_; }
     GpuBuffer& table() const { return *table_; }
@@ -66,7 +68,7 @@ private:
     std::vector<std::uint32_t> rim_;  // patches of it; none where it does not close
     std::optional<glm::vec3> rim_radiance_;
     std::string lit_by_;  // fingerprint of what the light was solved from
-    double relight_ms_ = 0.0;
+    double relight_ms_ = 0.0, relight_cpu_ms_ = 0.0;
 };
 
 // Mean radiance of the sky's bins, for the host.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "formulas/light/near_light.h"
 #include "scene/patches/detail/cells.h"
@@ -19,10 +20,14 @@ constexpr std::size_t kJudged = 24;     // candidates whose light is guessed
 constexpr std::size_t kTried = 16;      // and whose sight is traced
 constexpr std::size_t kSightPoints = 8;
 constexpr std::size_t kSightRays = 24;  // of all of them
-constexpr int kHintRays = 8;            // of each, for the light that it may send
-constexpr float kHintAlbedo = 0.5f;     // whatever it is made of
+constexpr int kSightDirections = 64;
 constexpr std::size_t kFewReceivers = 4;
 constexpr float kStripWidth = 0.05f;    // over its length
+constexpr float kAlike = 0.9f;          // cosine of two normals
+constexpr int kSourceLevel = 1;          // of cells that pieces of faces are as long as
+constexpr int kGlowLevel = 0;
+constexpr int kMostAlong = 8;
+constexpr float kTowardsMiddle = 0.1f;  // of a polygon, from what is nearest to its receivers
 constexpr float kFarFactor = 0.02f;     // area over distance squared
 constexpr float kLeastSquare = 1e-4f;   // of form factors, over the patch
 constexpr float kLeastMerit = 2e-3f;    // square of light, over that which arrives
@@ -37,10 +42,66 @@ float form_factor(const std::array<glm::vec3, 4>& c, glm::vec3 x, glm::vec3 n)
     return shared::near_form_factor(c[0] - x, c[1] - x, c[2] - x, c[3] - x, n);
 }
 
+// Points along the middle of a face's side, one a cell.
+std::vector<SamplePoint> along(const NearFace& face, bool back, float cell_m)
+{
+    const auto c = corners_of(face.polygon);
+    const glm::vec3 u = c[1] - c[0], v = c[2] - c[1];
+    const bool by_u = glm::dot(u, u) > glm::dot(v, v);
+    const float length = std::sqrt(std::max(glm::dot(u, u), glm::dot(v, v)));
+    const int count = std::clamp(static_cast<int>(length / cell_m + 0.5f), 1, kMostAlong);
+    std::vector<SamplePoint> points;
+    for (int k = 0; k < count; ++k) {
+        const float at = (static_cast<float>(k) + 0.5f) / static_cast<float>(count);
+        points.push_back({by_u ? point_in(c, at, 0.5f) : point_in(c, 0.5f, at), back ? -face.normal : face.normal});
+    }
+    return points;
+}
+
+// Where no receiver of a leaf faces along with what asks it.
+void add_bevels(const Patches& patches, const Tracer& tracer, const NearFaces& faces, const LeafFinder& finder,
+                int threads, std::vector<std::vector<SamplePoint>>& receivers)
+{
+    struct Asks {
+        SamplePoint point;
+        std::uint32_t leaf;
+    };
+    const float regular = patches.level_cell_m(1);
+    const auto known = [&](const SamplePoint& p, std::uint32_t leaf) {
+        return std::any_of(receivers[leaf].begin(), receivers[leaf].end(),
+                           [&](const SamplePoint& other) { return glm::dot(other.normal, p.normal) > kAlike; });
+    };
+    constexpr std::size_t kFacesAJob = 512;
+    std::vector<std::vector<Asks>> asks((faces.faces.size() + kFacesAJob - 1) / kFacesAJob);
+    parallel_for(asks.size(), threads, [&](std::size_t job) {
+        const std::size_t last = std::min(faces.faces.size(), (job + 1) * kFacesAJob);
+        for (std::size_t f = job * kFacesAJob; f < last; ++f) {
+            const NearFace& face = faces.faces[f];
+            const bool both = tracer.triangles().double_sided(face.triangles[0]);
+            for (const bool back : {false, true}) {
+                if (back && !both) continue;
+                for (const SamplePoint& p : along(face, back, regular)) {
+                    const std::uint32_t leaf = finder.leaf_at(p.position_m, p.normal);
+                    if (leaf >= patches.count || known(p, leaf)) continue;
+                    const RayHit hit =
+                        tracer.nearest({p.position_m + p.normal * ray_lift_m(p.position_m, regular), p.normal});
+                    const bool inside = hit.hit() && hit.back && !tracer.triangles().double_sided(hit.triangle);
+                    if (!inside) asks[job].push_back({p, leaf});
+                }
+            }
+        }
+    });
+    for (const auto& list : asks)
+        for (const Asks& one : list)
+            if (!known(one.point, one.leaf)) receivers[one.leaf].push_back(one.point);
+}
+
 }  // namespace
 
-std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Triangles& triangles, int threads)
+std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Tracer& tracer,
+                                                     const NearFaces& faces, int threads)
 {
+    const Triangles& triangles = tracer.triangles();
     const LeafFinder finder(patches);
     std::vector<SamplePoint> points(patches.samples.size());
     std::vector<std::uint32_t> leaf(points.size());
@@ -60,16 +121,24 @@ std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, con
         const auto own = points.begin() + static_cast<std::ptrdiff_t>(std::size_t{i} * kPatchSamples);
         receivers[i].insert(receivers[i].end(), own, own + kPatchSamples);
     }
+    add_bevels(patches, tracer, faces, finder, threads, receivers);
     return receivers;
 }
 
 NearChooser::NearChooser(const Patches& patches, const Tracer& tracer, const NearFaces& faces,
-                         std::span<const NearHint> hints)
-    : patches_(patches), tracer_(tracer), triangles_(tracer.triangles()), faces_(faces), hints_(hints)
+                         const NearSources& sources, std::span<const NearHint> hints)
+    : patches_(patches),
+      tracer_(tracer),
+      triangles_(tracer.triangles()),
+      faces_(faces),
+      sources_(sources),
+      hints_(hints)
 {
     const glm::vec3 d = triangles_.high() - triangles_.low();
     // No further than what counts as closed (Patches::open).
     reach_ = std::min({patches.level_cell_m(1), 0.03f * std::sqrt(glm::dot(d, d)), 0.5f});
+    for (int r = 0; r < kSightDirections; ++r)
+        directions_.push_back(row_direction({0.0f, 0.0f, 1.0f}, r, kSightDirections, patches.seed));
 }
 
 NearChooser::Surroundings NearChooser::surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const
@@ -95,102 +164,74 @@ NearChooser::Surroundings NearChooser::surroundings(std::uint32_t patch, std::sp
     return around;
 }
 
+NearPolygon NearChooser::part_of(std::uint32_t number, bool back, const Surroundings& around) const
+{
+    NearPolygon polygon = faces_.faces[number].polygon;
+    if (back) std::reverse(polygon.corner.begin(), polygon.corner.begin() + polygon.count);
+    polygon = cut_to(polygon, around.low, around.high);
+    simplify(polygon);
+    return polygon;
+}
+
 // What of a face the points see, and the mean of its form factor squared over the patch: by the points themselves, and
 // because they lie apart, for what stands on the patch or near it by area: a long strip lights a strip of the patch as
 // wide as itself, whatever the patch's size; from h away A / (pi h^2) of that.
-std::optional<NearChoice> NearChooser::candidate(std::uint32_t number, bool back, const Surroundings& around) const
+std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool back, const Surroundings& around) const
 {
     const NearFace& face = faces_.faces[number];
     const glm::vec3 n = back ? -face.normal : face.normal;
     bool faces = false;
     for (const SamplePoint& p : around.points) faces = faces || glm::dot(p.position_m - face.polygon.corner[0], n) > 0.0f;
     if (!faces) return std::nullopt;
-    NearChoice found{number, back, face.polygon, 0.0f, 0};
-    if (back) std::reverse(found.polygon.corner.begin(), found.polygon.corner.begin() + found.polygon.count);
-    for (int k = 0; k < 3 && found.polygon.count >= 3; ++k) {
-        glm::vec3 axis(0.0f);
-        axis[k] = 1.0f;
-        found.polygon = cut_above(found.polygon, axis, around.low[k]);
-        found.polygon = cut_above(found.polygon, -axis, -around.high[k]);
-    }
-    simplify(found.polygon);
-    if (found.polygon.count < 3) return std::nullopt;
-    const float area = area_m2(found.polygon);
+    const NearPolygon polygon = part_of(number, back, around);
+    if (polygon.count < 3) return std::nullopt;
+    const float area = area_m2(polygon);
     if (!(area > kSmallest_m2)) return std::nullopt;
-    const auto corners = corners_of(found.polygon);
-    float nearest2 = std::numeric_limits<float>::max();
+    const auto corners = corners_of(polygon);
+    const glm::vec3 middle = point_in(corners, 0.5f, 0.5f);
+    float radius2 = 0.0f;
+    for (const glm::vec3& c : corners) radius2 = std::max(radius2, glm::dot(c - middle, c - middle));
+    const float radius = std::sqrt(radius2);
+    float nearest2 = std::numeric_limits<float>::max(), square = 0.0f, factors = 0.0f;
+    glm::vec3 heart(0.0f);
     for (const SamplePoint& p : around.points) {
-        if (!(glm::dot(p.position_m - found.polygon.corner[0], n) > 0.0f)) continue;
+        const glm::vec3 way = middle - p.position_m;
+        if (!(glm::dot(way, n) < 0.0f)) continue;
+        // Neither seen by more than can be left out nor nearer than another's.
+        const float least = std::max(std::sqrt(glm::dot(way, way)) - radius, 0.0f);
+        const float least_beside = std::max(least - around.spacing, 0.0f);
+        if (area < kFarFactor * least * least && least_beside * least_beside >= nearest2) continue;
         float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
-        for (int k = 0; k < found.polygon.count; ++k) {
-            const float h = glm::dot(found.polygon.corner[static_cast<std::size_t>(k)] - p.position_m, p.normal);
+        for (int k = 0; k < polygon.count; ++k) {
+            const float h = glm::dot(polygon.corner[static_cast<std::size_t>(k)] - p.position_m, p.normal);
             lowest = std::min(lowest, h);
             highest = std::max(highest, h);
         }
         // Level with the point: rounding.
         if (!(highest > 1e-5f)) continue;
         const float height = std::max(lowest, 0.0f);
-        const float whole = distance_m(found.polygon, n, p.position_m);
+        const glm::vec3 nearest = nearest_in(polygon, n, p.position_m);
+        const float whole2 = glm::dot(nearest - p.position_m, nearest - p.position_m);
         // Between its samples the patch goes on.
-        const float beside =
-            std::max(std::sqrt(std::max(whole * whole - height * height, 0.0f)) - around.spacing, 0.0f);
+        const float beside = std::max(std::sqrt(std::max(whole2 - height * height, 0.0f)) - around.spacing, 0.0f);
         nearest2 = std::min(nearest2, height * height + beside * beside);
-        if (area < kFarFactor * whole * whole) continue;  // too small from here
+        if (area < kFarFactor * whole2) continue;  // too small from here
         const float factor = form_factor(corners, p.position_m, p.normal);
-        found.square += factor * factor / static_cast<float>(around.points.size());
+        square += factor * factor / static_cast<float>(around.points.size());
+        heart += nearest * factor;
+        factors += factor;
     }
     if (nearest2 == std::numeric_limits<float>::max()) return std::nullopt;
     const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
-    found.square = std::max(found.square, kStripSquare * area * (area / far) / std::max(around.area, area));
-    if (found.square < kLeastSquare) return std::nullopt;
-    const auto own = patch_at(patches_, point_in(corners, 0.5f, 0.5f), n);
-    if (!own) return std::nullopt;
-    found.sender = *own;
-    return found;
+    square = std::max(square, kStripSquare * area * (area / far) / std::max(around.area, area));
+    if (square < kLeastSquare) return std::nullopt;
+    heart = factors > 0.0f ? glm::mix(heart / factors, middle, kTowardsMiddle) : middle;
+    // What glows has edges and pictures.
+    const bool glows = glow_of(triangles_, face.triangles[0]) > 0.0f;
+    return NearCandidate{number, back, square, sources_.key_at(number, back, heart, glows ? kGlowLevel : kSourceLevel)};
 }
 
-// What a candidate sends under a hint: what the patch there sends, which is a mean of many surfaces, and what its own
-// rays bring. What glows is judged by materials: a strip beside a lit pane has half of the pane's light, where the patch
-// of both is the mean of a pane and its frame.
-void NearChooser::judge(std::vector<NearChoice>& found, std::uint32_t patch) const
-{
-    for (NearChoice& c : found) c.merit = c.square;
-    std::vector<std::array<NearMeets, kHintRays>> met(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const std::uint64_t hash = mixed(cell_hash(patches_.seed, patches_.key[patch]), found[i].face);
-        for (int r = 0; r < kHintRays; ++r)
-            met[i][static_cast<std::size_t>(r)] =
-                near_meets(patches_, tracer_, corners_of(found[i].polygon), r, kHintRays, hash);
-    }
-    std::vector<float> sent2(found.size());
-    float glows = 0.0f;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        float arrives = 0.0f;
-        for (const NearMeets& m : met[i]) {
-            const bool near = m.triangle != RayHit::kNothing && m.distance_m < kGlowNear_m;
-            arrives += near ? glow_of(triangles_, m.triangle) : 0.0f;
-        }
-        const float sent = glow_of(triangles_, faces_.faces[found[i].face].triangles[0]) +
-                           kHintAlbedo * arrives / static_cast<float>(kHintRays);
-        sent2[i] = found[i].square * sent * sent;
-        glows += sent2[i];
-    }
-    for (std::size_t i = 0; i < found.size() && glows > 0.0f; ++i) found[i].merit += sent2[i] / glows;
-    for (const NearHint& hint : hints_) {
-        float all = hint.irradiance[patch] * hint.irradiance[patch];
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            float arrives = 0.0f;
-            for (const NearMeets& m : met[i]) arrives += m.id < patches_.count ? hint.radiosity[m.id] : 0.0f;
-            const float sent =
-                hint.radiosity[found[i].sender] + kHintAlbedo * arrives / static_cast<float>(kHintRays);
-            sent2[i] = found[i].square * sent * sent;
-            all += sent2[i];
-        }
-        for (std::size_t i = 0; i < found.size() && all > 0.0f; ++i) found[i].merit += sent2[i] / all;
-    }
-}
-
-std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const SamplePoint> receivers) const
+std::vector<NearCandidate> NearChooser::candidates(std::uint32_t patch, std::span<const SamplePoint> receivers) const
 {
     if (receivers.empty()) return {};
     const Surroundings around = surroundings(patch, receivers);
@@ -198,7 +239,7 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
     for (std::uint32_t& t : near) t = faces_.of_triangle[t];
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::vector<NearChoice> found;
+    std::vector<NearCandidate> found;
     for (const std::uint32_t face : near) {
         const bool both = triangles_.double_sided(faces_.faces[face].triangles[0]);
         for (const bool back : {false, true}) {
@@ -207,36 +248,119 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
         }
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const NearChoice& a, const NearChoice& b) { return a.square > b.square; });
+                     [](const NearCandidate& a, const NearCandidate& b) { return a.square > b.square; });
     if (found.size() > kJudged) found.resize(kJudged);
-    judge(found, patch);
-    const auto by_merit = [](const NearChoice& a, const NearChoice& b) { return a.merit > b.merit; };
-    std::stable_sort(found.begin(), found.end(), by_merit);
-    if (found.size() > kTried) found.resize(kTried);
-    const std::uint64_t hash = cell_hash(patches_.seed, patches_.key[patch]);
-    for (NearChoice& c : found) {
-        if (c.merit < kLeastMerit) continue;
-        c.seen = seen_share(c, around, mixed(hash, 2 * std::uint64_t{c.face} + (c.back ? 1 : 0)));
-        c.merit *= c.seen * c.seen;
-    }
-    std::stable_sort(found.begin(), found.end(), by_merit);
-    while (!found.empty() && (found.size() > kKept || found.back().seen == 0.0f || found.back().merit < kLeastMerit))
-        found.pop_back();
     return found;
 }
 
-// From those points that see most of it rays to places of it, by what each brings (cos cos' / r^2); of a long strip the
-// nearest place tells most, of a pane it may be what shows between its frame and the wall.
-// The share whose product with the form factor errs least, by its square, over the points.
-float NearChooser::seen_share(const NearChoice& candidate, const Surroundings& around, std::uint64_t hash) const
+// The share of each in the square of the light under a hint: of all that arrives, or of all that glows and is near.
+std::vector<float> NearChooser::merits(std::uint32_t patch, std::span<const NearCandidate> candidates,
+                                       std::span<const NearGuess> guesses) const
 {
-    const auto corners = corners_of(candidate.polygon);
-    const glm::vec3 n = front_of(corners), middle = point_in(corners, 0.5f, 0.5f);
-    const float regular = patches_.level_cell_m(1);
-    // A place stands for a share of the polygon: nearer than that is wide it counts no more.
-    const float area = area_m2(candidate.polygon), least2 = area / std::numbers::pi_v<float>;
-    const glm::vec3 across = corners[2] - corners[0];
+    std::vector<float> merit;
+    for (const NearCandidate& c : candidates) merit.push_back(c.square);
+    for (std::size_t h = 0; h <= hints_.size(); ++h) {
+        const auto square = [&](const NearCandidate& c) {
+            const float sent = guesses[c.guess].sent[h];
+            return c.square * sent * sent;
+        };
+        float all = h == 0 ? 0.0f : hints_[h - 1].irradiance[patch] * hints_[h - 1].irradiance[patch];
+        for (const NearCandidate& c : candidates) all += square(c);
+        for (std::size_t i = 0; i < candidates.size() && all > 0.0f; ++i) merit[i] += square(candidates[i]) / all;
+    }
+    return merit;
+}
+
+std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const SamplePoint> receivers,
+                                            std::span<const NearCandidate> candidates,
+                                            std::span<const NearGuess> guesses) const
+{
+    if (candidates.empty()) return {};
+    const Surroundings around = surroundings(patch, receivers);
+    const std::vector<float> merit = merits(patch, candidates, guesses);
+    struct Tried {
+        float merit;
+        NearChoice choice;
+    };
+    std::vector<std::size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
+    if (order.size() > kTried) order.resize(kTried);
+    const std::uint64_t hash = cell_hash(patches_.seed, patches_.key[patch]);
+    std::vector<Tried> tried;
+    for (const std::size_t i : order) {
+        const NearCandidate& c = candidates[i];
+        if (merit[i] < kLeastMerit) continue;
+        const NearPolygon polygon = part_of(c.face, c.back, around);
+        const float seen =
+            seen_share(c, polygon, around, mixed(hash, 2 * std::uint64_t{c.face} + (c.back ? 1 : 0)));
+        const float left = merit[i] * seen * seen;
+        if (seen == 0.0f || left < kLeastMerit) continue;
+        tried.push_back({left, {c.face, c.back, corners_of(polygon), seen, guesses[c.guess].shown}});
+    }
+    std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.merit > b.merit; });
+    if (tried.size() > kKept) tried.resize(kKept);
+    std::vector<NearChoice> kept;
+    for (const Tried& one : tried) kept.push_back(one.choice);
+    return kept;
+}
+
+// Of the places of a polygon that a point looks at, and what each brings.
+struct NearChooser::Look {
+    glm::vec3 to;
+    float weight;
+};
+
+// Places by what they bring, where the point sees so much of the polygon that even directions meet it; else by their
+// weight (cos cos' / r^2). A place stands for a share of the polygon: nearer than that is wide it counts no more. Of a
+// long strip the nearest place tells most.
+std::vector<NearChooser::Look> NearChooser::looks(const SamplePoint& p, const NearPolygon& polygon, glm::vec3 n,
+                                                  std::size_t rays, std::uint64_t hash) const
+{
+    std::vector<Look> looks;
+    const float first = glm::dot(polygon.corner[0] - p.position_m, n);
+    const Tangents frame = tangents_of(p.normal);
+    const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(unit_float(hash)));
+    const auto cosine = static_cast<float>(turn.cosine), sine = static_cast<float>(turn.sine);
+    const glm::vec3 t = frame.t * cosine + frame.b * sine, b = frame.b * cosine - frame.t * sine;
+    for (const glm::vec3& local : directions_) {
+        const glm::vec3 d = t * local.x + b * local.y + p.normal * local.z;
+        const float falls = glm::dot(d, n);
+        if (!(falls < 0.0f)) continue;
+        const glm::vec3 x = p.position_m + d * (first / falls);
+        if (holds(polygon, n, x, 0.0f)) looks.push_back({x, 1.0f});
+    }
+    if (looks.size() >= rays) {
+        for (std::size_t r = 0; r < rays; ++r) looks[r] = looks[r * looks.size() / rays];
+        looks.resize(rays);
+        return looks;
+    }
+    looks.clear();
+    const auto corners = corners_of(polygon);
+    const glm::vec3 across = corners[2] - corners[0], middle = point_in(corners, 0.5f, 0.5f);
+    const float area = area_m2(polygon), least2 = area / std::numbers::pi_v<float>;
     const bool strip = area < kStripWidth * glm::dot(across, across);
+    for (std::size_t r = 0; r < rays; ++r) {
+        const std::uint64_t at = mixed(hash, r);
+        // Off the edge, where two bodies touch.
+        const glm::vec3 to = r == 0 && strip ? glm::mix(nearest_in(polygon, n, p.position_m), middle, 0.1f)
+                                             : point_in(corners, unit_float(at), unit_float(mixed(at, 3)));
+        const glm::vec3 way = to - p.position_m;
+        const float far2 = glm::dot(way, way);
+        const float cosines = glm::dot(way, p.normal) * -glm::dot(way, n);
+        if (glm::dot(way, p.normal) > 0.0f && cosines > 0.0f) looks.push_back({to, cosines / (far2 * (far2 + least2))});
+    }
+    return looks;
+}
+
+// From those points that see most of it rays to places of it: the share whose product with the form factor errs least, by
+// its square, over the points.
+float NearChooser::seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
+                              std::uint64_t hash) const
+{
+    const auto corners = corners_of(polygon);
+    const glm::vec3 n = front_of(corners);
+    const float regular = patches_.level_cell_m(1);
     std::vector<std::pair<float, std::size_t>> order;
     for (std::size_t k = 0; k < around.points.size(); ++k) {
         const SamplePoint& p = around.points[k];
@@ -249,24 +373,15 @@ float NearChooser::seen_share(const NearChoice& candidate, const Surroundings& a
     for (const auto& [factor, k] : order) {
         const SamplePoint& p = around.points[k];
         const glm::vec3 from = p.position_m + p.normal * ray_lift_m(p.position_m, regular);
-        const std::size_t rays = kSightRays / order.size();
         float brought = 0.0f, arrived = 0.0f;
-        for (std::size_t r = 0; r < rays; ++r) {
-            const std::uint64_t at = mixed(hash, k * kSightRays + r);
-            // Off the edge, where two bodies touch.
-            const glm::vec3 to = r == 0 && strip ? glm::mix(nearest_in(candidate.polygon, n, p.position_m), middle, 0.1f)
-                                        : point_in(corners, unit_float(at), unit_float(mixed(at, 3)));
-            const glm::vec3 way = to - p.position_m;
-            const float far2 = glm::dot(way, way);
-            const float cosines = glm::dot(way, p.normal) * -glm::dot(way, n);
-            if (!(glm::dot(way, p.normal) > 0.0f) || !(cosines > 0.0f)) continue;
-            const float weight = cosines / (far2 * (far2 + least2));
-            brought += weight;
-            const PatchSample place = place_on(triangles_, faces_.faces[candidate.face], candidate.back, to);
+        for (const Look& look : looks(p, polygon, n, kSightRays / order.size(), mixed(hash, k))) {
+            brought += look.weight;
+            const PatchSample place = place_on(triangles_, faces_.faces[candidate.face], candidate.back, look.to);
             if ((triangles_.flags(place.triangle) & kTriangleMasked) && triangles_.is_hole(place.triangle, place.at))
                 continue;
-            if (!tracer_.blocked_between(from, to + n * std::min(ray_lift_m(to, regular), 0.2f * std::sqrt(far2))))
-                arrived += weight;
+            const glm::vec3 way = look.to - p.position_m;
+            const float lift_m = std::min(ray_lift_m(look.to, regular), 0.2f * std::sqrt(glm::dot(way, way)));
+            if (!tracer_.blocked_between(from, look.to + n * lift_m)) arrived += look.weight;
         }
         if (!(brought > 0.0f)) continue;
         all += factor * factor;

@@ -11,30 +11,45 @@
 
 #include "base/parallel.h"
 #include "scene/patches/detail/near_faces.h"
+#include "scene/patches/detail/near_sources.h"
 #include "scene/patches/near_light.h"
 
 namespace petrichor::scene {
 
+/// A part of a face that may be kept.
+struct NearCandidate {
+    std::uint32_t face;
+    bool back;
+    float square;               ///< mean of form factors squared
+    NearSourceKey source;       ///< what of the face is nearest to those who see it
+    std::uint32_t guess = 0;    ///< number of its NearGuess
+};
+
 struct NearChoice {
     std::uint32_t face;
     bool back;
-    NearPolygon polygon;
-    float square;  ///< mean of form factors squared
-    std::uint32_t sender;
-    float merit = 0.0f;
-    float seen = 0.0f;  ///< share of it, from the patch
+    std::array<glm::vec3, 4> corners;
+    float seen;  ///< share of it, from the patch
+    NearSourceKey source;  ///< as it is shown
 };
 
 /// Points of all surfaces by the leaf that a lookup there asks: a pane behind its frame is asked of the frame's where
 /// that counts more.
-std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Triangles& triangles, int threads);
+/// Of bevels that samples leave out there is a point in each cell along them.
+std::vector<std::vector<SamplePoint>> near_receivers(const Patches& patches, const Tracer& tracer,
+                                                     const NearFaces& faces, int threads);
 
 class NearChooser {
 public:
     /// All must outlive it.
-    NearChooser(const Patches& patches, const Tracer& tracer, const NearFaces& faces, std::span<const NearHint> hints);
+    NearChooser(const Patches& patches, const Tracer& tracer, const NearFaces& faces, const NearSources& sources,
+                std::span<const NearHint> hints);
+    /// What the receivers see the most of, by its form factor.
+    std::vector<NearCandidate> candidates(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
     /// Those that are seen and count, first the ones that count most; at most NearLinks::kMostAPatch.
-    std::vector<NearChoice> chosen(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
+    std::vector<NearChoice> chosen(std::uint32_t patch, std::span<const SamplePoint> receivers,
+                                   std::span<const NearCandidate> candidates,
+                                   std::span<const NearGuess> guesses) const;
 
 private:
     struct Surroundings {
@@ -43,16 +58,24 @@ private:
         float spacing, area;
     };
     Surroundings surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
-    std::optional<NearChoice> candidate(std::uint32_t face, bool back, const Surroundings& around) const;
-    void judge(std::vector<NearChoice>& found, std::uint32_t patch) const;
-    float seen_share(const NearChoice& candidate, const Surroundings& around, std::uint64_t hash) const;
+    NearPolygon part_of(std::uint32_t face, bool back, const Surroundings& around) const;
+    std::optional<NearCandidate> candidate(std::uint32_t face, bool back, const Surroundings& around) const;
+    std::vector<float> merits(std::uint32_t patch, std::span<const NearCandidate> candidates,
+                              std::span<const NearGuess> guesses) const;
+    struct Look;
+    std::vector<Look> looks(const SamplePoint& p, const NearPolygon& polygon, glm::vec3 n, std::size_t rays,
+                            std::uint64_t hash) const;
+    float seen_share(const NearCandidate& candidate, const NearPolygon& polygon, const Surroundings& around,
+                     std::uint64_t hash) const;
 
     const Patches& patches_;
     const Tracer& tracer_;
     const Triangles& triangles_;
     const NearFaces& faces_;
+    const NearSources& sources_;
     std::span<const NearHint> hints_;
     float reach_ = 0.0f;
+    std::vector<glm::vec3> directions_;  // even, about z
 };
 
 inline constexpr std::size_t kNearPatchesAJob = 64;

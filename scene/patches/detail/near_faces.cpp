@@ -78,6 +78,18 @@ NearPolygon cut_above(const NearPolygon& polygon, glm::vec3 n, float least)
     return cut;
 }
 
+NearPolygon cut_to(const NearPolygon& polygon, glm::vec3 low, glm::vec3 high)
+{
+    NearPolygon cut = polygon;
+    for (int k = 0; k < 3 && cut.count >= 3; ++k) {
+        glm::vec3 axis(0.0f);
+        axis[k] = 1.0f;
+        cut = cut_above(cut, axis, low[k]);
+        cut = cut_above(cut, -axis, -high[k]);
+    }
+    return cut;
+}
+
 void simplify(NearPolygon& p)
 {
     while (p.count > 4) {
@@ -105,7 +117,8 @@ bool holds(const NearPolygon& p, glm::vec3 n, glm::vec3 x, float margin_m)
     for (int k = 0; k < p.count; ++k) {
         const glm::vec3 a = p.corner[static_cast<std::size_t>(k)];
         const glm::vec3 edge = p.corner[static_cast<std::size_t>((k + 1) % p.count)] - a;
-        if (glm::dot(glm::cross(edge, x - a), n) < -margin_m * length_of(edge)) return false;
+        const float inside = glm::dot(glm::cross(edge, x - a), n);
+        if (inside < 0.0f && inside * inside > margin_m * margin_m * glm::dot(edge, edge)) return false;
     }
     return true;
 }
@@ -115,12 +128,17 @@ glm::vec3 nearest_in(const NearPolygon& p, glm::vec3 n, glm::vec3 x)
     const glm::vec3 foot = x - n * glm::dot(x - p.corner[0], n);
     if (holds(p, n, foot, 1e-6f)) return foot;
     glm::vec3 best = p.corner[0];
+    float least2 = std::numeric_limits<float>::max();
     for (int k = 0; k < p.count; ++k) {
         const glm::vec3 a = p.corner[static_cast<std::size_t>(k)];
         const glm::vec3 edge = p.corner[static_cast<std::size_t>((k + 1) % p.count)] - a;
         const float length2 = glm::dot(edge, edge);
         const float along = length2 > 0.0f ? std::clamp(glm::dot(x - a, edge) / length2, 0.0f, 1.0f) : 0.0f;
-        if (length_of(x - a - edge * along) < length_of(x - best)) best = a + edge * along;
+        const glm::vec3 there = a + edge * along, way = x - there;
+        const float far2 = glm::dot(way, way);
+        if (far2 >= least2) continue;
+        least2 = far2;
+        best = there;
     }
     return best;
 }

@@ -21,6 +21,8 @@ struct NearPolygon {
 
 /// What of a polygon lies where dot(n, x) >= least.
 NearPolygon cut_above(const NearPolygon& polygon, glm::vec3 n, float least);
+/// What of it lies in a box.
+NearPolygon cut_to(const NearPolygon& polygon, glm::vec3 low, glm::vec3 high);
 /// No more than four corners: those go that cut off least.
 void simplify(NearPolygon& polygon);
 float area_m2(const NearPolygon& polygon);

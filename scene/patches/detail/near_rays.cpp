@@ -22,11 +22,14 @@ NearMeets near_meets(const Patches& patches, const Tracer& tracer, const std::ar
         const glm::vec3 x = point_in(corners, unit_float(at), unit_float(mixed(at, 5)));
         const Ray ray{x + n * ray_lift_m(x, patches.level_cell_m(1)), row_direction(n, r, rays, hash)};
         const RayHit hit = tracer.nearest(ray);
-        if (!hit.hit()) return {patches.count + static_cast<std::uint32_t>(shared::sky_bin_left(ray.direction))};
+        if (!hit.hit()) {
+            const int bin = shared::sky_bin_left(ray.direction);
+            return {patches.count + static_cast<std::uint32_t>(bin), RayHit::kNothing, 0.0f, x, false, draw + 1};
+        }
         if (hit.back && !triangles.double_sided(hit.triangle)) continue;
-        return {patch_of_hit(patches, triangles, ray, hit), hit.triangle, hit.distance_m};
+        return {patch_of_hit(patches, triangles, ray, hit), hit.triangle, hit.distance_m, x, false, draw + 1};
     }
-    return {patches.black()};
+    return {patches.black(), RayHit::kNothing, 0.0f, {}, true, kRedraws + 1};
 }
 
 float glow_of(const Triangles& triangles, std::uint32_t triangle)

@@ -13,11 +13,14 @@ namespace petrichor::scene {
 inline constexpr float kGlowNear_m = 1.0f;  // so near a polygon what glows is met by its own rays
 
 struct NearMeets {
-    std::uint32_t id;  ///< as Patches::links
+    std::uint32_t id;  ///< as Patches::links; black inside
     std::uint32_t triangle = RayHit::kNothing;
     float distance_m = 0.0f;
+    glm::vec3 from{0.0f};  ///< point of the polygon
+    bool inside = false;   ///< it starts inside a body, whatever is drawn
+    int draws = 1;         ///< all but the last one inside a body
 };
-/// What ray r of a polygon's meets; black where it starts inside a body, whatever is drawn.
+/// What ray r of a polygon's meets.
 NearMeets near_meets(const Patches& patches, const Tracer& tracer, const std::array<glm::vec3, 4>& corners, int r,
                      int rays, std::uint64_t hash);
 
