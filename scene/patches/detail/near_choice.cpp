@@ -261,6 +261,7 @@ std::vector<float> NearChooser::merits(std::uint32_t patch, std::span<const Near
     for (const NearCandidate& c : candidates) merit.push_back(c.square);
     for (std::size_t h = 0; h <= hints_.size(); ++h) {
         const auto square = [&](const NearCandidate& c) {
+            if (guesses[c.guess].sent.empty()) return 0.0f;
             const float sent = guesses[c.guess].sent[h];
             return c.square * sent * sent;
         };
@@ -290,7 +291,7 @@ std::vector<NearChoice> NearChooser::chosen(std::uint32_t patch, std::span<const
     std::vector<Tried> tried;
     for (const std::size_t i : order) {
         const NearCandidate& c = candidates[i];
-        if (merit[i] < kLeastMerit) continue;
+        if (merit[i] < kLeastMerit || guesses[c.guess].sent.empty()) continue;
         const NearPolygon polygon = part_of(c.face, c.back, around);
         const float seen =
             seen_share(c, polygon, around, mixed(hash, 2 * std::uint64_t{c.face} + (c.back ? 1 : 0)));

@@ -90,9 +90,9 @@ std::uint64_t NearSources::hash_of(NearSourceKey key) const
     return mixed(mixed(patches_.seed, key.part), key.face_side);
 }
 
-std::uint32_t NearSources::sender_at(const std::array<glm::vec3, 4>& corners) const
+std::optional<std::uint32_t> NearSources::sender_at(const std::array<glm::vec3, 4>& corners) const
 {
-    return patch_at(patches_, point_in(corners, 0.5f, 0.5f), front_of(corners)).value_or(0);
+    return patch_at(patches_, point_in(corners, 0.5f, 0.5f), front_of(corners));
 }
 
 NearGuess NearSources::guess(NearSourceKey key) const
@@ -100,18 +100,20 @@ NearGuess NearSources::guess(NearSourceKey key) const
     NearGuess guess{key, {}};
     std::array<NearMeets, static_cast<std::size_t>(kRays / kGuessEvery)> met{};
     std::size_t lost = 0;
-    std::array<glm::vec3, 4> corners;
+    std::optional<std::uint32_t> sender;
     for (;;) {
-        corners = corners_at(guess.shown);
+        const auto corners = corners_at(guess.shown);
+        sender = sender_at(corners);
         lost = 0;
         for (std::size_t k = 0; k < met.size(); ++k) {
             met[k] = near_meets(patches_, tracer_, corners, static_cast<int>(k) * kGuessEvery, kRays,
                                 hash_of(guess.shown));
             lost += met[k].inside ? 1 : 0;
         }
-        if (lost < met.size() || guess.shown.part == NearSourceKey::kWhole) break;
+        if ((sender && lost < met.size()) || guess.shown.part == NearSourceKey::kWhole) break;
         guess.shown = wider(guess.shown);
     }
+    if (!sender) return guess;
     // What glows is judged by materials: a strip beside a lit pane has half of the pane's light, where the patch of both is
     // the mean of a pane and its frame.
     const float share = lost < met.size() ? kGuessAlbedo / static_cast<float>(met.size() - lost) : 0.0f;
@@ -121,11 +123,10 @@ NearGuess NearSources::guess(NearSourceKey key) const
         arrives += near ? glow_of(triangles_, m.triangle) : 0.0f;
     }
     guess.sent.push_back(glow_of(triangles_, faces_.faces[key.face()].triangles[0]) + share * arrives);
-    const std::uint32_t sender = sender_at(corners);
     for (const NearHint& hint : hints_) {
         float falls = 0.0f;
         for (const NearMeets& m : met) falls += m.id < patches_.count ? hint.radiosity[m.id] : 0.0f;
-        guess.sent.push_back(hint.radiosity[sender] + share * falls);
+        guess.sent.push_back(hint.radiosity[*sender] + share * falls);
     }
     return guess;
 }
@@ -164,7 +165,7 @@ NearSource NearSources::traced(NearSourceKey shown) const
     NearSource source;
     const std::uint64_t hash = hash_of(shown);
     source.corners = corners_at(shown);
-    source.sender = sender_at(source.corners);
+    source.sender = sender_at(source.corners).value();
     std::array<std::uint32_t, NearLinks::kLinks> met{};
     std::vector<glm::vec3> points;  // where it shows
     std::vector<std::size_t> inside;

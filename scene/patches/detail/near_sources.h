@@ -5,6 +5,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ struct NearSource {
 /// What a source may send, by a few rays: by what glows and is near, and under each hint.
 struct NearGuess {
     NearSourceKey shown;  ///< the piece, or the least around it that is not all inside a body
-    std::vector<float> sent;
+    std::vector<float> sent;  ///< empty where no patch is near
 };
 
 class NearSources {
@@ -64,7 +65,7 @@ private:
     std::array<glm::vec3, 4> corners_at(NearSourceKey key) const;
     NearSourceKey wider(NearSourceKey key) const;
     std::uint64_t hash_of(NearSourceKey key) const;
-    std::uint32_t sender_at(const std::array<glm::vec3, 4>& corners) const;
+    std::optional<std::uint32_t> sender_at(const std::array<glm::vec3, 4>& corners) const;
     void trace_sky(NearSource& source, std::span<const glm::vec3> points, std::uint64_t hash, bool up) const;
     void near_glow(NearSource& source, const std::array<std::uint32_t, NearLinks::kLinks>& met) const;
 
