@@ -479,6 +479,7 @@ void main()
                 AMBIENT_OCCLUSION != 0u ? texelFetch(occlusion_map, texel, 0).r : 1.0;
             const Ambient around = ambient_light(p, g.base_normal, m.occlusion, screen, view_m, texel);
             const vec3 seen = around.mirrored;
+            const ProbesHere probed = probes_here(p, around);
             const float sky_open = around.open;
             const float nv = clamp(dot(n, v), 0.0, 1.0);
             Surroundings s;
@@ -522,7 +523,7 @@ void main()
                 mirror = vec4(coat, closed);
                 shape = vec4(octahedral_encode(p.layers.other_normal), p.layers.coat_roughness, sky_open);
             } else if (p.layers.coat > 0.0) {
-                blurred = coat * rough_mirror(p, around, p.layers.other_normal, p.layers.coat_roughness);
+                blurred = coat * rough_mirror(p, around, probed, p.layers.other_normal, p.layers.coat_roughness);
                 radiance += blurred;
             }
             const bool filmed = FILM != 0u && !coated && film.roughness < kMirrorRoughness &&
@@ -531,7 +532,7 @@ void main()
                 mirror = vec4(film_mirror, closed);
                 shape = vec4(octahedral_encode(film.normal), film.roughness, sky_open);
             } else if (FILM != 0u) {
-                const vec3 over = film_mirror * rough_mirror(p, around, film.normal, film.roughness);
+                const vec3 over = film_mirror * rough_mirror(p, around, probed, film.normal, film.roughness);
                 radiance += over;
                 blurred += over;
             }
@@ -539,7 +540,7 @@ void main()
                 mirror = vec4(reflected.mirror, closed);
                 shape = vec4(octahedral_encode(mirror_normal), p.roughness, sky_open);
             } else {
-                const vec3 base = reflected.mirror * rough_mirror(p, around, mirror_normal, p.roughness);
+                const vec3 base = reflected.mirror * rough_mirror(p, around, probed, mirror_normal, p.roughness);
                 radiance += base;
                 blurred += base;
             }

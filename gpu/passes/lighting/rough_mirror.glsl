@@ -3,59 +3,82 @@
 #ifndef PETRICHOR_LIGHTING_ROUGH_MIRROR_GLSL
 #define PETRICHOR_LIGHTING_ROUGH_MIRROR_GLSL
 
-// The share of each probe at a place, as probes_around() has it; all of them: how much probes count there.
-struct ProbeShares {
-    float of[LIGHTING_MOST_PROBES];
-    float all;
+// All of it is told out, with numbers for indices: a CPU's driver reads arrays by number at a tenth of the price.
+#define EACH_PROBE(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u) DO(6u) DO(7u)
+
+// The probes at a place, and what the place gets of their light.
+struct ProbesHere {
+    vec4 bands[kHarmonics];
+    float share;  // how much they count
+    vec3 here;    // light of the place over that of a matt surface at the probes
 };
 
-ProbeShares probe_shares(vec3 position)
-{
-    ProbeShares s;
-    s.all = 0.0;
-    vec3 heaviest = vec3(0.0);
-    for (uint i = 0u; i < PROBES; ++i) {
-        const float share = reflection_probe_share(position, probes[i].low.xyz, probes[i].high.xyz, probes[i].low.w);
-        const float weight = reflection_probe_weight(share, probes[i].centre.w, position - probes[i].centre.xyz);
-        s.of[i] = weight;
-        s.all = max(s.all, share);
-        const float second = min(weight, heaviest.x);
-        heaviest.z = max(heaviest.z, min(second, heaviest.y));
-        heaviest.y = max(heaviest.y, second);
-        heaviest.x = max(heaviest.x, weight);
-    }
-    const vec2 two = reflection_probe_blend(heaviest);
-    const float scale = two.x / max(heaviest.x - 0.98 * heaviest.z, 1.0e-20);
-    for (uint i = 0u; i < PROBES; ++i)
-        s.of[i] = s.of[i] >= heaviest.y ? max(s.of[i] - 0.98 * heaviest.z, 0.0) * scale : 0.0;
-    return s;
-}
-
 // rgb: light of surfaces in a lobe about d, a: how much sky; at alpha 1 that of a matt surface.
-vec4 probed_lobe(ProbeShares s, vec3 d, float alpha)
+vec4 probed_lobe(ProbesHere s, vec3 d, float alpha)
 {
-    vec4 sum = vec4(0.0);
-    for (int k = 0; k < kHarmonics; ++k) {
-        vec4 band = vec4(0.0);
-        for (uint i = 0u; i < PROBES; ++i) band += probes[i].bands[k] * s.of[i];
-        sum += band * (harmonic(k, d) * ggx_band(k, alpha));
-    }
+    const vec4 first = s.bands[1] * harmonic(1, d) + s.bands[2] * harmonic(2, d) + s.bands[3] * harmonic(3, d);
+    const vec4 second = s.bands[4] * harmonic(4, d) + s.bands[5] * harmonic(5, d) + s.bands[6] * harmonic(6, d) +
+                        s.bands[7] * harmonic(7, d) + s.bands[8] * harmonic(8, d);
+    const vec4 sum = s.bands[0] * harmonic(0, d) + first * ggx_band(1, alpha) + second * ggx_band(4, alpha);
     return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
 
-vec3 rough_mirror(LitPoint p, Ambient around, vec3 normal, float roughness)
+ProbesHere probes_here(LitPoint p, Ambient around)
+{
+    ProbesHere s;
+    s.share = 0.0;
+    s.here = vec3(1.0);
+    if (PROBES == 0u) return s;
+    // Shares as probes_around() has them.
+    float weights[LIGHTING_MOST_PROBES];
+    vec3 heaviest = vec3(0.0);
+#define WEIGH(I)                                                                                                      \
+    if (PROBES > I) {                                                                                                 \
+        const float share =                                                                                           \
+            reflection_probe_share(p.position, probes[I].low.xyz, probes[I].high.xyz, probes[I].low.w);               \
+        const float weight = reflection_probe_weight(share, probes[I].centre.w, p.position - probes[I].centre.xyz);   \
+        weights[I] = weight;                                                                                          \
+        s.share = max(s.share, share);                                                                                \
+        const float second = min(weight, heaviest.x);                                                                 \
+        heaviest.z = max(heaviest.z, min(second, heaviest.y));                                                        \
+        heaviest.y = max(heaviest.y, second);                                                                         \
+        heaviest.x = max(heaviest.x, weight);                                                                         \
+    }
+    EACH_PROBE(WEIGH)
+#undef WEIGH
+    const vec2 two = reflection_probe_blend(heaviest);
+    const float scale = two.x / max(heaviest.x - 0.98 * heaviest.z, 1.0e-20);
+    for (int k = 0; k < kHarmonics; ++k) s.bands[k] = vec4(0.0);
+#define ADD(I)                                                                                                \
+    if (PROBES > I) {                                                                                         \
+        const float share = weights[I] >= heaviest.y ? max(weights[I] - 0.98 * heaviest.z, 0.0) * scale : 0.0; \
+        s.bands[0] += probes[I].bands[0] * share;                                                             \
+        s.bands[1] += probes[I].bands[1] * share;                                                             \
+        s.bands[2] += probes[I].bands[2] * share;                                                             \
+        s.bands[3] += probes[I].bands[3] * share;                                                             \
+        s.bands[4] += probes[I].bands[4] * share;                                                             \
+        s.bands[5] += probes[I].bands[5] * share;                                                             \
+        s.bands[6] += probes[I].bands[6] * share;                                                             \
+        s.bands[7] += probes[I].bands[7] * share;                                                             \
+        s.bands[8] += probes[I].bands[8] * share;                                                             \
+    }
+    EACH_PROBE(ADD)
+#undef ADD
+    const vec4 matt = probed_lobe(s, p.normal, 1.0);
+    const vec3 there = matt.rgb + sky_irradiance(p.normal) * matt.a;
+    s.here = clamp(around.unhidden / max(there, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
+    return s;
+}
+
+vec3 rough_mirror(LitPoint p, Ambient around, ProbesHere probed, vec3 normal, float roughness)
 {
     const vec3 ray = reflect(-p.view, normal);
     const float lod = roughness * float(SKY_PREFILTER_MIPS - 1);
     const vec3 sky = textureLod(specular_map, ray, lod).rgb;
     const vec3 even = sky * around.mirrored;
     if (PROBES == 0u) return even;
-    const ProbeShares shares = probe_shares(p.position);
-    const vec4 lobe = probed_lobe(shares, rough_mirror_direction(normal, ray, roughness), roughness * roughness);
-    const vec4 matt = probed_lobe(shares, p.normal, 1.0);
-    const vec3 there = matt.rgb + sky_irradiance(p.normal) * matt.a;
-    const vec3 here = clamp(around.unhidden / max(there, vec3(1.0e-6)), vec3(0.0), vec3(2.0));
-    return mix(even, (lobe.rgb + sky * lobe.a) * here, shares.all);
+    const vec4 lobe = probed_lobe(probed, rough_mirror_direction(normal, ray, roughness), roughness * roughness);
+    return mix(even, (lobe.rgb + sky * lobe.a) * probed.here, probed.share);
 }
 
 #endif
