@@ -437,7 +437,9 @@ TEST(PatchLookup, GroundAroundAThingHasNoSquareOfOtherLight)
             const glm::vec3 x(r * std::cos(angle), 0.0f, r * std::sin(angle));
             const float found = light_at(looked.lit, x, {0, 1, 0}).irradiance.x;
             EXPECT_NEAR(found, there(x), 0.06f) << turn << " " << r;
-            if (before > 0.0f) EXPECT_NEAR(found, before, 0.02f) << turn << " " << r;
+            if (before > 0.0f) {
+                EXPECT_NEAR(found, before, 0.02f) << turn << " " << r;
+            }
             before = found;
         }
     }
