@@ -360,7 +360,7 @@ void add_render(CLI::App& app, std::vector<std::string> words)
         ->group(weather);
     command
         ->add_option("--from", o->from,
-                     "where in the file the film begins: 2005-12-01T06:00, 12-01, or seconds")
+                     "where in the file the film begins, by the clock of its place: 2005-12-01T06:00, 12-01, or seconds")
         ->group(weather);
     command->add_option("--to", o->to, "and where it ends (the last row)")->group(weather);
     command

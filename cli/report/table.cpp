@@ -37,16 +37,8 @@ double shown_value(const SimulationTable& table, std::size_t column, double valu
 // "2005-12-01T06:00:00Z", by another clock "2005-12-01T06:00:00-07:00".
 std::string stamp(const SimulationTable& table, double time_s)
 {
-    std::string text = weather::iso_from_us(
-        table.utc_start_us +
-        static_cast<std::int64_t>(std::llround((time_s + table.utc_offset_s) * 1e6)));
-    const int minutes = static_cast<int>(std::lround(table.utc_offset_s / 60.0));
-    if (minutes == 0) return text;
-    char offset[16];
-    std::snprintf(offset, sizeof offset, "%c%02d:%02d", minutes < 0 ? '-' : '+',
-                  std::abs(minutes) / 60, std::abs(minutes) % 60);
-    text.pop_back();
-    return text + offset;
+    return weather::iso_from_us(table.utc_start_us + static_cast<std::int64_t>(std::llround(time_s * 1e6)),
+                                table.utc_offset_s);
 }
 
 ordered_json head_of(const SimulationTable& table)

@@ -63,6 +63,7 @@ WeatherSource from_script(WeatherScript script, std::string name, double end_s)
 struct FileClock {
     std::int64_t start_us = 0, end_us = 0;
     double us_per_second = kHour_us;
+    double offset_s = 0.0;  // ahead of UTC: the clock of the file's place, in which people name times
 
     std::int64_t at(double time_s) const
     {
@@ -74,19 +75,21 @@ struct FileClock {
 FileClock clock_of(const ScenarioWeather& options, const weather::ForcingTable& table)
 {
     const std::int64_t first = table.time_us.front(), last = table.time_us.back();
+    FileClock clock;
+    if (std::isfinite(table.site.utc_offset_h)) clock.offset_s = table.site.utc_offset_h * 3600.0;
     const auto time = [&](const std::string& text, const char* what, std::int64_t otherwise) {
         if (text.empty()) return otherwise;
-        return first + static_cast<std::int64_t>(std::llround(parse_time(text, what, first) * 1e6));
+        return first + static_cast<std::int64_t>(
+                           std::llround(parse_time(text, what, first, clock.offset_s) * 1e6));
     };
-    FileClock clock;
     clock.start_us = time(options.start, "weather start", first);
     clock.end_us = time(options.end, "weather end", last);
     // A month and day that come before the start are those of the next year only if it is there.
     if (clock.start_us < first || clock.start_us >= last || clock.end_us <= clock.start_us ||
         clock.end_us > last) {
-        throw Error("weather: the film goes from " + weather::iso_from_us(clock.start_us) + " to " +
-                        weather::iso_from_us(clock.end_us) + ", the file from " +
-                        weather::iso_from_us(first) + " to " + weather::iso_from_us(last),
+        throw Error("weather: the film goes from " + weather::iso_from_us(clock.start_us, clock.offset_s) + " to " +
+                        weather::iso_from_us(clock.end_us, clock.offset_s) + ", the file from " +
+                        weather::iso_from_us(first, clock.offset_s) + " to " + weather::iso_from_us(last, clock.offset_s),
                     "Give a start (--from) and a later end (--to) inside the file.");
     }
     clock.us_per_second = kHour_us * options.hours_per_second;
@@ -117,9 +120,9 @@ void add_read_notes(const weather::ReadReport& report, std::vector<std::string>&
 void add_clock_notes(const FileClock& clock, const ScenarioWeather& options,
                      const weather::Site& site, std::vector<std::string>& notes)
 {
-    notes.push_back("0 s is " + weather::iso_from_us(clock.start_us) + ", a second is " +
+    notes.push_back("0 s is " + weather::iso_from_us(clock.start_us, clock.offset_s) + ", a second is " +
                     short_number(options.hours_per_second) + " h, until " +
-                    weather::iso_from_us(clock.end_us));
+                    weather::iso_from_us(clock.end_us, clock.offset_s));
     if (!std::isfinite(site.latitude_deg) || !std::isfinite(site.longitude_deg)) {
         notes.emplace_back(
             "the file does not say where it was measured, so the sun does not follow it; give "

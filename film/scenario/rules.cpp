@@ -323,9 +323,8 @@ const std::vector<Rule>& rules()
              s.weather.model = static_cast<WeatherModel>(v.choice({"auto", "artist", "physical"}));
          }},
         {{"weather", "start", "\"01-10\"",
-          "when in the file the clock's 0 s is: ISO 8601, month and day, or seconds; else its "
-          "first "
-          "row"},
+          "when in the file the clock's 0 s is: ISO 8601 (without a zone by the clock of its place), month and "
+          "day, or seconds; else its first row"},
          [](Scenario& s, const TomlValue& v) { s.weather.start = v.text(); }},
         {{"weather", "end", "\"01-12\"", "and when the film ends, unless output.duration_s says"},
          [](Scenario& s, const TomlValue& v) { s.weather.end = v.text(); }},

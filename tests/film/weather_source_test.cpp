@@ -87,6 +87,20 @@ TEST_F(WeatherOfAFile, RunsUnderThePhysicalModelWithItsOwnSunAndSi)
     EXPECT_THAT(january.notes, testing::Contains(HasSubstr("no wind direction")));
 }
 
+// As `simulate` has it: times without a zone are those of the clock at the place.
+TEST_F(WeatherOfAFile, DatesAreByTheClockOfItsPlace)
+{
+    options_.start = "01-08";
+    const std::int64_t utc = *source().at(0.0).utc_us;
+    write_file(place_ / "january.csv", "# utc_offset_h: -7\n" + weather_csv());
+    const WeatherSource west = source();
+    const std::int64_t west_us = *west.at(0.0).utc_us;
+    EXPECT_EQ(west_us - utc, std::int64_t{7} * 3600 * 1000000) << "midnight there";
+    EXPECT_THAT(west.notes, testing::Contains(HasSubstr("0 s is 2020-01-08T00:00:00-07:00")));
+    options_.start = "2020-01-08T07:00Z";
+    EXPECT_EQ(*source().at(0.0).utc_us, west_us) << "a zone of one's own wins";
+}
+
 TEST_F(WeatherOfAFile, AnyMomentIsTheSameInAnyOrder)
 {
     const WeatherSource one = source(), other = source();

@@ -329,4 +329,16 @@ std::string iso_from_us(std::int64_t time_us)
     return std::string(out, static_cast<std::size_t>(n)) + "Z";
 }
 
+std::string iso_from_us(std::int64_t time_us, double offset_s)
+{
+    const auto minutes = static_cast<int>(std::lround(offset_s / 60.0));
+    std::string text = iso_from_us(time_us + std::int64_t{minutes} * 60'000'000);
+    if (minutes == 0) return text;
+    char zone[16];
+    std::snprintf(zone, sizeof zone, "%c%02d:%02d", minutes < 0 ? '-' : '+', std::abs(minutes) / 60,
+                  std::abs(minutes) % 60);
+    text.replace(text.size() - 1, 1, zone);
+    return text;
+}
+
 }  // namespace petrichor::weather

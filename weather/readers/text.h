@@ -70,6 +70,8 @@ std::optional<std::int64_t> us_from_civil(const CivilTime& time);
 std::optional<std::int64_t> us_from_iso(std::string_view text, double default_offset_s = 0.0);
 /// "2005-10-01T06:30:00Z"; fractions of a second only when there are any.
 std::string iso_from_us(std::int64_t time_us);
+/// The same on a clock ahead of UTC by whole minutes: "2005-10-01T07:30:00+01:00"; Z where it is not.
+std::string iso_from_us(std::int64_t time_us, double offset_s);
 
 }  // namespace petrichor::weather
 
