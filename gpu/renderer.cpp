@@ -538,7 +538,9 @@ std::optional<float> Renderer::meter(const Frame& frame)
     check_frame(frame, impl_->device.limits());
     if (!impl_->scene) throw Error("render: no scene is loaded", "Call load() before meter().");
     const RenderResult result = impl_->render(metering_frame(frame), impl_->metering);
-    return metered_ev100(result.beauty, result.aovs.front().pixels);
+    // Of the sky of a picture nothing is known.
+    const bool computed = !impl_->environment && frame.sky.analytic_sun;
+    return metered_ev100(result.beauty, result.aovs.front().pixels, computed ? frame.sky.cloud_cover : 1.0f);
 }
 
 const DeviceInfo& Renderer::device() const

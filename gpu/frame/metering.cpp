@@ -20,6 +20,8 @@ constexpr std::uint64_t kSurface = 4;
 constexpr std::uint64_t kSky = 1;
 constexpr float kSnowStops = 1.3f;
 constexpr float kDayEv100 = 10.0f, kNightEv100 = 4.0f;
+constexpr float kClear = 0.3f, kOvercast = 0.9f;
+constexpr float kInTheSun = 0.4f;  // of flat_stops() that is left under a clear sky; by eye
 
 // 2^(k/8) / 2: where a mantissa of 0.5..1 passes into the next eighth of a stop.
 constexpr std::array<float, kStepsAStop> kEighths{0.5f,         0.545253866f, 0.594603558f,
@@ -63,7 +65,7 @@ Frame metering_frame(const Frame& frame)
 }
 
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
-                                   std::span<const float> snow)
+                                   std::span<const float> snow, float cloud)
 {
     std::array<std::uint64_t, kStops * kStepsAStop> counts{};
     std::uint64_t total = 0;
@@ -103,7 +105,9 @@ std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
     const double above = (static_cast<double>(bright) + 0.5 - steps) / kStepsAStop;
     const auto share = static_cast<float>(static_cast<double>(white) / (255.0 * static_cast<double>(total)));
     const float day = std::clamp((ev100 - kNightEv100) / (kDayEv100 - kNightEv100), 0.0f, 1.0f);
-    return ev100 - (kSnowStops * share + shared::flat_stops(static_cast<float>(above))) * day;
+    const float grey =
+        kInTheSun + (1.0f - kInTheSun) * std::clamp((cloud - kClear) / (kOvercast - kClear), 0.0f, 1.0f);
+    return ev100 - (kSnowStops * share + grey * shared::flat_stops(static_cast<float>(above))) * day;
 }
 
 }  // namespace petrichor::gpu

@@ -24,12 +24,14 @@ Frame metering_frame(const Frame& frame);
 ///
 /// What is flat, where the brightest 5 % are less than two stops above that mean, is metered lower by
 /// flat_stops() of formulas/light/exposure.h, by day; below EV100 10 less, from 4 on not at all: a night
-/// stays a night.
+/// stays a night. Under less than nine tenths of cloud it is less, too, and from three on 0.4 of it: a plain in
+/// the sun is even, and no grey day.
 ///
 ///   snow  0..1 of each pixel, none: no snow. A meter takes white for grey; as a photographer adds a stop or two for a
 ///         snow field, what is metered falls by 1.3 stops times the share of the surfaces that is snow, by day, too.
+///   cloud  0..1 of the sky
 std::optional<float> metered_ev100(const std::vector<std::uint16_t>& beauty,
-                                   std::span<const float> snow = {});
+                                   std::span<const float> snow = {}, float cloud = 1.0f);
 
 }  // namespace petrichor::gpu
 

@@ -115,6 +115,22 @@ TEST(Metering, FlatDaysAreExposedMore)
     EXPECT_LE(over(0.5f), over(1.5f));
 }
 
+// A plain in the sun is as even as a grey day, and is no grey day.
+TEST(Metering, WhatIsFlatUnderAClearSkyIsHardlyExposedMore)
+{
+    std::vector<std::uint16_t> picture;
+    add_pixels(picture, 1000, 1000.0f);
+    const float is = shared::ev100_of_luminance(1000.0f);
+    EXPECT_NEAR(*metered_ev100(picture, {}, 0.0f), is - 0.4f, 0.0626f);
+    EXPECT_NEAR(*metered_ev100(picture, {}, 1.0f), is - 1.0f, 0.0626f);
+    float before = is + 1.0f;
+    for (int k = 0; k <= 20; ++k) {
+        const float now = *metered_ev100(picture, {}, 0.05f * static_cast<float>(k));
+        EXPECT_LE(now, before);
+        before = now;
+    }
+}
+
 TEST(Metering, NothingToSeeIsNoNumber)
 {
     std::vector<std::uint16_t> black;
