@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <queue>
 #include <unordered_map>
 #include <utility>
 
@@ -13,6 +10,7 @@
 #include "formulas/noise/noise.h"
 #include "formulas/weather/surface_weather.h"
 #include "scene/snow/detail/borders.h"
+#include "scene/snow/detail/settle.h"
 #include "scene/subdivide/subdivide.h"
 
 namespace petrichor::scene {
@@ -36,18 +34,6 @@ constexpr float kAlong_m = 0.2f;
 constexpr float kTrack_m = 0.05f;     // edges where the snow is trodden
 constexpr float kBridge_m = 0.018f;   // caps reach so far into walls and over joints
 constexpr int kSpread = 12;           // edges that a support is told over
-constexpr float kRepose = 1.0f;       // tangent of 45 degrees: dry snow
-constexpr float kShoulder = 0.4f;     // height of what stands upright at a level edge, over the half width below
-constexpr float kRounded = 0.6f;      // what is left of a heap at repose that the wind has rounded
-constexpr int kSmoothed = 24;         // passes over the neighbours, by which snow forgets the stones below
-constexpr float kFill_m = 0.02f;      // of relief, up or down
-constexpr float kJoined_m = 0.35f;    // between vertices of two surfaces, along and across their joint
-constexpr float kJoinedStep_m = 0.05f;
-constexpr float kFarFromEdges_m = 0.4f;
-constexpr float kLaid_m = 0.06f;      // a lid on the ground stands at most so far over it
-constexpr float kDips_m = 0.03f;      // its snow goes under that of the ground so far at its rim ..
-constexpr float kDipWidth_m = 0.14f;  // .. from there on
-constexpr float kSticks_m = 0.012f;   // what holds on any slope
 
 float nearest_eye_m(const SnowCapOptions& options, const vec3& p)
 {
@@ -365,176 +351,6 @@ void find_supports(SnowCaps& caps, const CutMesh& mesh)
     }
 }
 
-// Points of neighbouring surfaces that snow lies over as one, though no vertex is shared: a kerb and the bed behind it,
-// a manhole's lid and the setts around it.
-struct Joint {
-    std::uint32_t here, beyond;
-    float apart_m;  // in plan
-};
-
-std::vector<Joint> joints_of(const SnowCaps& caps)
-{
-    const auto cell_of = [](const vec3& at) {
-        return std::pair(static_cast<int>(std::floor(at.x / kJoined_m)), static_cast<int>(std::floor(at.z / kJoined_m)));
-    };
-    std::map<std::pair<int, int>, std::vector<std::uint32_t>> cells;
-    const auto count = static_cast<std::uint32_t>(caps.points.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const SnowCaps::Point& point = caps.points[i];
-        // At a border that is closed.
-        if (glm::length(point.bridge_m) > 0.0f && point.gap_m > 1.0f) cells[cell_of(point.base_m)].push_back(i);
-    }
-    std::vector<Joint> joints;
-    for (const auto& [cell, points] : cells) {
-        for (int k = 0; k < 9; ++k) {
-            const auto near = cells.find({cell.first + k % 3 - 1, cell.second + k / 3 - 1});
-            if (near == cells.end()) continue;
-            for (const std::uint32_t i : points) {
-                for (const std::uint32_t other : near->second) {
-                    const vec3 way = caps.points[other].base_m - caps.points[i].base_m;
-                    const float apart = glm::length(vec2(way.x, way.z));
-                    if (other == i || apart > kJoined_m || std::abs(way.y) > kJoinedStep_m) continue;
-                    // Those across the joint: the border of the other surface looks back.
-                    if (glm::dot(caps.points[i].bridge_m, caps.points[other].bridge_m) >= 0.0f) continue;
-                    joints.push_back({i, other, apart});
-                }
-            }
-        }
-    }
-    return joints;
-}
-
-// How far points are from the rim of what lies on ground that goes on below it, as a manhole's lid: 0 at its rim, far for
-// all others. There are two sheets of snow, which would meet in a hair line.
-std::vector<float> rims_on_ground(const SnowCaps& caps, const std::vector<bool>& joined, const Tracer& tracer)
-{
-    std::vector<float> away(caps.points.size(), kDipWidth_m);
-    for (std::size_t i = 0; i < caps.points.size(); ++i) {
-        const SnowCaps::Point& point = caps.points[i];
-        const float length = glm::length(point.bridge_m);
-        if (!(length > 0.0f) || point.gap_m < 1.0f || joined[i]) continue;
-        const vec2 in = point.bridge_m * (-0.02f / length);
-        const vec3 below = point.base_m + vec3(in.x, -0.002f, in.y);
-        if (tracer.blocked({below, vec3(0.0f, -1.0f, 0.0f), kLaid_m})) away[i] = 0.0f;
-    }
-    return away;
-}
-
-// Deep snow fills joints and hides the crowns of stones: the heights of points, smoothed among neighbours, those beyond
-// a joint too: at a border that has none the snow ends at its wall.
-void fill_relief(SnowCaps& caps, const CutMesh& mesh, const std::vector<Joint>& joints, const Tracer& tracer)
-{
-    const std::size_t count = caps.points.size();
-    // Near an open edge the angle of repose makes both sides of a joint one sheet by itself (hold_by_repose).
-    std::vector<Joint> level;
-    std::vector<bool> joined(count, false);
-    for (const Joint& joint : joints) {
-        joined[joint.here] = true;
-        if (std::min(caps.points[joint.here].edge_m, caps.points[joint.beyond].edge_m) > kFarFromEdges_m)
-            level.push_back(joint);
-    }
-    std::vector<bool> smoothed(count, false);
-    for (const Joint& joint : level) smoothed[joint.here] = true;
-    std::vector<float> height(count);
-    for (std::size_t i = 0; i < count; ++i) height[i] = caps.points[i].base_m.y;
-    for (int pass = 0; pass < kSmoothed; ++pass) {
-        std::vector<float> sum(height), weight(count, 1.0f);
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = mesh.points[i][p.indices[k]];
-                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-                const float share = std::min(0.05f / std::max(glm::distance(caps.points[a].base_m,
-                                                                            caps.points[b].base_m), 0.02f), 1.0f);
-                sum[a] += share * height[b];
-                weight[a] += share;
-                sum[b] += share * height[a];
-                weight[b] += share;
-            }
-        }
-        for (const Joint& joint : level) {
-            const float share = std::min(0.05f / std::max(joint.apart_m, 0.02f), 1.0f);
-            sum[joint.here] += share * height[joint.beyond];
-            weight[joint.here] += share;
-        }
-        for (std::size_t i = 0; i < count; ++i) height[i] = sum[i] / weight[i];
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        SnowCaps::Point& point = caps.points[i];
-        const float inside = shared::smooth_edge(0.05f, 0.25f, point.edge_m) *
-                             (glm::length(point.bridge_m) > 0.0f && !smoothed[i] ? 0.0f : 1.0f);
-        point.fill_m = inside * std::clamp(height[i] - point.base_m.y, -kFill_m, kFill_m);
-    }
-    // Along the surface: the ground beside the lid keeps its height.
-    std::vector<float> away = rims_on_ground(caps, joined, tracer);
-    for (int pass = 0; pass < kSpread; ++pass) {
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const Primitive& p = mesh.primitives[i];
-            for (std::size_t k = 0; k < p.indices.size(); ++k) {
-                const std::uint32_t a = mesh.points[i][p.indices[k]];
-                const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-                const float length = glm::distance(caps.points[a].base_m, caps.points[b].base_m);
-                away[a] = std::min(away[a], away[b] + length);
-                away[b] = std::min(away[b], away[a] + length);
-            }
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const float dip = 1.0f - shared::smooth_edge(0.0f, kDipWidth_m, away[i]);
-        caps.points[i].fill_m -= dip * (kDips_m + std::max(caps.points[i].fill_m, 0.0f));
-    }
-}
-
-// Snow slides off where its own surface would be steeper than repose, from the edges on: round things carry
-// what lies on their crown and little at their sides.
-void hold_by_repose(SnowCaps& caps, const CutMesh& mesh, const std::vector<vec3>& normals,
-                    const std::vector<Joint>& joints)
-{
-    const std::size_t count = caps.points.size();
-    std::vector<std::vector<std::pair<std::uint32_t, float>>> beside(count);
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        const Primitive& p = mesh.primitives[i];
-        for (std::size_t k = 0; k < p.indices.size(); ++k) {
-            const std::uint32_t a = mesh.points[i][p.indices[k]];
-            const std::uint32_t b = mesh.points[i][p.indices[k % 3 == 2 ? k - 2 : k + 1]];
-            const vec3 way = caps.points[a].base_m - caps.points[b].base_m;
-            const float rise = kRepose * glm::length(vec2(way.x, way.z));
-            beside[a].emplace_back(b, rise);
-            beside[b].emplace_back(a, rise);
-        }
-    }
-    for (const Joint& joint : joints) beside[joint.here].emplace_back(joint.beyond, kRepose * joint.apart_m);
-    // How high the snow may reach: from the lowest edge upwards (Dijkstra 1959), ties by number.
-    std::vector<float> top(count, 1.0e30f), upright(count, 0.0f);
-    using Next = std::pair<float, std::uint32_t>;
-    std::priority_queue<Next, std::vector<Next>, std::greater<>> queue;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const SnowCaps::Point& point = caps.points[i];
-        if (point.edge_m > 1.0e-3f || point.gap_m < 1.0f) continue;
-        const float level = shared::smooth_edge(0.77f, 0.95f, normals[i].y);
-        top[i] = point.base_m.y;
-        upright[i] = kSticks_m + level * kShoulder * point.support_m;
-        queue.emplace(top[i], i);
-    }
-    while (!queue.empty()) {
-        const auto [height, i] = queue.top();
-        queue.pop();
-        if (height > top[i]) continue;
-        for (const auto& [other, rise] : beside[i]) {
-            const float there = height + rise;
-            if (there - caps.points[other].base_m.y > kDeepestSnow_m + 1.0f || there >= top[other]) continue;
-            top[other] = there;
-            upright[other] = upright[i];
-            queue.emplace(there, other);
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        if (top[i] >= 1.0e29f) continue;
-        const float room = std::max(top[i] - caps.points[i].base_m.y, 0.0f);
-        caps.points[i].most_m = upright[i] + kRounded * room;
-    }
-}
-
 }  // namespace
 
 bool holds_snow_body(const Material& m)
@@ -606,9 +422,9 @@ SnowCaps build_snow_caps(const Tracer& tracer, const SnowCapOptions& options)
     }
     fill_points(caps, mesh, edges, closed, options);
     find_supports(caps, mesh);
-    const std::vector<Joint> joints = joints_of(caps);
-    hold_by_repose(caps, mesh, point_normals(mesh), joints);
-    fill_relief(caps, mesh, joints, tracer);
+    const std::vector<detail::Joint> joints = detail::joints_of(caps);
+    detail::hold_by_repose(caps, mesh, point_normals(mesh), joints);
+    detail::fill_relief(caps, mesh, joints, tracer);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         Primitive& p = mesh.primitives[i];
         SnowCaps::Part part;
