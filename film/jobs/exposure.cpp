@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <string>
 
 #include "formulas/light/exposure.h"
 
@@ -69,6 +70,26 @@ std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job)
     if (jobs.empty()) return {{job, 1.0}};  // a frame outside of the sequence
     for (MeteredJob& one : jobs) one.weight /= sum;
     return jobs;
+}
+
+std::vector<std::string> smoothing_notes(const Sequence& sequence)
+{
+    std::vector<std::string> notes;
+    for (const SequenceVariant& variant : sequence.variants) {
+        for (const ScenarioView& view : sequence.views) {
+            if (view.camera.exposure_mode != Exposure::Auto) continue;
+            if (view.camera.exposure_smoothing_s <= ScenarioCamera{}.exposure_smoothing_s) continue;
+            const int asked = static_cast<int>(std::lround(view.camera.exposure_smoothing_s * sequence.scenario.output.fps));
+            const int taken = neighbours(sequence, {0, variant.name, view.name});
+            if (taken >= std::min(asked, kMostNeighbours)) continue;
+            notes.push_back("exposure is smoothed over " + std::to_string(taken) + " frames on each side, not the " +
+                            std::to_string(asked) + " of exposure_smoothing_s: at most an eighth of the frames, and half an "
+                            "hour of a weather file");
+        }
+    }
+    std::sort(notes.begin(), notes.end());
+    notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
+    return notes;
 }
 
 MeteredSetting metered_setting(const ScenarioCamera& camera, const std::vector<MeteredJob>& jobs,

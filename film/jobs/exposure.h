@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "film/frames/frames_jsonl.h"
@@ -28,6 +29,10 @@ struct MeteredJob {
 /// (every frame where n is less), weighted by cos^2(pi k / (2 (n + 1))). A step of brightness so
 /// spreads over 2 n + 1 frames, and no frame depends on how it was reached.
 std::vector<MeteredJob> metered_jobs(const Sequence& sequence, const Job& job);
+
+/// What to say where the sequence is too short, or its frames too far apart, for the exposure_smoothing_s that a camera
+/// asks for beyond the default; nothing else.
+std::vector<std::string> smoothing_notes(const Sequence& sequence);
 
 /// EV100 to set for what those frames were metered to (black ones: nothing, left out), and that
 /// mean itself. Within the camera's limits; the lower one when all are black.

@@ -200,6 +200,7 @@ void render_frames(Sequence& sequence, const RenderRequest& request,
                    const std::vector<Pending>& pending, RenderReport& report, RenderTally& tally)
 {
     const ScenarioOutput& output = sequence.scenario.output;
+    for (std::string& note : smoothing_notes(sequence)) report.notes.push_back(std::move(note));
     // Before the scene loses its images.
     ScenePlaces places(sequence, request.threads, request.stop, tracing_progress(request),
                        report.notes);

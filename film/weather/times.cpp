@@ -116,7 +116,7 @@ double parse_time(const std::string& text, const std::string& option,
     }
     throw Error(option + ": \"" + text +
                     "\" is neither seconds nor a date as 2005-12-01, 2005-12-01T06:00 or 12-01",
-                "The weather begins at " + weather::iso_from_us(*start_us) + ".");
+                "The weather begins at " + weather::iso_from_us(*start_us, offset_s) + ".");
 }
 
 }  // namespace petrichor::film

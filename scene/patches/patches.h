@@ -49,7 +49,7 @@ struct PatchOptions {
 /// other and the sky. Weather, light and albedo are not in it.
 ///
 /// Cells of a grid, by the axis that their surface faces, in levels: cell(level) = cell(0) * 2^level
-/// metres. A leaf is a patch; a cell that was split is an interior node, kept for lookups. Leaves
+/// metres. Cells are split by what is near them, cells of landscapes by their slopes too. A leaf is a patch; a cell that was split is an interior node, kept for lookups. Leaves
 /// come first, in the order of their keys, then interior nodes, in the order of theirs.
 /// All arrays of leaves have `count` entries, those of nodes `count + interior`.
 struct Patches {

@@ -98,6 +98,16 @@ TEST(MeteredJobs, AFewPicturesOfALongTimeAreExposedEachForItself)
     }
 }
 
+TEST(MeteredJobs, SayWhereLessIsSmoothedThanAsked)
+{
+    const auto notes = [](const char* text) { return smoothing_notes(sequence_of(text)); };
+    const auto short_film = notes("[camera]\nexposure_smoothing_s = 2\n[output]\nfps = 24\nframes = 48\n");
+    ASSERT_EQ(short_film.size(), 1u);
+    EXPECT_NE(short_film[0].find("6 frames on each side, not the 48"), std::string::npos) << short_film[0];
+    EXPECT_TRUE(notes("[camera]\nexposure_smoothing_s = 2\n[output]\nfps = 24\nframes = 480\n").empty());
+    EXPECT_TRUE(notes("[output]\nfps = 24\nframes = 2\n").empty()) << "nobody asked";
+}
+
 TEST(MeteredJobs, SpreadAStepOfLightOverManyFrames)
 {
     const Sequence sequence = sequence_of("[output]\nframes = 40\nfps = 12\n");

@@ -200,6 +200,9 @@ TEST(CsvTimes, TheZoneOfAFileIsItsOwn)
         return std::pair(r.table.time_us.front(), to_text(r.report));
     };
     const std::int64_t six = us_from_iso("2024-02-27T06:00Z").value();
+    EXPECT_TRUE(us_from_iso("2024-02-27T06:00+14:00") && us_from_iso("2024-02-27T06:00-12:00"));
+    for (const char* nowhere : {"2024-02-27T06:00+26:00", "2024-02-27T06:00+02:75", "2024-02-27T06:00-99"})
+        EXPECT_FALSE(us_from_iso(nowhere)) << nowhere;
     const std::int64_t two_h = 7200000000LL;
     const auto has = [](const std::string& text, const char* part) {
         return text.find(part) != std::string::npos;

@@ -303,6 +303,8 @@ std::optional<std::int64_t> us_from_iso(std::string_view text, double default_of
             if (!hours) return std::nullopt;
             skip(':');
             const auto minutes = digits(2);
+            // Clocks of places are -12 to +14 h from UTC.
+            if (*hours > 14 || minutes.value_or(0) > 59) return std::nullopt;
             offset = sign * (*hours * 3600.0 + minutes.value_or(0) * 60.0);
         } else if (text.substr(at) == "UTC" || text.substr(at) == "GMT") {
             at = text.size();

@@ -65,7 +65,7 @@ CivilTime civil_from_us(std::int64_t time_us);
 /// Microseconds since 1970 of a date and time; nothing when the date does not exist (31 April, ..)
 /// or the year is outside 1500..2600. Hour 24 means the end of the day.
 std::optional<std::int64_t> us_from_civil(const CivilTime& time);
-/// ISO 8601 ("2005-10-01T06:30:15.5Z", "+02:00", a blank for T, no seconds, date only), or nothing.
+/// ISO 8601 ("2005-10-01T06:30:15.5Z", "+02:00" up to 14 h, a blank for T, no seconds, date only), or nothing.
 /// A time without a zone is taken as UTC plus `default_offset_s`.
 std::optional<std::int64_t> us_from_iso(std::string_view text, double default_offset_s = 0.0);
 /// "2005-10-01T06:30:00Z"; fractions of a second only when there are any.
