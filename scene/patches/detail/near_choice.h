@@ -3,6 +3,7 @@
 #define PETRICHOR_SCENE_PATCHES_DETAIL_NEAR_CHOICE_H
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
