@@ -191,7 +191,8 @@ LoadedTexture load_prepared(const MipTexture& file, TextureMeaning meaning, Bloc
         std::begin(kDeviceBlocks), std::end(kDeviceBlocks),
         [&](const DeviceBlock& row) { return row.slow && row.block == format.block; });
     const bool made_to_be_decoded = format.block == Block::Uastc;
-    if (!(by_choice && blocks == BlockSupport::Fast) && !made_to_be_decoded) {
+    const bool only_widened = !format.block && format.type == PixelType::U8;  // nothing is lost
+    if (!only_widened && !(by_choice && blocks == BlockSupport::Fast) && !made_to_be_decoded) {
         loaded.notes.push_back("is stored as " + name + ", which this device does not sample for " +
                                (color ? "colour" : "data") + ": read as " + plain.name);
     }

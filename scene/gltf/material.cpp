@@ -215,20 +215,6 @@ TextureUse TextureCollector::use(const JsonObject& parent, std::string_view key)
     return out;
 }
 
-namespace {
-
-// A KTX2 file in the packed form of Basis Universal, ETC1S: supercompression 1. UASTC is read.
-bool is_etc1s(std::span<const std::byte> bytes)
-{
-    static constexpr unsigned char kKtx2[6] = {0xab, 'K', 'T', 'X', ' ', '2'};
-    if (bytes.size() < 48 || std::memcmp(bytes.data(), kKtx2, sizeof kKtx2) != 0) return false;
-    std::uint32_t scheme = 0;
-    std::memcpy(&scheme, bytes.data() + 44, 4);
-    return scheme == 1;
-}
-
-}  // namespace
-
 TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& info)
 {
     const JsonObject json = textures_.object(index);
@@ -247,24 +233,17 @@ TextureIndex TextureCollector::texture(std::uint32_t index, const JsonObject& in
     // understands; WebP may be the only one there is.
     const auto plain = json.index("source", "image", images_.size());
     auto chosen = source_of("MSFT_texture_dds");
-    if (!chosen) {
-        if (const auto ktx2 = source_of("KHR_texture_basisu")) {
-            if (const auto made = image(*ktx2, out, plain.has_value())) return *made;
-            info.warn("index",
-                      "KTX2 with ETC1S is not read; the texture's plain image stands in");
-        }
-    }
+    if (!chosen) chosen = source_of("KHR_texture_basisu");
     if (!chosen) chosen = plain;
     if (!chosen) chosen = source_of("EXT_texture_webp");
     if (!chosen) {
         info.warn("index", "a texture without an image that can be read is left out");
         return kNoTexture;
     }
-    return *image(*chosen, out, false);
+    return image(*chosen, std::move(out));
 }
 
-std::optional<TextureIndex> TextureCollector::image(std::uint32_t index, EncodedImage out,
-                                                    bool has_other)
+TextureIndex TextureCollector::image(std::uint32_t index, EncodedImage out)
 {
     const JsonObject image_json = images_.object(index);
     const std::string uri = image_json.text("uri");
@@ -297,12 +276,6 @@ std::optional<TextureIndex> TextureCollector::image(std::uint32_t index, Encoded
     }
     if (out.bytes.empty()) {
         image_json.fail("", "the image has no bytes", "Put the image in place, or export again.");
-    }
-    if (is_etc1s(out.bytes)) {
-        if (has_other) return std::nullopt;
-        image_json.fail("", "is KTX2 with ETC1S of Basis Universal, which is not read",
-                        "Export the scene with PNG, JPEG or WebP textures, or with KTX2 in UASTC "
-                        "or a block format (BC1 to BC7).");
     }
     const auto made = static_cast<TextureIndex>(scene_.textures.size());
     scene_.textures.push_back(std::move(out));

@@ -33,8 +33,8 @@ public:
 
 private:
     TextureIndex texture(std::uint32_t index, const JsonObject& info);
-    /// The image with the sampler of `out`; nothing for Basis Universal, when there `has_other`.
-    std::optional<TextureIndex> image(std::uint32_t index, EncodedImage out, bool has_other);
+    /// The image with the sampler of `out`.
+    TextureIndex image(std::uint32_t index, EncodedImage out);
 
     GltfSource& source_;
     Scene& scene_;
