@@ -161,8 +161,9 @@ struct Renderer::Impl {
     }
 
     // exposure: as of least_lux().
-    void prepare_lights(const Frame& frame, const Sun& by_day, const Light* sun, float exposure)
+    LightFacts prepare_lights(const Frame& frame, const Sun& by_day, const Light* sun, float exposure)
     {
+        LightFacts facts{.direct = by_day.kind, .towards = by_day.direction, .lux = by_day.illuminance};
         std::vector<Light> lights;
         for (const Light& light : scene->lights()) {
             if (&light == sun || (light.kind == LightKind::Directional && frame.sky.analytic_sun)) {
@@ -178,8 +179,10 @@ struct Renderer::Impl {
             if (!frame.emissive_lights || frame.emissive_scale <= 0.0f) break;
             lights.push_back(glow);
             lights.back().intensity *= frame.emissive_scale;
+            ++facts.glowing;
         }
         lights.insert(lights.end(), frame.extra_lights.begin(), frame.extra_lights.end());
+        facts.lamps = lights.size();
         check_light_lists(device.limits(), lights.size(), frame.settings.width,
                           frame.settings.height);
         light_table = {};
@@ -199,6 +202,7 @@ struct Renderer::Impl {
             };
         }
         light_table = make_light_table(device, *light_arena, lights, params);
+        return facts;
     }
 
     // The linear scale of the frame's display; behind the sky's passes, where it is by the light that falls in.
@@ -474,7 +478,7 @@ RenderResult Renderer::Impl::render(const Frame& frame, TargetSet& set)
         if (probes.count() > 0) result.passes.push_back({"probes", probes.relight_ms()});
     }
     const float exposure = exposure_of(frame);
-    prepare_lights(frame, sun, scene_sun, exposure);
+    result.light = prepare_lights(frame, sun, scene_sun, exposure);
     prepare_targets(set, frame.settings, aov_groups);
     if (prepare_resolve(set, frame)) resources.resolve = &set.resolve;
     if (resources.resolve && prepare_adaptive(set, frame)) resources.adaptive = &set.adaptive;

@@ -37,6 +37,7 @@ struct RenderResult {
     float exposure = 1.0f;              ///< the scale that display used
     std::vector<AovImage> aovs;
     FallingFacts falling;
+    LightFacts light;
     std::vector<PassTime> passes;
     double patch_light_cpu_ms = 0.0;  ///< CPU time of solving the light between surfaces; 0 where it was as before
 };

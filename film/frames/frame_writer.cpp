@@ -70,6 +70,7 @@ WrittenFrame write_frame(const fs::path& folder, const WrittenKinds& kinds, Fram
     facts.beauty_hash = hasher.text();
     facts.exposure = result.exposure;
     facts.falling = result.falling;
+    facts.light = result.light;
     const Metadata metadata{
         {"software", "petrichor " PETRICHOR_VERSION},
         {"petrichor:frame", std::to_string(facts.job.frame) + name_suffix(facts.job)},

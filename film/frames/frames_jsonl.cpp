@@ -82,6 +82,21 @@ Json sun_json(const gpu::Sky& sky)
             {"from_scene", !sky.analytic_sun}};
 }
 
+// What lights the scene besides the sky: direct light as it arrives, behind air and clouds, and the number of lamps.
+Json light_json(const gpu::LightFacts& light)
+{
+    using Direct = gpu::LightFacts::Direct;
+    Json json{{"lamps", light.lamps}, {"glowing", light.glowing}};
+    if (light.direct == Direct::None) return json;
+    const char* of = light.direct == Direct::Sun ? "sun" : light.direct == Direct::Moon ? "moon" : "scene";
+    const float luminance = glm::dot(light.lux, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    json["direct"] = {{"of", of},
+                      {"towards", {shortest(light.towards.x), shortest(light.towards.y), shortest(light.towards.z)}},
+                      {"illuminance_lux", shortest(luminance)},
+                      {"rgb_lux", {shortest(light.lux.r), shortest(light.lux.g), shortest(light.lux.b)}}};
+    return json;
+}
+
 Json moon_json(const gpu::Sky& sky)
 {
     const glm::vec3 towards = gpu::moon_direction(sky);
@@ -195,6 +210,7 @@ std::string frame_line(const FrameFacts& facts)
             {"mean", {shortest(cookie.mean.r), shortest(cookie.mean.g), shortest(cookie.mean.b)}}};
     }
     if (facts.input.sky.moon_lux > 0.0f) json["moon"] = moon_json(facts.input.sky);
+    json["light"] = light_json(facts.light);
     json["sky"] = sky_json(facts.input.sky);
     json["weather"] = weather_json(facts);
     if (facts.falling.per_m3 > 0.0f) json["falling"] = falling_json(facts.falling);

@@ -44,6 +44,7 @@ struct FrameFacts {
     ExposureFacts exposure_by;  ///< what decided it
     gpu::Frame input;
     gpu::FallingFacts falling;  ///< written where something falls
+    gpu::LightFacts light;
     std::map<std::string, double> ground;  ///< sums over the scene's patches, SI; empty: none
     std::map<std::string, FileMark> files;  ///< by name
 };

@@ -353,7 +353,6 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
     result.moment.sun = sun;
     out.sky.sun_elevation_rad = narrow(sun.elevation_rad);
     out.sky.sun_azimuth_rad = narrow(sun.azimuth_rad + north_rad);
-    out.sky.sun_illuminance = narrow(here.sun.illuminance_lux);
     if (const auto cookie = sequence.sun_cookies.find(here.sun.cookie);
         cookie != sequence.sun_cookies.end()) {
         out.sun_cookie = cookie->second;
@@ -366,6 +365,10 @@ SequenceFrame frame_at(const Sequence& sequence, const Job& job)
         out.weather.visibility_m = narrow(value_at(here.fog.visibility_m, time_s));
     result.moment.values = out.weather;
     out.sky.turbidity = narrow(value_at(here.sky.turbidity, time_s, 2.5));
+    out.sky.sun_illuminance = narrow(here.sun.illuminance_lux.value_or(100000.0));
+    if (here.sun.from_scene && !here.sun.illuminance_lux)
+        out.sky.sun_illuminance =
+            illuminance_of_scene(sequence.scene, out.sky).value_or(out.sky.sun_illuminance);
     out.sky.ground_albedo = narrow(here.sky.ground_albedo);
     out.sky.land_as_ground = here.sky.land_as_ground;
     out.sky.environment_scale = narrow(here.sky.environment_scale);

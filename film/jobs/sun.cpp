@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/frame/sun.h"
+
 namespace petrichor::film {
 namespace {
 
@@ -44,6 +46,23 @@ weather::SunAngles sun_at(const ScenarioSun& sun, const scene::Scene& scene,
         direction.azimuth_rad = value_at(sun.azimuth_degrees, time_s) * kDegree;
     }
     return direction;
+}
+
+std::optional<float> illuminance_of_scene(const scene::Scene& scene, const gpu::Sky& sky)
+{
+    const auto light =
+        std::find_if(scene.lights.begin(), scene.lights.end(), [](const scene::Light& l) {
+            return l.kind == scene::LightKind::Directional;
+        });
+    if (light == scene.lights.end()) return std::nullopt;
+    const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
+    const float lux = light->intensity * glm::dot(light->color, weights);
+    if (!(lux > 0.0f)) return std::nullopt;
+    gpu::Sky clear = sky;
+    clear.sun_illuminance = 1.0f;
+    clear.sun_elevation_rad =
+        static_cast<float>(std::max(direction_against(light->direction).elevation_rad, 10.0 * kDegree));
+    return lux / glm::dot(gpu::sunlight_at_ground(clear), weights);
 }
 
 }  // namespace petrichor::film

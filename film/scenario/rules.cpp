@@ -226,7 +226,8 @@ const std::vector<Rule>& rules()
         {{"sun", "day_of_year", "80", "with time_of_day_hours: 1 to 366; 80 is the spring equinox"},
          [](Scenario& s, const TomlValue& v) { s.sun.day_of_year = v.number(1.0, 366.0); }},
         {{"sun", "illuminance_lux", "100000.0",
-          "of a clear sun on a plane that faces it, 0 to 200000"},
+          "of a clear sun on a plane that faces it, 0 to 200000; with source = \"scene\" of the sun of "
+          "the sky, which otherwise is as bright as the scene's"},
          [](Scenario& s, const TomlValue& v) { s.sun.illuminance_lux = v.number(0.0, 200000.0); }},
         {{"sun", "cookie", "\"leaves.png\"",
           "a picture that the sun shines through, repeated: shadows of leaves, bars, clouds; black "

@@ -81,7 +81,7 @@ struct ScenarioSun {
     KeyedNumber time_of_day_hours;  ///< local solar time
     double latitude_degrees = 50.0;
     double day_of_year = 80.0;
-    double illuminance_lux = 100000.0;
+    std::optional<double> illuminance_lux;  ///< not given: as the scene's sun is where that shines, else 100000
     std::string cookie;             ///< a picture before it, relative to the scenario; empty: none
     KeyedNumber cookie_size_m;      ///< of the picture on a plane that faces the sun
     bool yields = false;  ///< to the sun of keys: a preset named on the command line brings its own

@@ -168,6 +168,16 @@ struct FallingFacts {
     float visibility_m = 0.0f;
 };
 
+/// What lights a frame, besides the sky.
+struct LightFacts {
+    enum class Direct { None, Sun, Moon, Scene };
+    Direct direct = Direct::None;  ///< the strongest that comes from one direction; Scene: a light of the scene
+    glm::vec3 towards{0.0f, 1.0f, 0.0f};
+    glm::vec3 lux{0.0f};           ///< red, green, blue of linear sRGB, on a plane that faces it, behind air and clouds
+    std::size_t lamps = 0;         ///< all others that are lit, wherever they are
+    std::size_t glowing = 0;       ///< of them surfaces that glow
+};
+
 /// The lens: every sample looks through another point of it, all of them at the same things in focus.
 /// Labels are those of its middle.
 struct Lens {

@@ -66,15 +66,19 @@ Sun sun_of(const Sky& sky, const Light* scene_sun, bool has_environment)
         sun.illuminance = sunlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
         sun.disc = !has_environment;
         sun.analytic = !has_environment;
+        sun.kind = LightFacts::Direct::Sun;
         if (sun.illuminance == glm::vec3(0.0f) && !has_environment && sky.sun_elevation_rad < 0.0f) {
             sun.direction = moon_direction(sky);
             sun.illuminance = moonlight_at_ground(sky) * cloud_shadow(sky.cloud_cover);
             sun.disc = false;
+            sun.kind = LightFacts::Direct::Moon;
         }
     } else if (scene_sun) {
         sun.direction = -scene_sun->direction;
         sun.illuminance = scene_sun->color * scene_sun->intensity;
+        sun.kind = LightFacts::Direct::Scene;
     }
+    if (sun.illuminance == glm::vec3(0.0f)) sun.kind = LightFacts::Direct::None;
     return sun;
 }
 

@@ -12,6 +12,7 @@ struct Sun {
     glm::vec3 illuminance{0.0f};
     bool disc = false;
     bool analytic = false;  ///< of the analytic sky
+    LightFacts::Direct kind = LightFacts::Direct::None;
 };
 
 /// From the analytic sky, or from `scene_sun` (a directional light) when the frame asks for it.

@@ -63,6 +63,18 @@ TEST(FramesJsonl, SayWhatFallsAndWhatOfItIsDrawn)
                                    "\"drawn_reach_m\":3.5,\"visibility_m\":800.0}"));
 }
 
+TEST(FramesJsonl, SayWhatLightsTheScene)
+{
+    FrameFacts facts = facts_of(1, "a");
+    EXPECT_THAT(frame_line(facts), testing::HasSubstr("\"light\":{\"lamps\":0,\"glowing\":0}"));
+    facts.light = {.direct = gpu::LightFacts::Direct::Moon, .towards = {0.0f, 1.0f, 0.0f},
+                   .lux = glm::vec3(0.25f), .lamps = 3, .glowing = 1};
+    EXPECT_THAT(frame_line(facts),
+                testing::HasSubstr("\"light\":{\"lamps\":3,\"glowing\":1,\"direct\":{\"of\":\"moon\","
+                                   "\"towards\":[0.0,1.0,0.0],\"illuminance_lux\":0.25,"
+                                   "\"rgb_lux\":[0.25,0.25,0.25]}}"));
+}
+
 TEST(FramesJsonl, SayHowAFrameIsExposed)
 {
     FrameFacts facts = facts_of(1, "a");

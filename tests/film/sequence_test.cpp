@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "film/jobs/camera.h"
 #include "film/jobs/sun.h"
+#include "gpu/frame/sun.h"
 
 namespace petrichor::film {
 namespace {
@@ -243,6 +244,30 @@ TEST(SunAt, FollowsTheScenesLightUnlessTold)
     const Scenario told = parse_scenario("[sun]\nelevation_degrees = 10\n", "s.toml");
     EXPECT_NEAR(sun_at(told.sun, scene, {}, 0.0, 0.0).elevation_rad / kDegree, 10.0, 1e-9);
     EXPECT_NEAR(sun_at(told.sun, scene, {}, 0.0, 0.0).azimuth_rad / kDegree, 90.0, 1e-4);
+}
+
+// A sun of 2000 lux under the sky of one of 100 000 would not be seen.
+TEST(SunAt, TheSkyIsAsBrightAsTheScenesSun)
+{
+    Sequence sequence = sequence_of("[sun]\nsource = \"scene\"\n");
+    scene::Light light;
+    light.kind = scene::LightKind::Directional;
+    light.direction = glm::normalize(glm::vec3(-1.0f, -1.0f, 0.0f));
+    light.intensity = 2000.0f;
+    light.color = glm::vec3(1.0f);
+    sequence.scene.lights = {light};
+    const auto ground_lux = [](const gpu::Sky& sky) {
+        return glm::dot(gpu::sunlight_at_ground(sky), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    };
+    EXPECT_NEAR(ground_lux(frame_at(sequence, {0}).frame.sky), 2000.0f, 1.0f);
+    sequence.scene.lights[0].intensity = 0.0f;
+    EXPECT_EQ(frame_at(sequence, {0}).frame.sky.sun_illuminance, 100000.0f);
+    Sequence told = sequence_of("[sun]\nsource = \"scene\"\nilluminance_lux = 300\n");
+    told.scene.lights = {light};
+    EXPECT_EQ(frame_at(told, {0}).frame.sky.sun_illuminance, 300.0f);
+    Sequence sky = sequence_of("");
+    sky.scene.lights = {light};
+    EXPECT_EQ(frame_at(sky, {0}).frame.sky.sun_illuminance, 100000.0f);
 }
 
 }  // namespace

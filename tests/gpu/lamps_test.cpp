@@ -49,6 +49,35 @@ Scene floor_and(std::vector<Primitive> more)
     return scene_of(std::move(all), {grey, grey});
 }
 
+TEST_F(LampTest, AFrameSaysWhatLightsIt)
+{
+    Scene scene = floor_and({});
+    Light sun = lamp({0, 5, 0}, 700.0f);
+    sun.kind = LightKind::Directional;
+    sun.direction = {0, -1, 0};
+    scene.lights = {sun, lamp({0, 2, 0}, 100.0f)};
+    renderer->load(scene, {});
+    Frame frame = from_above();
+    LightFacts light = renderer->render(frame).light;
+    EXPECT_EQ(light.direct, LightFacts::Direct::Scene);
+    EXPECT_EQ(light.lux, glm::vec3(700.0f));
+    EXPECT_EQ(light.lamps, 1u);
+    frame.sky.analytic_sun = true;
+    frame.sky.cloud_cover = 0.0f;
+    light = renderer->render(frame).light;
+    EXPECT_EQ(light.direct, LightFacts::Direct::Sun);
+    EXPECT_GT(light.lux.r, 50000.0f);
+    frame.sky.cloud_cover = 1.0f;
+    EXPECT_EQ(renderer->render(frame).light.direct, LightFacts::Direct::None);
+    frame.sky.cloud_cover = 0.0f;
+    frame.sky.sun_elevation_rad = -0.5f;
+    frame.sky.moon_elevation_rad = 0.5f;
+    frame.sky.moon_lux = 0.3f;
+    light = renderer->render(frame).light;
+    EXPECT_EQ(light.direct, LightFacts::Direct::Moon);
+    EXPECT_LT(light.lux.r, 0.3f);
+}
+
 TEST_F(LampTest, APlateBelowALampThrowsAShadowOfTheRightSize)
 {
     // A plate of 1 m, halfway between the lamp and the floor: a shadow of 2 m.
