@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "weather/physics/constants.h"
 #include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
@@ -105,6 +106,83 @@ void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
                            : "if its times are local, give --file-zone " + std::to_string(-turn))});
 }
 
+// Longwave beside what a black body as warm as the air sends: 0.6 under the driest sky, 0.9 to 1
+// where something falls, whatever the climate.
+void check_longwave(const ForcingTable& table, ReadReport& report)
+{
+    constexpr std::size_t kFew = 48, kFewFalling = 20;
+    constexpr double kLeast = 0.55, kLeastFalling = 0.8, kMost = 1.2, kFalls_kg_m2_s = 0.1 / 3600.0;
+    if (!table.has(Field::Longwave) || !table.has(Field::AirTemp)) return;
+    std::vector<double> all, falling;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double air_k = table[Field::AirTemp][i];
+        const double share = table[Field::Longwave][i] / (kStefanBoltzmann * air_k * air_k * air_k * air_k);
+        if (std::isnan(share)) continue;
+        all.push_back(share);
+        for (const Field f : {Field::Precip, Field::Rain, Field::Snow}) {
+            if (!table.has(f) || !(table[f][i] >= kFalls_kg_m2_s)) continue;
+            falling.push_back(share);
+            break;
+        }
+    }
+    const auto odd = [&](std::vector<double>& shares, std::size_t few, double least, const char* when) {
+        if (shares.size() < few) return false;
+        const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+        std::nth_element(shares.begin(), middle, shares.end());
+        if (*middle >= least && *middle <= kMost) return false;
+        char said[200];
+        std::snprintf(said, sizeof said,
+                      "it is %.2f of what a black body as warm as the air sends%s: it, or the air "
+                      "temperature, has another unit than its name says",
+                      *middle, when);
+        report.add({ReadNote::Kind::Warning, 0, field_info(Field::Longwave).name, said});
+        return true;
+    };
+    if (!odd(falling, kFewFalling, kLeastFalling, " while rain or snow falls"))
+        odd(all, kFew, kLeast, "");
+}
+
+// Light of whole days beside that of a clear sky, whatever the clock of the file is.
+void check_light(const ForcingTable& table, ReadReport& report)
+{
+    constexpr std::size_t kFewDays = 5;
+    constexpr double kFewLight_w_m2 = 30.0, kLeast = 0.1, kMost = 1.6;
+    constexpr std::int64_t kDay_us = 86400LL * 1000000;
+    const Site& site = table.site;
+    if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) || std::isnan(site.longitude_deg))
+        return;
+    const Observer observer(site.latitude_deg, site.longitude_deg);
+    std::vector<double> share;  // of days
+    double light = 0.0, clear = 0.0;
+    std::int64_t day = 0, known_us = 0;
+    for (std::size_t i = 0; i + 1 < table.rows(); ++i) {
+        const std::int64_t us = table.time_us[i], width = table.time_us[i + 1] - us;
+        if (i == 0 || us / kDay_us != day) {
+            if (known_us > kDay_us * 9 / 10 && clear > kFewLight_w_m2 * static_cast<double>(known_us))
+                share.push_back(light / clear);
+            day = us / kDay_us;
+            light = clear = 0.0;
+            known_us = 0;
+        }
+        const double sw = table[Field::Shortwave][i];
+        if (std::isnan(sw) || width > kDay_us / 8) continue;
+        light += sw * static_cast<double>(width);
+        clear += clear_sky_w_m2(SunNear(us, observer).at(us).up) * static_cast<double>(width);
+        known_us += width;
+    }
+    if (share.size() < kFewDays) return;
+    std::sort(share.begin(), share.end());
+    const double most = share.back(), middle = share[share.size() / 2];
+    // A week of thick cloud is as dark as a tenth; a month is not, nor is every other day brighter
+    // than a clear one.
+    const bool dark = most < kLeast, bright = middle > kMost;
+    if (!dark && !bright) return;
+    char said[200];
+    std::snprintf(said, sizeof said, "%s day has more than %.2g of the light of a clear sky: its unit is another than its name says",
+                  dark ? "no" : "every other", dark ? most : middle);
+    report.add({ReadNote::Kind::Warning, 0, field_info(Field::Shortwave).name, said});
+}
+
 }  // namespace
 
 const Reader& recognise_weather(std::string_view text)
@@ -179,6 +257,8 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
     check_sun(result.table, rows.zone_named(), result.report);
+    check_light(result.table, result.report);
+    check_longwave(result.table, result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);
     return result;
 }
