@@ -22,6 +22,7 @@ namespace petrichor::weather {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::string text_of(const std::filesystem::path& file)
 {
@@ -161,6 +162,33 @@ TEST(Uscrn, HourlyAndFiveMinutes)
     const auto fine = sample("uscrn_5min.txt").table;
     EXPECT_NEAR(at(fine, Field::Wind, "2024-01-16T00:05Z"), 1.53, 1e-9);
     EXPECT_NEAR(total(fine, Field::Precip), 0.2, 1e-9);
+}
+
+TEST(Umep, ColumnsOfTheUrbanModels)
+{
+    const auto [table, report] = sample("umep.txt");
+    EXPECT_EQ(report.format, "UMEP");
+    EXPECT_EQ(report.rows, 5u) << "-9 ends the file";
+    EXPECT_EQ(report.bad_rows, 0u);
+    // The 60th day of 2024 is 29 February.
+    const std::string first = "2024-02-29T01:00Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 271.55, 1e-9) << "Td is the air";
+    EXPECT_FALSE(table.has(Field::DewPoint));
+    EXPECT_NEAR(at(table, Field::Pressure, first), 98700.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::Wind, first), 2.4, 1e-9);
+    EXPECT_NEAR(at(table, Field::WindFrom, first), 212.0, 1e-9);
+    EXPECT_TRUE(std::isnan(at(table, Field::Longwave, first)));
+    EXPECT_NEAR(at(table, Field::Cloud, first), 1.0, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 1.8, 1e-9);
+    EXPECT_NEAR(at(table, Field::Direct, "2024-02-29T10:00Z"), 320.0, 1e-9) << "means of the hours around";
+    EXPECT_THAT(to_text(report), HasSubstr("not read: lai_hr"));
+    EXPECT_THAT(to_text(report), HasSubstr("--file-zone"));
+    ReadOptions options;
+    options.utc_offset_h = 1.0;
+    EXPECT_NEAR(at(sample("umep.txt", options).table, Field::AirTemp, "2024-02-29T00:00Z"), 271.55, 1e-9);
+    std::string odd = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "umep.txt");
+    odd.replace(odd.find("2024 60 1"), 9, "2023 366 1");
+    EXPECT_EQ(raw(odd).report.bad_rows, 1u) << "2023 has no 366th day";
 }
 
 TEST(Lcd, BothSystemsOfUnits)
@@ -684,6 +712,32 @@ TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
             EXPECT_EQ(answer(other), as_it_is) << entry.path().filename();
     }
     EXPECT_GE(read, 40);
+}
+
+// What people give in place of weather is known by its content, and said where it belongs.
+TEST(NoWeather, SaysWhereItBelongs)
+{
+    const auto refusal = [](const std::string& text) {
+        try {
+            read_weather(text);
+        } catch (const Error& e) {
+            return std::string(e.what()) + " " + e.fix();
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal("date,snow_depth_m\n1998-10-01,0.1\n"),
+                testing::AllOf(HasSubstr("has observations alone"), HasSubstr("--observed")));
+    EXPECT_EQ(raw("date,snow_depth_m\n1998-10-01,0.1\n").report.rows, 1u) << "to be joined with weather";
+    EXPECT_THAT(refusal("date,snow_depth_m,swe_kg_m2,snow_albedo\n1998-10-01,0.1,20,0.8\n"),
+                testing::AllOf(HasSubstr("has observations alone"), HasSubstr("--observed")));
+    EXPECT_THAT(refusal("2005  10   1    0.17    1.20    0.00    0.00    8.01   10.10\n"),
+                HasSubstr("--observed"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<station><header/></station>\n"), HasSubstr("--road"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<roadcast><header/></roadcast>\n"),
+                HasSubstr("result of METRo"));
+    EXPECT_THAT(refusal("<!DOCTYPE html><html>404</html>"), HasSubstr("a web page"));
+    EXPECT_THAT(refusal("time,air_temp_c,snow_albedo\n1998-10-01,0.1,0.8\n"),
+                testing::AllOf(HasSubstr("not understood: snow_albedo"), Not(HasSubstr("--observed"))));
 }
 
 }  // namespace

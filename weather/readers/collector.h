@@ -64,6 +64,7 @@ public:
     /// Columns of a known format that were not read, for a note: all, or of a long header those
     /// whose names speak of weather.
     void unread_columns(const std::vector<std::string>& names);
+    bool has_strange_columns() const { return !strange_columns_.empty(); }
     ///   throws  Error that names the columns of unknown_column that are a problem
     void check_columns();
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);

@@ -202,6 +202,14 @@ Header read_header(const PlainTable& table, RowCollector& rows, const ReadOption
                     "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2; the time "
                     "may also be date,time or date,hour or year,month,day,hour.");
     }
+    // A table of depths beside one of weather is joined with it; one of what no model here reads is
+    // somebody's observations.
+    const bool measured = std::all_of(h.meaning.begin(), h.meaning.end(), [](const auto& m) {
+        return !m || (is_field(*m) && field_info(m->field).observed);
+    });
+    if (measured && rows.has_strange_columns())
+        throw Error("weather: this table has observations alone",
+                    "Give the weather, and this file with --observed.");
     if (table.title_line > 0)
         rows.note(ReadNote::Kind::Info, table.title_line, "title",
                   "'" + shown(table.title) + "': the names of the columns are in line " +

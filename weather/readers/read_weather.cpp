@@ -183,6 +183,31 @@ void check_light(const ForcingTable& table, ReadReport& report)
     report.add({ReadNote::Kind::Warning, 0, field_info(Field::Shortwave).name, said});
 }
 
+// Files that stand beside weather, and pages of servers that had none.
+void refuse_what_belongs_elsewhere(const FileHead& head)
+{
+    const std::string low = lower(head.text.substr(0, 4096));
+    const auto has = [&](const char* word) { return low.find(word) != std::string::npos; };
+    if (has("<html"))
+        throw Error("weather: this is a web page, no weather: " + shown(trimmed(head.lines.front())),
+                    "Look at it in a browser: the address may need a key, or no longer exist.");
+    if (has("<station>"))
+        throw Error("weather: this is a METRo station, no weather",
+                    "Give METRo's forecast, and the station with --road.");
+    if (has("<roadcast>"))
+        throw Error("weather: this is a result of METRo, no weather",
+                    "Give METRo's forecast, and the station with --road.");
+    // Day, albedo, runoff, depth, water, temperatures of surface and ground.
+    constexpr std::size_t kObservedColumns = 9;
+    const auto w = words(head.lines.front(), 64);
+    if (w.size() != kObservedColumns || !all_numbers(w)) return;
+    const auto year = to_integer(w[0]), month = to_integer(w[1]), day = to_integer(w[2]);
+    if (year && month && day &&
+        us_from_civil({*year, static_cast<int>(*month), static_cast<int>(*day), 0, 0, 0.0}))
+        throw Error("weather: nine columns that begin with a date are FSM's observations",
+                    "Give the weather, and this file with --observed.");
+}
+
 }  // namespace
 
 const Reader& recognise_weather(std::string_view text)
@@ -196,6 +221,7 @@ const Reader& recognise_weather(std::string_view text)
     for (const Reader* reader : weather_readers()) {
         if (reader->recognise(head)) return *reader;
     }
+    refuse_what_belongs_elsewhere(head);
     throw Error(
         "weather: the kind of this file is not known; it begins with '" +
             shown(head.lines.front()) + "'",
