@@ -59,9 +59,12 @@ void refuse_binary(std::string_view text)
     for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t at = text.size() / 16 * i;
         const auto part = text.substr(at, kSample);
-        if (part.find('\0') != std::string_view::npos || count_odd(part) * 50 > part.size()) {
+        const std::size_t zero = part.find('\0');
+        if (zero != std::string_view::npos || count_odd(part) * 50 > part.size()) {
             throw Error(
-                "weather: this is a binary file, not text (near byte " + std::to_string(at) + ")",
+                "weather: this is a binary file, not text (" +
+                    std::string(zero != std::string_view::npos ? "a 0 in byte " : "near byte ") +
+                    std::to_string(at + (zero != std::string_view::npos ? zero : 0)) + ")",
                 "Give a text file: " + known_kinds() + ".");
         }
         if (text.size() <= kSample) break;
@@ -116,7 +119,8 @@ void check_longwave(const ForcingTable& table, ReadReport& report)
     std::vector<double> all, falling;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double air_k = table[Field::AirTemp][i];
-        const double share = table[Field::Longwave][i] / (kStefanBoltzmann * air_k * air_k * air_k * air_k);
+        const double share =
+            table[Field::Longwave][i] / (kStefanBoltzmann * air_k * air_k * air_k * air_k);
         if (std::isnan(share)) continue;
         all.push_back(share);
         for (const Field f : {Field::Precip, Field::Rain, Field::Snow}) {
@@ -125,7 +129,8 @@ void check_longwave(const ForcingTable& table, ReadReport& report)
             break;
         }
     }
-    const auto odd = [&](std::vector<double>& shares, std::size_t few, double least, const char* when) {
+    const auto odd = [&](std::vector<double>& shares, std::size_t few, double least,
+                         const char* when) {
         if (shares.size() < few) return false;
         const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
         std::nth_element(shares.begin(), middle, shares.end());
@@ -149,7 +154,8 @@ void check_light(const ForcingTable& table, ReadReport& report)
     constexpr double kFewLight_w_m2 = 30.0, kLeast = 0.1, kMost = 1.6;
     constexpr std::int64_t kDay_us = 86400LL * 1000000;
     const Site& site = table.site;
-    if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) || std::isnan(site.longitude_deg))
+    if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
+        std::isnan(site.longitude_deg))
         return;
     const Observer observer(site.latitude_deg, site.longitude_deg);
     std::vector<double> share;  // of days
@@ -158,7 +164,8 @@ void check_light(const ForcingTable& table, ReadReport& report)
     for (std::size_t i = 0; i + 1 < table.rows(); ++i) {
         const std::int64_t us = table.time_us[i], width = table.time_us[i + 1] - us;
         if (i == 0 || us / kDay_us != day) {
-            if (known_us > kDay_us * 9 / 10 && clear > kFewLight_w_m2 * static_cast<double>(known_us))
+            if (known_us > kDay_us * 9 / 10 &&
+                clear > kFewLight_w_m2 * static_cast<double>(known_us))
                 share.push_back(light / clear);
             day = us / kDay_us;
             light = clear = 0.0;
@@ -175,10 +182,12 @@ void check_light(const ForcingTable& table, ReadReport& report)
     const double most = share.back(), middle = share[share.size() / 2];
     // A week of thick cloud is as dark as a tenth; a month is not, nor is every other day brighter
     // than a clear one.
-    const bool dark = most < kLeast, bright = middle > kMost;
+    const bool dark = most<kLeast, bright = middle> kMost;
     if (!dark && !bright) return;
     char said[200];
-    std::snprintf(said, sizeof said, "%s day has more than %.2g of the light of a clear sky: its unit is another than its name says",
+    std::snprintf(said, sizeof said,
+                  "%s day has more than %.2g of the light of a clear sky: its unit is another than "
+                  "its name says",
                   dark ? "no" : "every other", dark ? most : middle);
     report.add({ReadNote::Kind::Warning, 0, field_info(Field::Shortwave).name, said});
 }
@@ -189,8 +198,9 @@ void refuse_what_belongs_elsewhere(const FileHead& head)
     const std::string low = lower(head.text.substr(0, 4096));
     const auto has = [&](const char* word) { return low.find(word) != std::string::npos; };
     if (has("<html"))
-        throw Error("weather: this is a web page, no weather: " + shown(trimmed(head.lines.front())),
-                    "Look at it in a browser: the address may need a key, or no longer exist.");
+        throw Error(
+            "weather: this is a web page, no weather: " + shown(trimmed(head.lines.front())),
+            "Look at it in a browser: the address may need a key, or no longer exist.");
     if (has("<station>"))
         throw Error("weather: this is a METRo station, no weather",
                     "Give METRo's forecast, and the station with --road.");
@@ -210,6 +220,86 @@ void refuse_what_belongs_elsewhere(const FileHead& head)
 
 }  // namespace
 
+namespace {
+
+// Readers of commas; another separator between the same cells is a spreadsheet's.
+bool wants_commas(const Reader& reader)
+{
+    for (const char* name : {"NSRDB CSV", "EPW", "PVGIS CSV", "MIDC", "TMY3 CSV", "Open-Meteo CSV",
+                             "NOAA global hourly", "LCD", "Environment Canada", "Meteostat", "IEM"})
+        if (reader.name == std::string_view(name)) return true;
+    return false;
+}
+
+// The line with commas between its cells, points in its numbers (unless groups such as +0012,1 are
+// no numbers), and quotes around other cells with commas.
+void add_with_commas(std::string_view line, char separator, bool points, std::string& out)
+{
+    bool quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+        if (i < line.size()) quoted ^= line[i] == '"';
+        if (i < line.size() && (line[i] != separator || quoted)) continue;
+        const std::string_view cell = line.substr(begin, i - begin);
+        if (begin > 0) out += ',';
+        begin = i + 1;
+        if (cell.find(',') == std::string_view::npos || cell.front() == '"') {
+            out += cell;
+            continue;
+        }
+        std::string point(cell);
+        std::replace(point.begin(), point.end(), ',', '.');
+        const bool number =
+            points && std::count(cell.begin(), cell.end(), ',') == 1 && to_number(point);
+        out += number ? point : "\"" + std::string(cell) + "\"";
+    }
+}
+
+// Of a table that a spreadsheet has saved with semicolons or tabs: as it was before. Empty where it
+// is none.
+std::string with_commas(std::string_view text)
+{
+    const FileHead head(without_mark(text));
+    // Its names may stand below lines of the place.
+    char separator = ';';
+    std::ptrdiff_t many = 0, commas = 0;
+    for (const std::string_view line : head.lines) {
+        for (const char c : {';', '\t'}) {
+            const auto n = std::count(line.begin(), line.end(), c);
+            if (n <= many) continue;
+            many = n;
+            separator = c;
+            commas = std::count(line.begin(), line.end(), ',');
+        }
+    }
+    if (many < 3 || many < commas) return {};
+    // What is somebody's own kind with this separator (DWD) stays so.
+    for (const Reader* reader : weather_readers())
+        if (reader->recognise(head) && !wants_commas(*reader) &&
+            reader->name != std::string_view("forcing CSV"))
+            return {};
+    const auto converted = [&](std::string_view part, bool points) {
+        std::string out;
+        Lines lines(part);
+        while (const auto line = lines.next()) {
+            add_with_commas(*line, separator, points, out);
+            out += '\n';
+        }
+        return out;
+    };
+    const std::string beginning = converted(head.text, true);
+    const FileHead as_commas(beginning);
+    for (const Reader* reader : weather_readers()) {
+        if (!reader->recognise(as_commas)) continue;
+        if (!wants_commas(*reader)) break;
+        return converted(without_mark(text),
+                         reader->name != std::string_view("NOAA global hourly"));
+    }
+    return {};
+}
+
+}  // namespace
+
 const Reader& recognise_weather(std::string_view text)
 {
     if (is_utf16(text)) return recognise_weather(utf8_of_utf16(text));
@@ -217,7 +307,8 @@ const Reader& recognise_weather(std::string_view text)
         throw Error("weather: the file is empty", "Give a text file: " + known_kinds() + ".");
     }
     refuse_binary(text);
-    const FileHead head(without_mark(text));
+    const std::string commas = with_commas(text.substr(0, 1 << 16));
+    const FileHead head(commas.empty() ? without_mark(text) : std::string_view(commas));
     for (const Reader* reader : weather_readers()) {
         if (reader->recognise(head)) return *reader;
     }
@@ -241,8 +332,14 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         result.report.add({ReadNote::Kind::Info, 0, "text", "UTF-16, read as such"});
         return result;
     }
+    refuse_binary(text);
+    const std::string commas = with_commas(text);
+    if (!commas.empty()) text = commas;
     const Reader& reader = recognise_weather(text);
     RowCollector rows(reader.name);
+    if (!commas.empty())
+        rows.note(ReadNote::Kind::Info, 0, "text",
+                  "cells apart as a spreadsheet saves them, read as with commas");
     std::size_t empty_lines = 0;
     const std::string_view filled = without_empty_lines(without_mark(text), empty_lines);
     if (empty_lines > 0)
