@@ -147,7 +147,7 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
                     "air_temp_c, air_temp_k or temperature (F).");
     }
     phase_from_depth(table, report);
-    divide_for_the_sun(table, report);
+    divide_for_the_sun(table, report, options);
     n = table.rows();
     bridge(table, report, Field::AirTemp, options);
     bridge(table, report, Field::DewPoint, options);
