@@ -39,6 +39,24 @@ TEST(CsvTimes, OneColumn)
     EXPECT_EQ(time_of("time", "30.02.2024"), "-");
 }
 
+TEST(CsvTimes, DigitsInARow)
+{
+    EXPECT_EQ(time_of("time", "202401010630"), "2024-01-01T06:30:00Z");
+    EXPECT_EQ(time_of("time", "20240101063015"), "2024-01-01T06:30:15Z");
+    for (const char* none : {"202413010630", "202401320630", "202401010660", "170401010630", "20240101063075"})
+        EXPECT_EQ(time_of("time", none), "-") << none;
+    EXPECT_FALSE(names_zone("202401010630"));
+    EXPECT_FALSE(names_zone("20240101063015"));
+    EXPECT_TRUE(names_zone("1704067200000"));
+}
+
+TEST(CsvTimes, NamesOfTheColumn)
+{
+    for (const char* name : {"Date/Time", "Date Time", "Time (UTC)", "Local Time", "TIMESTAMP",
+                             "Observation-Time", "time(utc)"})
+        EXPECT_EQ(time_of(name, "2024-02-29T06:30"), "2024-02-29T06:30:00Z") << name;
+}
+
 TEST(CsvTimes, MonthsByName)
 {
     for (const char* date : {"02-Jan-2021", "2-Jan-2021", "2 Jan 2021", "2 January 2021",
@@ -89,7 +107,14 @@ TEST(CsvTimes, DayOrMonthFirst)
     }
     EXPECT_EQ(time_of("time", "13/01/2024", DateOrder::MonthFirst), "-");
     EXPECT_EQ(time_of("date,hour", "1/2/2024,6", DateOrder::MonthFirst), "2024-01-02T06:00:00Z");
-    EXPECT_EQ(time_of("time", "1/2/24", DateOrder::MonthFirst), "-") << "which century";
+    for (const char* cell : {"1/2/24", "01-02-24"}) {
+        EXPECT_EQ(time_of("time", cell), "-") << "1924 or 2024, February or the 24th";
+        EXPECT_EQ(time_of("time", cell, DateOrder::MonthFirst), "2024-01-02T00:00:00Z") << cell;
+        EXPECT_EQ(time_of("time", cell, DateOrder::DayFirst), "2024-02-01T00:00:00Z") << cell;
+    }
+    EXPECT_EQ(time_of("time", "1/2/70", DateOrder::DayFirst), "1970-02-01T00:00:00Z");
+    EXPECT_EQ(time_of("time", "1/2/69", DateOrder::DayFirst), "2069-02-01T00:00:00Z");
+    EXPECT_EQ(time_of("time", "31.12.24 23:00"), "2024-12-31T23:00:00Z");
     DateOrders orders;
     orders.add("1/2/2024");
     orders.add("2024-02-01");
@@ -144,6 +169,15 @@ TEST(CsvTimes, AFileShowsItsOrderOrIsAsked)
     // What was said against what is there: no row is turned round in silence.
     has(read_dates({"13/01/2024 00:00", "14/01/2024 00:00"}, DateOrder::MonthFirst),
         "'13/01/2024 00:00' is not a date and time as 2005-10-01T06:00 (month/day/year)");
+}
+
+TEST(CsvTimes, YearsOfTwoDigitsAreAskedFor)
+{
+    EXPECT_NE(read_dates({"20/02/04 00:00", "20/02/04 01:00"}).find("'20/02/04 00:00', whose year has two digits"),
+              std::string::npos);
+    EXPECT_EQ(read_dates({"20/02/04 00:00", "20/02/04 01:00"}, DateOrder::DayFirst)
+                  .rfind("2004-02-20T00:00:00Z 2004-02-20T01:00:00Z", 0),
+              0u);
 }
 
 TEST(CsvTimes, DateAndClock)

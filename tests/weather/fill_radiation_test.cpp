@@ -287,5 +287,48 @@ TEST(FillRadiation, CentralSierra)
     EXPECT_LT(last_snow_us, 1690848000LL * 1000000);
 }
 
+// A fortnight without rows has its days and nights: neither the night of its first hour nor a line of
+// noon is taken for it all, whether the file measures the sun or not.
+TEST(Gaps, HaveTheirDaysAndNights)
+{
+    for (const bool measured : {true, false}) {
+        std::string text = measured ? "time,air_temp_c,rel_humidity_pct,wind_m_s,sw_down_w_m2\n"
+                                    : "time,air_temp_c,rel_humidity_pct,wind_m_s\n";
+        for (int h = 0; h < 120; ++h) {
+            char row[96];
+            const int day = 1 + h / 24 + (h >= 60 ? 14 : 0);  // the gap begins at noon
+            std::snprintf(row, sizeof row, "2024-06-%02dT%02d:00Z,15,60,2", day, h % 24);
+            text += row;
+            if (measured) text += h % 24 > 5 && h % 24 < 18 ? ",500" : ",0";
+            text += "\n";
+        }
+        ReadOptions options;
+        options.site.latitude_deg = 45.0;
+        options.site.longitude_deg = 0.0;
+        const auto r = read_weather(text, options);
+        double most = 0.0, light = 0.0;
+        int dark = 0, hours = 0;
+        const std::int64_t begin = *us_from_iso("2024-06-03T13:00Z"),
+                           end = *us_from_iso("2024-06-17T11:00Z");
+        for (std::size_t i = 0; i < r.table.rows(); ++i) {
+            if (r.table.time_us[i] < begin || r.table.time_us[i] > end) continue;
+            const double sw = r.table[Field::Shortwave][i];
+            most = std::max(most, sw);
+            dark += sw == 0.0;
+            light += sw;
+            ++hours;
+        }
+        EXPECT_EQ(hours, 14 * 24 - 1) << measured;
+        EXPECT_GE(dark, 14 * 7) << measured;
+        EXPECT_GT(most, 500.0) << measured;
+        EXPECT_NEAR(light / hours, 240.0, 120.0) << measured;
+        EXPECT_NE(to_text(r.report).find("gaps are divided into"), std::string::npos);
+    }
+    // Centuries are not.
+    const auto far = read_weather(
+        "time,air_temp_c\n1900-01-01T00:00Z,1\n1900-01-01T01:00Z,1\n2000-01-01T00:00Z,1\n");
+    EXPECT_LT(far.table.rows(), 10u);
+}
+
 }  // namespace
 }  // namespace petrichor::weather

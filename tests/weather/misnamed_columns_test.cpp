@@ -165,7 +165,7 @@ TEST(Amounts, OfSnowAreFreshSnowInCentimetresAndInches)
 TEST(MisnamedColumns, ShortNamesAndUnitsOfWeatherAreNotDropped)
 {
     for (const char* name :
-         {"sw", "sw_w_m2", "LW", "Rg", "tair", "p_hPa", "sun (W/m2)", "x_mm_h"}) {
+         {"sw", "SW_in_x", "LW", "Rg", "tair", "p_hPa", "sun (W/m2)", "x_mm_h"}) {
         EXPECT_THAT(refusal(table(std::string("air_temp_c,") + name, 24,
                                   [](int h, int c) { return c ? "3" : usual(h, c); })),
                     HasSubstr(name));
@@ -175,6 +175,12 @@ TEST(MisnamedColumns, ShortNamesAndUnitsOfWeatherAreNotDropped)
     }));
     EXPECT_EQ(r.table[Field::Shortwave][12], 200.0);
     EXPECT_EQ(r.table[Field::Longwave][12], 280.0);
+    // With a unit the short names are clear.
+    const auto s = read_weather(table("tair_c,SW (W/m2),lw_w_m2", 24, [](int h, int c) {
+        return c == 0 ? usual(h, 0) : c == 1 ? number(h > 6 && h < 18 ? 200 : 0) : "280";
+    }));
+    for (const Field f : {Field::AirTemp, Field::Shortwave, Field::Longwave})
+        EXPECT_EQ(s.table[f], r.table[f]) << field_info(f).name;
     EXPECT_EQ(refusal(table("air_temp_c,station,remark", 24,
                             [](int h, int c) { return c ? "x" : usual(h, c); })),
               "");

@@ -22,6 +22,7 @@ namespace petrichor::weather {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::string text_of(const std::filesystem::path& file)
 {
@@ -161,6 +162,35 @@ TEST(Uscrn, HourlyAndFiveMinutes)
     const auto fine = sample("uscrn_5min.txt").table;
     EXPECT_NEAR(at(fine, Field::Wind, "2024-01-16T00:05Z"), 1.53, 1e-9);
     EXPECT_NEAR(total(fine, Field::Precip), 0.2, 1e-9);
+}
+
+TEST(Umep, ColumnsOfTheUrbanModels)
+{
+    const auto [table, report] = sample("umep.txt");
+    EXPECT_EQ(report.format, "UMEP");
+    EXPECT_EQ(report.rows, 5u) << "-9 ends the file";
+    EXPECT_EQ(report.bad_rows, 0u);
+    // The 60th day of 2024 is 29 February.
+    const std::string first = "2024-02-29T01:00Z";
+    EXPECT_NEAR(at(table, Field::AirTemp, first), 271.55, 1e-9) << "Td is the air";
+    EXPECT_FALSE(table.has(Field::DewPoint));
+    EXPECT_NEAR(at(table, Field::Pressure, first), 98700.0, 1e-6);
+    EXPECT_NEAR(at(table, Field::Wind, first), 2.4, 1e-9);
+    EXPECT_NEAR(at(table, Field::WindFrom, first), 212.0, 1e-9);
+    EXPECT_TRUE(std::isnan(at(table, Field::Longwave, first)));
+    EXPECT_NEAR(at(table, Field::Cloud, first), 1.0, 1e-9);
+    EXPECT_NEAR(total(table, Field::Precip), 1.8, 1e-9);
+    EXPECT_NEAR(at(table, Field::Direct, "2024-02-29T10:00Z"), 320.0, 1e-9)
+        << "means of the hours around";
+    EXPECT_THAT(to_text(report), HasSubstr("not read: lai_hr"));
+    EXPECT_THAT(to_text(report), HasSubstr("--file-zone"));
+    ReadOptions options;
+    options.utc_offset_h = 1.0;
+    EXPECT_NEAR(at(sample("umep.txt", options).table, Field::AirTemp, "2024-02-29T00:00Z"), 271.55,
+                1e-9);
+    std::string odd = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "umep.txt");
+    odd.replace(odd.find("2024 60 1"), 9, "2023 366 1");
+    EXPECT_EQ(raw(odd).report.bad_rows, 1u) << "2023 has no 366th day";
 }
 
 TEST(Lcd, BothSystemsOfUnits)
@@ -684,6 +714,133 @@ TEST(EverySample, ReadsTheSameWithOtherEndsOfLinesAndEmptyOnesAround)
             EXPECT_EQ(answer(other), as_it_is) << entry.path().filename();
     }
     EXPECT_GE(read, 40);
+}
+
+// Saved by a spreadsheet of a country with decimal commas, or with tabs: the same.
+TEST(EverySample, OfCommasReadsTheSameWithASpreadsheetsSeparators)
+{
+    int read = 0;
+    for (const char* name : {"typical_year.epw", "typical_year_tmy3.csv", "nsrdb.csv", "pvgis.csv",
+                             "midc.csv", "open_meteo.csv", "noaa_global_hourly.csv", "lcd.csv",
+                             "environment_canada.csv", "meteostat.csv"}) {
+        const std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / name);
+        ReadOptions options;
+        options.ignore = {"all"};
+        const ReadResult want = raw(text, options);
+        for (const char separator : {';', '\t'}) {
+            std::string other;
+            Lines lines(text);
+            while (const auto line = lines.next()) {
+                std::size_t cells = 0;
+                for (const std::string_view cell : split(*line, ',', 4096)) {
+                    if (cells++) other += separator;
+                    const bool number =
+                        separator == ';' && to_number(cell) && cell.find('.') != cell.npos;
+                    std::string put(cell);
+                    if (number) std::replace(put.begin(), put.end(), '.', ',');
+                    other += put;
+                }
+                other += '\n';
+            }
+            const ReadResult got = raw(other, options);
+            EXPECT_EQ(got.report.format, want.report.format) << name;
+            EXPECT_EQ(got.table.time_us, want.table.time_us) << name;
+            EXPECT_THAT(to_text(got.report), HasSubstr("as a spreadsheet saves them")) << name;
+            for (std::size_t f = 0; f < kFieldCount; ++f) {
+                const auto &a = got.table.columns[f], &b = want.table.columns[f];
+                EXPECT_TRUE(a.size() == b.size() &&
+                            std::equal(a.begin(), a.end(), b.begin(),
+                                       [](double x, double y) {
+                                           return x == y || (std::isnan(x) && std::isnan(y));
+                                       }))
+                    << name << " " << field_info(static_cast<Field>(f)).name;
+            }
+            ++read;
+        }
+    }
+    EXPECT_EQ(read, 20);
+    EXPECT_EQ(sample("dwd_temperature.txt").report.format, "DWD") << "whose cells are apart so";
+}
+
+TEST(Pvgis, AStrayLineDoesNotEndTheTable)
+{
+    std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "pvgis.csv");
+    const std::size_t rows = raw(text).table.rows();
+    const std::size_t third = text.find("20", text.find("time(UTC)"));
+    text.insert(text.find('\n', text.find('\n', third) + 1) + 1, "hello world\n\n");
+    const auto r = raw(text);
+    EXPECT_EQ(r.table.rows(), rows);
+    EXPECT_EQ(r.report.bad_rows, 1u);
+}
+
+TEST(Tmy3, APlaceWithoutItsZoneIsTold)
+{
+    std::string text = text_of(std::filesystem::path(PETRICHOR_SAMPLES) / "typical_year_tmy3.csv");
+    const auto whole = raw(text);
+    EXPECT_EQ(whole.table.site.utc_offset_h, -6.0);
+    const std::size_t end = text.find_first_of("\r\n"), elevation = text.rfind(',', end);
+    std::string cut = text;
+    cut.erase(elevation, end - elevation);
+    const auto without = raw(cut);
+    EXPECT_EQ(without.table.time_us, whole.table.time_us) << "its zone is still there";
+    EXPECT_TRUE(std::isnan(without.table.site.elevation_m));
+    std::string none = text;
+    none.replace(none.find(",-6.0,"), 6, ",,");
+    EXPECT_THAT(to_text(raw(none).report),
+                HasSubstr("warning line 1 time: the line of the place names no time zone"));
+}
+
+TEST(Metro, NumbersAreReadOrRefusedAndNoAmountIsLost)
+{
+    const auto forecast = [](const std::string& second) {
+        return "<?xml version=\"1.0\"?><forecast><header/><prediction-list>"
+               "<prediction><forecast-time>2005-02-24T21:00Z</forecast-time><at>-5.5</at><td>-9</"
+               "td><ra>0</ra><sn>0</sn>"
+               "<ws>8</ws><ap>1014</ap><cc>0</cc></prediction>"
+               "<prediction><forecast-time>2005-02-24T22:00Z</forecast-time><at>-5.5</at><td>-9</"
+               "td><ra>" +
+               second +
+               "</ra><sn>0</sn><ws>8</ws><ap>1014</ap><cc>0</cc></prediction>"
+               "<prediction><forecast-time>2005-02-24T23:00Z</forecast-time><at>-5.5</at><td>-9</"
+               "td><ra>2</ra><sn>0</sn>"
+               "<ws>8</ws><ap>1014</ap><cc>0</cc></prediction></prediction-list></forecast>";
+    };
+    const auto point = raw(forecast("0.5")).table, comma = raw(forecast("0,5")).table;
+    EXPECT_EQ(point[Field::Rain], comma[Field::Rain]);
+    EXPECT_NEAR(point[Field::Rain][0] * 3600.0, 0.5, 1e-9);
+    const auto none = raw(forecast("")).table;
+    EXPECT_NEAR(none[Field::Rain][0] * 3600.0, 1.0, 1e-9) << "2 mm in two hours";
+    EXPECT_NEAR(none[Field::Rain][1] * 3600.0, 1.0, 1e-9);
+    EXPECT_THROW(raw(forecast("much")), Error);
+}
+
+// What people give in place of weather is known by its content, and said where it belongs.
+TEST(NoWeather, SaysWhereItBelongs)
+{
+    const auto refusal = [](const std::string& text) {
+        try {
+            read_weather(text);
+        } catch (const Error& e) {
+            return std::string(e.what()) + " " + e.fix();
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal("date,snow_depth_m\n1998-10-01,0.1\n"),
+                testing::AllOf(HasSubstr("has observations alone"), HasSubstr("--observed")));
+    EXPECT_EQ(raw("date,snow_depth_m\n1998-10-01,0.1\n").report.rows, 1u)
+        << "to be joined with weather";
+    EXPECT_THAT(refusal("date,snow_depth_m,swe_kg_m2,snow_albedo\n1998-10-01,0.1,20,0.8\n"),
+                testing::AllOf(HasSubstr("has observations alone"), HasSubstr("--observed")));
+    EXPECT_THAT(refusal("2005  10   1    0.17    1.20    0.00    0.00    8.01   10.10\n"),
+                HasSubstr("--observed"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<station><header/></station>\n"),
+                HasSubstr("--road"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<roadcast><header/></roadcast>\n"),
+                HasSubstr("result of METRo"));
+    EXPECT_THAT(refusal("<!DOCTYPE html><html>404</html>"), HasSubstr("a web page"));
+    EXPECT_THAT(
+        refusal("time,air_temp_c,snow_albedo\n1998-10-01,0.1,0.8\n"),
+        testing::AllOf(HasSubstr("not understood: snow_albedo"), Not(HasSubstr("--observed"))));
 }
 
 }  // namespace

@@ -180,8 +180,7 @@ TEST(Report, TablesOfPrograms)
     const auto unnamed = read_weather(
         ",temp,rh,mood,\n2024-01-01 00:00:00,5.2,80,7,\n2024-01-01 01:00:00,5.0,82,7,\n");
     EXPECT_EQ(iso_from_us(unnamed.table.time_us[1]), "2024-01-01T01:00:00Z");
-    EXPECT_NE(to_text(unnamed.report).find("not known, not used: mood, a column without a name"),
-              std::string::npos)
+    EXPECT_NE(to_text(unnamed.report).find("not known, not used: mood\n"), std::string::npos)
         << to_text(unnamed.report);
     const auto seconds = read_weather("timestamp,air_temp_c\n1704067200,5.2\n1704070800,5.0\n");
     EXPECT_EQ(iso_from_us(seconds.table.time_us[0]), "2024-01-01T00:00:00Z");

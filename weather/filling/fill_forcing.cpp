@@ -134,12 +134,20 @@ void fill_forcing(ForcingTable& table, ReadReport& report, const FillOptions& op
         if (count_missing(column) == n) column.clear();
     }
     if (!table.has(Field::AirTemp)) {
+        bool measured = false, weather = false;
+        for (std::size_t f = 0; f < kFieldCount; ++f) {
+            if (table.columns[f].empty()) continue;
+            (field_info(static_cast<Field>(f)).observed ? measured : weather) = true;
+        }
+        if (measured && !weather)
+            throw Error("weather: this file has observations alone, and no weather",
+                        "Give the weather, and this file with --observed.");
         throw Error("weather: no air temperature in the file",
                     "Give a file with air temperature in every row; in a CSV its column is called "
                     "air_temp_c, air_temp_k or temperature (F).");
     }
     phase_from_depth(table, report);
-    divide_for_the_sun(table, report);
+    divide_for_the_sun(table, report, options);
     n = table.rows();
     bridge(table, report, Field::AirTemp, options);
     bridge(table, report, Field::DewPoint, options);

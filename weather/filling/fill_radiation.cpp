@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3600LL * 1000000;
 constexpr std::int64_t kLongestDivided_us = 48 * kHour_us;
+constexpr std::int64_t kLongestGap_us = 100 * 24 * kHour_us;
+constexpr std::int64_t kMostInGaps = 10000;  // more than the file has by itself
 
 // Parts into which the interval after a row is divided.
 std::int64_t parts_of(std::int64_t length_us)
@@ -50,9 +52,9 @@ void follow_the_sun(std::vector<double>& net, const std::vector<double>& sun,
 
 }  // namespace
 
-void divide_for_the_sun(ForcingTable& table, ReadReport& report)
+void divide_for_the_sun(ForcingTable& table, ReadReport& report, const FillOptions& options)
 {
-    if (table.has(Field::Shortwave)) return;
+    const bool sun = table.has(Field::Shortwave);
     const std::vector<std::int64_t> was = table.time_us;
     if (was.size() < 2) return;
     // The last row lasts as long as the one before it.
@@ -60,19 +62,38 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report)
     const auto length_of = [&](std::size_t i) {
         return i < last ? was[i + 1] - was[i] : was[last] - was[last - 1];
     };
-    std::size_t rows = 0;
-    for (std::size_t i = 0; i <= last; ++i)
-        rows += static_cast<std::size_t>(parts_of(length_of(i)));
-    if (rows == was.size()) return;
+    // A row without one value begins a gap (RowCollector): nothing is known until the next one.
+    const auto begins_gap = [&](std::size_t i) {
+        if (i == last || length_of(i) <= options.longest_gap_us || length_of(i) > kLongestGap_us)
+            return false;
+        for (std::size_t f = 0; f < kFieldCount; ++f) {
+            const auto& column = table.columns[f];
+            if (!column.empty() && !field_info(static_cast<Field>(f)).observed &&
+                !std::isnan(column[i]))
+                return false;
+        }
+        return true;
+    };
+    std::vector<std::int64_t> parts(was.size(), 1);
+    std::int64_t rows = 0, in_gaps = 0;
+    for (std::size_t i = 0; i <= last; ++i) {
+        if (!sun) parts[i] = parts_of(length_of(i));
+        rows += parts[i];
+        if (parts[i] == 1 && begins_gap(i)) in_gaps += (length_of(i) + kHour_us - 1) / kHour_us - 1;
+    }
+    const bool gaps = in_gaps > 0 && in_gaps <= rows + kMostInGaps;
+    for (std::size_t i = 0; gaps && i <= last; ++i)
+        if (parts[i] == 1 && begins_gap(i)) parts[i] = (length_of(i) + kHour_us - 1) / kHour_us;
+    const std::int64_t divided = rows - static_cast<std::int64_t>(was.size());
+    if (divided == 0 && !gaps) return;
 
     table.time_us.clear();
     std::array<std::vector<double>, kFieldCount> columns;
     columns.swap(table.columns);
     for (std::size_t i = 0; i <= last; ++i) {
-        const std::int64_t parts = parts_of(length_of(i));
-        for (std::int64_t part = 0; part < parts; ++part) {
-            table.time_us.push_back(was[i] + length_of(i) / parts * part);
-            const double x = static_cast<double>(part) / static_cast<double>(parts);
+        for (std::int64_t part = 0; part < parts[i]; ++part) {
+            table.time_us.push_back(was[i] + length_of(i) / parts[i] * part);
+            const double x = static_cast<double>(part) / static_cast<double>(parts[i]);
             for (std::size_t f = 0; f < kFieldCount; ++f) {
                 const auto& from = columns[f];
                 if (from.empty()) continue;
@@ -85,10 +106,15 @@ void divide_for_the_sun(ForcingTable& table, ReadReport& report)
             }
         }
     }
-    report.add({ReadNote::Kind::Info, 0, field_info(Field::Shortwave).name,
-                "no value in the file: its " + std::to_string(was.size()) +
-                    " rows are divided into " + std::to_string(rows) +
-                    " of at most an hour, for the sun to rise and set"});
+    if (divided > 0)
+        report.add({ReadNote::Kind::Info, 0, field_info(Field::Shortwave).name,
+                    "no value in the file: its " + std::to_string(was.size()) +
+                        " rows are divided into " + std::to_string(rows) +
+                        " of at most an hour, for the sun to rise and set"});
+    if (gaps)
+        report.add({ReadNote::Kind::Info, 0, field_info(Field::Shortwave).name,
+                    "gaps are divided into " + std::to_string(in_gaps) +
+                        " more rows of at most an hour, for the sun to rise and set in them"});
 }
 
 void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& options)
@@ -108,7 +134,8 @@ void fill_radiation(ForcingTable& table, ReadReport& report, const FillOptions& 
     lw.resize(n, kMissing);
     const bool place =
         !std::isnan(table.site.latitude_deg) && !std::isnan(table.site.longitude_deg);
-    const Observer observer(place ? table.site.latitude_deg : 45.0, place ? table.site.longitude_deg : 0.0);
+    const Observer observer(place ? table.site.latitude_deg : 45.0,
+                            place ? table.site.longitude_deg : 0.0);
     std::vector<double> sine(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         if (std::isnan(cloud[i]) || std::isnan(sw[i]))

@@ -85,7 +85,7 @@ std::string to_text(const ReadReport& report)
     for (const FieldReport& f : report.fields) {
         out += "  " + f.name + ": " + std::to_string(f.present) + " read";
         if (f.missing) out += ", " + std::to_string(f.missing) + " missing";
-        if (f.first_missing_line)
+        if (f.missing && f.first_missing_line)
             out += " (first in line " + std::to_string(f.first_missing_line) + ")";
         if (f.out_of_range) out += ", " + std::to_string(f.out_of_range) + " out of range";
         if (!f.filled_by.empty()) out += "; filled: " + f.filled_by;

@@ -12,6 +12,7 @@ namespace petrichor::weather {
 namespace {
 
 constexpr std::size_t kMostProblems = 20;
+constexpr std::size_t kMostTold = 5;  // rows of a file that is read all the same
 
 std::string number_text(double value)
 {
@@ -78,7 +79,8 @@ void RowCollector::bad_row(std::size_t line, const std::string& field, const std
 {
     ++report_.bad_rows;
     in_row_ = false;
-    note(ReadNote::Kind::BadRow, line, field, why);
+    last_bad_line_ = line;
+    if (report_.bad_rows <= kMostTold) note(ReadNote::Kind::BadRow, line, field, why);
     if (problems_.size() < kMostProblems) {
         std::string text = "line ";
         text.append(std::to_string(line));
@@ -385,6 +387,26 @@ void RowCollector::refuse_misnamed() const
     }
 }
 
+// Air holds no more vapour than saturated: a dew point above its temperature is another column.
+void RowCollector::refuse_warm_dew() const
+{
+    constexpr std::size_t kFew = 10;
+    constexpr double kErrors_k = 1.0;
+    const auto& air = values_[static_cast<std::size_t>(Field::AirTemp)];
+    const auto& dew = values_[static_cast<std::size_t>(Field::DewPoint)];
+    std::size_t known = 0, above = 0;
+    for (std::size_t i = 0; i < std::min(air.size(), dew.size()); ++i) {
+        if (std::isnan(air[i]) || std::isnan(dew[i])) continue;
+        ++known;
+        above += dew[i] > air[i] + kErrors_k;
+    }
+    if (above < kFew || above * 2 <= known) return;
+    throw Error("weather: " + report_.format + ": the dew point is above the air temperature in " +
+                    std::to_string(above) + " of " + std::to_string(known) + " rows",
+                "Correct the names or the units of the two columns, or leave one out with --ignore "
+                "where the format is a free table.");
+}
+
 // A column of nothing but zeros was not measured: a year without rain, days without sun or wind.
 void RowCollector::drop_empty_columns()
 {
@@ -485,6 +507,10 @@ ForcingTable RowCollector::finish()
                     "Repair the lines listed, or give another file.");
     }
 
+    if (report_.bad_rows > kMostTold)
+        note(ReadNote::Kind::BadRow, 0, "",
+             std::to_string(report_.bad_rows - kMostTold) + " more, the last in line " +
+                 std::to_string(last_bad_line_));
     if (joined_)
         note(ReadNote::Kind::Time, 0, "time",
              std::to_string(joined_) + " rows with the time of the row before, joined with it");
@@ -500,6 +526,7 @@ ForcingTable RowCollector::finish()
              "1/4.5/12, snow 0.5/1.5/3 mm/h for light/moderate/heavy");
     }
     refuse_misnamed();
+    refuse_warm_dew();
     note_odd();
     drop_empty_columns();
 

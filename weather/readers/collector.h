@@ -64,6 +64,7 @@ public:
     /// Columns of a known format that were not read, for a note: all, or of a long header those
     /// whose names speak of weather.
     void unread_columns(const std::vector<std::string>& names);
+    bool has_strange_columns() const { return !strange_columns_.empty(); }
     ///   throws  Error that names the columns of unknown_column that are a problem
     void check_columns();
     void note(ReadNote::Kind kind, std::size_t line, std::string field, std::string text);
@@ -97,6 +98,7 @@ private:
     std::size_t report_index(Field field);
     void note_odd();
     void refuse_misnamed() const;
+    void refuse_warm_dew() const;
     void drop_empty_columns();
     void spread_amounts(ForcingTable& table);
 
@@ -114,7 +116,7 @@ private:
     std::vector<std::string> strange_columns_, other_columns_;
     std::vector<double> seen_;
     bool use_seen_ = false;
-    std::size_t line_ = 0, joined_ = 0;
+    std::size_t line_ = 0, joined_ = 0, last_bad_line_ = 0;
     bool zone_named_ = false;
     bool in_row_ = false, join_same_times_ = false, joining_ = false;
 };

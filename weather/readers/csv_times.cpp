@@ -15,15 +15,30 @@ bool is_one_of(std::string_view name, std::initializer_list<const char*> words)
     const std::string low = lower(trimmed(name));
     return std::any_of(words.begin(), words.end(), [&](const char* word) { return low == word; });
 }
+// "Date/Time", "date time", "Time (UTC)" as date_time, time_utc.
+std::string plain_name(std::string_view name)
+{
+    std::string out;
+    for (const char c : lower(trimmed(name))) {
+        const bool word = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (word)
+            out += c;
+        else if (!out.empty() && out.back() != '_')
+            out += '_';
+    }
+    while (!out.empty() && out.back() == '_') out.pop_back();
+    return out;
+}
 bool is_stamp_name(std::string_view name)
 {
-    return is_one_of(
-        name, {"time", "time_utc", "datetime", "timestamp", "date_time", "time(utc)", "time (utc)",
-               "timestamp_utc", "datetime_utc", "valid_time", "date time"});
+    return is_one_of(plain_name(name),
+                     {"time", "time_utc", "datetime", "timestamp", "date_time", "timestamp_utc",
+                      "datetime_utc", "date_time_utc", "valid_time", "local_time", "time_local",
+                      "observation_time", "obs_time", "time_stamp", "date_utc"});
 }
 bool is_clock_name(std::string_view name)
 {
-    return is_one_of(name, {"hour", "hr", "time", "time_utc", "hour_utc", "time (utc)"});
+    return is_one_of(plain_name(name), {"hour", "hr", "time", "time_utc", "hour_utc"});
 }
 bool is_part_name(std::string_view name, CsvTimes::Part part)
 {
@@ -101,12 +116,12 @@ std::optional<DateParts> date_parts(std::string_view text)
     d.rest = text.substr(at);
     return d;
 }
-// 1/2/2021 and 1-2-2021: the order of day and month is nowhere said.
+// 1/2/2021, 1-2-2021 and 1/2/21: the order of day and month is nowhere said.
 bool has_no_order(const DateParts& d)
 {
     return (d.separator == '/' || d.separator == '-') && d.part[0].size() <= 2 &&
-           d.part[1].size() <= 2 && d.part[2].size() == 4 && is_digit(d.part[0][0]) &&
-           is_digit(d.part[1][0]) && is_digit(d.part[2][0]);
+           d.part[1].size() <= 2 && (d.part[2].size() == 4 || d.part[2].size() == 2) &&
+           is_digit(d.part[0][0]) && is_digit(d.part[1][0]) && is_digit(d.part[2][0]);
 }
 
 // "1:00 PM", "12:30:15 a.m.", "1 pm" by 24 hours; other texts as they are.
@@ -159,10 +174,14 @@ std::optional<std::string> iso_of_date(std::string_view text, DateOrder order)
     const auto two = [](std::string_view digits) {
         return digits.size() == 1 ? "0" + std::string(digits) : std::string(digits);
     };
-    if (year.size() != 4 || !is_digit(year[0]) || day.empty() || day.size() > 2 ||
+    // 31.12.24, and 1/2/24 in an order that is known: 1970 to 2069.
+    std::string whole_year(year);
+    if (named == 0 && year.size() == 2 && is_digit(year[0]))
+        whole_year.insert(0, year[0] < '7' ? "20" : "19");
+    if (whole_year.size() != 4 || !is_digit(year[0]) || day.empty() || day.size() > 2 ||
         !is_digit(day[0]))
         return std::nullopt;
-    std::string iso = std::string(year) + "-" +
+    std::string iso = whole_year + "-" +
                       (named > 0 ? two(std::to_string(named)) : two(month)) + "-" + two(day);
     std::string_view rest = d->rest;
     while (!rest.empty() && (is_blank(rest.front()) || rest.front() == ',')) rest.remove_prefix(1);
@@ -214,7 +233,19 @@ std::optional<std::int64_t> time_of_cell(std::string_view text, DateOrder order)
     if (const auto iso = iso_of_date(text, order)) return us_from_iso(*iso);
     const auto count = to_integer(text);
     const auto length = trimmed(text).size();
-    if (!count || *count < 0 || (length != 9 && length != 10 && length != 13)) return std::nullopt;
+    if (!count || *count < 0) return std::nullopt;
+    if (length == 12 || length == 14) {
+        // 202401010630 and with seconds
+        const long long second = length == 14 ? *count % 100 : 0;
+        const long long to_minute = length == 14 ? *count / 100 : *count;
+        const long long in_year = to_minute / 100000000;
+        if (in_year < 1900 || in_year > 2099 || to_minute % 100 > 59) return std::nullopt;
+        return us_from_civil({in_year, static_cast<int>(to_minute / 1000000 % 100),
+                              static_cast<int>(to_minute / 10000 % 100),
+                              static_cast<int>(to_minute / 100 % 100),
+                              static_cast<int>(to_minute % 100), static_cast<double>(second)});
+    }
+    if (length != 9 && length != 10 && length != 13) return std::nullopt;
     if (length == 13) return *count * 1000;
     // Ten digits may be 2024010106: when they begin with a year they are no count of seconds.
     const long long year = *count / 1000000;
@@ -234,8 +265,8 @@ bool names_zone(std::string_view text, DateOrder order)
     if (here) return here == east;
     const auto length = trimmed(text).size();
     const bool count = to_integer(text) && time_of_cell(text);
-    // Ten digits that begin with a year are a date.
-    return count && (length != 10 || time_of_cell(text) == *to_integer(text) * kSecond_us);
+    // Ten digits that begin with a year are a date, as twelve and fourteen are.
+    return count && length != 12 && length != 14 && (length != 10 || time_of_cell(text) == *to_integer(text) * kSecond_us);
 }
 
 void DateOrders::add(std::string_view cell)
@@ -247,6 +278,7 @@ void DateOrders::add(std::string_view cell)
                            : day_first              ? day_first_
                                                     : month_first_;
     if (example.empty()) example = shown(cell);
+    if (short_year_.empty() && d->part[2].size() == 2) short_year_ = shown(cell);
 }
 
 DateOrder DateOrders::order() const

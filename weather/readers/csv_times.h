@@ -48,9 +48,10 @@ CsvTimes find_csv_times(const std::vector<std::string_view>& names,
 /// Whether a cell with a date and time says its zone: Z, UTC, +01:00, or seconds since 1970.
 bool names_zone(std::string_view text, DateOrder order = DateOrder::Unknown);
 
-/// A date and time in one cell: ISO 8601; 31.12.2024, 2-Jan-2021, Jan 2 2021 or January 2, 2021,
-/// and with an order 1/2/2021 or 01-02-2021, with 13:00, 13:00:15 or 1:00 PM behind them; seconds
-/// or milliseconds since 1970.
+/// A date and time in one cell: ISO 8601; 31.12.2024 or 31.12.24, 2-Jan-2021, Jan 2 2021 or January
+/// 2, 2021, and with an order 1/2/2021, 01-02-2021 or 1/2/21 (1970 to 2069), with 13:00, 13:00:15 or
+/// 1:00 PM behind them; 2021010206 with or without minutes and seconds; seconds or milliseconds
+/// since 1970.
 std::optional<std::int64_t> time_of_cell(std::string_view text,
                                          DateOrder order = DateOrder::Unknown);
 
@@ -64,9 +65,11 @@ public:
     const std::string& either() const { return either_; }
     const std::string& day_first() const { return day_first_; }
     const std::string& month_first() const { return month_first_; }
+    /// One whose year has two digits: 20/02/04 may begin with its year as well.
+    const std::string& short_year() const { return short_year_; }
 
 private:
-    std::string either_, day_first_, month_first_;
+    std::string either_, day_first_, month_first_, short_year_;
 };
 
 }  // namespace petrichor::weather

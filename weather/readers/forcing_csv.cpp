@@ -1,6 +1,5 @@
-// Plain CSV: a header with a time column and names with units, then rows. The separator (comma,
-// semicolon, tab) is the most frequent one of the header; # begins a comment. Column names:
-// units.cpp.
+// Plain CSV: a header with a time column and names with units, then rows; its layout:
+// plain_table.h. Column names: units.cpp.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +9,7 @@
 #include "weather/physics/humidity.h"
 #include "weather/readers/csv_times.h"
 #include "weather/readers/formats.h"
+#include "weather/readers/plain_table.h"
 #include "weather/readers/text.h"
 #include "weather/readers/units.h"
 
@@ -51,21 +51,10 @@ bool has_unit(std::string_view name)
     return trimmed(name).find_first_of("_([ ") != std::string_view::npos;
 }
 
-// With another separator than a comma, a comma may be the decimal point.
-std::optional<double> cell_number(std::string_view text, char separator)
-{
-    const auto value = to_number(text);
-    if (value || separator == ',' || std::count(text.begin(), text.end(), ',') != 1) return value;
-    std::string point(text);
-    std::replace(point.begin(), point.end(), ',', '.');
-    return to_number(point);
-}
-
 // The line of names, and what its columns mean.
 struct Header {
     std::size_t line = 0;
-    char separator = ',';
-    std::vector<std::string_view> names;
+    const std::vector<std::string_view>& names;
     CsvTimes times;
     std::vector<std::optional<ColumnMeaning>> meaning;
 };
@@ -73,7 +62,8 @@ struct Header {
 // Columns that weather tables often have and that no model here uses: no reason to stop.
 bool is_known_unused(std::string_view name)
 {
-    const std::string low = lower(trimmed(name));
+    std::string low = lower(trimmed(name));
+    std::replace(low.begin(), low.end(), ' ', '_');
     for (const char* start : {"soil_temp",
                               "soil_moist",
                               "precip_temp",
@@ -104,27 +94,32 @@ bool is_known_unused(std::string_view name)
     return low.size() > 5 && (low.ends_with("_flag") || low.ends_with("_qc"));
 }
 
-// "# latitude: 45.3" above the table says where it is; also longitude, elevation_m, temp_height_m,
-// wind_height_m, utc_offset_h, name; and "note" goes to the report.
-void read_place(std::string_view text, RowCollector& rows)
+// "# latitude: 45.3" above the table says where it is, as "Latitude;45.3" in its title does; also
+// longitude, elevation_m, temp_height_m, wind_height_m, utc_offset_h, name; and "note" goes to the
+// report.
+void read_place(std::string_view text, const PlainTable& table, RowCollector& rows)
 {
     Site& site = rows.site();
     Lines lines(text);
     while (const auto line = lines.next()) {
         auto t = trimmed(*line);
+        if (lines.number() >= table.header_line) return;
         if (t.empty()) continue;
-        if (t.front() != '#') return;
-        t = trimmed(t.substr(1));
-        const auto colon = t.find_first_of(":=");
+        const bool comment = t.front() == '#';
+        if (comment) t = trimmed(t.substr(1));
+        const auto colon = t.find_first_of(comment ? ":=" : ":=,;\t");
         if (colon == std::string_view::npos) continue;
         const std::string key = lower(trimmed(t.substr(0, colon)));
-        const auto value = trimmed(t.substr(colon + 1));
+        auto value = trimmed(t.substr(colon + 1));
+        while (!comment && !value.empty() &&
+               std::string_view(",;\t ").find(value.back()) != value.npos)
+            value.remove_suffix(1);
         const auto number = to_number(value);
-        if (key == "petrichor") rows.report().format = shown(value);
+        if (comment && key == "petrichor") rows.report().format = shown(value);
         if (key == "name") site.name = shown(value);
-        if (key == "note")
+        if (comment && key == "note")
             rows.note(ReadNote::Kind::Info, lines.number(), "", std::string(value.substr(0, 400)));
-        if (key == "warning")
+        if (comment && key == "warning")
             rows.note(ReadNote::Kind::Warning, lines.number(), "",
                       std::string(value.substr(0, 400)));
         if (!number) continue;
@@ -142,20 +137,6 @@ void read_place(std::string_view text, RowCollector& rows)
 void add_to_list(std::string& list, const std::string& name)
 {
     list.append(list.empty() ? "" : ", ").append(name);
-}
-
-char separator_of(std::string_view header)
-{
-    char separator = ',';
-    std::ptrdiff_t most = 0;
-    for (const char c : {',', ';', '\t'}) {
-        const auto n = std::count(header.begin(), header.end(), c);
-        if (n > most) {
-            most = n;
-            separator = c;
-        }
-    }
-    return separator;
 }
 
 // "rain_kg_m2_s" beside a bare "rain": the one that says its unit counts. Adds to the list of bare
@@ -185,23 +166,14 @@ bool is_left_out(std::string_view name, const std::vector<std::string>& ignored)
                        [&](const std::string& word) { return lower(word) == low; });
 }
 
-// Leaves `lines` below the header.
 //   throws  Error without times or a known column
-Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
+Header read_header(const PlainTable& table, RowCollector& rows, const ReadOptions& options)
 {
-    Header h;
-    std::string_view text;
-    while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty() || t.front() == '#') continue;
-        text = *line;
-        break;
-    }
-    h.line = lines.number();
-    h.separator = separator_of(text);
-    h.names = split(text, h.separator, 256);
-    Lines below = lines;
-    h.times = find_csv_times(h.names, split(below.next().value_or(""), h.separator, 256));
+    Header h{table.header_line, table.names, {}, {}};
+    std::vector<std::string_view> first;
+    Lines below = table.rows();
+    table.cells(below.next().value_or(""), first);
+    h.times = find_csv_times(h.names, first);
     h.meaning.resize(h.names.size());
     bool any = false;
     std::string bare_names, left_out;
@@ -223,27 +195,44 @@ Header read_header(Lines& lines, RowCollector& rows, const ReadOptions& options)
         rows.note(ReadNote::Kind::Warning, h.line, "columns",
                   "not used, as another column says the same quantity with a unit: " + bare_names);
     if (!h.times.found() || !any) {
-        throw Error("weather: line " + std::to_string(h.line) + ": the header '" + shown(text) +
-                        "' has no " + (h.times.found() ? "known weather column" : "time column"),
+        throw Error("weather: line " + std::to_string(h.line) + ": the header '" +
+                        shown(table.header) + "' has no " +
+                        (h.times.found() ? "known weather column" : "time column"),
                     "Name the columns as in: "
                     "time,air_temp_c,rel_humidity_pct,wind_m_s,precip_mm,sw_down_w_m2; the time "
                     "may also be date,time or date,hour or year,month,day,hour.");
     }
+    // A table of depths beside one of weather is joined with it; one of what no model here reads is
+    // somebody's observations.
+    const bool measured = std::all_of(h.meaning.begin(), h.meaning.end(), [](const auto& m) {
+        return !m || (is_field(*m) && field_info(m->field).observed);
+    });
+    if (measured && rows.has_strange_columns())
+        throw Error("weather: this table has observations alone",
+                    "Give the weather, and this file with --observed.");
+    if (table.title_line > 0)
+        rows.note(ReadNote::Kind::Info, table.title_line, "title",
+                  "'" + shown(table.title) + "': the names of the columns are in line " +
+                      std::to_string(h.line));
+    if (table.units_line > 0)
+        rows.note(ReadNote::Kind::Info, table.units_line, "columns", "the units of the columns");
     rows.check_columns();
     return h;
 }
 
 // Which way round dates such as 01/02/2024 are: as asked, else as one of them shows.
 //   throws  Error where none shows it, or they differ
-void find_date_order(Header& h, Lines lines, RowCollector& rows, const ReadOptions& options)
+void find_date_order(Header& h, const PlainTable& table, RowCollector& rows,
+                     const ReadOptions& options)
 {
     if (h.times.stamp == CsvTimes::kNone) return;
     DateOrders orders;
     std::vector<std::string_view> cells;
+    Lines lines = table.rows();
     while (const auto line = lines.next()) {
         const auto t = trimmed(*line);
         if (t.empty() || t.front() == '#') continue;
-        split(*line, h.separator, cells, 256);
+        table.cells(*line, cells);
         if (cells.size() == h.names.size()) orders.add(cells[h.times.stamp]);
         // Tables of another kind of dates are not read twice.
         if (orders.either().empty() && orders.day_first().empty() && orders.month_first().empty())
@@ -254,6 +243,11 @@ void find_date_order(Header& h, Lines lines, RowCollector& rows, const ReadOptio
     constexpr const char* kFix =
         "Write them as 2024-02-01, or say --date-order dmy or mdy (in a scenario [weather] "
         "date_order)";
+    if (!orders.short_year().empty()) {
+        throw Error("weather: column '" + shown(h.names[h.times.stamp]) + "' has dates as '" +
+                        orders.short_year() + "', whose year has two digits: any part may be it",
+                    std::string(kFix) + "; then the last part is the year, 1970 to 2069.");
+    }
     if (!orders.day_first().empty() && !orders.month_first().empty()) {
         throw Error("weather: column '" + shown(h.names[h.times.stamp]) + "' has dates as '" +
                         orders.day_first() + "' and as '" + orders.month_first() +
@@ -273,23 +267,23 @@ void find_date_order(Header& h, Lines lines, RowCollector& rows, const ReadOptio
                   ", as '" + (day ? orders.day_first() : orders.month_first()) + "' can only be");
 }
 
-// Seconds that the amounts of precipitation of each row stand for: those to the next one. Empty
-// where the table has rates alone.
-std::vector<double> seconds_of_amounts(const Header& h, Lines lines, RowCollector& rows)
+// Seconds that the amounts of each row stand for: those to the next one. Empty where the table has
+// rates alone.
+std::vector<double> seconds_of_amounts(const Header& h, const std::vector<TimedRow>& table_rows,
+                                       RowCollector& rows)
 {
-    const bool amounts = std::any_of(h.meaning.begin(), h.meaning.end(),
-                                     [](const auto& m) { return m && m->amount; });
-    if (!amounts) return {};
+    const auto has_amounts = [&](bool energy) {
+        return std::any_of(h.meaning.begin(), h.meaning.end(), [&](const auto& m) {
+            return m && m->amount &&
+                   (field_info(m->field).unit == std::string_view("W/m2")) == energy;
+        });
+    };
+    const bool energy = has_amounts(true);
+    if (!energy && !has_amounts(false)) return {};
     std::vector<std::int64_t> times;
-    std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty() || t.front() == '#') continue;
-        split(*line, h.separator, cells, 256);
-        if (cells.size() != h.names.size()) continue;
-        const auto us = h.times.time_of(cells);
-        if (us && (times.empty() || *us > times.back())) times.push_back(*us);
-    }
+    for (const TimedRow& row : table_rows)
+        if (row.timed && (times.empty() || row.time_us > times.back()))
+            times.push_back(row.time_us);
     const std::int64_t usual_us = usual_step_us(times);
     std::vector<double> seconds;
     bool even = true;
@@ -298,8 +292,9 @@ std::vector<double> seconds_of_amounts(const Header& h, Lines lines, RowCollecto
         even = even && step_us == usual_us;
         seconds.push_back(static_cast<double>(step_us) * 1e-6);
     }
-    rows.note(ReadNote::Kind::Info, 0, "precip",
-              std::string("amounts are for the interval that begins at their row, ")
+    rows.note(ReadNote::Kind::Info, 0, energy ? "amounts" : "precip",
+              std::string(energy ? "what falls or shines is" : "amounts are")
+                  .append(" for the interval that begins at their row, ")
                   .append(std::to_string(usual_us / 1000000))
                   .append(even ? " s" : " s or as long as it is to the next one"));
     return seconds;
@@ -341,19 +336,82 @@ private:
     double last_ = 0.0;
 };
 
-using MissingCodes = std::map<std::string, std::size_t>;
+// Words of cells, and how often each was seen.
+using Words = std::map<std::string, std::size_t>;
 
-void read_cell(std::string_view text, const ColumnMeaning& m, char separator, double amount_s,
-               RowCollector& rows, Parts& parts, MissingCodes& missing_codes, Count& count)
+// Numbers of nines alone that loggers write for "no value", and that some columns may have.
+bool may_be_code(std::string_view text)
+{
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    return text.size() >= 3 && text.substr(0, 3) == "999" &&
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return c == '9' || c == '.' || c == ','; });
+}
+
+// In a row where such a number stands for what it cannot be, it is one where it could be, too: the
+// text; empty where there is none.
+std::string_view code_of_row(const Header& h, const std::vector<std::string_view>& cells,
+                             const PlainTable& table)
+{
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!h.meaning[i] || !is_field(*h.meaning[i]) || !may_be_code(cells[i])) continue;
+        const auto value = cell_number(cells[i], table);
+        // Amounts are divided by seconds: of those hundreds of mm are enough.
+        const ColumnMeaning& m = *h.meaning[i];
+        const FieldInfo& info = field_info(m.field);
+        const double si = value ? *value * m.scale + m.offset : 0.0;
+        if (value && (m.amount ? si >= 999.0 : si > info.high)) return cells[i];
+    }
+    return {};
+}
+
+// Where wind comes from in words, degrees: N, NNE, .. NNW.
+std::optional<double> compass_deg(std::string_view text)
+{
+    constexpr const char* kPoints[] = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
+                                       "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
+    const std::string low = lower(text);
+    for (int i = 0; i < 16; ++i)
+        if (low == kPoints[i]) return 22.5 * i;
+    return std::nullopt;
+}
+bool is_no_direction(std::string_view text)
+{
+    const std::string low = lower(text);
+    return low == "calm" || low == "vrb" || low == "variable" || low == "var";
+}
+bool is_trace(std::string_view text)
+{
+    const std::string low = lower(text);
+    return low == "t" || low == "tr" || low == "trace";
+}
+
+// What the cells of the table turned out to be, for notes below it.
+struct Seen {
+    Words missing, traces;
+    std::vector<Count> counts;
+};
+
+void read_cell(std::string_view text, std::size_t column, const ColumnMeaning& m,
+               const PlainTable& table, std::string_view code, double amount_s, RowCollector& rows,
+               Parts& parts, Seen& seen)
 {
     const bool field = is_field(m);
-    if (is_missing_word(text)) {
+    if (is_missing_word(text) || (!code.empty() && text == code) ||
+        (field && m.field == Field::WindFrom && is_no_direction(text))) {
         if (field) rows.missing(m.field);
-        const std::string code(trimmed(text));
-        ++missing_codes[code.empty() ? "an empty cell" : "'" + shown(code) + "'"];
+        const std::string word(trimmed(text));
+        ++seen.missing[word.empty() ? "an empty cell" : "'" + shown(word) + "'"];
         return;
     }
-    const auto value = cell_number(text, separator);
+    auto value = cell_number(text, table);
+    if (!value && field && m.field == Field::WindFrom) value = compass_deg(text);
+    const bool falls =
+        field && (m.field == Field::Precip || m.field == Field::Rain || m.field == Field::Snow);
+    if (!value && falls && is_trace(text)) {
+        ++seen.traces["'" + shown(text) + "'"];
+        value = 0.0;
+    }
     if (!value) {
         if (field) rows.unreadable(m.field, text);
     } else if (m.percent_snow) {
@@ -363,7 +421,7 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
     } else {
         double si = *value * m.scale + m.offset;
         if (m.amount) {
-            count.add(si);
+            seen.counts[column].add(si);
             si /= amount_s;
         }
         if (m.field == Field::AirTemp) parts.air_k = si;
@@ -372,63 +430,98 @@ void read_cell(std::string_view text, const ColumnMeaning& m, char separator, do
     }
 }
 
+// Rows that had to be put in order, rows that stand there twice, and clocks that jump.
+void note_order(const RowOrder& order, const std::vector<TimedRow>& rows, bool zoned,
+                RowCollector& out)
+{
+    if (order.moved > 0) {
+        out.note(ReadNote::Kind::Time, 0, "time",
+                 order.newest_first ? std::string("the newest row stands first: read from the end")
+                                    : std::to_string(order.moved) +
+                                          (order.moved == 1 ? " row stands" : " rows stand") +
+                                          " behind a later one: read in the order of their times");
+    }
+    if (order.repeated > 0) {
+        out.note(ReadNote::Kind::Time, 0, "time",
+                 std::to_string(order.repeated) +
+                     (order.repeated == 1 ? " row stands" : " rows stand") +
+                     " in the file again, letter by letter: read once");
+    }
+    if (zoned) return;
+    const SummerTime summer = summer_time(rows);
+    if (summer.skipped.empty() && summer.repeated.empty()) return;
+    std::string said = "the clock of the file ";
+    if (!summer.skipped.empty()) said += "skips an hour on " + summer.skipped;
+    if (!summer.repeated.empty())
+        said +=
+            (summer.skipped.empty() ? "repeats one on " : " and repeats one on ") + summer.repeated;
+    out.note(
+        ReadNote::Kind::Warning, 0, "time",
+        said +
+            ": it seems to keep summer time, which is not taken away; write UTC or standard time, "
+            "or +01:00 behind each time");
+}
+
 }  // namespace
 
 static void read_forcing_csv(std::string_view text, RowCollector& rows, const ReadOptions& options)
 {
-    read_place(text, rows);
-    Lines lines(text);
-    Header h = read_header(lines, rows, options);
-    find_date_order(h, lines, rows, options);
-    const std::vector<double> amount_s = seconds_of_amounts(h, lines, rows);
+    const PlainTable table(text);
+    read_place(text, table, rows);
+    Header h = read_header(table, rows, options);
+    find_date_order(h, table, rows, options);
+    RowOrder order;
+    const std::vector<TimedRow> table_rows = rows_in_order(table, h.times, order);
+    const std::vector<double> amount_s = seconds_of_amounts(h, table_rows, rows);
 
-    MissingCodes missing_codes;
-    std::vector<Count> counts(h.names.size());
+    Seen seen;
+    seen.counts.resize(h.names.size());
     std::size_t plain_numbers = 0;  // where a time should be
+    bool zoned = true;
     std::vector<std::string_view> cells;
-    while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty() || t.front() == '#') continue;
-        split(*line, h.separator, cells, 256);
+    for (const TimedRow& row : table_rows) {
+        table.cells(row.text, cells);
         if (cells.size() != h.names.size()) {
-            rows.wrong_columns(lines.number(), cells.size(), h.names.size());
+            rows.wrong_columns(row.line, cells.size(), h.names.size());
             continue;
         }
-        const auto us = h.times.time_of(cells);
-        if (!us) {
+        if (!row.timed) {
             const std::string found = h.times.shown_cells(cells);
             plain_numbers += to_number(found).has_value();
-            const char* order = h.times.order == DateOrder::DayFirst     ? " (day/month/year)"
-                                : h.times.order == DateOrder::MonthFirst ? " (month/day/year)"
-                                                                         : "";
-            rows.bad_row(lines.number(), "time",
-                         "'" + found + "' is not a date and time as 2005-10-01T06:00" + order);
+            const char* order_said = h.times.order == DateOrder::DayFirst     ? " (day/month/year)"
+                                     : h.times.order == DateOrder::MonthFirst ? " (month/day/year)"
+                                                                              : "";
+            rows.bad_row(row.line, "time",
+                         "'" + found + "' is not a date and time as 2005-10-01T06:00" + order_said);
             continue;
         }
-        if (!rows.begin_row(*us, lines.number())) continue;
+        if (!rows.begin_row(row.time_us, row.line)) continue;
         // NetCDF and GRIB come through here, with times that say UTC whatever they meant.
         if (rows.rows() == 1 && rows.report().format == "forcing CSV") {
-            if (h.times.name_zone(h.names, cells))
+            zoned = h.times.name_zone(h.names, cells);
+            if (zoned)
                 rows.times_name_their_zone();
             else if (std::isnan(options.utc_offset_h) && std::isnan(rows.site().utc_offset_h))
-                rows.note(ReadNote::Kind::Info, lines.number(), "time",
+                rows.note(ReadNote::Kind::Info, row.line, "time",
                           "the times name no zone: taken as UTC; --file-zone HOURS says another");
         }
         const double row_s = amount_s.empty() ? 0.0 : amount_s[rows.rows() - 1];
+        const std::string_view code = code_of_row(h, cells, table);
         Parts parts;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (h.meaning[i])
-                read_cell(cells[i], *h.meaning[i], h.separator, row_s, rows, parts, missing_codes,
-                          counts[i]);
+                read_cell(cells[i], i, *h.meaning[i], table, code, row_s, rows, parts, seen);
         }
         set_from_parts(rows, parts);
     }
+    note_order(order, table_rows, zoned, rows);
+    const auto& counts = seen.counts;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (!counts[i].counts_up()) continue;
         throw Error(
             "weather: column '" + shown(h.names[i]) +
                 "' never falls while it rises again and again: a total since some beginning, not "
-                "what fell in each row",
+                "that of each row",
             "Give the differences of its rows, or leave it out with --ignore " + shown(h.names[i]) +
                 ".");
     }
@@ -439,7 +532,10 @@ static void read_forcing_csv(std::string_view text, RowCollector& rows, const Re
             "Give times as 2005-10-01T06:00; for keys of the artist model, name the columns "
             "time_s,temperature_c,rainfall.");
     }
-    for (const auto& [code, count] : missing_codes) {
+    for (const auto& [word, count] : seen.traces)
+        rows.note(ReadNote::Kind::Info, 0, "precip",
+                  word + " is a trace, taken as 0, " + std::to_string(count) + " times");
+    for (const auto& [code, count] : seen.missing) {
         rows.note(ReadNote::Kind::Info, 0, "missing",
                   std::string(code)
                       .append(" means no value, ")
@@ -462,9 +558,13 @@ bool recognise(const FileHead& head)
         }
         const bool dated = low.find("time") != std::string::npos ||
                            low.find("date") != std::string::npos || low.rfind("year", 0) == 0;
-        return dated && low.find_first_of(",;\t") != std::string::npos;
+        if (dated && low.find_first_of(",;\t") != std::string::npos) return true;
+        break;
     }
-    return false;
+    // Below a title, or between blanks.
+    const PlainTable table(head.text);
+    Lines below = table.rows();
+    return is_plain_header(table.header, below.next().value_or(""));
 }
 
 }  // namespace

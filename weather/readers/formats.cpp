@@ -11,7 +11,7 @@ namespace petrichor::weather {
     add(metro) add(pvgis_json) add(open_meteo_json) add(smet) add(nsrdb) add(epw) add(pvgis) add(midc)     \
         add(tmy3) add(tmy2) add(wea) add(open_meteo_csv) add(global_hourly) add(lcd) add(ghcnh) \
             add(dwd) add(environment_canada) add(meteostat) add(iem) add(isd) add(metar)        \
-                add(ghcn_daily) add(surfrad) add(uscrn) add(isd_lite) add(fsm) add(forcing_csv)
+                add(ghcn_daily) add(surfrad) add(umep) add(uscrn) add(isd_lite) add(fsm) add(forcing_csv)
 
 #define PETRICHOR_DECLARE(name) extern const Reader name##_reader;
 PETRICHOR_WEATHER_READERS(PETRICHOR_DECLARE)

@@ -73,7 +73,18 @@ std::string_view text_of(std::string_view element, std::string_view name)
 }
 double number_of(std::string_view element, std::string_view name)
 {
-    const auto value = to_number(text_of(element, name));
+    const std::string_view said = text_of(element, name);
+    auto value = to_number(said);
+    if (!value && !said.empty()) {
+        // Between tags a comma can only be the decimal point.
+        std::string point(said);
+        std::replace(point.begin(), point.end(), ',', '.');
+        value = to_number(point);
+        const std::string low = lower(said);
+        if (!value && low != "nan" && low != "na" && low != "null" && low != "-")
+            throw Error("METRo: <" + std::string(name) + "> holds '" + shown(said) + "', no number",
+                        "Write a number, or leave it empty where there is none.");
+    }
     if (!value || std::abs(*value) == 999.0 || std::abs(*value) == 9999.0) return kMissing;
     return *value;
 }
@@ -301,10 +312,17 @@ ForcingTable read_metro_forecast(std::string_view text)
     // Amounts count from the beginning; a centimetre of new snow is a millimetre of water.
     const auto rates = [&](const std::vector<double>& sums) {
         std::vector<double> out(sums.size(), 0.0);
-        for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
-            const double dt_s = static_cast<double>(t.time_us[i + 1] - t.time_us[i]) * 1e-6;
-            const double fallen = sums[i + 1] - sums[i];
-            if (fallen > 0.0) out[i] = std::min(fallen / dt_s, field_info(Field::Rain).high);
+        std::optional<std::size_t>
+            last;  // row with a sum; those without it divide what fell to the next
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            if (std::isnan(sums[i])) continue;
+            const double fallen = last ? sums[i] - sums[*last] : 0.0;
+            if (fallen > 0.0) {
+                const double dt_s = static_cast<double>(t.time_us[i] - t.time_us[*last]) * 1e-6;
+                for (std::size_t k = *last; k < i; ++k)
+                    out[k] = std::min(fallen / dt_s, field_info(Field::Rain).high);
+            }
+            last = i;
         }
         return out;
     };

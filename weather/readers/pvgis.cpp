@@ -88,9 +88,12 @@ static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOpti
     rows.unread_columns(unread);
     Lines again = lines;
     TypicalYear typical;
+    std::size_t last = 0;  // line of the table; the footer below it explains the columns
     while (const auto line = again.next()) {
         CivilTime when;
-        if (parse_when(*line, when)) typical.watch(when.year, when.month);
+        if (!parse_when(*line, when)) continue;
+        typical.watch(when.year, when.month);
+        last = again.number();
     }
     typical.decide(rows);
     rows.note(ReadNote::Kind::Info, 0, "precip", "PVGIS has no precipitation");
@@ -104,12 +107,11 @@ static void read_pvgis(std::string_view text, RowCollector& rows, const ReadOpti
     }
     std::vector<std::string_view> f;
     while (const auto line = lines.next()) {
-        const auto t = trimmed(*line);
-        if (t.empty()) break;  // the footer explains the columns
+        if (lines.number() > last) break;
+        if (trimmed(*line).empty()) continue;
         split(*line, ',', f, 64);
         CivilTime when;
         if (!parse_when(f[0], when)) {
-            if (f.size() < names.size() / 2) break;  // a footer without an empty line before it
             rows.bad_row(lines.number(), "time", "'" + shown(f[0]) + "' is not YYYYMMDD:HHMM");
             continue;
         }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "weather/physics/constants.h"
 #include "weather/physics/solar.h"
 #include "weather/readers/formats.h"
 #include "weather/readers/text.h"
@@ -58,9 +59,12 @@ void refuse_binary(std::string_view text)
     for (std::size_t i = 0; i < 16; ++i) {
         const std::size_t at = text.size() / 16 * i;
         const auto part = text.substr(at, kSample);
-        if (part.find('\0') != std::string_view::npos || count_odd(part) * 50 > part.size()) {
+        const std::size_t zero = part.find('\0');
+        if (zero != std::string_view::npos || count_odd(part) * 50 > part.size()) {
             throw Error(
-                "weather: this is a binary file, not text (near byte " + std::to_string(at) + ")",
+                "weather: this is a binary file, not text (" +
+                    std::string(zero != std::string_view::npos ? "a 0 in byte " : "near byte ") +
+                    std::to_string(at + (zero != std::string_view::npos ? zero : 0)) + ")",
                 "Give a text file: " + known_kinds() + ".");
         }
         if (text.size() <= kSample) break;
@@ -105,6 +109,195 @@ void check_sun(const ForcingTable& table, bool zoned, ReadReport& report)
                            : "if its times are local, give --file-zone " + std::to_string(-turn))});
 }
 
+// Longwave beside what a black body as warm as the air sends: 0.6 under the driest sky, 0.9 to 1
+// where something falls, whatever the climate.
+void check_longwave(const ForcingTable& table, ReadReport& report)
+{
+    constexpr std::size_t kFew = 48, kFewFalling = 20;
+    constexpr double kLeast = 0.55, kLeastFalling = 0.8, kMost = 1.2, kFalls_kg_m2_s = 0.1 / 3600.0;
+    if (!table.has(Field::Longwave) || !table.has(Field::AirTemp)) return;
+    std::vector<double> all, falling;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double air_k = table[Field::AirTemp][i];
+        const double share =
+            table[Field::Longwave][i] / (kStefanBoltzmann * air_k * air_k * air_k * air_k);
+        if (std::isnan(share)) continue;
+        all.push_back(share);
+        for (const Field f : {Field::Precip, Field::Rain, Field::Snow}) {
+            if (!table.has(f) || !(table[f][i] >= kFalls_kg_m2_s)) continue;
+            falling.push_back(share);
+            break;
+        }
+    }
+    const auto odd = [&](std::vector<double>& shares, std::size_t few, double least,
+                         const char* when) {
+        if (shares.size() < few) return false;
+        const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+        std::nth_element(shares.begin(), middle, shares.end());
+        if (*middle >= least && *middle <= kMost) return false;
+        char said[200];
+        std::snprintf(said, sizeof said,
+                      "it is %.2f of what a black body as warm as the air sends%s: it, or the air "
+                      "temperature, has another unit than its name says",
+                      *middle, when);
+        report.add({ReadNote::Kind::Warning, 0, field_info(Field::Longwave).name, said});
+        return true;
+    };
+    if (!odd(falling, kFewFalling, kLeastFalling, " while rain or snow falls"))
+        odd(all, kFew, kLeast, "");
+}
+
+// Light of whole days beside that of a clear sky, whatever the clock of the file is.
+void check_light(const ForcingTable& table, ReadReport& report)
+{
+    constexpr std::size_t kFewDays = 5;
+    constexpr double kFewLight_w_m2 = 30.0, kLeast = 0.1, kMost = 1.6;
+    constexpr std::int64_t kDay_us = 86400LL * 1000000;
+    const Site& site = table.site;
+    if (!table.has(Field::Shortwave) || std::isnan(site.latitude_deg) ||
+        std::isnan(site.longitude_deg))
+        return;
+    const Observer observer(site.latitude_deg, site.longitude_deg);
+    std::vector<double> share;  // of days
+    double light = 0.0, clear = 0.0;
+    std::int64_t day = 0, known_us = 0;
+    for (std::size_t i = 0; i + 1 < table.rows(); ++i) {
+        const std::int64_t us = table.time_us[i], width = table.time_us[i + 1] - us;
+        if (i == 0 || us / kDay_us != day) {
+            if (known_us > kDay_us * 9 / 10 &&
+                clear > kFewLight_w_m2 * static_cast<double>(known_us))
+                share.push_back(light / clear);
+            day = us / kDay_us;
+            light = clear = 0.0;
+            known_us = 0;
+        }
+        const double sw = table[Field::Shortwave][i];
+        if (std::isnan(sw) || width > kDay_us / 8) continue;
+        light += sw * static_cast<double>(width);
+        clear += clear_sky_w_m2(SunNear(us, observer).at(us).up) * static_cast<double>(width);
+        known_us += width;
+    }
+    if (share.size() < kFewDays) return;
+    std::sort(share.begin(), share.end());
+    const double most = share.back(), middle = share[share.size() / 2];
+    // A week of thick cloud is as dark as a tenth; a month is not, nor is every other day brighter
+    // than a clear one.
+    const bool dark = most<kLeast, bright = middle> kMost;
+    if (!dark && !bright) return;
+    char said[200];
+    std::snprintf(said, sizeof said,
+                  "%s day has more than %.2g of the light of a clear sky: its unit is another than "
+                  "its name says",
+                  dark ? "no" : "every other", dark ? most : middle);
+    report.add({ReadNote::Kind::Warning, 0, field_info(Field::Shortwave).name, said});
+}
+
+// Files that stand beside weather, and pages of servers that had none.
+void refuse_what_belongs_elsewhere(const FileHead& head)
+{
+    const std::string low = lower(head.text.substr(0, 4096));
+    const auto has = [&](const char* word) { return low.find(word) != std::string::npos; };
+    if (has("<html"))
+        throw Error(
+            "weather: this is a web page, no weather: " + shown(trimmed(head.lines.front())),
+            "Look at it in a browser: the address may need a key, or no longer exist.");
+    if (has("<station>"))
+        throw Error("weather: this is a METRo station, no weather",
+                    "Give METRo's forecast, and the station with --road.");
+    if (has("<roadcast>"))
+        throw Error("weather: this is a result of METRo, no weather",
+                    "Give METRo's forecast, and the station with --road.");
+    // Day, albedo, runoff, depth, water, temperatures of surface and ground.
+    constexpr std::size_t kObservedColumns = 9;
+    const auto w = words(head.lines.front(), 64);
+    if (w.size() != kObservedColumns || !all_numbers(w)) return;
+    const auto year = to_integer(w[0]), month = to_integer(w[1]), day = to_integer(w[2]);
+    if (year && month && day &&
+        us_from_civil({*year, static_cast<int>(*month), static_cast<int>(*day), 0, 0, 0.0}))
+        throw Error("weather: nine columns that begin with a date are FSM's observations",
+                    "Give the weather, and this file with --observed.");
+}
+
+}  // namespace
+
+namespace {
+
+// Readers of commas; another separator between the same cells is a spreadsheet's.
+bool wants_commas(const Reader& reader)
+{
+    for (const char* name : {"NSRDB CSV", "EPW", "PVGIS CSV", "MIDC", "TMY3 CSV", "Open-Meteo CSV",
+                             "NOAA global hourly", "LCD", "Environment Canada", "Meteostat", "IEM"})
+        if (reader.name == std::string_view(name)) return true;
+    return false;
+}
+
+// The line with commas between its cells, points in its numbers (unless groups such as +0012,1 are
+// no numbers), and quotes around other cells with commas.
+void add_with_commas(std::string_view line, char separator, bool points, std::string& out)
+{
+    bool quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+        if (i < line.size()) quoted ^= line[i] == '"';
+        if (i < line.size() && (line[i] != separator || quoted)) continue;
+        const std::string_view cell = line.substr(begin, i - begin);
+        if (begin > 0) out += ',';
+        begin = i + 1;
+        if (cell.find(',') == std::string_view::npos || cell.front() == '"') {
+            out += cell;
+            continue;
+        }
+        std::string point(cell);
+        std::replace(point.begin(), point.end(), ',', '.');
+        const bool number =
+            points && std::count(cell.begin(), cell.end(), ',') == 1 && to_number(point);
+        out += number ? point : "\"" + std::string(cell) + "\"";
+    }
+}
+
+// Of a table that a spreadsheet has saved with semicolons or tabs: as it was before. Empty where it
+// is none.
+std::string with_commas(std::string_view text)
+{
+    const FileHead head(without_mark(text));
+    // Its names may stand below lines of the place.
+    char separator = ';';
+    std::ptrdiff_t many = 0, commas = 0;
+    for (const std::string_view line : head.lines) {
+        for (const char c : {';', '\t'}) {
+            const auto n = std::count(line.begin(), line.end(), c);
+            if (n <= many) continue;
+            many = n;
+            separator = c;
+            commas = std::count(line.begin(), line.end(), ',');
+        }
+    }
+    if (many < 3 || many < commas) return {};
+    // What is somebody's own kind with this separator (DWD) stays so.
+    for (const Reader* reader : weather_readers())
+        if (reader->recognise(head) && !wants_commas(*reader) &&
+            reader->name != std::string_view("forcing CSV"))
+            return {};
+    const auto converted = [&](std::string_view part, bool points) {
+        std::string out;
+        Lines lines(part);
+        while (const auto line = lines.next()) {
+            add_with_commas(*line, separator, points, out);
+            out += '\n';
+        }
+        return out;
+    };
+    const std::string beginning = converted(head.text, true);
+    const FileHead as_commas(beginning);
+    for (const Reader* reader : weather_readers()) {
+        if (!reader->recognise(as_commas)) continue;
+        if (!wants_commas(*reader)) break;
+        return converted(without_mark(text),
+                         reader->name != std::string_view("NOAA global hourly"));
+    }
+    return {};
+}
+
 }  // namespace
 
 const Reader& recognise_weather(std::string_view text)
@@ -114,10 +307,12 @@ const Reader& recognise_weather(std::string_view text)
         throw Error("weather: the file is empty", "Give a text file: " + known_kinds() + ".");
     }
     refuse_binary(text);
-    const FileHead head(without_mark(text));
+    const std::string commas = with_commas(text.substr(0, 1 << 16));
+    const FileHead head(commas.empty() ? without_mark(text) : std::string_view(commas));
     for (const Reader* reader : weather_readers()) {
         if (reader->recognise(head)) return *reader;
     }
+    refuse_what_belongs_elsewhere(head);
     throw Error(
         "weather: the kind of this file is not known; it begins with '" +
             shown(head.lines.front()) + "'",
@@ -137,8 +332,14 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
         result.report.add({ReadNote::Kind::Info, 0, "text", "UTF-16, read as such"});
         return result;
     }
+    refuse_binary(text);
+    const std::string commas = with_commas(text);
+    if (!commas.empty()) text = commas;
     const Reader& reader = recognise_weather(text);
     RowCollector rows(reader.name);
+    if (!commas.empty())
+        rows.note(ReadNote::Kind::Info, 0, "text",
+                  "cells apart as a spreadsheet saves them, read as with commas");
     std::size_t empty_lines = 0;
     const std::string_view filled = without_empty_lines(without_mark(text), empty_lines);
     if (empty_lines > 0)
@@ -179,6 +380,8 @@ ReadResult read_weather(std::string_view text, const ReadOptions& options)
             us -= static_cast<std::int64_t>(options.utc_offset_h * 3600e6);
     }
     check_sun(result.table, rows.zone_named(), result.report);
+    check_light(result.table, result.report);
+    check_longwave(result.table, result.report);
     if (options.fill) fill_forcing(result.table, result.report, options.filling);
     return result;
 }

@@ -59,15 +59,19 @@ static void read_tmy3(std::string_view text, RowCollector& rows, const ReadOptio
 {
     Lines lines(text);
     const auto place = split(lines.next().value_or(""), ',', 16);
-    double zone_h = 0.0;
-    if (place.size() >= 7) {
-        rows.site().name = std::string(place[1]);
-        zone_h = to_number(place[3]).value_or(0.0);
-        rows.site().latitude_deg = to_number(place[4]).value_or(kMissing);
-        rows.site().longitude_deg = to_number(place[5]).value_or(kMissing);
-        rows.site().elevation_m = to_number(place[6]).value_or(kMissing);
+    const auto of_place = [&](std::size_t i) {
+        return i < place.size() ? to_number(place[i]).value_or(kMissing) : kMissing;
+    };
+    if (place.size() > 1) rows.site().name = std::string(place[1]);
+    double zone_h = of_place(3);
+    rows.site().latitude_deg = of_place(4);
+    rows.site().longitude_deg = of_place(5);
+    rows.site().elevation_m = of_place(6);
+    if (!(zone_h >= -12.0 && zone_h <= 14.0)) {
+        rows.note(ReadNote::Kind::Warning, 1, "time",
+                  "the line of the place names no time zone: taken as UTC");
+        zone_h = 0.0;
     }
-    if (!(zone_h >= -12.0 && zone_h <= 14.0)) zone_h = 0.0;
     rows.site().utc_offset_h = zone_h;
     const auto names = split(lines.next().value_or(""), ',', 256);
     std::vector<std::size_t> index(std::size(kColumns), names.size());

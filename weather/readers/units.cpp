@@ -34,11 +34,14 @@ constexpr Name kNames[] = {
     {"winddirection_10m", Field::WindFrom, Quantity::Degrees},
     {"wind_direction", Field::WindFrom, Quantity::Degrees},
     {"wind_from", Field::WindFrom, Quantity::Degrees},
+    {"wind_dir", Field::WindFrom, Quantity::Degrees},
+    {"winddir", Field::WindFrom, Quantity::Degrees},
     {"wind_speed_10m", Field::Wind, Quantity::Speed},
     {"windspeed_10m", Field::Wind, Quantity::Speed},
     {"wind_speed", Field::Wind, Quantity::Speed},
     {"windspeed", Field::Wind, Quantity::Speed},
     {"wind", Field::Wind, Quantity::Speed},
+    {"ws", Field::Wind, Quantity::Speed},
     {"dew_point_2m", Field::DewPoint, Quantity::Temperature},
     {"dewpoint_2m", Field::DewPoint, Quantity::Temperature},
     {"dew_point", Field::DewPoint, Quantity::Temperature},
@@ -48,6 +51,9 @@ constexpr Name kNames[] = {
     {"temperature_2m", Field::AirTemp, Quantity::Temperature},
     {"temperature", Field::AirTemp, Quantity::Temperature},
     {"temp_air", Field::AirTemp, Quantity::Temperature},
+    {"airtc", Field::AirTemp, Quantity::Temperature},
+    {"t_air", Field::AirTemp, Quantity::Temperature},
+    {"tair", Field::AirTemp, Quantity::Temperature},
     {"temp", Field::AirTemp, Quantity::Temperature},
     {"relative_humidity_2m", Field::RelHumidity, Quantity::Percent},
     {"relativehumidity_2m", Field::RelHumidity, Quantity::Percent},
@@ -56,21 +62,33 @@ constexpr Name kNames[] = {
     {"humidity", Field::RelHumidity, Quantity::Percent},
     {"rh", Field::RelHumidity, Quantity::Percent},
     {"surface_pressure", Field::Pressure, Quantity::Pressure},
+    {"station_pressure", Field::Pressure, Quantity::Pressure},
+    {"air_pressure", Field::Pressure, Quantity::Pressure},
+    {"barometric_pressure", Field::Pressure, Quantity::Pressure},
     {"pressure", Field::Pressure, Quantity::Pressure},
+    {"bp", Field::Pressure, Quantity::Pressure},
     {"sw_down", Field::Shortwave, Quantity::Flux},
     {"sw_in", Field::Shortwave, Quantity::Flux},
     {"swdown", Field::Shortwave, Quantity::Flux},
     {"shortwave_radiation", Field::Shortwave, Quantity::Flux},
     {"shortwave", Field::Shortwave, Quantity::Flux},
+    {"global_radiation", Field::Shortwave, Quantity::Flux},
+    {"global_horizontal_irradiance", Field::Shortwave, Quantity::Flux},
+    {"solar_radiation", Field::Shortwave, Quantity::Flux},
+    {"solar_irradiance", Field::Shortwave, Quantity::Flux},
+    {"slrw", Field::Shortwave, Quantity::Flux},
     {"ghi", Field::Shortwave, Quantity::Flux},
     {"sw_net", Field::NetShortwave, Quantity::Flux},
+    {"sw", Field::Shortwave, Quantity::Flux},
     {"net_solar", Field::NetShortwave, Quantity::Flux},
     {"net_shortwave", Field::NetShortwave, Quantity::Flux},
     {"lw_down", Field::Longwave, Quantity::Flux},
     {"lw_in", Field::Longwave, Quantity::Flux},
     {"lwdown", Field::Longwave, Quantity::Flux},
+    {"longwave_radiation", Field::Longwave, Quantity::Flux},
     {"longwave", Field::Longwave, Quantity::Flux},
     {"thermal", Field::Longwave, Quantity::Flux},
+    {"lw", Field::Longwave, Quantity::Flux},
     {"direct_normal_irradiance", Field::Direct, Quantity::Flux},
     {"dni", Field::Direct, Quantity::Flux},
     {"diffuse_radiation", Field::Diffuse, Quantity::Flux},
@@ -167,7 +185,23 @@ bool unit_factor(Quantity quantity, const std::string& u, ColumnMeaning& m)
                 return false;
             return true;
         case Quantity::Flux:
-            return is({"", "wm2", "wm-2"});
+            if (is({"", "wm2", "wm-2"})) return true;
+            // What came in over the interval.
+            m.amount = true;
+            if (is({"jm2"})) return true;
+            if (is({"kjm2"}))
+                m.scale = 1e3;
+            else if (is({"mjm2"}))
+                m.scale = 1e6;
+            else if (is({"jcm2"}))
+                m.scale = 1e4;
+            else if (is({"whm2"}))
+                m.scale = 3600.0;
+            else if (is({"kwhm2"}))
+                m.scale = 3.6e6;
+            else
+                return false;
+            return true;
         case Quantity::Fraction:
             if (is({"", "fraction", "1"})) return true;
             if (is({"pct", "percent"}))
@@ -240,6 +274,13 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
     for (char& c : low) {
         if (c == ' ' || c == '-') c = '_';
     }
+    // Loggers say how they made one value of many: a mean, a sample, a sum.
+    for (const char* how : {"_avg", "_mean", "_smp", "_tot", "_sum"}) {
+        if (low.size() > std::string_view(how).size() && low.ends_with(how)) {
+            low.resize(low.size() - std::string_view(how).size());
+            break;
+        }
+    }
     ColumnMeaning m;
     if (low == "percent_snow") {
         m.percent_snow = true;
@@ -253,6 +294,11 @@ std::optional<ColumnMeaning> column_meaning(std::string_view name, std::string_v
     if (low == "snow" && given.empty()) {
         throw Error("weather: column 'snow' says neither whether it is what fell nor its unit",
                     "Name it snowfall_mm (water), snowfall_cm (fresh snow) or snow_depth_cm.");
+    }
+    // Short names stand for many things: a unit must say which.
+    if (given.empty()) {
+        for (const char* n : {"sw", "lw", "ws", "bp", "tair", "t_air"})
+            if (low == n) return std::nullopt;
     }
     for (const Name& known : kNames) {
         const std::string_view n = known.name;
