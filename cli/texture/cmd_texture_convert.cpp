@@ -217,6 +217,36 @@ void tell_losses(const std::string& format, const texproc::RawImage& raw)
         std::cerr << "note: " << beyond << " numbers beyond half floats become the last one, 65504, or 0\n";
 }
 
+// Floats beyond 0..1 have no code among integers and in most blocks.
+void tell_cuts(const texproc::RawImage& raw, const std::string& format, texproc::PixelType type)
+{
+    const auto is_float = [](texproc::PixelType t) {
+        return t == texproc::PixelType::F16 || t == texproc::PixelType::F32;
+    };
+    bool kept = is_float(type);
+    if (!format.empty()) {
+        const texproc::TextureFormat to = texproc::texture_format(format);
+        kept = to.block ? format.starts_with("bc6h") : is_float(to.type);
+    }
+    if (!is_float(raw.type) || kept) return;
+    const Image values = texproc::to_image(raw, ColorSpace::Data);
+    constexpr float kHalfCode = 0.5f / 255.0f;  // less is rounding
+    std::size_t above = 0, below = 0, none = 0;
+    for (const float v : values.pixels) {
+        above += v > 1.0f + kHalfCode;
+        below += v < -kHalfCode;
+        none += std::isnan(v);
+    }
+    const auto tell = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            std::cerr << "note: " << count << " of " << values.pixels.size() << " numbers " << what
+                      << " (floats keep them: .exr, or --format 16f in .dds and .ktx2)\n";
+    };
+    tell(above, "are above 1 and become 1");
+    tell(below, "are below 0 and become 0");
+    tell(none, "are not numbers and become 0");
+}
+
 void write_slopes(const Arguments& a, const texproc::RawImage& raw)
 {
     const int channels = a.normals ? 3 : 1;
@@ -259,6 +289,7 @@ void run(const Arguments& a)
     tell_losses(a.format, raw);
     const std::string extension = extension_of(a.out);
     const texproc::PixelType type = type_for(extension, a.bits, raw.type);
+    tell_cuts(raw, a.format, type);
     const texproc::Rounding rounding =
         a.dither ? texproc::Rounding::Ordered : texproc::Rounding::Nearest;
     const ColorSpace space = a.srgb ? ColorSpace::Linear : ColorSpace::Data;

@@ -74,6 +74,24 @@ std::string bars(const texproc::ChannelFacts& channel)
     return text;
 }
 
+// What the words of the name say, which numbers alone cannot tell: a grey colour is no height.
+texproc::NamedMaps named_maps(const std::string& file)
+{
+    return texproc::maps_named(fs::path(texproc::parse_input_map(file).path).stem().string());
+}
+
+// "albedo (sRGB)", "occlusion r, roughness g, metallic b".
+std::string roles_text(const texproc::NamedMaps& named)
+{
+    std::string text;
+    for (const auto& [role, channels] : named.roles) {
+        const bool color = role == "albedo" || role == "specular" || role == "emission";
+        text += (text.empty() ? "" : ", ") + role + (channels.empty() ? "" : " " + channels) +
+                (color ? " (sRGB)" : "");
+    }
+    return text;
+}
+
 nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw,
                                const ImageFacts& facts,
                                const std::optional<texproc::MipTexture>& texture)
@@ -85,6 +103,7 @@ nlohmann::ordered_json to_json(const std::string& file, const RawImage& raw,
                                 {"type", name_of(raw.type)},
                                 {"meaning", to_text(facts.meaning)},
                                 {"confidence", facts.meaning_confidence},
+                                {"named", named_maps(file).roles},
                                 {"seam_u", facts.seam_u},
                                 {"seam_v", facts.seam_v},
                                 {"tiles_u", facts.tiles_u},
@@ -131,6 +150,8 @@ void print(const std::string& file, const RawImage& raw, const ImageFacts& facts
                     100.0 * facts.green->confidence);
         std::printf(", mean length %.3f", facts.mean_length);
     }
+    const std::string roles = roles_text(named_maps(file));
+    if (!roles.empty()) std::printf("\n  named as    %s", roles.c_str());
     const auto axis = [](double seam, bool tiles) {
         return seam == 0.0 ? "?" : tiles ? "yes" : "no";
     };

@@ -96,6 +96,26 @@ TEST_F(Convert, LevelZeroKeepsItsCodes)
 }
 
 // Half the size is the mean of four; colour is averaged as light, normals keep their length.
+TEST_F(Convert, SaysWhatIntegersCut)
+{
+    Image light(8, 4, 1, ColorSpace::Data, 0.5f);
+    light.pixels[0] = 7.0f, light.pixels[1] = 1.5f, light.pixels[2] = -1.0f;
+    light.pixels[3] = std::nanf("");
+    texproc::write_raw(place / "light.exr", texproc::to_raw(light, texproc::PixelType::F32));
+    for (const std::vector<std::string>& to :
+         std::vector<std::vector<std::string>>{{"o.png"}, {"o.dds", "--format", "bc4"}, {"o.ktx2", "--format", "r8"}}) {
+        std::vector<std::string> arguments{"light.exr", "-o"};
+        arguments.insert(arguments.end(), to.begin(), to.end());
+        const std::string err = convert(arguments).err;
+        EXPECT_THAT(err, testing::HasSubstr("2 of 32 numbers are above 1 and become 1")) << to[0];
+        EXPECT_THAT(err, testing::HasSubstr("1 of 32 numbers are below 0 and become 0")) << to[0];
+        EXPECT_THAT(err, testing::HasSubstr("1 of 32 numbers are not numbers")) << to[0];
+    }
+    EXPECT_EQ(convert({"light.exr", "-o", "o.dds"}).err, "");
+    EXPECT_EQ(convert({"light.exr", "-o", "o.ktx2", "--format", "r16f"}).err, "");
+    EXPECT_EQ(convert({"in.png", "-o", "o.png"}).err, "");
+}
+
 TEST_F(Convert, ResamplesToASizeOrByAFactor)
 {
     Image checker(8, 4, 3, ColorSpace::Data);

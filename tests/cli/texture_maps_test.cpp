@@ -176,6 +176,33 @@ TEST(TextureTools, AFullDiskLeavesTheOldFile)
     EXPECT_EQ(read_file(place / "out.dds"), "old");
 }
 
+TEST(TextureTools, AWordThatIsNoCommandIsNamed)
+{
+    const Workplace place("texture_words");
+    for (const auto& [word, said] : {std::pair{"prepare", "no command \"prepare\""}, {"biuld", "Did you mean \"build\"?"}}) {
+        const Outcome outcome = run({"texture", word, "x.png"}, place);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_THAT(outcome.err, HasSubstr(said));
+        EXPECT_THAT(outcome.err, HasSubstr("prefilter"));
+    }
+    EXPECT_THAT(run({"texture"}, place).err, HasSubstr("a command is missing"));
+    EXPECT_THAT(run({"texture", "mips", "a.png", "-o", "b_%d.png", "more"}, place).err, HasSubstr("not expected: more"));
+}
+
+// From its numbers a grey colour is a height.
+TEST(TextureTools, InspectSaysWhatTheNameSays)
+{
+    const Workplace place("texture_named");
+    write_maps(place);
+    fs::copy(place / "rough.png", place / "Tiles_Color.png");
+    fs::copy(place / "color.png", place / "wall_arm.png");
+    const std::string out = run({"texture", "inspect", "Tiles_Color.png", "wall_arm.png"}, place).out;
+    EXPECT_THAT(out, HasSubstr("named as    albedo (sRGB)\n"));
+    EXPECT_THAT(out, HasSubstr("roughness g"));
+    const json facts = json::parse(run({"texture", "inspect", "Tiles_Color.png", "--json"}, place).out);
+    EXPECT_TRUE(facts[0]["named"].contains("albedo"));
+}
+
 TEST(TextureTools, OddShapesAreFine)
 {
     const Workplace place("texture_odd");

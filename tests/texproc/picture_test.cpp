@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "texproc/filter/pixel_length.h"
 #include "texproc/material/base_share.h"
 #include "texproc/study/fresh_maps.h"
 #include "texproc/study/score.h"
@@ -233,6 +235,46 @@ TEST(BaseShare, IsTheLengthOfTheMeanNormal)
     EXPECT_FLOAT_EQ(painted[2].pixels[3], 0.8f) << "alpha is no colour";
     apply_base_shares(color, shares, metal);
     EXPECT_FLOAT_EQ(color[2].pixels[0], 0.8f) << "the colour of metal is that of its highlight";
+}
+
+// Columns of a level that lean left and right in turn, by 45 degrees.
+Image leaning_columns(int width, int height, int columns)
+{
+    const float lean = std::sqrt(0.5f);
+    Image normals(width, height, 3, ColorSpace::Data, 0.5f);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            normals.at(x, y, 0) = 0.5f + (x / columns % 2 ? 0.5f : -0.5f) * lean;
+            normals.at(x, y, 2) = 0.5f + 0.5f * lean;
+        }
+    return normals;
+}
+
+TEST(PixelLength, IsLostBetweenTexelsAtEdgesToo)
+{
+    const Image lengths = pixel_lengths(leaning_columns(8, 3, 1));
+    for (const float length : lengths.pixels) EXPECT_NEAR(length, std::sqrt(0.5f), 1e-6f);
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 5}, {2, 1}})
+        for (const float length : pixel_lengths(leaning_columns(width, height, 8)).pixels)
+            EXPECT_NEAR(length, 1.0f, 1e-6f) << width << " x " << height;
+}
+
+// Of level 1, whose texels are all of one slope, bilinear reading makes a surface too bright from above:
+// the normals between two slopes stand up. What pixels lose takes more than half of that away.
+TEST(BaseShare, OfPixelsIsNearerToTheLightOfTheSlopes)
+{
+    const Image normals = leaning_columns(16, 16, 2);
+    const float truth = std::sqrt(0.5f);
+    float read = 0.0f;
+    constexpr int kPlaces = 1000;
+    for (int i = 0; i < kPlaces; ++i) {
+        const float t = (static_cast<float>(i) + 0.5f) / kPlaces, x = (1.0f - 2.0f * t) * truth;
+        read += truth / std::sqrt(x * x + truth * truth) / kPlaces;
+    }
+    const float texels = base_shares(normals)[1].at(3, 3, 0), pixels = pixel_base_shares(normals)[1].at(3, 3, 0);
+    EXPECT_NEAR(texels, 1.0f, 1e-6f);
+    EXPECT_LT(std::abs(pixels * read - truth), 0.5f * std::abs(texels * read - truth));
+    EXPECT_LT(pixels, texels);
 }
 
 TEST(PictureRule, HasNoDesignLight)

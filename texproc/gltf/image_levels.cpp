@@ -183,7 +183,7 @@ std::vector<Image> ImageMaker::color_levels(const ImageRecipe& recipe) const
             metallic.emplace_back(level.width, level.height, 1, ColorSpace::Data,
                                   recipe.metallic_factor);
     }
-    apply_base_shares(levels, base_shares(normals, options_.threads), metallic);
+    apply_base_shares(levels, pixel_base_shares(normals, options_.threads), metallic);
     return levels;
 }
 
@@ -326,7 +326,7 @@ std::optional<PairPictures> ImageMaker::pictures(std::size_t number) const
         {to_raw(pair.normals, PixelType::U16), to_raw(pair.roughness, PixelType::U16),
          pair_options(options_, recipe), build_pictures(options_.threads)},
         level_sizes(pair.normals.width, pair.normals.height),
-        base_shares(pair.normals, options_.threads)};
+        pixel_base_shares(pair.normals, options_.threads)};
 }
 
 // Levels that one of the two images does not have are left to the maps.

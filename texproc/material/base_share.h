@@ -15,6 +15,10 @@ namespace petrichor::texproc {
 ///   normals  3 channels, 0.5 + 0.5 n; z follows from x and y
 std::vector<Image> base_shares(const Image& normals, int threads = 0);
 
+/// The same of pixels, which blend texels and lose length once more (filter/pixel_length.h): what the rule
+/// picture darkens by.
+std::vector<Image> pixel_base_shares(const Image& normals, int threads = 0);
+
 /// Multiplies red, green and blue of the levels of a base colour by the shares. Metal keeps its
 /// colour, which is that of its highlight.
 ///   color     3 or 4 channels, level 0 first, which stays

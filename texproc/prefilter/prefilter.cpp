@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "texproc/filter/area.h"
+#include "texproc/filter/pixel_length.h"
 #include "texproc/prefilter/detail/filter.h"
 #include "texproc/prefilter/detail/input.h"
 #include "texproc/prefilter/detail/picture_settle.h"
@@ -62,6 +63,16 @@ void lux_roughness(const MapSurface& surface, const PrefilterOptions& options, P
     }
 }
 
+// What a pixel loses by blending normals, beside what its texels lost.
+void widen_base_share(Prefiltered& chain, int threads)
+{
+    for (std::size_t k = 1; k < chain.base_share.size(); ++k) {
+        const Image lengths = pixel_lengths(chain.normal[k], threads);
+        for (std::size_t i = 0; i < lengths.pixels.size(); ++i)
+            chain.base_share[k].pixels[i] *= lengths.pixels[i];
+    }
+}
+
 using Wanted = std::function<bool(int, int, int)>;
 
 // All variants in one walk; `wanted` empty: every texel.
@@ -90,8 +101,10 @@ std::vector<Prefiltered> filtered(const MapSurface& surface,
     });
     for (std::size_t i = 0; i < variants.size(); ++i) {
         if (variants[i].rule == "lux") lux_roughness(surface, variants[i], chains[i]);
-        if (variants[i].rule == "picture" && !wanted)
+        if (variants[i].rule == "picture" && !wanted) {
+            widen_base_share(chains[i], variants[i].threads);
             settle_picture(surface, variants[i], chains[i]);
+        }
     }
     return chains;
 }
