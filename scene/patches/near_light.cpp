@@ -67,14 +67,45 @@ std::vector<std::uint8_t> glow_taken(const Patches& patches, const Triangles& tr
     return taken;
 }
 
+// A choice's polygon, for what meets it.
+struct Shown {
+    NearPolygon polygon;
+    glm::vec3 front;
+};
+
+// Whether a ray may meet what was chosen, whatever stands before it and however it was drawn: its plane from the front,
+// within a margin for rounding.
+bool may_meet(std::span<const Shown> shown, const RowRays& row, int r)
+{
+    constexpr float kMargin_m = 4e-3f, kGrazing = 1e-3f;
+    const glm::vec3 local = row.local(r);
+    for (std::size_t draw = 0; draw < RowRays::kDraws; ++draw) {
+        const Ray ray = row.ray(r, local, draw);
+        for (const Shown& s : shown) {
+            const float falls = glm::dot(ray.direction, s.front);
+            if (falls > kGrazing) continue;
+            const float height = glm::dot(ray.origin - s.polygon.corner[0], s.front);
+            if (height < -kMargin_m) continue;
+            if (falls > -kGrazing ||
+                holds(s.polygon, s.front, ray.origin - ray.direction * (height / falls), kMargin_m))
+                return true;
+        }
+    }
+    return false;
+}
+
 // The rays of the patch's row that meet what was chosen.
 std::vector<std::uint16_t> rays_taken(const Patches& patches, const Tracer& tracer, const NearFaces& faces,
                                       std::uint32_t patch, std::span<const NearChoice> choices)
 {
     std::vector<std::uint16_t> rays;
-    for (int r = 0; r < patches.rays && !choices.empty(); ++r) {
-        if (patches.row(patch)[r] >= patches.count) continue;
-        const LinkRay link = trace_link(patches, tracer, patch, r);
+    if (choices.empty()) return rays;
+    std::vector<Shown> shown;
+    for (const NearChoice& c : choices) shown.push_back({polygon_of(c.corners), front_of(c.corners)});
+    const RowRays row(patches, tracer.triangles(), patch);
+    for (int r = 0; r < patches.rays; ++r) {
+        if (patches.row(patch)[r] >= patches.count || !may_meet(shown, row, r)) continue;
+        const LinkRay link = trace_link(tracer, row, r);
         if (!link.hit.hit() || link.inside) continue;
         const std::uint32_t face = faces.of_triangle[link.hit.triangle];
         const glm::vec3 x = tracer.triangles().point(link.hit.triangle, link.hit.at);

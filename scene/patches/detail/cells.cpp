@@ -120,6 +120,7 @@ private:
                      std::vector<RawSample>& out) const;
     Known known(glm::ivec3 cell0, int axis, int level) const;
     bool finished(const glm::vec3& low, const glm::vec3& high, int axis) const;
+    bool unwanted(const glm::vec3& low, const glm::vec3& high, int axis, float samples) const;
     bool wants(glm::ivec3 cell0, int axis) const;
     std::uint32_t add_cell(shared::PatchKey key);
     void examine(Cell& cell, const RawSample* const* raw, std::size_t count) const;
@@ -196,6 +197,30 @@ bool Grower::finished(const glm::vec3& low, const glm::vec3& high, int axis) con
     return false;
 }
 
+// Whether no sample in a box is wanted, asked where that takes less than asking for each of so many: small triangles lie
+// in finished cells in their millions.
+bool Grower::unwanted(const glm::vec3& low, const glm::vec3& high, int axis, float samples) const
+{
+    const glm::ivec3 first = cell_of(low, plan_.cell_m), last = cell_of(high, plan_.cell_m);
+    for (int level = level_ + 1; level < (level_ == 0 ? 2 : plan_.levels); ++level) {
+        const glm::ivec3 a{first.x >> level, first.y >> level, first.z >> level};
+        const glm::ivec3 b{last.x >> level, last.y >> level, last.z >> level};
+        const std::int64_t many =
+            std::int64_t{b.x - a.x + 1} * (b.y - a.y + 1) * std::int64_t{b.z - a.z + 1};
+        if (2.0f * static_cast<float>(many) > samples) continue;
+        for (int z = a.z; z <= b.z; ++z) {
+            for (int y = a.y; y <= b.y; ++y) {
+                for (int x = a.x; x <= b.x; ++x) {
+                    const glm::ivec3 cell0{x << level, y << level, z << level};
+                    if (level_ == 0 ? wants(cell0, axis) : known(cell0, axis, level) != Known::Done) return false;
+                }
+            }
+        }
+        return true;
+    }
+    return false;
+}
+
 void Grower::sample_side(std::uint32_t t, const Piece& whole, float whole_area, bool back,
                          std::vector<RawSample>& out) const
 {
@@ -225,6 +250,11 @@ void Grower::sample_side(std::uint32_t t, const Piece& whole, float whole_area, 
         const float expected = area / spacing;
         const auto count = static_cast<int>(expected + unit_float(mixed(piece.hash, 11)));
         if (count == 0) continue;
+        if (expected >= 2.0f) {
+            const glm::vec3 a = triangles_.point(t, piece.a), b = triangles_.point(t, piece.b),
+                            c = triangles_.point(t, piece.c);
+            if (unwanted(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), axis, expected)) continue;
+        }
         // Small triangles are drawn with their chance and stand for a whole share then.
         const float weight = expected >= 1.0f ? area / static_cast<float>(count) : spacing;
         const float shift_u = unit_float(mixed(piece.hash, 12));

@@ -15,7 +15,6 @@ namespace petrichor::scene {
 namespace {
 
 constexpr std::size_t kPatchesAJob = 64;
-constexpr int kRedraws = 3;      // of a ray that starts inside something
 
 // body(patch) for all patches, in jobs; says now and then how far it is.
 template <class Body>
@@ -65,21 +64,38 @@ std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, c
     return found ? *found : patches.black();
 }
 
-LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r)
+RowRays::RowRays(const Patches& patches, const Triangles& triangles, std::uint32_t patch)
+    : hash_(cell_hash(patches.seed, patches.key[patch])), count_(patches.rays)
 {
-    const Triangles& triangles = tracer.triangles();
-    const float regular = patches.level_cell_m(1);
-    const std::uint64_t hash = cell_hash(patches.seed, patches.key[patch]);
+    for (std::size_t k = 0; k < starts_.size(); ++k) {
+        const SamplePoint from = point_of(patches, triangles, patch, k);
+        const Tangents frame = tangents_of(from.normal);
+        starts_[k] = {from.position_m + from.normal * ray_lift_m(from.position_m, patches.level_cell_m(1)),
+                      from.normal, frame.t, frame.b};
+    }
+}
+
+glm::vec3 RowRays::local(int r) const
+{
+    return local_row_direction(r, count_, hash_);
+}
+
+Ray RowRays::ray(int r, glm::vec3 local, std::size_t draw) const
+{
+    const std::uint64_t which = mixed(hash_, static_cast<std::uint64_t>(r) * kDraws + draw);
+    const Start& from = starts_[(which >> 7) % starts_.size()];
+    return {from.position_m, turned({from.t, from.b}, from.normal, local)};
+}
+
+LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r)
+{
     LinkRay link;
-    for (int draw = 0; draw <= kRedraws; ++draw) {
-        const std::uint64_t which =
-            mixed(hash, static_cast<std::uint64_t>(r * (kRedraws + 1) + draw));
-        const SamplePoint from = point_of(patches, triangles, patch, which >> 7);
-        link.ray = {from.position_m + from.normal * ray_lift_m(from.position_m, regular),
-                    row_direction(from.normal, r, patches.rays, hash)};
+    const glm::vec3 local = row.local(r);
+    for (std::size_t draw = 0; draw < RowRays::kDraws; ++draw) {
+        link.ray = row.ray(r, local, draw);
         link.hit = tracer.nearest(link.ray);
         link.inside =
-            link.hit.hit() && link.hit.back && !triangles.double_sided(link.hit.triangle);
+            link.hit.hit() && link.hit.back && !tracer.triangles().double_sided(link.hit.triangle);
         if (!link.inside) break;
     }
     return link;
@@ -94,12 +110,13 @@ void trace_links(Patches& patches, const Tracer& tracer, const PatchOptions& opt
     over_patches(patches, options, "links", [&](std::uint32_t patch) {
         std::uint16_t* row =
             patches.links.data() + std::size_t{patch} * static_cast<std::size_t>(patches.rays);
+        const RowRays rays(patches, triangles, patch);
         int sky = 0;
         int far = 0;
         int lost = 0;
         std::vector<std::pair<int, std::uint16_t>> replaced;
         for (int r = 0; r < patches.rays; ++r) {
-            const LinkRay link = trace_link(patches, tracer, patch, r);
+            const LinkRay link = trace_link(tracer, rays, r);
             std::uint32_t id = patches.black();
             if (!link.hit.hit() && !link.inside) {
                 id = patches.count +

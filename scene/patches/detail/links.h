@@ -2,17 +2,39 @@
 #ifndef PETRICHOR_SCENE_PATCHES_DETAIL_LINKS_H
 #define PETRICHOR_SCENE_PATCHES_DETAIL_LINKS_H
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include "scene/patches/patches.h"
 
 namespace petrichor::scene {
+
+/// The rays of a patch's row. Each may be drawn up to kDraws times: the first that does not start inside a body counts.
+class RowRays {
+public:
+    static constexpr std::size_t kDraws = 4;
+    RowRays(const Patches& patches, const Triangles& triangles, std::uint32_t patch);
+    /// About the normal of where ray r starts.
+    glm::vec3 local(int r) const;
+    /// local: of r.
+    Ray ray(int r, glm::vec3 local, std::size_t draw) const;
+
+private:
+    struct Start {
+        glm::vec3 position_m, normal, t, b;
+    };
+    std::uint64_t hash_;
+    int count_;
+    std::array<Start, kPatchSamples> starts_;
+};
 
 struct LinkRay {
     Ray ray;
     RayHit hit;
     bool inside = false;  ///< it starts inside a body, whatever was drawn
 };
-/// Ray r of a patch's row: drawn again, up to three times, where it starts inside a body.
-LinkRay trace_link(const Patches& patches, const Tracer& tracer, std::uint32_t patch, int r);
+LinkRay trace_link(const Tracer& tracer, const RowRays& row, int r);
 
 /// Where the light of a hit comes from; black where no patch is near.
 std::uint32_t patch_of_hit(const Patches& patches, const Triangles& triangles, const Ray& ray, const RayHit& hit);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -40,6 +41,20 @@ constexpr float kSmallest_m2 = 1e-8f;
 float form_factor(const std::array<glm::vec3, 4>& c, glm::vec3 x, glm::vec3 n)
 {
     return shared::near_form_factor(c[0] - x, c[1] - x, c[2] - x, c[3] - x, n);
+}
+
+struct Sphere {
+    glm::vec3 middle;
+    float radius;
+};
+Sphere sphere_around(const NearPolygon& polygon)
+{
+    glm::vec3 low = polygon.corner[0], high = low;
+    for (int k = 1; k < polygon.count; ++k) {
+        low = glm::min(low, polygon.corner[static_cast<std::size_t>(k)]);
+        high = glm::max(high, polygon.corner[static_cast<std::size_t>(k)]);
+    }
+    return {0.5f * (low + high), 0.5f * std::sqrt(glm::dot(high - low, high - low))};
 }
 
 // Points along the middle of a face's side, one a cell.
@@ -176,17 +191,35 @@ NearPolygon NearChooser::part_of(std::uint32_t number, bool back, const Surround
 // What of a face the points see, and the mean of its form factor squared over the patch: by the points themselves, and
 // because they lie apart, for what stands on the patch or near it by area: a long strip lights a strip of the patch as
 // wide as itself, whatever the patch's size; from h away A / (pi h^2) of that.
-std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool back, const Surroundings& around) const
+std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool back, const Surroundings& around,
+                                                    float least_square) const
 {
     const NearFace& face = faces_.faces[number];
     const glm::vec3 n = back ? -face.normal : face.normal;
+    const auto strip_square = [&](float area, float nearest2) {
+        const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
+        return kStripSquare * area * (area / far) / std::max(around.area, area);
+    };
+    // Of what is too small for the patch's size the points alone tell, those from which it is not.
+    const float whole_area = area_m2(face.polygon);
+    const Sphere whole = sphere_around(face.polygon);
+    const bool small = strip_square(whole_area, 0.0f) < least_square;
+    const auto seen_small = [](const Sphere& sphere, float area, const SamplePoint& p) {
+        const glm::vec3 way = sphere.middle - p.position_m;
+        const float least = std::max(std::sqrt(glm::dot(way, way)) - sphere.radius, 0.0f);
+        return area < kFarFactor * least * least;
+    };
     bool faces = false;
-    for (const SamplePoint& p : around.points) faces = faces || glm::dot(p.position_m - face.polygon.corner[0], n) > 0.0f;
+    for (const SamplePoint& p : around.points) {
+        faces = glm::dot(p.position_m - face.polygon.corner[0], n) > 0.0f && !(small && seen_small(whole, whole_area, p));
+        if (faces) break;
+    }
     if (!faces) return std::nullopt;
     const NearPolygon polygon = part_of(number, back, around);
     if (polygon.count < 3) return std::nullopt;
     const float area = area_m2(polygon);
     if (!(area > kSmallest_m2)) return std::nullopt;
+    const bool by_area = !(strip_square(area, 0.0f) < least_square);
     const auto corners = corners_of(polygon);
     const glm::vec3 middle = point_in(corners, 0.5f, 0.5f);
     float radius2 = 0.0f;
@@ -200,7 +233,7 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
         // Neither seen by more than can be left out nor nearer than another's.
         const float least = std::max(std::sqrt(glm::dot(way, way)) - radius, 0.0f);
         const float least_beside = std::max(least - around.spacing, 0.0f);
-        if (area < kFarFactor * least * least && least_beside * least_beside >= nearest2) continue;
+        if (area < kFarFactor * least * least && (!by_area || least_beside * least_beside >= nearest2)) continue;
         float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
         for (int k = 0; k < polygon.count; ++k) {
             const float h = glm::dot(polygon.corner[static_cast<std::size_t>(k)] - p.position_m, p.normal);
@@ -222,9 +255,8 @@ std::optional<NearCandidate> NearChooser::candidate(std::uint32_t number, bool b
         factors += factor;
     }
     if (nearest2 == std::numeric_limits<float>::max()) return std::nullopt;
-    const float far = std::max(std::numbers::pi_v<float> * nearest2, area);
-    square = std::max(square, kStripSquare * area * (area / far) / std::max(around.area, area));
-    if (square < kLeastSquare) return std::nullopt;
+    square = std::max(square, strip_square(area, nearest2));
+    if (square < least_square) return std::nullopt;
     heart = factors > 0.0f ? glm::mix(heart / factors, middle, kTowardsMiddle) : middle;
     // What glows has edges and pictures.
     const bool glows = glow_of(triangles_, face.triangles[0]) > 0.0f;
@@ -240,11 +272,22 @@ std::vector<NearCandidate> NearChooser::candidates(std::uint32_t patch, std::spa
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     std::vector<NearCandidate> found;
+    // The largest kJudged so far, the least of them in front.
+    std::vector<float> largest;
+    float least_square = kLeastSquare;
     for (const std::uint32_t face : near) {
         const bool both = triangles_.double_sided(faces_.faces[face].triangles[0]);
         for (const bool back : {false, true}) {
             if (back && !both) continue;
-            if (const auto one = candidate(face, back, around)) found.push_back(*one);
+            const auto one = candidate(face, back, around, least_square);
+            if (!one) continue;
+            found.push_back(*one);
+            largest.push_back(one->square);
+            std::push_heap(largest.begin(), largest.end(), std::greater<>());
+            if (largest.size() <= kJudged) continue;
+            std::pop_heap(largest.begin(), largest.end(), std::greater<>());
+            largest.pop_back();
+            least_square = std::max(kLeastSquare, largest.front());
         }
     }
     std::stable_sort(found.begin(), found.end(),

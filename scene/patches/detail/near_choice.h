@@ -60,7 +60,9 @@ private:
     };
     Surroundings surroundings(std::uint32_t patch, std::span<const SamplePoint> receivers) const;
     NearPolygon part_of(std::uint32_t face, bool back, const Surroundings& around) const;
-    std::optional<NearCandidate> candidate(std::uint32_t face, bool back, const Surroundings& around) const;
+    /// Nothing where its square is below least_square.
+    std::optional<NearCandidate> candidate(std::uint32_t face, bool back, const Surroundings& around,
+                                           float least_square) const;
     std::vector<float> merits(std::uint32_t patch, std::span<const NearCandidate> candidates,
                               std::span<const NearGuess> guesses) const;
     struct Look;

@@ -84,8 +84,14 @@ NearPolygon cut_to(const NearPolygon& polygon, glm::vec3 low, glm::vec3 high)
     for (int k = 0; k < 3 && cut.count >= 3; ++k) {
         glm::vec3 axis(0.0f);
         axis[k] = 1.0f;
-        cut = cut_above(cut, axis, low[k]);
-        cut = cut_above(cut, -axis, -high[k]);
+        float least = std::numeric_limits<float>::max(), most = std::numeric_limits<float>::lowest();
+        for (int c = 0; c < cut.count; ++c) {
+            least = std::min(least, cut.corner[static_cast<std::size_t>(c)][k]);
+            most = std::max(most, cut.corner[static_cast<std::size_t>(c)][k]);
+        }
+        // Most faces lie within.
+        if (least < low[k]) cut = cut_above(cut, axis, low[k]);
+        if (most > high[k]) cut = cut_above(cut, -axis, -high[k]);
     }
     return cut;
 }

@@ -57,16 +57,23 @@ inline Tangents tangents_of(glm::vec3 n)
             {c, sign + n.y * n.y * a, -n.y}};
 }
 
-/// Cosine-distributed about n: u and v of 0..1 (shading reference, section 9).
-inline glm::vec3 cosine_direction(glm::vec3 n, float u, float v)
+/// Cosine-distributed about z (shading reference, section 9): u and v of 0..1.
+inline glm::vec3 local_direction(float u, float v)
 {
     const auto turn = portable_sin_cos(6.283185307179586 * static_cast<double>(v));
     const float r = std::sqrt(u);
-    const float up = std::sqrt(std::max(1.0f - u, 0.0f));
-    const Tangents f = tangents_of(n);
-    const glm::vec3 d = f.t * (r * static_cast<float>(turn.cosine)) +
-                        f.b * (r * static_cast<float>(turn.sine)) + n * up;
+    return {r * static_cast<float>(turn.cosine), r * static_cast<float>(turn.sine),
+            std::sqrt(std::max(1.0f - u, 0.0f))};
+}
+/// The same about n. f: tangents_of(n).
+inline glm::vec3 turned(const Tangents& f, glm::vec3 n, glm::vec3 local)
+{
+    const glm::vec3 d = f.t * local.x + f.b * local.y + n * local.z;
     return d / std::sqrt(glm::dot(d, d));
+}
+inline glm::vec3 cosine_direction(glm::vec3 n, float u, float v)
+{
+    return turned(tangents_of(n), n, local_direction(u, v));
 }
 
 /// By how much of a turn the directions of a row are turned about the normal.
@@ -75,12 +82,16 @@ inline float row_turn(std::uint64_t hash)
     return unit_float(mixed(hash, 7));
 }
 
-/// The r-th of n directions that cover the hemisphere evenly, turned and shifted by a hash.
-inline glm::vec3 row_direction(glm::vec3 n, int r, int count, std::uint64_t hash)
+/// The r-th of n directions that cover the hemisphere evenly, turned and shifted by a hash; about z.
+inline glm::vec3 local_row_direction(int r, int count, std::uint64_t hash)
 {
     const float u = (static_cast<float>(r) + unit_float(hash)) / static_cast<float>(count);
     const float v = fraction(kGoldenRatio * static_cast<float>(r) + row_turn(hash));
-    return cosine_direction(n, u, v);
+    return local_direction(u, v);
+}
+inline glm::vec3 row_direction(glm::vec3 n, int r, int count, std::uint64_t hash)
+{
+    return turned(tangents_of(n), n, local_row_direction(r, count, hash));
 }
 
 }  // namespace petrichor::scene
