@@ -11,7 +11,7 @@ layout(constant_id = RESOLVE_SPEC_BAKED) const uint SURFACE_BAKED = 0u;
 #include "gpu/passes/surface/evaluate_surface.glsl"
 
 layout(local_size_x = RESOLVE_GROUP) in;
-layout(set = 0, binding = RESOLVE_IDS) uniform usampler2D ids;
+layout(set = 0, binding = RESOLVE_IDS) uniform usamplerBuffer ids;  // row by row
 layout(set = 0, binding = RESOLVE_VERTICES) uniform usamplerBuffer vertices;
 layout(set = 0, binding = RESOLVE_INDICES) uniform usamplerBuffer indices;
 layout(set = 0, binding = RESOLVE_DRAWS) uniform usamplerBuffer draws;
@@ -107,7 +107,7 @@ void main()
     if (at_list >= texelFetch(ends, number).r) return;
     const uint packed = texelFetch(pixels, int(at_list)).r;
     const ivec2 pixel = ivec2(packed & 65535u, packed >> 16);
-    const uvec2 id = texelFetch(ids, pixel, 0).rg;
+    const uvec2 id = texelFetch(ids, pixel.y * int(params.width) + pixel.x).rg;
     const int draw = int(id.x) - 1;
     const uvec4 facts = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 6);
     const uvec4 more = texelFetch(draws, draw * RESOLVE_DRAW_TEXELS + 7);

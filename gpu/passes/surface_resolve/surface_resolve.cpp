@@ -50,7 +50,14 @@ ResolveTables make_resolve_tables(const Device& device, MemoryArena& arena, cons
                      .format = VK_FORMAT_R32G32_UINT,
                      .width = width,
                      .height = height,
-                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    tables.id_rows = arena.buffer({.name = "id_rows",
+                                   .size = static_cast<VkDeviceSize>(width) *
+                                           static_cast<VkDeviceSize>(height) * 8,
+                                   .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                   .texel_format = VK_FORMAT_R32G32_UINT});
     const bool shares = scene.layer_shares();
     tables.shares = arena.image({.name = "layer_shares",
                                  .format = VK_FORMAT_R32G32B32A32_UINT,
@@ -101,6 +108,21 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
 {
     const auto materials = static_cast<std::uint32_t>(scene.materials().size());
     GpuBuffer& counts = *tables.counts;
+    // Read twice to list the pixels and once to shade them: as texels of a buffer in half the time.
+    GpuImage& ids = *tables.ids;
+    GpuBuffer& id_rows = *tables.id_rows;
+    graph.add(TransferPass{.name = "tile_materials",
+                           .transfers = {{&ids, nullptr, Use::TransferSource},
+                                         {nullptr, &id_rows, Use::TransferTarget}},
+                           .record = [&ids, &id_rows](VkCommandBuffer commands) {
+                               VkBufferImageCopy region{};
+                               region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+                               region.imageExtent = {static_cast<std::uint32_t>(ids.width),
+                                                     static_cast<std::uint32_t>(ids.height), 1};
+                               vkCmdCopyImageToBuffer(commands, ids.image.get(),
+                                                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                                      id_rows.buffer.get(), 1, &region);
+                           }});
     graph.add(TransferPass{.name = "tile_materials",
                            .transfers = {{nullptr, &counts, Use::TransferTarget}},
                            .record = [&counts](VkCommandBuffer commands) {
@@ -114,7 +136,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
             .shader = "tile_materials.comp",
             .constants = {{TILE_MATERIALS_SPEC_LIST, list},
                           {TILE_MATERIALS_SPEC_ASKED, asked}},
-            .bindings = {{TILE_MATERIALS_IDS, sampled(*tables.ids, targets.nearest)},
+            .bindings = {{TILE_MATERIALS_IDS, texels(id_rows)},
                          {TILE_MATERIALS_DRAWS, texels(*tables.draws)},
                          {TILE_MATERIALS_COUNTS, storage_buffer(counts)},
                          {TILE_MATERIALS_PIXELS, storage_buffer(*tables.pixels)},
@@ -140,7 +162,7 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
                       {SURFACE_TRACKS, sampled(*maps.tracks, maps.clamped)},
                       {SURFACE_INSTANCE_LOOKS, texels(scene.instance_looks())},
                       {SURFACE_SHELTER, sampled(*depth_maps.sky, depth_maps.compare)},
-                      {RESOLVE_IDS, sampled(*tables.ids, targets.nearest)},
+                      {RESOLVE_IDS, texels(id_rows)},
                       {RESOLVE_VERTICES, texels(scene.vertex_texels())},
                       {RESOLVE_INDICES, texels(scene.index_texels())},
                       {RESOLVE_DRAWS, texels(*tables.draws)},
@@ -186,12 +208,13 @@ void add_surface_resolve(FrameGraph& graph, FrameTargets& targets, ResolveTables
         pass.pipelines.push_back({shader, variant(material),
                                   {types_of(pass.bindings), types_of(material.bindings)}});
     }
+    const auto width = static_cast<std::uint32_t>(targets.width);
     pass.record = [=, &scene](DispatchContext& list) {
         for (std::uint32_t m = 0; m < materials; ++m) {
             const GpuMaterial& material = scene.materials()[m];
             list.bind(shader, variant(material), types_of(material.bindings));
             list.bind_set1(material.bindings);
-            list.push(shared::SurfaceResolveParams{m});
+            list.push(shared::SurfaceResolveParams{m, width});
             list.dispatch_indirect(m);
         }
     };

@@ -18,6 +18,7 @@ inline constexpr const char* kOwnResolveShader = "own_surface_resolve.comp";
 /// What the resolve reads beside the scene: the table of its draws, and the lists of pixels.
 struct ResolveTables {
     std::unique_ptr<GpuImage> ids;      ///< draw (from 1) and triangle of each pixel
+    std::unique_ptr<GpuBuffer> id_rows;  ///< the same as texels, row by row
     std::unique_ptr<GpuBuffer> draws;   ///< transforms and index ranges
     std::unique_ptr<GpuBuffer> counts;  ///< a word a material
     std::unique_ptr<GpuBuffer> pixels;  ///< material after material

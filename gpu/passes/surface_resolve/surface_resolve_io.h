@@ -56,6 +56,7 @@ struct TileOffsetsParams {
 
 struct SurfaceResolveParams {
     uint material;
+    uint width;  // pixels of a row
 };
 
 SHARED_END

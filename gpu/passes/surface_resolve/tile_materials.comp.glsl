@@ -9,7 +9,7 @@
 layout(local_size_x = TILE_MATERIALS_GROUP, local_size_y = TILE_MATERIALS_GROUP) in;
 layout(constant_id = TILE_MATERIALS_SPEC_LIST) const uint LIST = 0u;
 layout(constant_id = TILE_MATERIALS_SPEC_ASKED) const uint ASKED = 0u;
-layout(binding = TILE_MATERIALS_IDS) uniform usampler2D ids;
+layout(binding = TILE_MATERIALS_IDS) uniform usamplerBuffer ids;  // row by row
 layout(binding = TILE_MATERIALS_DRAWS) uniform usamplerBuffer draws;
 layout(binding = TILE_MATERIALS_COUNTS, scalar) buffer Counts { uint counts[]; };
 layout(binding = TILE_MATERIALS_PIXELS, scalar) writeonly buffer Pixels { uint pixels[]; };
@@ -36,7 +36,7 @@ void main()
             const uint at = uint((y - low.y) * RESOLVE_TILE + x - low.x);
             const uint word = at < 32u ? bits.x : bits.y;
             const bool wanted = ((word >> (at & 31u)) & 1u) != 0u;
-            const uint draw = wanted ? texelFetch(ids, ivec2(x, y), 0).r : 0u;
+            const uint draw = wanted ? texelFetch(ids, y * params.size.x + x).r : 0u;
             if (LIST != 0u) slots[at] = ~0u;
             if (draw == 0u) continue;
             if (draw != last_draw) {
