@@ -12,6 +12,7 @@
 #include "formulas/light/atmosphere.h"
 #include "formulas/light/brdf.h"
 #include "formulas/light/clouds.h"
+#include "formulas/light/cube_map.h"
 #include "formulas/light/exposure.h"
 #include "formulas/light/fog.h"
 #include "formulas/light/lamp_glow.h"
@@ -46,7 +47,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kProbeKinds = 56;
+SHARED_CONST int kProbeKinds = 57;
 
 // A table for air_radiance.inc, about as dim as that of a clear sky.
 SHARED_FN vec4 again_entry(int index)
@@ -451,6 +452,11 @@ SHARED_FN vec4 probe(int kind, vec4 a, vec4 b, vec4 c)
         // Within cells: at their borders the last bit chooses another.
         const vec2 at = 0.034f * (floor(40.0f * vec2(a.x, a.y)) + vec2(0.5f));
         return vec4(snow_body_share(0.07f * a.z, at, a.w), snow_body_code(0.07f * b.x), 0.0f, 0.0f);
+    }
+    if (kind == 56) {
+        const vec2 st = 2.0f * vec2(a.y, a.z) - vec2(1.0f);
+        const vec3 d = cube_direction(int(min(a.x * 6.0f, 5.0f)), st);
+        return vec4(d.x, d.y, d.z, cube_texel_weight(st));
     }
     if (kind == 44) {
         const vec3 n = probe_direction(a.x, a.y);

@@ -15,6 +15,7 @@
 #include "gpu/passes/patch_light/patch_points.h"
 #include "gpu/passes/reflections/reflections.h"
 #include "gpu/passes/resolve/resolve.h"
+#include "gpu/passes/sky/seen_sky.h"
 #include "gpu/upload/draw.h"
 #include "gpu/passes/visibility/visibility.h"
 
@@ -77,8 +78,18 @@ void add_depth_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, Frame
     }
 }
 
+// The cameras that may see other parts of the sky than the first.
+std::vector<shared::FrameConstants> sky_views_of(const Frame& frame, const Sun& sun, const FrameResources& r)
+{
+    const bool many = !frame.shutter.empty() || frame.lens.radius_m > 0.0f;
+    std::vector<shared::FrameConstants> views;
+    for (int i = 0; i < (many ? frame.settings.samples : 1); ++i)
+        views.push_back(frame_constants(frame, sun, r.scene->bounds(), static_cast<std::uint32_t>(i)));
+    return views;
+}
+
 // Draws the sky's maps when they would come out otherwise.
-void add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
+void add_sky_maps(FrameGraph& graph, const Frame& frame, const Sun& sun, FrameResources& r)
 {
     SkyMaps& sky = *r.sky;
     if (!sky.env_brdf_valid) {
@@ -107,6 +118,8 @@ void add_sky_maps(FrameGraph& graph, const Frame& frame, FrameResources& r)
             sky.drawn = params;
             sky.drawn_valid = true;
         }
+        if (frame.settings.draw_sky)
+            add_seen_sky(graph, sky, params, seen_sky(sky_views_of(frame, sun, r), fog_per_m(frame) > 0.0f));
     }
 }
 
@@ -352,7 +365,7 @@ void add_layers(FrameGraph& graph, FrameResources& r, const ConstantsRange& cons
 FrameGraph build_sky(const Frame& frame, const Sun& sun, FrameResources& r)
 {
     FrameGraph graph;
-    add_sky_maps(graph, frame, r);
+    add_sky_maps(graph, frame, sun, r);
     add_light_of_sky(graph, frame, sun, r);
     if (uses_patches(frame, r)) add_sky_bins(graph, *r.sky, *r.patches);
     return graph;

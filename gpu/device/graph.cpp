@@ -388,7 +388,7 @@ std::string FrameGraph::describe() const
     return text;
 }
 
-void record_mips(VkCommandBuffer commands, const GpuImage& image)
+void record_mips(VkCommandBuffer commands, const GpuImage& image, int first)
 {
     const auto barrier = [&](int mip, VkImageLayout from, VkImageLayout to) {
         VkImageMemoryBarrier2 b{};
@@ -413,7 +413,7 @@ void record_mips(VkCommandBuffer commands, const GpuImage& image)
     const auto corner = [&](int mip) {
         return VkOffset3D{std::max(1, image.width >> mip), std::max(1, image.height >> mip), 1};
     };
-    for (int mip = 1; mip < image.mips; ++mip) {
+    for (int mip = first + 1; mip < image.mips; ++mip) {
         barrier(mip - 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkImageBlit blit{};

@@ -194,9 +194,9 @@ private:
     std::vector<Pass> passes_;
 };
 
-/// Fills mips 1.. of every layer from mip 0 by linear blits; the image must be in
+/// Fills the mips behind the first of every layer from that one by linear blits; the image must be in
 /// TransferTarget use and is left in that layout.
-void record_mips(VkCommandBuffer commands, const GpuImage& image);
+void record_mips(VkCommandBuffer commands, const GpuImage& image, int first = 0);
 
 }  // namespace petrichor::gpu
 

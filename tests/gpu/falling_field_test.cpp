@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -317,6 +318,32 @@ TEST(FallingField, HoldsOutAgainstAnyWeather)
                 }
             }
         }
+    }
+}
+
+// Most cells are empty then, and are passed over before anything of them is worked out.
+TEST(FallingField, ALightFallHasWhatItsCellsHold)
+{
+    for (const float rate : {0.003f, 0.03f}) {
+        Frame frame = snowy(rate);
+        frame.weather.wind_m_s = {9.0f, 2.0f};
+        frame.falling.shutter_s = 1e-4f;
+        frame.falling.budget = 200000;
+        const FallingView view = looking();
+        const FallingPlan plan = plan_falling(frame, view);
+        const double cone = 1280.0 * 720.0 / (3.0 * std::pow(static_cast<double>(view.focal_px), 2.0));
+        double wanted = 0.0;
+        for (const FallingClass& c : plan.classes)
+            wanted += static_cast<double>(c.per_m3) * cone * std::pow(static_cast<double>(c.reach_m), 3.0);
+        ASSERT_GT(wanted, 200.0);
+        double found = 0.0;
+        const Drops light = drops_of(frame, view);
+        for (const auto& d : light) {
+            const glm::vec2 middle = 0.5f * (d.from_px + d.to_px);
+            if (middle.x >= 0.0f && middle.y >= 0.0f && middle.x < 1280.0f && middle.y < 720.0f) found += 1.0;
+        }
+        // They lie in clouds: the spread is larger than that of a count.
+        EXPECT_NEAR(found, wanted, 0.06 * wanted + 5.0 * std::sqrt(wanted)) << rate;
     }
 }
 

@@ -274,6 +274,34 @@ TEST_F(RendererTest, AFrameAloneIsTheFrameOfASequence)
     EXPECT_EQ(alone.exposure, last.exposure);
 }
 
+// Of the sky only what a picture shows is drawn as fine as it is shown.
+TEST_F(RendererTest, ATurnedCameraSeesAllOfItsSky)
+{
+    const Scene scene = scene_of({ground()}, {plain_material(glm::vec3(0.4f))});
+    const auto toward = [&](const glm::vec3& way, bool fog) {
+        Frame frame = small_frame(look({0, 2, 5}, glm::vec3(0, 2, 5) + way), 96, 54, 2);
+        frame.sky.cloud_cover = 0.5f;
+        frame.sky.sun_elevation_rad = 0.6f;
+        if (fog) frame.fog.mode = FogMode::Metres;
+        return frame;
+    };
+    renderer->load(scene, {});
+    std::vector<Frame> frames;
+    for (const bool fog : {false, true})
+        for (const glm::vec3 way : {glm::vec3(0, 0.4f, -1), glm::vec3(1, 0.1f, 0.2f), glm::vec3(-0.6f, 2, 1), glm::vec3(0.3f, -0.6f, 1)})
+            frames.push_back(toward(way, fog));
+    frames.push_back(frames.front());
+    for (const Frame& frame : frames) {
+        const RenderResult after = renderer->render(frame);
+        Renderer fresh(RendererOptions{});
+        fresh.load(scene, {});
+        const RenderResult alone = fresh.render(frame);
+        EXPECT_EQ(alone.beauty, after.beauty);
+        // Light does not depend on where one looks.
+        EXPECT_EQ(alone.exposure, after.exposure);
+    }
+}
+
 // No light that reaches a pixel is missing from its list, and sums keep their order: the same bits
 // as asking every light.
 TEST_F(RendererTest, LightListsLoseNothing)

@@ -263,6 +263,8 @@ float thickness_of(const glm::dvec3& in_air_m, float wind_m_s, std::uint32_t see
     return 1.0f + strength * (2.0f * sum - 1.0f);
 }
 
+constexpr double kThickest = 2.0;  // thickness_of() is less
+
 // One class as one view sees it.
 class ClassInView {
 public:
@@ -288,10 +290,13 @@ public:
                         frame.falling.air_m.y * share};
         mean_ = std::min(static_cast<double>(of.per_m3) * cell_m_ * cell_m_ * cell_m_,
                          kMostInCell);
+        none_below_ = std::exp(-mean_ * (flake_ ? kThickest : 1.0));
     }
 
     void add_to(std::vector<shared::FallingDrop>& drops) const
     {
+        // Of so little no cell holds any, and a long lens looks through millions of them.
+        if (kLargestNumber < none_below_) return;
         const Pyramid pyramid = seen_part();
         const glm::vec3 along = glm::abs(view_->forward);
         const int axis = along.x >= along.y && along.x >= along.z ? 0 : along.y >= along.z ? 1 : 2;
@@ -355,12 +360,15 @@ private:
                   std::vector<shared::FallingDrop>& drops) const
     {
         const std::uint32_t seed = mixed(mixed(mixed(seed_, cell[0]), cell[1]), cell[2]);
+        const double number = static_cast<double>(Numbers(seed).next());
+        // Most cells of light snow are empty, wherever the gusts are.
+        if (number < none_below_) return;
         const glm::dvec3 corner(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
                                 static_cast<double>(cell[2]));
         double mean = mean_;
         if (flake_)
             mean *= static_cast<double>(thickness_of((corner + 0.5) * cell_m_, wind_m_s_, gust_seed_));
-        const int count = poisson(mean, static_cast<double>(Numbers(seed).next()));
+        const int count = poisson(mean, number);
         for (int n = 0; n < count; ++n) {
             Numbers numbers(mixed(seed, n + 1));
             const double x = static_cast<double>(numbers.next());
@@ -458,6 +466,7 @@ private:
     std::uint32_t gust_seed_;
     glm::dvec3 travelled_m_{0.0};
     double mean_ = 0.0;
+    double none_below_ = 0.0;  // a cell with a smaller number is empty
 };
 
 }  // namespace

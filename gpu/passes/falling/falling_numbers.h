@@ -11,7 +11,9 @@
 
 namespace petrichor::gpu {
 
-/// Numbers of 0..1 that follow from a seed.
+inline constexpr double kLargestNumber = 1.0 - 1.0 / 16777216.0;
+
+/// Numbers of 0..kLargestNumber that follow from a seed.
 class Numbers {
 public:
     explicit Numbers(std::uint32_t seed) : state_(seed) {}

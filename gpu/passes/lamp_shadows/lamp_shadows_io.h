@@ -1,5 +1,5 @@
 // The maps of lamps' shadows: six layers a lamp, the faces of a cube around it (order and axes as
-// in gpu/passes/sky/cube.glsl).
+// in formulas/light/cube_map.h).
 #ifndef PETRICHOR_GPU_PASSES_LAMP_SHADOWS_LAMP_SHADOWS_IO_H
 #define PETRICHOR_GPU_PASSES_LAMP_SHADOWS_LAMP_SHADOWS_IO_H
 

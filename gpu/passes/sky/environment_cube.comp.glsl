@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "base/interop.h"
-#include "gpu/passes/sky/cube.glsl"
+#include "formulas/light/cube_map.h"
 #include "gpu/passes/sky/sky_io.h"
 
 layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;

@@ -10,6 +10,7 @@
 #include "gpu/frame/frame_constants.h"
 #include "gpu/frame/frame_io.h"
 #include "gpu/frame/sun.h"
+#include "gpu/passes/sky/seen_sky.h"
 #include "gpu/passes/sky/sky_io.h"
 
 namespace petrichor::gpu {
@@ -23,8 +24,11 @@ constexpr float kCloudyNight = 0.05f;
 constexpr float kSnowyLand = 0.75f;  // albedo
 constexpr int kAirWidth = 64;
 constexpr int kAirHeight = 96;
-constexpr int kCubeSize = 384;
+constexpr int kCubeSize = kSkyCubeSide;
 constexpr int kCubeMips = 9;
+// From here on the cube is light: half as wide a texel as the finest that light reads (sky_specular's first roughness,
+// SKY_BINS_MIP). Drawn that coarse, mirrors would show other edges of clouds, by up to 13 codes.
+constexpr int kLightMip = 1;
 constexpr int kIrradianceMip = 4;  // 24 texels a side
 constexpr int kSpecularSize = 64;
 constexpr int kBrdfSize = 64;
@@ -43,13 +47,13 @@ std::unique_ptr<GpuImage> cube_map(MemoryArena& arena, const char* name, int siz
                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
-// Mips of the cube, then the lobes that the specular light reads.
-void add_filtered(FrameGraph& graph, SkyMaps& maps)
+// Mips of the cube from one of them, then the lobes that the specular light reads.
+void add_filtered(FrameGraph& graph, SkyMaps& maps, int first)
 {
     graph.add(TransferPass{
         .name = "sky_mips",
         .transfers = {{maps.cube.get(), nullptr, Use::TransferTarget}},
-        .record = [&maps](VkCommandBuffer commands) { record_mips(commands, *maps.cube); }});
+        .record = [&maps, first](VkCommandBuffer commands) { record_mips(commands, *maps.cube, first); }});
     for (int mip = 0; mip < SKY_PREFILTER_MIPS; ++mip) {
         const float roughness =
             static_cast<float>(mip) / static_cast<float>(SKY_PREFILTER_MIPS - 1);
@@ -61,9 +65,29 @@ void add_filtered(FrameGraph& graph, SkyMaps& maps)
             .bindings = {{SKY_SOURCE, sampled(*maps.cube, maps.linear)},
                          {SKY_TARGET, storage(*maps.specular, mip)}},
             .push = PushBlock(shared::PrefilterParams{roughness, static_cast<float>(kCubeSize),
-                                                      static_cast<float>(kCubeMips)}),
+                                                      static_cast<float>(first), static_cast<float>(kCubeMips)}),
             .groups = groups_over(size, size, SKY_TILE, 6)});
     }
+}
+
+constexpr std::size_t kTiles = std::size_t{6} * kSkyTilesAcross * kSkyTilesAcross;
+
+std::size_t tile_number(std::uint32_t tile)
+{
+    return ((tile >> 16) * kSkyTilesAcross + (tile >> 8 & 255u)) * kSkyTilesAcross + (tile & 255u);
+}
+
+// A level of the cube: all of the one that light reads, the tiles that are listed of the first.
+void add_sky_cube(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params, int level, Groups groups)
+{
+    graph.add(ComputePass{.name = level == 0 ? "sky_seen" : "sky_cube",
+                          .shader = "sky_cube.comp",
+                          .constants = {{SKY_SPEC_LISTED, level == 0}},
+                          .bindings = {{SKY_SOURCE, sampled(*maps.air, maps.linear)},
+                                       {SKY_TARGET, storage(*maps.cube, level)},
+                                       {SKY_TILES, storage_buffer(*maps.tiles)}},
+                          .push = PushBlock(params),
+                          .groups = groups});
 }
 
 bool same_air(const shared::SkyParams& a, const shared::SkyParams& b)
@@ -142,6 +166,7 @@ SkyMaps::SkyMaps(const Device& device, MemoryArena& arena)
            .size = sizeof(shared::SkyLight),
            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
            .host = true})),
+      tiles(arena.buffer({.name = "sky_tiles", .size = kTiles * sizeof(std::uint32_t), .host = true})),
       again(arena.buffer({.name = "scattered_again", .size = sizeof(ScatteredAgain::Table), .host = true})),
       linear(make_sampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                           VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)),
@@ -175,14 +200,24 @@ void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams&
                                            {SKY_AGAIN, storage_buffer(*maps.again)}},
                               .push = PushBlock(params),
                               .groups = groups_over(kAirWidth, kAirHeight, SKY_TILE)});
-    graph.add(ComputePass{.name = "sky_cube",
-                          .shader = "sky_cube.comp",
-                          .constants = {},
-                          .bindings = {{SKY_SOURCE, sampled(*maps.air, maps.linear)},
-                                       {SKY_TARGET, storage(*maps.cube, 0)}},
-                          .push = PushBlock(params),
-                          .groups = groups_over(kCubeSize, kCubeSize, SKY_TILE, 6)});
-    add_filtered(graph, maps);
+    constexpr int side = kCubeSize >> kLightMip;
+    add_sky_cube(graph, maps, params, kLightMip, groups_over(side, side, SKY_TILE, 6));
+    add_filtered(graph, maps, kLightMip);
+    maps.tiles_drawn.assign(kTiles, false);
+}
+
+void add_seen_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params,
+                  const std::vector<std::uint32_t>& tiles)
+{
+    std::vector<std::uint32_t> missing;
+    for (const std::uint32_t tile : tiles) {
+        auto drawn = maps.tiles_drawn[tile_number(tile)];
+        if (!drawn) missing.push_back(tile);
+        drawn = true;
+    }
+    if (missing.empty()) return;
+    std::memcpy(maps.tiles->mapped, missing.data(), missing.size() * sizeof(missing[0]));
+    add_sky_cube(graph, maps, params, 0, {static_cast<std::uint32_t>(missing.size()), 1, 1});
 }
 
 void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float scale,
@@ -195,7 +230,7 @@ void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float
                                        {SKY_TARGET, storage(*maps.cube, 0)}},
                           .push = PushBlock(shared::EnvironmentParams{rotation_rad, scale}),
                           .groups = groups_over(kCubeSize, kCubeSize, SKY_TILE, 6)});
-    add_filtered(graph, maps);
+    add_filtered(graph, maps, 0);
 }
 
 void add_sky_light(FrameGraph& graph, SkyMaps& maps, const Metering& metering)

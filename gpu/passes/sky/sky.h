@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_PASSES_SKY_SKY_H
 
 #include <optional>
+#include <vector>
 
 #include "gpu/device/graph.h"
 #include "gpu/frame/frame.h"
@@ -19,6 +20,7 @@ struct SkyMaps {
     std::unique_ptr<GpuImage> specular;  ///< as GGX lobes see it, one roughness a mip
     std::unique_ptr<GpuImage> env_brdf;  ///< scale and offset of F0
     std::unique_ptr<GpuBuffer> light;    ///< shared::SkyLight
+    std::unique_ptr<GpuBuffer> tiles;    ///< of the cube that are drawn next
     std::unique_ptr<GpuBuffer> again;    ///< ScatteredAgain::Table of the sky that is drawn
     SamplerHandle linear;                ///< clamped, trilinear
     SamplerHandle wrap_u;                ///< lat-long maps
@@ -28,6 +30,7 @@ struct SkyMaps {
     float environment_scale = 0.0f;
     float environment_rotation_rad = 0.0f;
     bool drawn_valid = false;
+    std::vector<bool> tiles_drawn;  ///< of the first level of the cube
 
     // Of the haze and sun of the last frame.
     std::optional<ScatteredAgain> scattered;
@@ -46,10 +49,17 @@ void add_env_brdf(FrameGraph& graph, SkyMaps& maps);
 /// scattered light where haze or land are others than those of the frame before.
 shared::SkyParams sky_params(const Frame& frame, SkyMaps& maps);
 
-// The analytic sky: clear air, clouds, land.
+// The analytic sky as light: clear air, clouds, land. What is seen of it is drawn by add_seen_sky.
 //
-//   writes   air where it is not that of maps.drawn, cube with mips, specular
+//   writes   air where it is not that of maps.drawn, cube from the level on that light reads, specular
 void add_analytic_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params);
+
+// The same sky as the background shows it.
+//
+//   tiles    that a picture may show (seen_sky())
+//   writes   those of the first level of the cube that are not drawn yet
+void add_seen_sky(FrameGraph& graph, SkyMaps& maps, const shared::SkyParams& params,
+                  const std::vector<std::uint32_t>& tiles);
 
 // A lat-long map as the sky.
 void add_environment(FrameGraph& graph, SkyMaps& maps, GpuImage& lat_long, float scale,

@@ -4,15 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/atmosphere.h"
-#include "formulas/light/fog.h"
 #include "formulas/light/brdf.h"
+#include "formulas/light/cube_map.h"
+#include "formulas/light/fog.h"
 #include "gpu/passes/sky/clouds.glsl"
-#include "gpu/passes/sky/cube.glsl"
 #include "gpu/passes/sky/sky_io.h"
 
 layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
 layout(binding = SKY_SOURCE) uniform sampler2D air;
 layout(binding = SKY_TARGET, rgba16f) uniform writeonly image2DArray target;
+layout(binding = SKY_TILES, scalar) readonly buffer Tiles { uint tiles[]; };
+layout(constant_id = SKY_SPEC_LISTED) const uint LISTED = 0u;
 layout(push_constant, scalar) uniform Push { SkyParams sky; };
 
 vec3 clear_air(vec3 direction)
@@ -46,7 +48,11 @@ vec3 fog_radiance(vec3 direction, vec3 light_on_ground)
 
 void main()
 {
-    const ivec3 id = ivec3(gl_GlobalInvocationID);
+    ivec3 id = ivec3(gl_GlobalInvocationID);
+    if (LISTED != 0u) {
+        const uint tile = tiles[gl_WorkGroupID.x];
+        id = ivec3(ivec2(tile & 255u, tile >> 8 & 255u) * SKY_TILE + ivec2(gl_LocalInvocationID.xy), int(tile >> 16));
+    }
     const ivec3 size = imageSize(target);
     if (any(greaterThanEqual(id.xy, size.xy))) return;
     const vec2 st = (vec2(id.xy) + 0.5) / vec2(size.xy) * 2.0 - 1.0;

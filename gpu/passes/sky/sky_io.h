@@ -12,6 +12,9 @@
 // sky_cube, environment_cube, sky_specular, sky_light
 #define SKY_SOURCE 0
 #define SKY_TARGET 1
+// sky_cube: the tiles of the first level that are drawn, SKY_TILE texels a side; face, row and place in it
+#define SKY_TILES 2
+#define SKY_SPEC_LISTED 0  // 0: all of a level
 
 SHARED_BEGIN
 
@@ -19,6 +22,7 @@ SHARED_BEGIN
 struct PrefilterParams {
     float roughness;
     float source_size;
+    float source_first;  // level: finer ones need not be there
     float source_mips;
 };
 

@@ -2,10 +2,10 @@
 // Irradiance of the sky as spherical harmonics, and the exposure that follows from it and the sun.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "formulas/light/cube_map.h"
 #include "formulas/light/spherical_harmonics.h"
-#include "gpu/passes/sky/cube.glsl"
-#include "gpu/passes/sky/sky_light_io.h"
 #include "gpu/passes/sky/sky_io.h"
+#include "gpu/passes/sky/sky_light_io.h"
 
 layout(local_size_x = 15) in;  // kHarmonics + kSkyAxes
 layout(binding = SKY_SOURCE) uniform samplerCube sky;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "formulas/light/brdf.h"
-#include "gpu/passes/sky/cube.glsl"
+#include "formulas/light/cube_map.h"
 #include "gpu/passes/sky/sky_io.h"
 
 layout(local_size_x = SKY_TILE, local_size_y = SKY_TILE) in;
@@ -45,7 +45,7 @@ void main()
         if (nl <= 0.0) continue;
         const float pdf = ggx_distribution(nh, alpha) * 0.25;
         const float sample_angle = 1.0 / (float(kSamples) * max(pdf, 1.0e-6));
-        const float lod = clamp(0.5 * log2(sample_angle / texel_angle) + 0.5, 0.0, params.source_mips - 1.0);
+        const float lod = clamp(0.5 * log2(sample_angle / texel_angle) + 0.5, params.source_first, params.source_mips - 1.0);
         sum += textureLod(sky, l, lod).rgb * nl;
         total += nl;
     }
