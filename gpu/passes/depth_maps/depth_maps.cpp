@@ -48,17 +48,35 @@ glm::vec4 eye_of(const glm::mat4& clip_from_world)
     return glm::vec4(glm::normalize(glm::vec3(eye)), 0.0f);
 }
 
+bool may_shadow(const AskedPart& asked, const glm::mat4& clip_from_world, const Draw& draw)
+{
+    if (asked.count == 0) return true;
+    const glm::vec4 centre = clip_from_world * glm::vec4(draw.centre_m, 1.0f);
+    const auto radius = [&](int row) {
+        return draw.radius_m * glm::length(glm::vec3(clip_from_world[0][row], clip_from_world[1][row],
+                                                     clip_from_world[2][row]));
+    };
+    if (centre.z + radius(2) < asked.least_z) return false;
+    const float wide = std::max(radius(0), radius(1));
+    for (int i = 0; i < asked.count; ++i) {
+        const glm::vec3& line = asked.lines[static_cast<std::size_t>(i)];
+        if (line.x * centre.x + line.y * centre.y + line.z < -wide) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
-                   int size, Falls falls)
+                   int size, Falls falls, const AskedPart& asked)
 {
     const Frustum frustum(clip_from_world);
     const auto wanted = [&](const Draw& draw) {
-        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m);
+        return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m) &&
+               may_shadow(asked, clip_from_world, draw);
     };
     Casters casters;
-    casters.seen = triangles.list(scene, {clip_from_world, size, size}, true, wanted);
+    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, asked}, true, wanted);
     InstancePlaces& places = triangles.places();
     casters.places = places.texels();
     const auto listed = [&](const Draw& draw) {
@@ -182,7 +200,7 @@ void add_depth_map(FrameGraph& graph, const char* name, const GpuScene& scene,
                    SeenTriangles& triangles, const DepthView& view, GpuImage& map, VkImageView layer,
                    Falls falls)
 {
-    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls);
+    const Casters casters = casters_in(triangles, scene, view.clip_from_world, map.width, falls, view.asked);
     graph.add(DrawPass{.name = name,
                        .colors = {},
                        .depth = Attachment(map, layer),
@@ -234,8 +252,12 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenT
                 const std::array<DepthView, SHADOW_CASCADES>& views, std::size_t first)
 {
     for (std::size_t i = first; i < SHADOW_CASCADES; ++i) {
-        if (maps.shadow_valid[i] && views[i] == maps.shadow_views[i]) continue;
-        maps.shadow_views[i] = views[i];
+        DepthView& held = maps.shadow_views[i];
+        const bool kept = maps.shadow_valid[i] && views[i] == held;
+        if (kept && (held.asked.count == 0 || held.asked == views[i].asked)) continue;
+        held = views[i];
+        // The camera moves and its map does not: whole, the map lasts.
+        if (kept) held.asked = {};
         maps.shadow_valid[i] = true;
         add_depth_map(graph, "shadow", scene, triangles, maps.shadow_views[i], *maps.shadow,
                       maps.shadow_layers[i].get(), Falls::Light);
