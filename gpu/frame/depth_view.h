@@ -2,6 +2,7 @@
 #define PETRICHOR_GPU_FRAME_DEPTH_VIEW_H
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "gpu/frame/frame_io.h"
@@ -21,6 +22,10 @@ struct AskedPart {
 
     bool operator==(const AskedPart&) const = default;
 };
+
+/// The part without what all of a sphere is inside of; nothing when the sphere is outside.
+std::optional<AskedPart> asked_of(const AskedPart& asked, const glm::mat4& clip_from_world, const glm::vec3& centre_m,
+                                  float radius_m);
 
 /// One view of the scene from far away: along the sun (a shadow cascade) or along the falling rain.
 struct DepthView {

@@ -38,7 +38,6 @@ bool meets(float low, float high, float offset)
 // What is not a number is inside of all.
 std::uint32_t outside(const AskedPart& asked, const glm::vec4& clip)
 {
-    if (asked.count == 0) return 0u;
     std::uint32_t bits = clip.z < asked.least_z ? 1u << 31 : 0u;
     for (int i = 0; i < asked.count; ++i) {
         const glm::vec3& line = asked.lines[static_cast<std::size_t>(i)];
@@ -106,6 +105,7 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
         const float hidden_sign = (cull == VK_CULL_MODE_BACK_BIT) == draw->mirrored ? -1.0f : 1.0f;
         const bool turned_away = cull != VK_CULL_MODE_NONE;
 
+        const AskedPart asked = asked_of(view.asked, view.clip_from_world, draw->centre_m, draw->radius_m).value_or(view.asked);
         corners_.resize(draw->vertex_count);
         const Vertex* own = vertices + draw->vertex_offset + draw->first_vertex;
         for (std::uint32_t v = 0; v < draw->vertex_count; ++v) {
@@ -118,11 +118,14 @@ std::shared_ptr<const SeenDraws> SeenTriangles::list_of(const GpuScene& scene,
             corner.nearer = 1.0f / clip.w;
             corner.x = (clip.x * corner.nearer * 0.5f + 0.5f) * width;
             corner.y = (clip.y * corner.nearer * 0.5f + 0.5f) * height;
-            corner.outside = outside(view.asked, clip);
+            corner.outside = outside(asked, clip);
         }
         const auto first = static_cast<std::uint32_t>(used_);
         const std::uint32_t triangles = draw->index_count / 3;
+        const std::span<const std::uint8_t> covered =
+            view.from_above ? scene.covered(*draw) : std::span<const std::uint8_t>();
         for (std::uint32_t t = 0; t < triangles; ++t) {
+            if (t < covered.size() && covered[t] != 0) continue;
             const std::uint32_t* index = indices + draw->first_index + 3 * std::size_t{t};
             const Corner& a = corners_[index[0] - draw->first_vertex];
             const Corner& b = corners_[index[1] - draw->first_vertex];

@@ -48,23 +48,6 @@ glm::vec4 eye_of(const glm::mat4& clip_from_world)
     return glm::vec4(glm::normalize(glm::vec3(eye)), 0.0f);
 }
 
-bool may_shadow(const AskedPart& asked, const glm::mat4& clip_from_world, const Draw& draw)
-{
-    if (asked.count == 0) return true;
-    const glm::vec4 centre = clip_from_world * glm::vec4(draw.centre_m, 1.0f);
-    const auto radius = [&](int row) {
-        return draw.radius_m * glm::length(glm::vec3(clip_from_world[0][row], clip_from_world[1][row],
-                                                     clip_from_world[2][row]));
-    };
-    if (centre.z + radius(2) < asked.least_z) return false;
-    const float wide = std::max(radius(0), radius(1));
-    for (int i = 0; i < asked.count; ++i) {
-        const glm::vec3& line = asked.lines[static_cast<std::size_t>(i)];
-        if (line.x * centre.x + line.y * centre.y + line.z < -wide) return false;
-    }
-    return true;
-}
-
 }  // namespace
 
 Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::mat4& clip_from_world,
@@ -73,10 +56,10 @@ Casters casters_in(SeenTriangles& triangles, const GpuScene& scene, const glm::m
     const Frustum frustum(clip_from_world);
     const auto wanted = [&](const Draw& draw) {
         return is_caster(scene, draw, falls) && frustum.touches(draw.centre_m, draw.radius_m) &&
-               may_shadow(asked, clip_from_world, draw);
+               asked_of(asked, clip_from_world, draw.centre_m, draw.radius_m);
     };
     Casters casters;
-    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, asked}, true, wanted);
+    casters.seen = triangles.list(scene, {clip_from_world, size, size, {glm::vec2(0.0f)}, falls == Falls::Light, asked}, true, wanted);
     InstancePlaces& places = triangles.places();
     casters.places = places.texels();
     const auto listed = [&](const Draw& draw) {
@@ -251,6 +234,8 @@ DepthMaps::DepthMaps(const Device& device, MemoryArena& arena)
 void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
                 const std::array<DepthView, SHADOW_CASCADES>& views, std::size_t first)
 {
+    // Where one map is enough, for the small frame that is metered, what lies on the scene is flatter than its texels.
+    const Falls falls = first == 0 ? Falls::Light : Falls::Sky;
     for (std::size_t i = first; i < SHADOW_CASCADES; ++i) {
         DepthView& held = maps.shadow_views[i];
         const bool kept = maps.shadow_valid[i] && views[i] == held;
@@ -260,7 +245,7 @@ void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenT
         if (kept) held.asked = {};
         maps.shadow_valid[i] = true;
         add_depth_map(graph, "shadow", scene, triangles, maps.shadow_views[i], *maps.shadow,
-                      maps.shadow_layers[i].get(), Falls::Light);
+                      maps.shadow_layers[i].get(), falls);
     }
 }
 

@@ -64,7 +64,8 @@ void draw_casters(PassContext& pass, const GpuScene& scene, const glm::mat4& cli
 /// One layer of an array as an attachment.
 ImageViewHandle layer_view(const Device& device, const GpuImage& image, std::uint32_t layer);
 
-// Depth of the scene from the sun: the cascades from number `first` on, those whose views have changed.
+// Depth of the scene from the sun: the cascades from number `first` on, those whose views have changed. From another
+// than the first on, without what lies on the scene.
 //
 //   writes   shadow
 void add_shadow(FrameGraph& graph, DepthMaps& maps, const GpuScene& scene, SeenTriangles& triangles,
